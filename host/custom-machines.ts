@@ -2,7 +2,7 @@
 import { MACHINES, PlotwrightError, type MachineProfile } from "../src/index.js";
 import type { ListedMachine, PlotSettings } from "../src/schema/index.js";
 
-/** Writes custom profiles; each returns or resolves only once it is stored. */
+/** Stores custom profiles. A method returns only after the change is stored. */
 export interface MachineKeeper {
   save(machine: MachineProfile): void;
   remove(id: string): void;

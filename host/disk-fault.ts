@@ -1,4 +1,4 @@
-/** A full or unwritable disk: the message for the user, and the errors that mean it. */
+/** Detects a full or unwritable disk, and has the message for the user. */
 
 export const DISK_FULL =
   "The server's disk is full or can't be written to. Make room on it: the changes are in memory and are stored as soon as there is room.";

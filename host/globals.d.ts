@@ -1,4 +1,4 @@
-/** The globals that both Node and browsers have, and that host uses. Only host's own type check reads this file. */
+/** The globals of both Node and browsers that host uses. Only the type check of host reads this file. */
 interface AbortSignal {
   readonly aborted: boolean;
   addEventListener(type: "abort", listener: () => void, options?: { once?: boolean }): void;

@@ -1,9 +1,9 @@
 /**
- * What the queue and the plotters need of storage. The server stores by SQLite and files
- * (server/storage/store.ts), the page without a server by IndexedDB (web/backend/browser/stored-model.ts).
+ * The storage interfaces of the queue and the plotters. The server implements them with SQLite and files
+ * (server/storage/store.ts), the page without a server with IndexedDB (web/backend/browser/stored-model.ts).
  *
- * The methods are synchronous. The server returns from a change only after it is on disk. The browser returns
- * at once, and its host holds back answers and events until the change is stored.
+ * The methods are synchronous. On the server a method returns only after the change is on disk. In the browser it
+ * returns at once, but answers and events are delayed until the change is stored.
  */
 import type { Job } from "../src/schema/index.js";
 
@@ -54,7 +54,7 @@ export interface JobStore extends SettingStore {
   moveJob(id: string, beforeId: string | null): void;
   /** Removes the job; returns its drawing's id if no other job uses it, else null. */
   removeJob(id: string): string | null;
-  /** Stores how far a job has got. */
+  /** Stores the progress of a plot. */
   saveJournal(id: string, entry: unknown): void;
   journal(id: string): unknown;
   clearJournal(id: string): void;
@@ -70,7 +70,7 @@ export interface PlotterStore {
   /** Adds a new plotter last, or updates a stored one. */
   savePlotter(row: PlotterRow): void;
   removePlotter(id: string): void;
-  /** What was stored for each plotter, by its id; parse it with its schema. */
+  /** The stored settings of each plotter, by its id; parse them with their schema. */
   plotterSettings(): Record<string, unknown>;
   savePlotterSettings(id: string, settings: unknown): void;
 }

@@ -11,7 +11,7 @@ import { ROOT } from "./setup.mjs";
 
 const OUT = path.join(ROOT, "dist", "src");
 
-/** Packages of hundreds of small files, of which we use a few: loading them one by one takes 40 ms. */
+/** Packages of hundreds of small files, of which few are used: loading them one by one takes 40 ms. */
 const BUNDLED = ["culori"];
 
 const { dependencies } = JSON.parse(readFileSync(path.join(ROOT, "package.json"), "utf8"));

@@ -1,6 +1,6 @@
 /**
- * `npm publish` runs this first: the fields that only the publisher knows must be in package.json, or links
- * on the package's page are dead. In a workflow that a tag started, the tag must be the version.
+ * `npm publish` runs this first. It checks that package.json has the fields that only the publisher knows; otherwise
+ * links on the package's page are dead. In a workflow started by a tag, the tag must be the version.
  *
  *   node scripts/check-release.mjs [FOLDER]      FOLDER: of package.json and CHANGELOG.md
  */

@@ -1,6 +1,6 @@
 /**
  * npm run compare -- FILE.svg [--speed MM/S] [--accel MM/S2] [--corner MM]
- * Plans one drawing under each system's rules and under ours, and prints one table.
+ * Plans one drawing under the rules of each system and of plotwright, and prints one table.
  */
 import { readFileSync } from "node:fs";
 import path from "node:path";

@@ -85,7 +85,7 @@ function routeText(one: ApiRoute, writer: TypeWriter): string {
 }
 
 class TypeWriter {
-  /** jobSchema -> Job: what the schemas are called where they are used. */
+  /** Names of the schemas, such as Job for jobSchema. */
   readonly #names = z.registry<{ id: string }>();
   readonly #used = new Map<string, Schema>();
 

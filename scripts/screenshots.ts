@@ -33,7 +33,7 @@ async function shootAll(browser: Browser, look: Look): Promise<void> {
   });
 }
 
-/** Waits until the picture on the paper is current: without a graphics card a frame takes its time. */
+/** Waits until the picture on the paper is current: without a graphics card a frame is slow. */
 async function drawn(page: Page): Promise<void> {
   for (let frame = 0; frame < 3; frame++) await page.evaluate(() => new Promise(requestAnimationFrame));
   await page.waitForTimeout(300);

@@ -1,7 +1,9 @@
 /**
- * npm run compare:shaping [rules|shapers|steps]: what keeps the swinging of a machine out of the line, and what a step of quality is worth.
- * Prints the tables of docs/motion.md, and of the corner rules in docs/comparison.md. All samples; time without pen waits and the simulated pen's distance from the
- * drawing, as shares of the default's (A = 500, V = 50, δ = 0.025, not shaped); medians.
+ * npm run compare:shaping [rules|shapers|steps]: compares corner rules, shapers and quality settings on a machine that
+ * swings. Prints the tables of docs/motion.md, and that of the corner rules in docs/comparison.md.
+ *
+ * Figures: medians over all samples of the time without pen waits and of the simulated pen's distance from the drawing,
+ * as shares of the defaults' (A = 500, V = 50, δ = 0.025, not shaped).
  */
 import { readdirSync, readFileSync } from "node:fs";
 import path from "node:path";
@@ -38,14 +40,14 @@ const SPRINGS: readonly Springs[] = [
   [15, 25],
   [25, 40],
 ].map(([xHz, yHz]) => ({ xHz, yHz, damping: 0.05 }));
-/** The machine's true frequency over the one that it is shaped for. */
+/** The machine's true frequency as a multiple of the shaper's. */
 const FACTORS = [1, 0.9, 1.1, 0.8, 1.2];
 
 const drawings: readonly StrokeSet[] = readdirSync(FOLDER).map(
   (file) => prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes,
 );
 
-interface Way {
+interface Variant {
   readonly name: string;
   readonly motion: MotionSettings;
   /** u = q + (2ζ/ω) q′ + q″/ω² of the plan. */
@@ -54,7 +56,7 @@ interface Way {
   readonly runs?: WritesRuns;
 }
 
-function rowOf(springs: Springs, { name, motion, isInverse, runs }: Way): string[] {
+function rowOf(springs: Springs, { name, motion, isInverse, runs }: Variant): string[] {
   const machine = { ...machineById("axidraw-v3"), springs };
   const rows = drawings.map((strokes) => {
     const before = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN, { machine });
@@ -86,7 +88,7 @@ const HEAD = ["Hz x / y", "", "time", ...FACTORS.map((factor) => (factor === 1 ?
 
 const [, springs] = SPRINGS;
 const fast = { ...DEFAULT_MOTION, ...motionOfQuality("fast", springs) };
-const inverse = (jerk: number): Way => ({
+const inverse = (jerk: number): Variant => ({
   name: `inverse, J = ${jerk / 1000} 000`,
   isInverse: true,
   motion: {
@@ -97,28 +99,28 @@ const inverse = (jerk: number): Way => ({
     travel: { ...fast.travel, jerkMmPerS3: 2 * jerk },
   },
 });
-const ways: readonly Way[] = [
-  ...SHAPERS.map((shaper): Way => ({ name: shaper, motion: { ...fast, shaper } })),
+const variants: readonly Variant[] = [
+  ...SHAPERS.map((shaper): Variant => ({ name: shaper, motion: { ...fast, shaper } })),
   ...[10_000, 40_000, 160_000].map(inverse),
 ];
 const kernel = shaperKernel("zv", springs)!;
 /** Every system's rule at the limits of quality fast, shaped and not; scurve is a filter itself. */
-const rules: readonly Way[] = [
-  ...REFERENCE_PLANNERS.flatMap((reference): Way[] => {
+const rules: readonly Variant[] = [
+  ...REFERENCE_PLANNERS.flatMap((reference): Variant[] => {
     const runs = referenceRuns(reference);
     return [
       { name: reference.name, motion: fast, runs },
       { name: `${reference.name}, shaped`, motion: fast, runs: shapedRuns(runs, kernel) },
     ];
   }),
-  ...MOTION_MODES.flatMap((mode): Way[] => [
+  ...MOTION_MODES.flatMap((mode): Variant[] => [
     { name: `plotwright ${mode}`, motion: { ...fast, mode, shaper: "none" } },
     ...(mode === "scurve" ? [] : [{ name: `plotwright ${mode}, shaped`, motion: { ...fast, mode } }]),
   ]),
 ];
 
-const steps: readonly (readonly [Springs, Way])[] = SPRINGS.flatMap((one) =>
-  QUALITIES.map((quality): readonly [Springs, Way] => [
+const steps: readonly (readonly [Springs, Variant])[] = SPRINGS.flatMap((one) =>
+  QUALITIES.map((quality): readonly [Springs, Variant] => [
     one,
     { name: quality, motion: { ...DEFAULT_MOTION, ...motionOfQuality(quality, one) } },
   ]),
@@ -131,7 +133,7 @@ const TABLES = {
   },
   shapers: {
     title: "Shapers at the limits of quality fast",
-    rows: ways.map((way) => [springs, way] as const),
+    rows: variants.map((way) => [springs, way] as const),
   },
   steps: { title: "The steps of quality", rows: steps },
 };

@@ -13,8 +13,7 @@ checkNode();
 ensureDependencies();
 ensureBuild();
 
-// The server notices by the channel when this process ends, for whatever reason. It then lifts the pen and
-// ends too.
+// If this process ends for any reason, the channel closes; the server then lifts the pen and ends too.
 const server = spawn(process.execPath, ["dist/server/main.js", ...process.argv.slice(2)], {
   cwd: ROOT,
   stdio: ["inherit", "inherit", "inherit", "ipc"],

@@ -1,5 +1,5 @@
 /**
- * `npm test`: everything that must hold, from a fresh clone on. Ends with "N passed, N failed".
+ * `npm test`: all checks and tests, also in a fresh clone. Ends with "N passed, N failed".
  *
  *   npm test                       types, lint, format, package, and every test, in real Chromium too: some minutes
  *   npm run test:full              the same with all cases, firmware, kills, faults and page states: hours

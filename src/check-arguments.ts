@@ -9,10 +9,10 @@ function inWords(value: unknown): string {
   if (Array.isArray(value)) return "a list";
   if (typeof value !== "object" || value === null) return String(value);
   const { name = "" } = value.constructor ?? {};
-  return name === "" || name === "Object" ? "an object of another kind" : `a ${name}`;
+  return name === "" || name === "Object" ? "a different object" : `a ${name}`;
 }
 
-/** @throws TypeError if the text of a drawing is no string */
+/** @throws TypeError if the text of a drawing is not a string */
 export function checkText(call: string, text: unknown): void {
   if (typeof text === "string") return;
   throw new TypeError(
@@ -40,7 +40,7 @@ export function checkObject(
   if (missing !== undefined) throw new TypeError(`${call}: ${what} has no "${missing}". Pass ${hint}.`);
 }
 
-/** @throws PlotwrightError "bad-setting" for a value that is no object, or that has settings with other names */
+/** @throws PlotwrightError "bad-setting" for a value that is not an object, and for unknown names of settings */
 export function checkNames(
   what: string,
   values: unknown,

@@ -18,18 +18,18 @@ export const ERROR_CODES = [
   "internal",
 ] as const;
 
-/** What kind of failure it is. Stable: programs may depend on it. */
+/** The kind of failure. Stable: programs may depend on it. */
 export type ErrorCode = (typeof ERROR_CODES)[number];
 
 /**
  * An expected failure (a bad file, a wrong setting, a lost board): `message` says what is wrong, where, and what to do.
- * A mistake of the calling program, such as NaN, throws RangeError or TypeError instead. Problems in a drawing that can
+ * Mistakes of the calling program, such as NaN, throw RangeError or TypeError instead. Problems in a drawing that can
  * still be plotted are warnings in the result.
  */
 export class PlotwrightError extends Error {
   /** "PlotwrightError". */
   override readonly name = "PlotwrightError";
-  /** What kind of failure it is. */
+  /** The kind of failure. */
   readonly code: ErrorCode;
 
   constructor(code: ErrorCode, message: string, options?: { cause?: unknown }) {

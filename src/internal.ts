@@ -1,4 +1,4 @@
-/** What server, web and tests use besides the public library. Anything here may change without notice. */
+/** Exports for server, web and tests besides the public library. Anything here may change without notice. */
 // lengths
 export {
   LENGTH_UNITS,

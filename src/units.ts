@@ -1,7 +1,7 @@
 /**
  * All conversions between units. The constants 25.4, 96, 25 000 and 2^31 are defined only here.
  *
- *   mm, s        what geometry, prepare and plan work in
+ *   mm, s        units of geometry, prepare and plan
  *   px           CSS pixel, 1/96 in
  *   ticks        board interrupts of 40 µs
  *   steps        microsteps of one motor
@@ -36,10 +36,10 @@ export const jerkFromStepsPerS3 = (stepsPerS3: number): number =>
 
 const MM_PER_UNIT = { mm: 1, cm: 10, m: 1_000, in: MM_PER_INCH, '"': MM_PER_INCH } as const;
 export const LENGTH_UNITS = ["mm", "in"] as const;
-/** What lengths are shown in. */
+/** The unit in which lengths are shown. */
 export type LengthUnit = (typeof LENGTH_UNITS)[number];
 
-/** An inch is not a round number of binary mm: 8.5 in must be 215.9, not 215.89999999999998. */
+/** Rounded, because 8.5 in must be 215.9 mm, not 215.89999999999998. */
 export const mmFromLength = (length: number, unit: keyof typeof MM_PER_UNIT): number =>
   Number((length * MM_PER_UNIT[unit]).toFixed(9));
 export const lengthFromMm = (mm: number, unit: LengthUnit): number => mm / MM_PER_UNIT[unit];

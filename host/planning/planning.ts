@@ -1,4 +1,4 @@
-/** What the queue needs of planning. It takes the id of a stored drawing. */
+/** The planner, as the queue uses it. Drawings are given by the id of a stored drawing. */
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
 import type { Requester } from "./lane.js";
 import type { PlotPlanner } from "./plot-planner.js";

@@ -1,4 +1,4 @@
-/** What a plotter needs of the planner: a prepared drawing that can be planned from any place. */
+/** The planner, as a plotter uses it: a prepared drawing that can be planned from any place. */
 import type { Place, StrokeSet } from "../../src/index.js";
 import type { MachineState, PlannedPlot } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";

@@ -9,7 +9,7 @@ import { faultOf, type FromWorker, type ToWorker } from "./messages.js";
 import type { Measured } from "./planning.js";
 import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
 
-/** What the planner's thread was started with. */
+/** The input with which the planner's thread is started. */
 export interface ThreadInput {
   readonly settings: PlotSettings;
   readonly machine: MachineProfile;
@@ -44,7 +44,7 @@ export function planAndCompile(
 }
 
 /**
- * Compiles too, although only the figures are needed: so anything the board can't do shows now, not during
+ * Compiles too, although only the figures are needed. This finds anything that the board cannot do now instead of during
  * the plot.
  */
 function measurePrepared(

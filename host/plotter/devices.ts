@@ -1,4 +1,4 @@
-/** The serial ports of this computer. The server opens them by serialport, the page by Web Serial. */
+/** The serial ports of this computer. The server opens them with serialport, the page with Web Serial. */
 import type { Transport } from "../../src/index.js";
 import type { UsbId } from "../../src/internal.js";
 

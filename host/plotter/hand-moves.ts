@@ -1,6 +1,6 @@
 /**
- * Manual moves of an idle plotter, as data, and how the machine performs them. Every move begins with the
- * pen up and stays within the machine; if the carriage's position is unknown, it is assumed to be at home.
+ * Manual moves of an idle plotter: their types, and how the machine performs them. Every move begins with the pen up and
+ * stays within the machine. If the carriage's position is unknown, it is assumed to be at home.
  */
 import { planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import { type Machine, machineOf } from "../../src/internal.js";
@@ -66,7 +66,7 @@ async function jog(plotter: Machine, dxMm: number, dyMm: number, settings: PlotS
     throw new PlotwrightError("out-of-bounds", `A step of ${dxMm}, ${dyMm} mm is longer than the machine.`);
   }
   const { x, y } = await standing(plotter, settings);
-  // Home may not be at the machine's corner, but cannot be further from it than the machine's length.
+  // Home may not be at the machine's corner, but cannot be farther from it than the machine's length.
   const isWithin =
     x + dxMm <= widthMm && x + dxMm >= -widthMm && y + dyMm <= heightMm && y + dyMm >= -heightMm;
   if (!isWithin) throw beyond(machine, x + dxMm, y + dyMm);

@@ -91,7 +91,7 @@ export class MachinePlot implements LivePlotRun {
       strokes: this.#strokes,
       settings: () => this.#settings.current,
       events: {
-        tell: (progress) => this.#tell(progress),
+        progressed: (progress) => this.#report(progress),
         ended: (place) => this.#streamEnded(place),
       },
     });
@@ -168,8 +168,8 @@ export class MachinePlot implements LivePlotRun {
     this.holdPlace = movedPlace(this.#strokes, this.#heldPlace(), by);
     this.#stops.moved(this.holdPlace);
     const wait = this.#stops.due(this.holdPlace);
-    const moved = this.#stream.progress.movedTo(this.holdPlace, this.#standing());
-    if (moved) this.#tell(moved);
+    const moved = this.#stream.progress.movedTo(this.holdPlace, this.#initialProgress());
+    if (moved) this.#report(moved);
     if (wait?.layerName !== this.#wait?.layerName) this.#setHeld(true, wait);
     this.#writeJournal(this.holdPlace);
     return this.holdPlace;
@@ -190,11 +190,11 @@ export class MachinePlot implements LivePlotRun {
     const { motion } = this.#settings.current;
     const { draw, travel } = motion;
     const drawMmPerS = speed * draw.speedMmPerS;
-    const mostMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
+    const maxMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
     const pen = { ...at, up: left.penUp };
     const { sent } = this.#start;
     const since = {
-      aheadMm: LEFT_S * mostMmPerS,
+      aheadMm: LEFT_S * maxMmPerS,
       stops: this.#stops.strokes,
       leavesMm: leavesLineMm(motion, machineOf(this.#settings.current).springs ?? null),
       landingMm: landingMm(this.#settings.current.pen, travel.accelMmPerS2),
@@ -246,7 +246,7 @@ export class MachinePlot implements LivePlotRun {
     }
   }
 
-  /** Lifts the pen, which an interrupted plot may have left on the paper. */
+  /** Lifts a pen that an interrupted plot may have left on the paper. */
   async #liftWhatWasLeft(): Promise<void> {
     if (!this.#start.from) return;
     // Plan now, while the user checks pen and paper.
@@ -322,8 +322,8 @@ export class MachinePlot implements LivePlotRun {
         tries++;
         const plot = await this.#plan(over.from, over.x, over.y, over.board);
         if (this.#wish !== "run" || this.#stream.playing !== playing) return;
-        if (over.goOver(plot, this.#afterPartS)) return;
-      } else if (!this.#stream.isGoingOver) return;
+        if (over.switchTo(plot, this.#afterPartS)) return;
+      } else if (!this.#stream.isSwitching) return;
       else await new Promise<void>((resolve) => void clock.after(PROGRESS_S * speed, resolve));
     }
   }
@@ -390,7 +390,7 @@ export class MachinePlot implements LivePlotRun {
     const next = (): void => {
       const now = this.#stream.now();
       if (now) {
-        this.#tell(now);
+        this.#report(now);
         if (clock.nowS() >= this.#journalDueS) {
           this.#writeJournal(this.#stream.progress.place, this.#stream.sentPlace);
         }
@@ -401,7 +401,7 @@ export class MachinePlot implements LivePlotRun {
     return () => cancel();
   }
 
-  #tell(progress: PlotProgress): void {
+  #report(progress: PlotProgress): void {
     for (const listener of this.#progressListeners) listener(progress);
   }
 
@@ -410,12 +410,12 @@ export class MachinePlot implements LivePlotRun {
     const { clock, speed } = this.#machine;
     this.#journalDueS = clock.nowS() + JOURNAL_S * speed;
     if (!left) return;
-    const { xMm, yMm, penUp, elapsedS } = latest ?? this.#standing();
+    const { xMm, yMm, penUp, elapsedS } = latest ?? this.#initialProgress();
     this.#start.journal?.record({ place: left, sent, xMm, yMm, penUp, elapsedS });
   }
 
   /** The progress before anything has been streamed. */
-  #standing(): Omit<JournalEntry, "place"> {
+  #initialProgress(): Omit<JournalEntry, "place"> {
     const { x, y } = this.#machine.place(machineOf(this.#settings.current)) ?? { x: 0, y: 0 };
     return { xMm: x, yMm: y, penUp: this.#machine.penUp ?? true, elapsedS: 0 };
   }

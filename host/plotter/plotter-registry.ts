@@ -1,6 +1,6 @@
 /**
- * The plotters, as stored. They can be added, changed and removed while it runs.
- * Every change is stored before it is announced.
+ * The stored plotters. Plotters can be added, changed and removed at any time. Every change is stored before it is
+ * announced.
  */
 import { PlotwrightError } from "../../src/index.js";
 import {
@@ -70,7 +70,7 @@ export class PlotterRegistry {
     return [...this.#ports.values()].map((port) => port.snapshot());
   }
 
-  /** By plotter id. A plotter for which nothing was set, or whose record can't be read, has none. */
+  /** By plotter id. A plotter without settings, or with an unreadable record, is left out. */
   settings(): Record<string, PlotterSettings> {
     return Object.fromEntries(
       Object.entries(this.#parts.store.plotterSettings()).flatMap(([id, stored]) => {
@@ -237,7 +237,7 @@ export class PlotterRegistry {
     );
   }
 
-  /** Readable in links and scripts, and never reused, since jobs in the history refer to removed plotters. */
+  /** A readable id for links and scripts. Ids are never reused, since jobs in the history refer to removed plotters. */
   #newId(name: string): string {
     const word = name
       .toLowerCase()

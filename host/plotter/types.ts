@@ -53,7 +53,7 @@ export interface LivePlotRun extends PlotRun {
 }
 
 /**
- * How far a plot has got. The owner of the journal stores it, so that the plot can continue after a crash.
+ * The progress of a plot, which the owner of the journal stores, so that the plot can continue after a crash.
  */
 export interface JournalEntry {
   /** The first place not yet drawn, at most half a second old. */

@@ -10,7 +10,7 @@ export class Waiters {
     });
   }
 
-  /** Nothing more will change: all waiting promises resolve, or reject with an error. */
+  /** Call when nothing more will change: all waiting promises resolve, or reject with the error. */
   end(how: Error | true): void {
     this.#ended = how;
     this.check();

@@ -1,7 +1,7 @@
 /**
- * How long a plot is likely to take: the planned time multiplied by the ratio of real to planned time of this
- * plotter's finished plots. The plan covers all motion exactly; what it leaves out (a slow servo, a busy
- * computer, pauses of the board) varies little between plots on one machine.
+ * The expected time of a plot: the planned time multiplied by the ratio of real to planned time of this plotter's
+ * finished plots. The plan has the exact time of all motion. Other delays (a slow servo, a busy computer, pauses of the
+ * board) vary little between plots on one machine.
  *
  * The median ratio is used, so a single unusual plot has no effect. Ratios outside 0.5 … 2 have other causes
  * (a virtual board that runs faster than real time, speeds changed while plotting) and are ignored.

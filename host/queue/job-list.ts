@@ -1,10 +1,10 @@
 /**
- * The current state of all jobs, in memory and on disk. Every change is stored, then applied in memory, then
- * announced. So even if the process is killed, no browser has been shown a change that was not stored.
+ * The current state of all jobs, in memory and on disk. Every change is stored, then applied in memory, then announced.
+ * So even if the process is killed, browsers have only seen changes that were stored.
  *
- * There are two exceptions. Progress is only in memory and is stored with the next change of state. And a job
- * that is on a plotter keeps changing even when the disk is full: it is announced with a message about the
- * disk, and stored as soon as there is room.
+ * There are two exceptions. Progress is only in memory and is stored with the next change of state. And a job that is on
+ * a plotter still changes when the disk is full: the change is announced with a message about the disk, and stored as
+ * soon as there is room.
  */
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
@@ -18,7 +18,7 @@ type ListParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange"
 const ON_PLOTTER: readonly (Job["state"] | undefined)[] = ["plotting", "paused"];
 const RETRY_MS = 5_000;
 
-/** Where a job comes from, and its place in the queue. */
+/** The source of a new job, and its place in the queue. */
 export interface Origin {
   readonly beforeId?: string | null;
   readonly watched?: WatchedFile | undefined;
@@ -153,8 +153,8 @@ export class JobList {
   }
 
   /**
-   * Updates the expected time of all jobs queued for a plotter. It takes one statement and one event however
-   * many jobs there are, because other plotters are plotting meanwhile.
+   * Updates the expected time of all jobs queued for a plotter. Uses one statement and one event for all jobs, to be fast,
+   * because other plotters are plotting meanwhile.
    */
   updateExpected(plotterId: string, ratio: number): void {
     const expectedS = this.#parts.store.saveExpected(plotterId, ratio);

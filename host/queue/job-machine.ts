@@ -22,7 +22,7 @@ export type JobEvent =
   | { readonly type: "fail"; readonly message: string }
   | { readonly type: "interrupt"; readonly message: string; readonly place: JobPlace | null }
   | { readonly type: "recover" }
-  /** `place`: how far it is drawn; null if nothing is. */
+  /** `place`: the first place not drawn yet; null if nothing is drawn. */
   | { readonly type: "cancel"; readonly place: JobPlace | null }
   | { readonly type: "requeue" };
 
@@ -88,7 +88,7 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
   }
 }
 
-/** The planned time of what is left; null if the job was never planned. */
+/** The planned remaining time; null if the job was never planned. */
 const remainingS = ({ stats, progress }: Job): number | null =>
   stats === null ? null : stats.durationS * (1 - progress);
 

@@ -141,7 +141,7 @@ export class JobQueue {
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }
 
-  /** Null while the board is unknown, and where it has another controller than the machine of the settings. */
+  /** Null while the board is unknown, or if its controller is not that of the settings' machine. */
   #firmwareOf(plotterId: string, settings: PlotSettings): string | null {
     return firmwareFor(machineOf(settings), this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null);
   }
@@ -289,8 +289,8 @@ export class JobQueue {
   }
 
   /**
-   * Starts the next queued job of a plotter whose queue runs on by itself. A job that another server may have
-   * is skipped, and the one after it starts.
+   * Starts the next queued job of a plotter whose queue runs automatically. A job that another server may have is
+   * skipped, and the next one starts.
    */
   async #startNext(plotterId: string): Promise<void> {
     const waiting = this.list().filter((job) => job.plotterId === plotterId && job.state === "queued");
@@ -333,7 +333,7 @@ export class JobQueue {
 
 const settingOf = (plotterId: string): string => `queue:${plotterId}`;
 
-/** The place where a queued job starts is a stroke's number, which other preparing would give to another stroke. */
+/** A queued job's start is a stroke's number. With other preparation settings that number would be another stroke. */
 function mustKeepStrokes(job: Job, settings: PlotSettings): void {
   if (job.place === null || isSameValue(job.settings.prepare, settings.prepare)) return;
   throw new PlotwrightError(
@@ -342,7 +342,7 @@ function mustKeepStrokes(job: Job, settings: PlotSettings): void {
   );
 }
 
-/** Compares values of JSON, whatever the order of their keys. */
+/** Compares JSON values, ignoring the order of keys. */
 function isSameValue(a: unknown, b: unknown): boolean {
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return a === b;
   const [left, right] = [Object.entries(a), new Map(Object.entries(b))];

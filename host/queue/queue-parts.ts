@@ -14,7 +14,7 @@ export interface Claims {
   release(jobId: string): Promise<void>;
 }
 
-/** What others do when a job changes. */
+/** Hooks of the plug-ins into changes of jobs. */
 export interface JobHooks {
   /** Writes whatever else a job's change requires, in the same transaction. */
   readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;

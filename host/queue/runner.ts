@@ -1,6 +1,6 @@
 /**
  * One plot on one plotter: opens the job's planner, passes it to the driver, and reports events and the
- * outcome. It decides nothing about jobs; the queue does that, from these reports.
+ * outcome. The queue decides about the job from these reports.
  */
 import { PlotwrightError, type Place } from "../../src/index.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
@@ -30,7 +30,7 @@ export interface RunPlan {
    * Where to start; null: at the beginning of the drawing. A run that starts in the middle is held at first.
    */
   readonly from: Place | null;
-  /** How far the commands sent to the board reached when that place was stored. */
+  /** The end of what was sent to the board when that place was stored. */
   readonly sent: Place | undefined;
   /** Percent of the speeds in the settings, as it was before an interruption. */
   readonly speedPct: number;

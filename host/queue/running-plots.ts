@@ -252,7 +252,7 @@ export class RunningPlots {
     this.#running.delete(plotterId);
     const { store, nowIso } = this.#parts;
     // A plot that is partly on paper must stay recoverable, whatever the error.
-    if (end.kind === "failed" && (canGoOn(end.error) || store.journal(id) !== undefined)) {
+    if (end.kind === "failed" && (canContinue(end.error) || store.journal(id) !== undefined)) {
       this.#interrupt(id, end.error.message);
     } else if (end.kind === "failed") {
       this.#jobs.apply(id, { type: "fail", message: end.error.message });
@@ -338,7 +338,7 @@ function penWords({ penName, layerName }: PlotWait): string {
 
 const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: stroke, alongMm });
 
-const canGoOn = (error: Error): boolean =>
+const canContinue = (error: Error): boolean =>
   error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);
 
 /** What Store.journal returns. It may have been written by another version of this program. */

@@ -33,6 +33,9 @@ export const ODD_WORDS = [
   { odd: "lest", plain: "so that … not" },
   { odd: "for want of", plain: "without" },
   { odd: "it is said", plain: "name the source" },
+  { odd: "one of ours", plain: "name the thing" },
+  { odd: "whereupon|thereby|therein|henceforth|hereby", plain: "then, so, in it" },
+  { odd: "whilst|amongst|betwixt|withal", plain: "while, among, between" },
 ];
 
 /** Finds every odd phrase: `{ index, phrase, plain }`, in the order of ODD_WORDS. A phrase may span lines. */

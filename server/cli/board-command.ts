@@ -7,7 +7,7 @@ export const declareBoard: Declare = (command, { io }) => {
     .requiredOption("--pty <path>", "path where the serial port appears")
     .option("--firmware <version>", "firmware to be", "2.8.1")
     .addOption(
-      new Option("--speed <factor>", "board seconds in one of ours (default: 1)").argParser(positive),
+      new Option("--speed <factor>", "board seconds per real second (default: 1)").argParser(positive),
     )
     .addOption(
       new Option(
@@ -16,6 +16,6 @@ export const declareBoard: Declare = (command, { io }) => {
       ).argParser(springs),
     )
     .option("--machine <id>", "plotter model (default: axidraw-v3)")
-    .option("--svg <file>", "where what was drawn goes, or - for stdout (default: drawn.svg)")
+    .option("--svg <file>", "file for the drawn lines, or - for stdout (default: drawn.svg)")
     .action((options: BoardCommandOptions) => runBoard(options, io));
 };

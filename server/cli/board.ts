@@ -130,7 +130,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   const stopListening = io.onLine((line) => io.err(applyFault(board, line)));
   const dropped = watchDrops(ptyBoard, options.pty, io);
   io.err(
-    `Virtual board with firmware ${board.firmware} at ${options.pty} (${ptyBoard.path}). Ctrl-C ends it.\n`,
+    `Virtual board with firmware ${board.firmware} at ${options.pty} (${ptyBoard.path}). Press Ctrl-C to end it.\n`,
   );
   if (options.speed !== undefined && options.speed !== 1) {
     io.err(
@@ -149,7 +149,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
   if (svg === "-") io.err(summary(board));
   else io.out(summary(board));
   writeOut(svg, drawnSvg(board, machine), io);
-  if (svg !== "-") io.err(`What it drew is in ${svg}.\n`);
+  if (svg !== "-") io.err(`The drawn lines are in ${svg}.\n`);
 }
 
 /** Plugs in a board that dropped its connection again after a second. Rejects if that fails. */

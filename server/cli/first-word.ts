@@ -19,7 +19,7 @@ function hint(word: string, commands: readonly string[]): string {
   return `The commands are ${commands.join(", ")}.`;
 }
 
-/** The command that a small slip of the keyboard turns into `word`; null if there is none. */
+/** The command of which `word` is probably a typing error; null if there is none. */
 function nearest(word: string, commands: readonly string[]): string | null {
   return commands.find((command) => isSlip(word, command) || isSlip(command, word)) ?? null;
 }

@@ -1,4 +1,4 @@
-/** One-off commands to the machine: pen, moves by hand, a raw line, info. */
+/** Declares the single commands to the machine: pen, manual moves, a raw line, info. */
 import { InvalidArgumentError, type Command } from "commander";
 import type { HandMove } from "../../host/plotter/hand-moves.js";
 import { length } from "./lengths.js";

@@ -1,4 +1,4 @@
-/** What a command needs of its process. An interface, so that tests can run commands without a process. */
+/** The process, as a command uses it. An interface, so that tests can run commands without a process. */
 import { isatty } from "node:tty";
 
 export interface CliIo {
@@ -38,7 +38,7 @@ export function processIo(): CliIo {
       const final = (): void => listener(true);
       process.on("SIGINT", soft);
       for (const end of ENDS) process.on(end, final);
-      // Listening for the end of the parent must not keep us alive.
+      // Listening for the end of the parent must not keep this process alive.
       process.channel?.unref();
       return () => {
         process.off("SIGINT", soft);

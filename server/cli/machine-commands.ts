@@ -1,4 +1,4 @@
-/** One-off commands to the machine: pen, moves by hand, a raw line, info. */
+/** Runs the single commands to the machine: pen, manual moves, a raw line, info. */
 import type { PlotSettings } from "../../src/schema/index.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { HandMove } from "../../host/plotter/hand-moves.js";
@@ -37,7 +37,7 @@ export async function runRaw(
   });
 }
 
-/** One move by hand, with the machine, speeds and heights of the settings. */
+/** Makes one manual move, with the machine, speeds and heights of the settings. */
 export async function runMove(move: HandMove, settings: PlotSettings, options: DeviceOptions): Promise<void> {
   await withPlotter(options, settings, (plotter) => plotter.move(move, settings));
 }

@@ -71,7 +71,7 @@ interface Planned {
   readonly lines: readonly string[];
 }
 
-/** What it needs of its thread. */
+/** Output of a plan, provided by its thread. */
 export interface PlanOutput {
   out(text: string): void;
   /** Called when a step begins. */

@@ -1,6 +1,6 @@
 /**
- * What a plot of the command line needs to resume after a crash: its drawing, its settings, and the journal that its
- * driver writes. One folder per device, deleted when the plot has ended.
+ * Stores a plot of the command line, so that it can resume after a crash: its drawing, its settings, and the journal of
+ * its driver. One folder per device, deleted when the plot has ended.
  */
 import { copyFileSync, existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -24,7 +24,7 @@ const entrySchema = z.object({
   progress: z.number(),
 });
 
-/** What is plotted. */
+/** A plot: its drawing, settings and layers. */
 export interface Plotted {
   readonly name: string;
   readonly settings: PlotSettings;
@@ -71,7 +71,7 @@ export class PlotRecord {
     }
   }
 
-  /** Begun or resumed by this process. */
+  /** Call when this process begins or resumes a plot. */
   takeOver({ name, settings, only }: Plotted): void {
     this.#write("plot.json", { name, settings, only, pid: process.pid });
   }

@@ -85,7 +85,7 @@ export async function resumePlot(
   return plotOne(plot, { begin: () => record.takeOver(found), record }, options, io);
 }
 
-/** The carriage is in the middle of that drawing, and part of it is on the paper: starting again is rarely intended. */
+/** Refuses a new plot after an interrupted one: the carriage is in the middle of that drawing, so it is rarely intended. */
 function mustHaveEnded(record: PlotRecord, { restart }: PlotCommandOptions): void {
   const found = record.find();
   if (found === null || restart === true) return;

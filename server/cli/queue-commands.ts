@@ -63,7 +63,7 @@ export const declareQueue: Declare = (command, { io }) => {
 
 const addServer = (command: Command): Command =>
   command
-    .option("--url <url>", "where the server is", serverUrl, DEFAULT_URL)
+    .option("--url <url>", "address of the server", serverUrl, DEFAULT_URL)
     .addOption(new Option("--key <key>", "access key of a server on another computer").env("PLOTWRIGHT_KEY"));
 
 function serverUrl(text: string): string {

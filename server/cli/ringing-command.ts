@@ -1,4 +1,4 @@
-/** `plotwright ringing`: the sheet from which the machine's frequencies are read, and what was read. */
+/** `plotwright ringing`: writes the ringing sheets, and computes frequencies from counted ripples. */
 import { PlotwrightError } from "../../src/index.js";
 import {
   frequencyOfRipples,
@@ -20,7 +20,7 @@ interface RingingOptions {
   readonly over: number;
 }
 
-/** Where the figures of the second sheet go on A4, mm. */
+/** Positions of the figures of the second sheet on A4, mm. */
 const PLACES = [15, 110, 205].flatMap((x) => [15, 110].map((y) => `${x},${y}`));
 
 export const declareRinging: Declare = (command, { io }) => {
@@ -28,12 +28,15 @@ export const declareRinging: Declare = (command, { io }) => {
     .argument("[out]", "SVG file to write the sheet to, or - for stdout", "ringing.svg")
     .option(
       "--ripples <count>",
-      "say which frequency so many ripples are, instead of writing a sheet",
+      "print the frequency for this number of counted ripples, instead of writing a sheet",
       positive,
     )
-    .option("--at <mm/s>", "speed of the figure that they were counted on", positive)
-    .option("--over <mm>", "length that they were counted over", positive, 10)
-    .option("--check", "the second sheet: one figure not shaped and for several frequencies, to pick by eye")
+    .option("--at <mm/s>", "speed of the figure on which the ripples were counted", positive)
+    .option("--over <mm>", "length over which the ripples were counted", positive, 10)
+    .option(
+      "--check",
+      "write the second sheets: one figure without shaping and one for each of several frequencies, to choose the best by eye",
+    )
     .option("--spring-x <Hz>", "for --check: the frequency read for x", positive)
     .option("--spring-y <Hz>", "for --check: the frequency read for y", positive)
     .action((out: string, options: RingingOptions) => {
@@ -58,7 +61,7 @@ function writeSheet(out: string, io: CliIo): void {
   const { mode, draw } = RINGING_MOTION;
   io.err(
     `Plot it: plotwright plot ${out} --no-fit --mode ${mode} --accel ${draw.accelMmPerS2} --corner ${draw.cornerMm}\n` +
-      `Count the ripples after a corner, over 10 mm: on horizontal lines they are of y, on vertical lines of x.\n` +
+      `Count the ripples after a corner, over 10 mm: horizontal lines show the swing of y, vertical lines that of x.\n` +
       `Then: plotwright ringing --ripples COUNT --at SPEED; the figures are drawn at ${RINGING_SPEEDS.join(", ")} mm/s.\n`,
   );
 }
@@ -67,7 +70,7 @@ function writeCheck(out: string, { springX, springY }: RingingOptions, io: CliIo
   if (springX === undefined || springY === undefined) {
     throw new PlotwrightError(
       "bad-setting",
-      "--check: give --spring-x and --spring-y, as read off the first sheet.",
+      "--check: give --spring-x and --spring-y, as read from the first sheet.",
     );
   }
   const checks = ringingChecks({ xHz: springX, yHz: springY, damping: 0.05 });

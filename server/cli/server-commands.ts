@@ -31,7 +31,7 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
     .option("--user <name>", "with --system: the user that runs the server")
     .option("--print", "only show what would be written")
     .action((serveArgs: string[], options: ServiceOptions) => {
-      // A service that fails on a mistyped option would fail unnoticed, so check here.
+      // Check the options now: a service that fails on a mistyped option would fail unnoticed.
       addServe(new Command("serve").copyInheritedSettings(service)).parse(serveArgs, { from: "user" });
       installService(options, serveArgs, io);
     });

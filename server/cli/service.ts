@@ -25,7 +25,7 @@ export interface CommandResult {
   readonly text: string;
 }
 
-/** The parts of the computer that it touches, as an interface for tests. */
+/** The parts of the computer that the command uses, as an interface for tests. */
 export interface ServiceHost {
   readonly platform: NodeJS.Platform;
   readonly env: NodeJS.ProcessEnv;

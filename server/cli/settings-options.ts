@@ -71,7 +71,7 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   throw new PlotwrightError("bad-setting", `${where}: ${words}.`);
 }
 
-/** For moves by hand. If no machine is given, uses the one of the plotter that a server on this computer has driven. */
+/** Settings for manual moves. Without a given machine, uses that of the plotter of a server on this computer. */
 export function handSettingsFromOptions(values: OptionValues): PlotSettings {
   const settings = settingsFromOptions(values);
   const { machine, machineFile, config, device } = values;
@@ -85,18 +85,18 @@ export function handSettingsFromOptions(values: OptionValues): PlotSettings {
   return stored === null ? settings : withOwnMachine({ ...settings, machine: stored }, values);
 }
 
-/** Part of a job's settings, and not handled before. */
+/** Whether the option is part of a job's settings, and not handled before. */
 const isStored = ({ path }: SettingOption): boolean =>
   path !== "machine" && path !== QUALITY_PATH && !path.startsWith(`${SPRINGS_PATH}.`);
 
-/** The machine as far as it is known by now; null: its id is unknown, which is said later. */
+/** The machine as known so far; null if its id is unknown, which is reported later. */
 function machineIn(settings: Record<string, unknown>, values: OptionValues): MachineProfile | null {
   const parsed = plotSettingsSchema.safeParse(settings);
   if (!parsed.success) return null;
   return findMachine(findMachine(parsed.data) ? parsed.data : withOwnMachine(parsed.data, values));
 }
 
-/** Flags for how the machine swings replace what its profile says. */
+/** Flags for the machine's swing override its profile. */
 function setSprings(settings: Record<string, unknown>, values: OptionValues): void {
   const { springX, springY, damping } = values;
   if (springX === undefined && springY === undefined && damping === undefined) return;
@@ -153,7 +153,7 @@ function fromFile<T>(option: "--config" | "--machine-file", path: string, read: 
   }
 }
 
-/** Adds the user's own machine, which was made in the page of a server with that data folder. */
+/** Adds the profile of a custom machine that is stored in the data folder. */
 const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSettings =>
   new MachineFiles(dataDirOf(values)).withMachine(settings);
 

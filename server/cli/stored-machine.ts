@@ -5,8 +5,8 @@ import { PlotwrightError } from "../../src/index.js";
 import { Store } from "../storage/store.js";
 
 /**
- * The machine of the plotter with that device; of the one that takes any board where none has it. Null where nothing
- * is stored. Throws `busy` while a server runs with that folder, since the wrong machine would drive the wrong servo.
+ * The machine of the plotter with that device, or else of the plotter that takes any board. Null if nothing is stored.
+ * Throws `busy` while a server runs with that folder, since the wrong machine would drive the wrong servo.
  */
 export function storedMachine(dataDir: string, device: string): string | null {
   if (!existsSync(join(dataDir, "plotwright.db"))) return null;
@@ -15,7 +15,7 @@ export function storedMachine(dataDir: string, device: string): string | null {
     const rows = store.plotters();
     const row = rows.find((one) => one.device === device) ?? rows.find((one) => one.device === "auto");
     if (row === undefined) return null;
-    // Without one of its own, a plotter has the machine of what it has plotted last.
+    // A plotter without a set machine uses the machine of its last job.
     const [last] = store
       .jobs()
       .filter((job) => job.plotterId === row.id && job.startedAt !== null)

@@ -1,10 +1,10 @@
-/** Which options ask for which plug-in. A plug-in that no option asks for is not even loaded. */
+/** Loads the plug-ins that the server's options ask for. Others are not imported. */
 import type { PluginCore, ServerPlugin } from "../plugins/server-plugin.js";
 import type { JobHooks } from "../../host/queue/queue-parts.js";
 import { claimsWithoutSharing } from "../queue/shared-claims.js";
 import type { ServerOptions } from "./server-options.js";
 
-/** The webhooks are first, so that their deliveries are closed whatever fails to start after them. */
+/** The webhooks are first, so that their deliveries are closed even if a later plug-in fails to start. */
 export async function loadPlugins(options: ServerOptions, core: PluginCore): Promise<ServerPlugin[]> {
   const { webhooks = true, watchDir, sharedQueue, lan = false, mdns = lan } = options;
   const plugins: ServerPlugin[] = [];
@@ -28,7 +28,7 @@ export async function loadPlugins(options: ServerOptions, core: PluginCore): Pro
   return plugins;
 }
 
-/** What the queue has to call: the hooks of all plug-ins as one. At most one plug-in makes claims. */
+/** Combines the hooks of all plug-ins for the queue. At most one plug-in makes claims. */
 export function jobHooksOf(plugins: readonly ServerPlugin[], { store }: PluginCore): Required<JobHooks> {
   const hooks = plugins.flatMap(({ jobs }) => jobs ?? []);
   return {

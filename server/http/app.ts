@@ -113,7 +113,7 @@ function handMoveParts({ registry, queue, files, machines }: AppParts): HandMove
   };
 }
 
-/** What to say where a plug-in that is not loaded would answer. */
+/** Messages for the routes of plug-ins that are not loaded. */
 const WITHOUT_PLUGIN: Readonly<Record<string, string>> = {
   "/shared-jobs": "This server has no shared queue. Start it with serve --shared-queue to use one.",
   "/webhooks": "Webhooks are switched off on this server.",

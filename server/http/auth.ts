@@ -16,8 +16,8 @@ const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 /** Requests per minute from one address of the network; a page makes at most about one per second. */
 const MAX_REQUESTS = 600;
 /**
- * The page's own files, per minute from one address. A first visit fetches about 100, since the service worker
- * keeps all of them; with one of them refused it is not installed. Behind a proxy all visitors have one address.
+ * Requests for the page's own files per minute from one address. A first visit fetches about 100, since the service
+ * worker stores all of them; if one is refused, it is not installed. Behind a proxy all visitors have one address.
  */
 const MAX_FILES = 6_000;
 const MAX_PAIRINGS = 10;

@@ -1,6 +1,6 @@
 /**
- * Which browser a request comes from, for the operator lock (server/security/operator-lock.ts). This is not
- * access control: what a caller may do at all is decided earlier, by its session, its key or its address.
+ * Identifies the browser of a request, for the operator lock (server/security/operator-lock.ts). This is not access
+ * control: the permissions of a caller are decided earlier, by its session, its key or its address.
  *
  * A paired browser is identified by its session; one on this computer by a separate cookie. Other clients see
  * only the session's id or a hash of the cookie. Scripts send neither and have no identity.
@@ -12,7 +12,7 @@ import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import { SESSION_COOKIE, bearerOf, cookieOf, isStop, type IsRunning } from "./auth.js";
 
-/** So many browsers are told apart by name; of older ones the name is forgotten. */
+/** Max number of browser names to store; the oldest are forgotten. */
 const MAX_NAMES = 1_000;
 const BROWSER_COOKIE = "plotwright_browser";
 const COOKIE_DAYS = 400;

@@ -36,7 +36,7 @@ export class ConnectionLimits {
     else if (all.length > MAX_UNKNOWN) this.#close(all[0]);
   }
 
-  /** The client has identified itself: its connection no longer counts as unknown. */
+  /** Call when a client has identified itself: its connection no longer counts as unknown. */
   identified({ socket }: IncomingMessage): void {
     this.#unknown.delete(keyOf(socket));
   }

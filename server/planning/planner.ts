@@ -40,7 +40,7 @@ interface Waiting {
 
 export class WorkerPlanner implements PlotPlanner {
   readonly strokes: StrokeSet;
-  /** What the file contains that is not drawn, and other warnings. */
+  /** Warnings, for example about features of the file that are not drawn. */
   readonly warnings: readonly string[];
   readonly #thread: PlannerThread;
 

@@ -1,4 +1,4 @@
-/** The plotter driver on Node: by the computer's clock and its serial ports. */
+/** The plotter driver on Node, with the computer's clock and serial ports. */
 import type { Clock } from "../../src/index.js";
 import type { Devices } from "../../host/plotter/devices.js";
 import * as host from "../../host/plotter/plotter-driver.js";
@@ -10,7 +10,7 @@ export type { PlotterState } from "../../host/plotter/plotter-driver.js";
 
 const serialDevices: Devices = { find: findBoards, open: openSerial };
 
-/** What a plotter needs of this computer. */
+/** The clock and the serial ports of this computer. */
 export const NODE_PARTS = { clock: nodeClock, devices: serialDevices } as const;
 
 export interface PlotterOptions extends Omit<host.PlotterOptions, "clock" | "devices"> {

@@ -1,7 +1,7 @@
 /**
- * What an optional part of the server looks like. Each plug-in is a folder of its own beside this file, whose
- * `plugin.ts` exports a function that makes it. `composition/load-plugins.ts` imports it only if an option of
- * the server asks for it; nothing else in the server knows any plug-in.
+ * The interface of optional parts of the server. Each plug-in has a folder beside this file, whose `plugin.ts` exports a
+ * function that creates it. Only `composition/load-plugins.ts` imports plug-ins, and only if an option of the server
+ * asks for them.
  *
  *   made ──the queue loads its jobs──> start(host) ──the port is open──> listening(address) ──> close()
  */
@@ -16,7 +16,7 @@ import type { Store } from "../storage/store.js";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
 
 export interface ServerPlugin {
-  /** As the log names it when the server closes, such as "the webhooks". */
+  /** Its name in the log when the server closes, such as "the webhooks". */
   readonly name: string;
   /** Called by the queue from the first change on, also before `start`. */
   readonly jobs?: JobHooks;
@@ -35,7 +35,7 @@ export interface ServerAddress {
   readonly isTls: boolean;
 }
 
-/** What exists before the queue, when a plug-in is made. */
+/** The parts of the server that exist before the queue, when a plug-in is created. */
 export interface PluginCore {
   readonly store: Store;
   /** By id; plotters may be added and removed while the server runs. */
@@ -50,6 +50,6 @@ export interface PluginHost extends PluginCore {
   readonly notices: Notices;
   /** Adds the profile when the settings name a custom machine. */
   readonly withMachine: (settings: PlotSettings) => PlotSettings;
-  /** The server answers to this name and shows it to its users; null: it has none any more. */
+  /** Sets the name that the server answers to and shows to its users; null: none. */
   readonly setLocalName: (name: string | null) => void;
 }

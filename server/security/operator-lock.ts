@@ -2,8 +2,8 @@
  * Lets only one browser operate at a time: it holds the operator lock, and other browsers watch until they
  * take the lock over. Stopping a plot does not need the lock, and scripts never need it.
  *
- *   free ──first to act──> held ──take by another──> held by that one
- *    ^                      │
+ *   free ──a browser acts──> held ──another browser takes over──> held by that one
+ *    ^                        │
  *    └── no event stream of the holder for 30 s (page closed, phone gone)
  *
  * The holder is stored in the database, so that a restart of the server does not release the lock.

@@ -2,7 +2,7 @@
 import { SerialPort } from "serialport";
 import { PlotwrightError, type Transport } from "../../src/index.js";
 
-/** An EiBotBoard is a USB device and ignores it; a Grbl needs exactly this. */
+/** A Grbl needs this rate; an EiBotBoard is a USB device and ignores it. */
 const BAUD_RATE = 115_200;
 
 /** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`. */

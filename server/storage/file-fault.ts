@@ -1,4 +1,4 @@
-/** What the system's error codes mean, in the words of a message. */
+/** Explains the system's error codes in messages. */
 
 const FILE_FAULTS: Readonly<Record<string, string>> = {
   ENOENT: "there is no such file or folder",

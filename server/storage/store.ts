@@ -73,7 +73,7 @@ export class Store implements JobStore, PlotterStore {
     return this.#db.get("SELECT 1 FROM jobs WHERE drawing = ? LIMIT 1", [drawing]) !== null;
   }
 
-  /** For plug-ins that have tables of their own. */
+  /** For plug-ins with their own tables. */
   get database(): Database {
     return this.#db;
   }
@@ -190,7 +190,7 @@ export class Store implements JobStore, PlotterStore {
     );
   }
 
-  /** What was stored for each plotter, by its id; parse it with its schema. */
+  /** The stored settings of each plotter, by its id; parse them with their schema. */
   plotterSettings(): Record<string, unknown> {
     const rows = this.#all("SELECT id, settings FROM plotters WHERE settings IS NOT NULL");
     return Object.fromEntries(rows.map((row) => [String(row["id"]), JSON.parse(String(row["settings"]))]));
@@ -215,8 +215,8 @@ export class Store implements JobStore, PlotterStore {
   }
 
   /**
-   * Stores how far a job has got. Survives a kill of the process but not a power cut: that would need two
-   * disk flushes per second, and the stream to the board would have to wait for them.
+   * Stores the progress of a plot. It survives a kill of the process but not a power cut: that would need two disk
+   * flushes per second, and the stream to the board would have to wait for them.
    */
   saveJournal(id: string, entry: unknown): void {
     this.#db.exec("PRAGMA synchronous = NORMAL");

@@ -2,8 +2,8 @@
  * The contents of a file in mm on its own page, before any fitting, flattening or ordering.
  *
  * Frame "page": mm, origin top left, x right, y down.
- * Curves stay cubic here because the flattening tolerance is in mm on paper: prepare flattens
- * them after scaling. Dashes and clips stay descriptions for the same reason.
+ * Curves stay cubic here because the flattening tolerance is in mm on paper: `prepare` flattens them after scaling. For
+ * the same reason dashes and clips are only described, not applied.
  *
  * Memory: columns instead of an object per path or point, so that a 100 MB file fits in memory.
  */
@@ -20,7 +20,7 @@ export const RULE_NONZERO = 0;
 export const RULE_EVENODD = 1;
 
 /**
- * All painted shapes of the file, in paint order (the first lies lowest).
+ * All painted shapes of the file, in paint order (the first is the lowest).
  * Shape i has verbs [verbOffsets[i], verbOffsets[i+1]) and coords [coordOffsets[i], coordOffsets[i+1])
  * (indices into the arrays themselves). A shape may have several subpaths, each started by VERB_MOVE.
  */
@@ -48,7 +48,7 @@ export interface DrawingPaths {
   readonly dash: Int32Array;
   /** Index into `Drawing.clips`; −1 if nothing clips it. */
   readonly clip: Int32Array;
-  /** The share of the usual speed at which it is drawn; left out: 1 for all. */
+  /** Each shape is drawn at this share of the usual speed; left out: 1 for all. */
   readonly speedFactor?: Float64Array | undefined;
 }
 
@@ -69,9 +69,8 @@ export interface DashPattern {
   /** Where in the pattern the line begins. */
   readonly offset: number;
   /**
-   * For a shape that was stretched together with its dashes: for measuring dashes, a vector dx, dy on
-   * the page has the length of (a dx + c dy, b dx + d dy). Absent if dashes are measured by the
-   * length on the page.
+   * For a shape that was stretched together with its dashes. Dashes are then not measured by the length on the page:
+   * a vector (dx, dy) on the page counts as long as (a dx + c dy, b dx + d dy).
    */
   readonly measure?: LinearMap;
 }
@@ -103,7 +102,7 @@ export interface ClipRegion {
 export interface DrawingWarning {
   /** Stable kebab-case code, for example "text-not-drawn". */
   readonly code: string;
-  /** What it is, how many there are, and what to do about it. Plain text. */
+  /** The feature, how many there are, and what to do about it. Plain text. */
   readonly message: string;
   /** How many there are. */
   readonly count: number;
@@ -112,8 +111,8 @@ export interface DrawingWarning {
 }
 
 /**
- * What a file draws, in mm on its own page: origin top left, x right, y down. Curves are still curves; `prepare`
- * flattens them on the paper.
+ * The content of a file, in mm on its own page: origin top left, x right, y down. Curves are still curves; `prepare`
+ * flattens them.
  */
 export interface Drawing {
   /** Size of the file's page. */

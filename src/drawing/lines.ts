@@ -1,4 +1,4 @@
-/** Lines that a program has computed, as what the planner takes. */
+/** Converts lines that a program has computed to strokes. */
 import type { StrokeLayer, StrokeSet } from "./stroke-set.js";
 
 /** Points of one line in drawing order, mm from home. */

@@ -1,7 +1,7 @@
 import { checkObject } from "../check-arguments.js";
 
 /**
- * What the pen draws, in drawing order: polylines in mm in the machine frame.
+ * The strokes of a plot, in drawing order: polylines in mm in the machine frame.
  *
  * Frame "machine": mm from home, x along the machine's long axis, y away from home.
  * The paper lies with its top left corner at home.
@@ -16,7 +16,7 @@ export interface StrokeSet {
   readonly offsets: Uint32Array;
   /** By stroke: index into `layers`. Strokes of a layer are contiguous, layers in order. */
   readonly layer: Uint16Array;
-  /** By stroke: the share of its layer's speed at which it is drawn; left out: 1 for all. */
+  /** Each stroke is drawn at this share of its layer's speed; left out: 1 for all. */
   readonly speedFactor?: Float64Array | undefined;
   /** The layers that `layer` refers to. */
   readonly layers: readonly StrokeLayer[];
@@ -40,7 +40,7 @@ export const settingsIdOf = (layer: StrokeLayer): string => layer.partOf ?? laye
 export const strokeCount = (set: StrokeSet): number => set.offsets.length - 1;
 export const pointCount = (set: StrokeSet): number => set.xy.length / 2;
 
-/** @throws TypeError if a program without types passes something else */
+/** @throws TypeError for any other value, from a program without types */
 export const checkStrokes = (call: string, strokes: StrokeSet): void =>
   checkObject(
     call,

@@ -1,14 +1,14 @@
 /**
- * What plotwright needs from a controller. A driver is a folder beside this file and its names in `registry.ts`;
- * nothing outside its folder knows its commands.
+ * The interfaces of a controller's driver. A driver is a folder beside this file, listed in `registry.ts`. Code outside
+ * the folder does not know its commands.
  *
  *   ControllerDescription    the fields in a machine's profile, USB ids, versions
- *   PlanForMachine ──────> MachineJob   the motion and its commands, without a machine
- *   Driver ──identify──> Machine      a connected one: pen, moves by hand, supply, console
+ *   PlanForMachine ──────> MachineJob   the motion and its commands; needs no connected machine
+ *   Driver ──identify──> Machine      a connected machine: pen, manual moves, supply, console
  *                          └──startRun──> MachineRun   one plot: play, hold, stop, switch to another plan
  *
- * A controller may follow our plan (EBB) or plan by itself (Grbl). In the second case its trajectory is a
- * model of what it does.
+ * A controller either follows our plan (EBB) or plans by itself (Grbl). In the second case the trajectory is a model of
+ * the controller's own planning.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
@@ -25,23 +25,23 @@ export interface UsbId {
   readonly productId: string;
 }
 
-/** What is known about a controller without planning for it or talking to it. */
+/** Static facts about a controller: available without planning and without a connection. */
 export interface ControllerDescription {
   /** Its fields in a machine's profile. */
   readonly fields: ControllerFields;
-  /** A contradiction between valid fields, and the field to change; left out: there is none. */
+  /** Finds a contradiction between valid fields, and the field to change. Left out: no fields can contradict. */
   readonly contradictionOf?: (controller: Controller) => { field: string; message: string } | null;
-  /** Devices that are certainly this controller: "auto" takes the first. Empty: the user names the port. */
+  /** Devices that are certainly this controller; the port "auto" takes the first. Empty: the user names the port. */
   readonly usbIds: readonly UsbId[];
   readonly firmware: FirmwareRules;
   /**
-   * Settings that do not change its plots: their labels by path, such as "motion.layers.*.cornerMm". Left out: none.
+   * Labels of the settings that do not affect its plots, by path, such as "motion.layers.*.cornerMm". Left out: none.
    */
   readonly unusedSettings?: Readonly<Record<string, string>>;
 }
 
 export interface Driver {
-  /** Finds out what is connected. Closes the connection and rejects if this driver does not know it. */
+  /** Identifies the connected board. Closes the connection and rejects if it is not one of this driver's. */
   identify(transport: Transport, options: ConnectOptions): Promise<Machine>;
   /** A simulated controller, to plot without hardware. */
   virtualMachine(options: VirtualMachineOptions): VirtualMachine;
@@ -62,9 +62,9 @@ export interface MachineEvents {
   changed(): void;
   /** The button on the machine was pressed during a plot. */
   buttonPressed(): void;
-  /** One reading of the motors' supply during a plot. A single one may be wrong. */
+  /** One reading of the motors' supply during a plot. A single reading may be wrong. */
   supplyRead(isLow: boolean): void;
-  /** The connection or the controller has failed; this machine cannot be used any more. */
+  /** The connection or the controller has failed; this object cannot be used any more. */
   lost(error: PlotwrightError): void;
 }
 
@@ -94,13 +94,10 @@ export interface Machine {
   /** The machine's seconds per second of this computer. */
   readonly speed: number;
   readonly penUp: boolean | null;
-  /** The pen is still on its way there. */
+  /** The pen is still moving to that state. */
   readonly penMoving: boolean;
   readonly motorsOn: boolean | null;
-  /**
-   * Set until something moves: how the machine was found, if it still knew its position when it was
-   * connected.
-   */
+  /** How the machine was found, if it still knew its position when it was connected; null after the first move. */
   readonly left: { readonly penUp: boolean } | null;
   /** Where and how the next job begins; null while the position is unknown. */
   readonly state: MachineState | null;
@@ -108,7 +105,7 @@ export interface Machine {
 
   /** Called after connecting: reads the state that the machine kept. Lifts a pen that was left on the paper. */
   takeOver(): Promise<void>;
-  /** Switches the motors on if they are off. If the position is unknown, this place becomes home. */
+  /** Switches the motors on if they are off. If the position is unknown, the current position becomes home. */
   ready(profile: MachineProfile, pen: MachineSettings["pen"]): Promise<MachineState>;
   /** Resolves when the pen has arrived. */
   movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void>;
@@ -118,26 +115,26 @@ export interface Machine {
   walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
   /** Plays a job that ends with the pen up, outside any run. */
   perform(plot: PlannedPlot, settings: MachineSettings): Promise<void>;
-  /** Makes this place home. */
+  /** Makes the current position home. */
   setHome(profile: MachineProfile, pen: MachineSettings["pen"]): Promise<void>;
   /** Finds home with the machine's own switches. False if it has none; nothing moves then. */
   findHome(settings: MachineSettings): Promise<boolean>;
-  /** Lets the carriage be pushed by hand; its position is unknown from then on. */
+  /** Switches the motors off, so that the carriage can be pushed by hand. Its position is then unknown. */
   motorsOff(): Promise<void>;
-  /** Something else has moved the carriage. */
+  /** Call when something else has moved the carriage: its position is then unknown. */
   forgetPlace(): Promise<void>;
-  /** After the position is lost: pen up, motors off. */
+  /** Call after the position is lost: lifts the pen and switches the motors off. */
   letGo(settings: MachineSettings): Promise<void>;
-  /** Before the connection is closed during motion: stops at once, pen up. */
+  /** Call before the connection is closed during motion: stops at once and lifts the pen. */
   leave(settings: MachineSettings): Promise<void>;
-  /** Stops a move by hand, which rejects with `conflict`, and reads the position back. */
+  /** Stops a manual move, which then rejects with `conflict`, and reads the position back. */
   stopAtOnce(): void;
 
-  /** Asks the machine. False too if the controller cannot tell. */
+  /** Queries the machine; false if it cannot measure its supply. */
   isSupplyLow(): Promise<boolean>;
   /** How long the motors may keep running after an emergency stop. */
   emergencyStopMs(settings: MachineSettings): number;
-  /** One line that the user typed. Rejects with `bad-setting` for a line that would break the communication. */
+  /** Sends a line that the user typed. Rejects with `bad-setting` for a line that would break the communication. */
   command(line: string): Promise<ConsoleAnswer>;
   /** The log of the communication, as text to download. */
   log(): string;
@@ -147,7 +144,7 @@ export interface Machine {
 
 export interface ConsoleAnswer {
   readonly replies: string[];
-  /** What happened to the position or the pen; null: nothing. */
+  /** Effect on the position or the pen, in words; null: none. */
   readonly note: string | null;
 }
 
@@ -159,19 +156,19 @@ export interface RunRequest {
 }
 
 export interface RunEvents {
-  tell(progress: PlotProgress): void;
-  /** A play has ended, for whatever reason; `place`: the first that is still to be drawn, null if unknown. */
+  progressed(progress: PlotProgress): void;
+  /** A play has ended, for any reason; `place`: the first place still to be drawn, null if unknown. */
   ended(place: Place | null): void;
 }
 
 /** One plot on a machine. The caller decides what is drawn, and when. */
 export interface MachineRun {
   readonly progress: RunProgress;
-  /** What is playing now, a new object for each play; null at rest. */
+  /** Identifies the current play: a new object for each; null at rest. */
   readonly playing: object | null;
-  /** Set when a play was stopped on purpose: what is still to be drawn. */
+  /** Set when a play was stopped on purpose: the first place still to be drawn, null if everything is drawn. */
   readonly stopped: { readonly place: Place | null } | null;
-  /** The machine already has everything up to this place and will draw it; what it receives next begins here. */
+  /** The machine has received everything before this place and will draw it. */
   readonly sentPlace: Place | undefined;
   /** Plays a plan to its end, or to a hold; `afterS`: time of the plot after the end of this plan. */
   play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void>;
@@ -179,15 +176,15 @@ export interface MachineRun {
   now(): PlotProgress | null;
   /** Slows down along the path and lifts the pen; `play` ends. */
   slowToRest(): void;
-  /** Drops what the machine has queued; `play` ends and the position is read back. */
+  /** Clears the machine's queue; `play` ends and the position is read back. */
   stopAtOnce(): void;
   /** Stops the motors for good: the current play, or the next one, fails with the error. */
   fail(error: PlotwrightError): void;
   /** Switching to another plan; until that is done, no third plan is accepted. */
-  readonly isGoingOver: boolean;
+  readonly isSwitching: boolean;
   /**
-   * A place at least `leadS` ahead where another plan can take over in motion. Null if too little is left, or
-   * if the controller cannot do it: a change then waits for the next rest.
+   * A place at least `leadS` ahead where another plan can take over in motion. Null if too little of the plot is left or
+   * the controller cannot switch in motion: a change then waits for the next rest.
    */
   placeAhead(leadS: number): PlaceAhead | null;
 }
@@ -200,5 +197,5 @@ export interface PlaceAhead {
   /** The machine's state there. */
   readonly board: MachineState;
   /** Switches to a plan that begins there; false if the machine has already passed the place. */
-  goOver(plot: PlannedPlot, afterS: number): boolean;
+  switchTo(plot: PlannedPlot, afterS: number): boolean;
 }

@@ -1,16 +1,15 @@
-/** Faults that any controller can report, in words for the user. */
+/** Errors that any controller can report, in words for the user. */
 import { PlotwrightError } from "../errors.js";
 
 export const powerLow = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The motors have no power, or too little: check the plotter's power supply, its plug and its switch. " +
-      "The carriage may have been moved, so push it to home before the next plot.",
+      "The carriage may have moved, so push it to home before the next plot.",
   );
 
 /**
- * Added to the message of a plot that resumes at the last good reading: some of the line after it may already
- * be drawn.
+ * Added to a message if the plot resumes from the last good reading: part of the line after it may already be drawn.
  */
 const MAY_OVERLAP = "Its line may overlap a little where it resumes.";
 

@@ -1,6 +1,6 @@
 const CR = 13;
 const LF = 10;
-/** The board never sends longer lines; anything beyond is noise. */
+/** The board never sends longer lines; further bytes are noise. */
 const MAX_LINE_BYTES = 256;
 
 /**

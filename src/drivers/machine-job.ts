@@ -6,7 +6,7 @@ import type { Place, Trajectory } from "../plan/trajectory.js";
 import type { MotionSettings } from "../settings/motion.js";
 import type { PenSettings } from "../settings/pen.js";
 
-/** The part of a job's settings that decides its motion. */
+/** The part of a job's settings that determines its motion. */
 export interface JobSettings {
   /** Speeds, accelerations, corners. */
   readonly motion: MotionSettings;
@@ -16,19 +16,19 @@ export interface JobSettings {
 
 /** The settings that a connected machine needs. */
 export interface MachineSettings extends JobSettings, MachineChoice {
-  /** Motion that is sent ahead of time, so that a busy computer does not stop the pen. */
+  /** How much motion is sent ahead, so that the pen does not stop when the computer is busy. */
   readonly sendAheadMs: number;
 }
 
 /**
- * The state of a machine between two jobs. Only its driver reads the content. Plain data, so it can be passed
+ * The state of a machine between two jobs. Only its driver reads the content. Plain data, so that it can be passed
  * between threads.
  */
 export type MachineState = object;
 
 /**
- * The commands of a job in the format of one driver; others read only these fields. Plain data, so it can be
- * passed between threads.
+ * The commands of a job in the format of its driver. All other code reads only these fields. Plain data, so that it can
+ * be passed between threads.
  */
 export interface MachineCommands {
   readonly count: number;
@@ -55,17 +55,16 @@ export interface PlannedPlot {
 }
 
 export interface DriverPlanOptions {
-  /** Where in the drawing to begin, which may be within a stroke; default: its beginning. */
+  /** Where in the drawing to begin, possibly within a stroke; default: the start of the drawing. */
   readonly from?: Place | null | undefined;
   /** Where the carriage is, mm from home; default 0, 0. The pen is up there. */
   readonly startXMm?: number | undefined;
   readonly startYMm?: number | undefined;
   /**
-   * The machine's state at the beginning (`Machine.state`); default: at home, as after the motors are
-   * switched on.
+   * The machine's state at the beginning (`Machine.state`); default: at home, with the motors just switched on.
    */
   readonly board?: MachineState | undefined;
-  /** Version of the controller's firmware: "2.8.1". Default, and if null: the driver's choice. */
+  /** Version of the controller's firmware: "2.8.1". Null or left out: the driver's choice. */
   readonly firmware?: string | null | undefined;
   /** Begin with a lift, because the pen's height is unknown. Default false. */
   readonly liftFirst?: boolean | undefined;
@@ -80,7 +79,7 @@ export interface DriverPlanOptions {
 export interface FirmwareRules {
   /** Whether a version reported by a machine belongs to this controller. */
   isOwn(firmware: string): boolean;
-  /** Whether plans for it are slower than the settings ask for; null: the version is unknown. */
+  /** Whether plans for this version are slower than the settings ask for; null: the version is unknown. */
   limitsMotion(firmware: string | null): boolean;
 }
 

@@ -1,7 +1,7 @@
 /**
- * The drivers, by the `kind` of a machine's controller. There are three tables and not one, because a bundler
- * keeps or drops a table as a whole: the page loads the descriptions (2 kB), its worker the planners (26 kB),
- * and only the server the code that talks to a machine (64 kB).
+ * The drivers, by the `kind` of a machine's controller. There are three tables instead of one because a bundler keeps or
+ * drops a table as a whole. The page loads the descriptions (2 kB), its worker the planners (26 kB), and only code that
+ * connects to a machine the drivers (64 kB).
  */
 import { PlotwrightError } from "../errors.js";
 import { checkController, checkProfile } from "../machines/check-profile.js";
@@ -43,7 +43,7 @@ export function firmwareFor(machine: MachineProfile, firmware: string | null): s
   return firmware !== null && controllerOf(machine).firmware.isOwn(firmware) ? firmware : null;
 }
 
-/** Whether a machine moves in the same way with both versions. */
+/** Whether a plan for one version is also right for the other. */
 export function isPlannedAlike(machine: MachineProfile, a: string | null, b: string | null): boolean {
   const { limitsMotion } = controllerOf(machine).firmware;
   return limitsMotion(firmwareFor(machine, a)) === limitsMotion(firmwareFor(machine, b));

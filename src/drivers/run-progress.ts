@@ -11,7 +11,7 @@ import {
 import type { MachineCommands } from "./machine-job.js";
 
 export interface PlotProgress {
-  /** Of the whole plot's time, 0 … 1. */
+  /** Share of the whole plot's time, 0 … 1. */
   readonly progress: number;
   readonly elapsedS: number;
   readonly remainingS: number;
@@ -24,18 +24,18 @@ export interface PlotProgress {
   readonly penMoving: boolean;
 }
 
-/** A stretch of motion that is or will be streamed, and the plan that it belongs to. */
+/** A section of motion that is or will be streamed, and its plan. */
 export interface Part {
   readonly commands: MachineCommands;
   readonly trajectory: Trajectory;
-  /** Time of the plot after the end of this stretch: a path to rest ends in the middle of the drawing. */
+  /** Time of the plot after the end of this part. Not 0 for a path to rest, which ends in the middle of the drawing. */
   readonly afterS: number;
-  /** What the next part of the same stream draws after this one; left out: nothing. */
+  /** Where the next part of the same stream begins to draw; left out: no part follows. */
   readonly next?: Place | null;
 }
 
-/** Number of past parts to remember: a plan, the path to rest in it, and a change of heights. */
-const LEFT_COUNT = 3;
+/** Number of past parts to keep: a plan, the path to rest in it, and a change of heights. */
+const PAST_PARTS = 3;
 
 /** `P`: what a driver stores with each part. */
 export class RunProgress<P extends Part = Part> {
@@ -47,16 +47,16 @@ export class RunProgress<P extends Part = Part> {
   private part: P | null = null;
   private firstTrajectory: Trajectory | null = null;
   private times: PlaceTimes | null = null;
-  /** Underruns of the parts that are over. */
+  /** Elapsed time of the finished parts. */
   private doneS = 0;
-  /** Underruns of the current part. */
+  /** Elapsed time of the current part. */
   private partS = 0;
   private partStartS = 0;
   private readonly motion = newMotionState();
 
   /**
-   * What will be streamed are parts of this plan, the one that the page has. `from`: an earlier run drew
-   * everything before it.
+   * Sets the plan that the page shows; all parts that are streamed belong to it. `from`: an earlier run drew everything
+   * before this place.
    */
   isPartOf(whole: Trajectory, times: PlaceTimes, from: Place | null): void {
     this.firstTrajectory = whole;
@@ -64,7 +64,7 @@ export class RunProgress<P extends Part = Part> {
     if (from) this.doneS = times.timeOf(from) ?? 0;
   }
 
-  /** A part that will be streamed. The first part of all is the page's plan too, unless another was reported. */
+  /** Adds a part that will be streamed. Without `isPartOf`, the first part is the plan that the page shows. */
   add(part: P): void {
     if (!this.firstTrajectory) {
       this.firstTrajectory = part.trajectory;
@@ -73,18 +73,18 @@ export class RunProgress<P extends Part = Part> {
     this.parts.push(part);
   }
 
-  /** Older parts are forgotten. */
+  /** False for parts long past, which are forgotten. */
   knows(commands: MachineCommands): boolean {
     return this.parts.some((part) => part.commands === commands);
   }
 
   partOf(commands: MachineCommands): P {
     const found = this.parts.find((part) => part.commands === commands);
-    if (!found) throw new TypeError("a stream plays that was never announced");
+    if (!found) throw new TypeError("the playing stream was never added");
     return found;
   }
 
-  /** Current position of the board. */
+  /** Computes the progress from the board's current position. */
   update(at: { readonly stream: MachineCommands; readonly planS: number }): PlotProgress {
     const part = this.partOf(at.stream);
     if (part !== this.part) this.enter(part, at.stream.planS[0]);
@@ -109,7 +109,7 @@ export class RunProgress<P extends Part = Part> {
     return this.latest;
   }
 
-  /** While held: the plot resumes from another place. Null while the plan's times are unknown. */
+  /** For a held plot that will resume from another place. Null while the plan's times are unknown. */
   movedTo(place: Place, at: Pick<PlotProgress, "xMm" | "yMm" | "penUp">): PlotProgress | null {
     const doneS = this.times?.timeOf(place) ?? null;
     if (doneS === null || !this.firstTrajectory) return null;
@@ -129,8 +129,8 @@ export class RunProgress<P extends Part = Part> {
     this.partS = 0;
     this.partStartS = startS;
     this.part = part;
-    // A part that was left is never played again. The board may be less far than it seems.
-    this.parts = this.parts.slice(Math.max(0, this.parts.indexOf(part) - LEFT_COUNT));
+    // Finished parts are not played again, but the board may still be in one of the last.
+    this.parts = this.parts.slice(Math.max(0, this.parts.indexOf(part) - PAST_PARTS));
   }
 
   /** The time of the same place in the first plan. */

@@ -13,7 +13,7 @@ export interface Transport {
   close(): Promise<void>;
 }
 
-/** Time, provided by the host: a real clock, or one that a test moves by hand. */
+/** Time, provided by the host: a real clock, or one that a test advances. */
 export interface Clock {
   /** Seconds since an arbitrary start. Never runs backwards. */
   nowS(): number;

@@ -14,7 +14,7 @@ export interface StrokesJson {
     readonly color: string | null;
     /** Each stroke as x, y, x, y … mm; two numbers are a dot. */
     readonly strokesMm: readonly (readonly number[])[];
-    /** By stroke: the share of the usual speed at which it is drawn; left out: 1 for all. */
+    /** Each stroke is drawn at this share of the usual speed; left out: 1 for all. */
     readonly speedFactors?: readonly number[];
   }[];
 }

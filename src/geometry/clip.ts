@@ -2,8 +2,8 @@
  * Clips polylines to an axis-parallel box: Liang and Barsky's parametric clipping, segment by segment.
  * (Y.-D. Liang, B. A. Barsky, "A New Concept and Method for Line Clipping", ACM TOG 3(1), 1984)
  *
- *   p(t) = p0 + t (p1 − p0), 0 ≤ t ≤ 1: each side of the box bounds t from below (entering)
- *   or from above (leaving); what is left between the largest entry and the smallest exit is inside.
+ *   p(t) = p0 + t (p1 − p0), 0 ≤ t ≤ 1: each side of the box bounds t from below (entering) or from above (leaving).
+ *   The part from the largest entry to the smallest exit is inside.
  *
  * Points on the border count as inside. Cut points lie exactly on the border, so that
  * "inside the margins" can be checked without a tolerance.
@@ -36,7 +36,7 @@ export function clipLine(lines: Lines, i: number, box: Box, builder: LineBuilder
   endPiece(builder, tag);
 }
 
-/** Where to start on a closed line, so that no inside piece is split at the line's own start point. */
+/** A start point on a closed line at which no inside piece is split. */
 function firstOutside(xy: Float64Array, first: number, segments: number, box: Box): number {
   for (let k = 0; k < segments; k++) {
     if (!boxContainsPoint(box, xy[2 * (first + k)], xy[2 * (first + k) + 1])) return k;
@@ -86,8 +86,8 @@ export function insideRange(
 }
 
 /**
- * One side: t · p ≤ q, with p the rate towards the side and q the distance to it. False if all
- * of it lies beyond.
+ * Applies one side: t · p ≤ q, with p the rate towards the side and q the distance to it. False if the whole segment is
+ * beyond it.
  */
 function boundBySide(p: number, q: number, out: [number, number]): boolean {
   if (p === 0) return q >= 0;

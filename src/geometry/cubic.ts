@@ -28,7 +28,7 @@ const MAX_DEPTH = 16;
 /** If the accelerations at the two ends differ by more than this factor, equal steps are wasteful. */
 const UNEVEN = 3;
 
-/** Stack of halves still to flatten, 8 numbers each. One per module is safe: nothing here calls out. */
+/** Stack of halves still to flatten, 8 numbers each. One for the module is enough, since no callback runs meanwhile. */
 const stack = new Float64Array((MAX_DEPTH + 2) * 8);
 const depths = new Uint8Array(MAX_DEPTH + 2);
 
@@ -102,7 +102,7 @@ export function flattenCubic(
   }
 }
 
-/** Number of equal steps of t that keep the tolerance; 1 if the chord alone does. */
+/** Number of equal steps of t needed for the tolerance; 1 if the chord is enough. */
 function stepCount(
   x0: number,
   y0: number,

@@ -7,8 +7,8 @@
  *   3 2 2 2 3
  *   3 3 3 3 3
  *
- * A query takes constant time for evenly spread points. Where points are crowded it scans more of them, in
- * proportion: 20 000 strokes in a corner of 8 × 6 mm of an A4 sheet prepare in 0.3 s, all over it in 0.02 s.
+ * A query takes constant time for evenly spread points. In crowded areas it scans more points: 20 000 strokes in a
+ * corner of 8 × 6 mm of an A4 sheet take 0.3 s to prepare, spread over the sheet 0.02 s.
  */
 import { boxOfPoints } from "./box.js";
 
@@ -143,7 +143,7 @@ export class PointGrid {
 
   private scan(cell: number, x: number, y: number, found: NearestPoints): void {
     const { xy, higher } = this;
-    // The search ends with points at (x, y) itself: otherwise many points at one place take quadratic time.
+    // Stop at points at (x, y) itself: otherwise many points at one place would take quadratic time.
     for (let id = this.lowest[cell]; id !== NONE && found.limit2 > 0; id = higher[id]) {
       const dx = xy[2 * id] - x;
       const dy = xy[2 * id + 1] - y;

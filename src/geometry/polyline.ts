@@ -80,7 +80,7 @@ export class LineBuilder {
     this.points = this.first;
   }
 
-  /** Adds line `i` of `lines`, backwards if asked. */
+  /** Adds line `i` of `lines`; backwards if `reversed`. */
   copy(lines: Lines, i: number, tag: number, reversed = false): void {
     const first = lines.offsets[i];
     const last = lines.offsets[i + 1] - 1;

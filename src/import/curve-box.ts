@@ -1,4 +1,4 @@
-/** The exact bounding box of a shape: of its curves, not of their control points. */
+/** The exact bounding box of a shape's curves, not of their control points. */
 import { PAIRS_OF_VERB, VERB_CUBIC } from "../drawing/drawing.js";
 import { EMPTY_BOX, type Box } from "../geometry/box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";

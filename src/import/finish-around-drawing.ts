@@ -3,7 +3,7 @@ import type { Drawing } from "../drawing/drawing.js";
 import type { DrawingBuilder } from "./drawing-builder.js";
 import type { Warnings } from "./warnings.js";
 
-/** mm: gives a drawing of one straight line a page with an area. */
+/** Min side of the page, mm, so that a drawing of one straight line has a page with an area. */
 const SMALLEST_SIDE = 1;
 
 export function finishAroundDrawing(builder: DrawingBuilder, warnings: Warnings): Drawing {

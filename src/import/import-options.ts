@@ -23,7 +23,7 @@ export interface ImportOptions {
 
 const NAMES = ["pxPerInch", "text", "font", "languages"];
 
-/** @throws TypeError or PlotwrightError "bad-setting" for options that are none */
+/** @throws TypeError or PlotwrightError "bad-setting" for invalid options */
 export function checkImportOptions(options: ImportOptions): void {
   const { text, font } = options;
   checkNames("import", options, NAMES);

@@ -1,4 +1,4 @@
-/** Collects what will not be drawn as seen on screen: counted by kind, with the first few positions. */
+/** Collects features that will not be drawn as seen on screen, counted by kind, with the first few positions. */
 import type { DrawingWarning } from "../drawing/drawing.js";
 import { isEmptyBox, type Box } from "../geometry/box.js";
 

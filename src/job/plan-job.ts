@@ -2,7 +2,9 @@
  * Turns prepared strokes into a job for a machine. Page, server, command line and library all call this
  * function, so the preview always matches the plot.
  *
- *   strokes ──until──> settings with the layers' codes ──the controller's driver──> trajectory and commands
+ *   1. cut the strokes at `until`
+ *   2. add the codes of the layers' names to the settings
+ *   3. plan with the driver of the machine's controller: trajectory and commands
  */
 import { checkObject } from "../check-arguments.js";
 import { checkStrokes, type StrokeSet } from "../drawing/stroke-set.js";
@@ -16,7 +18,7 @@ export type { JobSettings, MachineJob } from "../drivers/machine-job.js";
 
 /** Where a job begins and ends, and for which firmware. Every option has a default. */
 export interface JobOptions extends DriverPlanOptions {
-  /** Number of the stroke before which to stop and go home; default: the end of the drawing. */
+  /** Index of the stroke before which to stop and go home; default: the end of the drawing. */
   readonly until?: number | null | undefined;
 }
 
@@ -35,7 +37,7 @@ export function planJob(
 ): MachineJob {
   checkObject(
     "planJob",
-    "what to draw",
+    "the first argument",
     prepared,
     ["strokes"],
     "{ strokes }, for example what prepare returns",

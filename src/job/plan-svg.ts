@@ -1,4 +1,4 @@
-/** From a drawing's text to commands in one call. */
+/** Plans SVG text in one call. */
 import { checkNames } from "../check-arguments.js";
 import { importSvg } from "../import/svg/import-svg.js";
 import { machineOf, type MachineChoice } from "../machines/profiles.js";
@@ -13,7 +13,7 @@ import { planJob, type JobOptions, type JobSettings, type MachineJob } from "./p
 import { prepareJob } from "./prepare-job.js";
 
 /**
- * Settings of `planSvg`. What is left out has its default, as on the page; complete settings of a job
+ * Settings of `planSvg`. Settings that are left out have their defaults, as on the page. The complete settings of a job
  * (`PlotSettings` of `plotwright/schema`) fit too.
  */
 export interface SvgSettings extends Partial<JobSettings & MachineChoice & PenSetup> {
@@ -25,7 +25,7 @@ export interface SvgSettings extends Partial<JobSettings & MachineChoice & PenSe
 export interface PlannedSvg extends MachineJob {
   /** The strokes on the paper, with their layers and lengths. */
   readonly prepared: Prepared;
-  /** What is not drawn from the file, and what the paper cuts off. */
+  /** Warnings about features of the file that are not drawn, lines cut off by the paper, and unused settings. */
   readonly warnings: readonly string[];
 }
 

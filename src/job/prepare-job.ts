@@ -1,4 +1,4 @@
-/** From a drawing to strokes within the machine's reach, or an error with the reason if there are none. */
+/** Prepares the drawing of a job, and checks that there are strokes and that the machine reaches them. */
 import type { Drawing } from "../drawing/drawing.js";
 import { strokeCount } from "../drawing/stroke-set.js";
 import type { JobSettings } from "../drivers/machine-job.js";
@@ -18,8 +18,8 @@ export interface PreparedJob {
 }
 
 /**
- * Takes no clock: the same drawing and settings give the same strokes in every process, so that a position in
- * a job stays valid after a restart.
+ * Prepares a drawing and checks the result. Without a clock in `work` the same drawing and settings give the same
+ * strokes in every process, so that a position in a job stays valid after a restart.
  *
  * @throws PlotwrightError "bad-file" if nothing is left to draw, "out-of-bounds", "bad-setting", "cancelled"
  */
@@ -32,7 +32,7 @@ export function prepareJob(
   const prepared = prepare(drawing, prepareSettingsOf(settings), work);
   const warnings = [...drawing.warnings.map((warning) => warning.message), ...prepared.warnings];
   if (strokeCount(prepared.strokes) === 0) {
-    // An empty drawing says so itself, and then the preparation has nothing to add.
+    // For an empty drawing its own warning is enough.
     const isEmpty = drawing.warnings.some(({ code }) => code === "empty-drawing");
     const reasons = drawing.warnings.map(({ message }) => message);
     const why = isEmpty ? reasons : ["There is nothing to draw.", ...warnings];

@@ -1,10 +1,10 @@
 /**
- * The ringing sheet: square corners, drawn so hard that the machine swings visibly after each of them. The swing of the
- * axis that has just stopped is a ripple on the line that follows, drawn at a known speed:
+ * The ringing sheet: square corners, drawn with such a high acceleration that the machine swings visibly after each of
+ * them. The axis that has just stopped swings, which makes ripples on the next line. That line is drawn at a known speed:
  *
  *        ┌~~~~~──────   after a corner from up to right, y swings: ripples of length λ on the horizontal line
  *        │              f = v / λ
- *        │              on vertical lines it is x that swings
+ *        │              on vertical lines, x swings
  */
 import { PlotwrightError } from "../errors.js";
 import type { Springs } from "../machines/profile.js";
@@ -23,11 +23,11 @@ const STEPS = 3;
 export const STAIRS_MM = STEPS * STEP_MM;
 /** Each figure is this far to the right of and above the one before, mm, so that no lines touch. */
 export const NEXT_STAIRS_MM = 12;
-/** The page: broader than high, so that it is not turned on the paper, with room for margins. */
+/** The page: wider than high, so that it is not turned on the paper, with room for margins. */
 const PAGE_MM = { width: 150, height: 148 };
 const FROM_MM = 22;
 
-/** The settings to plot it with: corners without rounding, hard acceleration, nothing shaped. */
+/** The settings for plotting it: corners without rounding, high acceleration, no shaper. */
 export const RINGING_MOTION: MotionSettings = {
   ...DEFAULT_MOTION,
   mode: "junction",
@@ -45,13 +45,13 @@ export function ringingSheet(): string {
 }
 
 export interface RingingCheck {
-  /** Of the frequencies; null: not shaped. */
+  /** Multiplies both frequencies; null: not shaped. */
   readonly factor: number | null;
   readonly springs: Springs | null;
   readonly svg: string;
 }
 
-/** One figure without shaping and with each of these factors, to pick by eye; each is a plot of its own. */
+/** One figure without shaping, and one for each factor. The user plots them separately and chooses the best by eye. */
 export function ringingChecks(springs: Springs): RingingCheck[] {
   const sheet = svg(stairs(0));
   return [null, 0.8, 0.9, 1, 1.1, 1.25].map((factor) => ({
@@ -64,7 +64,7 @@ export function ringingChecks(springs: Springs): RingingCheck[] {
 /**
  * The frequency of a swing, Hz, from the ripples counted over a length of line.
  *
- * @throws PlotwrightError "bad-setting" for what cannot be
+ * @throws PlotwrightError "bad-setting" for a frequency that no machine has
  */
 export function frequencyOfRipples(speedMmPerS: number, ripples: number, overMm: number): number {
   const hz = (speedMmPerS * ripples) / overMm;
@@ -78,11 +78,11 @@ export function frequencyOfRipples(speedMmPerS: number, ripples: number, overMm:
   return hz;
 }
 
-/** Path data of a figure: a line of steps, down and to the right. */
+/** Path data of a figure: a staircase, down and to the right. */
 export const stairsPath = (xMm: number, yMm: number): string =>
   `M${xMm} ${yMm}${`v${STEP_MM}h${STEP_MM}`.repeat(STEPS)}`;
 
-/** The sheet's figure of the i-th speed; the first is at the bottom left. */
+/** The sheet's figure for the i-th speed; the first is at the bottom left. */
 function stairs(i: number): string {
   const xMm = FROM_MM + i * NEXT_STAIRS_MM;
   const yMm = FROM_MM + (RINGING_SPEEDS.length - 1 - i) * NEXT_STAIRS_MM;

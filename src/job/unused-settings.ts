@@ -1,4 +1,4 @@
-/** Warns of settings that were changed although the machine's controller does not use them. */
+/** Warns about changed settings that the machine's controller does not use. */
 import type { JobSettings } from "../drivers/machine-job.js";
 import { controllerOf } from "../drivers/registry.js";
 import type { MachineProfile } from "../machines/profile.js";

@@ -1,33 +1,34 @@
-/** Checks profiles written by hand in programs without types, which may lack required fields. */
+/** Checks machine profiles, which may be written by hand in programs without types. */
 import { checkObject } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import { isAllowed, rangeInWords } from "../settings/setting.js";
 import type { ControllerField, ControllerFields } from "./controller.js";
 import type { MachineProfile } from "./profile.js";
 
-interface Need {
-  readonly isRight: (value: unknown) => boolean;
-  readonly what: string;
+interface Rule {
+  readonly isValid: (value: unknown) => boolean;
+  /** Valid values, in words. */
+  readonly allowed: string;
 }
 type Values = Readonly<Record<string, unknown>>;
 
 const isObject = (value: unknown): value is Values => typeof value === "object" && value !== null;
-const oneOf = (values: readonly unknown[]): Need => ({
-  isRight: (value) => values.includes(value),
-  what: values.map((value) => JSON.stringify(value)).join(" or "),
+const oneOf = (values: readonly unknown[]): Rule => ({
+  isValid: (value) => values.includes(value),
+  allowed: values.map((value) => JSON.stringify(value)).join(" or "),
 });
 
-const ABOVE_0: Need = {
-  isRight: (value) => Number.isFinite(value) && (value as number) > 0,
-  what: "a number above 0",
+const ABOVE_0: Rule = {
+  isValid: (value) => Number.isFinite(value) && (value as number) > 0,
+  allowed: "a number above 0",
 };
-const CONTROLLER_NAME: Need = {
-  isRight: (value) => typeof value === "string" && value !== "",
-  what: "the name of a controller",
+const CONTROLLER_NAME: Rule = {
+  isValid: (value) => typeof value === "string" && value !== "",
+  allowed: "the name of a controller",
 };
-const OBJECT: Need = { isRight: isObject, what: "an object" };
+const OBJECT: Rule = { isValid: isObject, allowed: "an object" };
 
-const PROFILE_NEEDS: Readonly<Record<string, Need>> = {
+const PROFILE_RULES: Readonly<Record<string, Rule>> = {
   widthMm: ABOVE_0,
   heightMm: ABOVE_0,
   stepsPerMm: ABOVE_0,
@@ -38,11 +39,11 @@ const PROFILE_NEEDS: Readonly<Record<string, Need>> = {
 export function checkProfile(machine: MachineProfile): void {
   checkObject("machine", "the machine", machine, [], 'a profile, for example machineById("axidraw-v3")');
   const values = machine as unknown as Values;
-  for (const [key, need] of Object.entries(PROFILE_NEEDS)) check(machine, key, need, values[key]);
+  for (const [key, rule] of Object.entries(PROFILE_RULES)) check(machine, key, rule, values[key]);
   const { controller } = values;
   if (!isObject(controller)) {
     throw bad(
-      `The machine profile "${nameOf(machine)}" has no controller: what drives its motors and its pen.`,
+      `The machine profile "${nameOf(machine)}" has no controller, which says how its motors and pen are driven.`,
     );
   }
   check(machine, "controller.kind", CONTROLLER_NAME, controller.kind);
@@ -60,11 +61,11 @@ function checkFields(machine: MachineProfile, at: string, fields: ControllerFiel
       if (isLeftOut && field.isOptional) continue;
       check(machine, at + key, OBJECT, value);
       checkFields(machine, `${at}${key}.`, field.fields, value as Values);
-    } else check(machine, at + key, needOf(field), value);
+    } else check(machine, at + key, ruleOf(field), value);
   }
 }
 
-function needOf(field: Exclude<ControllerField, { kind: "group" }>): Need {
+function ruleOf(field: Exclude<ControllerField, { kind: "group" }>): Rule {
   switch (field.kind) {
     case "one-of":
       return oneOf(field.values);
@@ -73,14 +74,16 @@ function needOf(field: Exclude<ControllerField, { kind: "group" }>): Need {
     case "switch":
       return oneOf([true, false]);
     case "number":
-      return { isRight: (value) => isAllowed(field, value as number), what: rangeInWords(field) };
+      return { isValid: (value) => isAllowed(field, value as number), allowed: rangeInWords(field) };
   }
 }
 
-function check(machine: MachineProfile, field: string, { isRight, what }: Need, value: unknown): void {
-  if (isRight(value)) return;
+function check(machine: MachineProfile, field: string, { isValid, allowed }: Rule, value: unknown): void {
+  if (isValid(value)) return;
   const is = value === undefined ? "is missing" : `is ${JSON.stringify(value)}`;
-  throw bad(`The machine profile "${nameOf(machine)}" can't be used: ${field} ${is}, and must be ${what}.`);
+  throw bad(
+    `The machine profile "${nameOf(machine)}" can't be used: ${field} ${is}, and must be ${allowed}.`,
+  );
 }
 
 const nameOf = ({ name, id }: MachineProfile): string => String(name ?? id ?? "without a name");

@@ -5,8 +5,8 @@
 import type { Setting } from "../settings/setting.js";
 
 /**
- * What drives the motors and the pen. `kind` names the driver; the other fields are the driver's own, listed in
- * docs/api.md.
+ * The controller of the motors and the pen. `kind` names the driver; the other fields depend on the driver and are
+ * listed in docs/api.md.
  */
 export interface Controller {
   readonly kind: string;

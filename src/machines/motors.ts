@@ -1,7 +1,7 @@
 /**
  * Converts carriage positions to motor steps and back. Frames: machine mm, motor steps.
  *
- *   as wired                u = ±x, v = ±y (flipX, flipY), exchanged if swapAxes
+ *   wiring                  u = ±x, v = ±y (flipX, flipY), exchanged if swapAxes
  *   mixed (H-bot, CoreXY)   m1 = k (u + v)   m2 = k (u − v)      u = (m1 + m2)/2k   v = (m1 − m2)/2k
  *   direct                  m1 = k u         m2 = k v
  *
@@ -47,7 +47,7 @@ const firstAxis = (machine: MachineProfile, steps1: number, steps2: number): num
 const secondAxis = (machine: MachineProfile, steps1: number, steps2: number): number =>
   (machine.motors === "mixed" ? (steps1 - steps2) / 2 : steps2) / machine.stepsPerMm;
 
-/** mm from home of motor steps (whole or not). */
+/** Position in mm from home; the motor steps may be fractional. */
 export const placeFromMotors = (
   machine: MachineProfile,
   steps1: number,

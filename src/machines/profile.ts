@@ -1,10 +1,10 @@
 import type { Controller } from "./controller.js";
 
-/** A plotter as data: what the compiler and the page need to know about it. */
+/** The properties of a plotter, as data. */
 export interface MachineProfile<C extends Controller = Controller> {
   /** Stored in settings: "axidraw-v3". */
   readonly id: string;
-  /** Shown to people: "AxiDraw V3". */
+  /** Shown to users: "AxiDraw V3". */
   readonly name: string;
   /** Travel limits, mm from home. */
   readonly widthMm: number;
@@ -20,11 +20,11 @@ export interface MachineProfile<C extends Controller = Controller> {
   readonly swapAxes?: boolean | undefined;
   /** How the machine swings. Null or left out: not measured. */
   readonly springs?: Springs | null | undefined;
-  /** What drives the motors and the pen. */
+  /** The controller of the motors and the pen. */
   readonly controller: C;
 }
 
-/** A gantry is a spring on each axis of the drawing: natural frequencies, Hz, and the damping ratio of both. */
+/** How a gantry swings, modelled as a spring in each axis: natural frequencies, Hz, and the damping ratio of both. */
 export interface Springs {
   readonly xHz: number;
   readonly yHz: number;

@@ -104,7 +104,7 @@ export function machineById(id: string): MachineProfile {
 export interface MachineChoice {
   /** Id of a profile. Default "axidraw-v3". */
   readonly machine: string;
-  /** A profile of your own, used if its id is `machine`. */
+  /** A custom profile, used if its id is `machine`. */
   readonly customMachine?: MachineProfile | null | undefined;
 }
 

@@ -2,9 +2,9 @@
  * Corrects a machine profile by what the user observed: which direction the carriage moved, and
  * how large it drew.
  *
- * The wiring maps what is sent to the motors to carriage motion by an unknown signed permutation of the axes,
- * P. The profile sends T (x, y), so the user observes M = P T. To make M the identity, replace T by T M⁻¹. M
- * is a signed permutation too, so its inverse is its transpose.
+ * The wiring turns motor motion into carriage motion by an unknown signed permutation of the axes, P. With the profile's
+ * map T, the motors get T (x, y), so the user observes M = P T. To make M the identity, replace T by T M⁻¹. M is a signed
+ * permutation too, so its inverse is its transpose.
  */
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "./profile.js";
@@ -21,11 +21,11 @@ const VECTORS: Readonly<Record<Direction, readonly [x: number, y: number]>> = {
 };
 
 /**
- * The profile with which the carriage moves right for +x and down for +y.
+ * Corrects the profile so that the carriage moves right for +x and down for +y.
  *
- * @param xWent where the carriage went when the current profile told it to go right
+ * @param xWent where the carriage went when it was sent right with the current profile
  * @param yWent the same for down
- * @throws PlotwrightError "bad-setting" if both directions lie on one line: then one motor does not turn
+ * @throws PlotwrightError "bad-setting" if both directions are on one line, because one motor does not turn
  */
 export function machineTurned(machine: MachineProfile, xWent: Direction, yWent: Direction): MachineProfile {
   const [xx, xy] = VECTORS[xWent];
@@ -43,20 +43,20 @@ export function machineTurned(machine: MachineProfile, xWent: Direction, yWent: 
   return { ...machine, swapAxes: xu === 0, flipX: xu + xv < 0, flipY: yu + yv < 0 };
 }
 
-/** What is sent to the motors for a move, see `motors.ts`. */
+/** (u, v) of a move, see motors.ts. */
 function wired(machine: MachineProfile, x: number, y: number): readonly [number, number] {
   const u = machine.flipX ? -x : x;
   const v = machine.flipY ? -y : y;
   return machine.swapAxes ? [v, u] : [u, v];
 }
 
-/** A measurement further off than this factor is a mistake or a wrong microstep mode, not a scale error. */
+/** A measurement that is wrong by more than this factor is a mistake or a wrong microstep mode, not a scale error. */
 const MAX_SCALE = 20;
 
 /**
- * The steps per mm that make a square come out at its true size.
+ * The steps per mm with which a square has its true size.
  *
- * @param drawnMm what the square should have measured
+ * @param drawnMm the intended side of the square
  * @param measuredXMm, measuredYMm the measured sides; the mean is used, because both axes share one figure
  * @throws PlotwrightError "bad-setting" for impossible measurements
  */

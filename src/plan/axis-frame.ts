@@ -6,9 +6,9 @@
  *
  *   |a'| ≤ A   means   (ax/Ax)² + (ay/Ay)² ≤ 1        so |ax| ≤ Ax, |ay| ≤ Ay, |a| ≤ A
  *
- * Straight lines stay straight, and every rule for corners, merging and filters holds there as it is. What is
- * within δ of the line in the frame is within δ of it on paper, since the frame is nowhere shorter. Limits of
- * speed are the machine's, converted for each direction (`capSegments`).
+ * Straight lines stay straight, so corners, merging and filters need no change. A point within δ of the line in
+ * the frame is also within δ on paper, because the frame never shortens a distance. Speed limits are the
+ * machine's, converted for each direction (`capSegments`).
  */
 import type { BlockColumns } from "./block-columns.js";
 import type { RunLimits } from "./limits.js";
@@ -26,7 +26,7 @@ export class AxisFrame {
     this.path = path;
     this.stretchX = stretchX;
     this.stretchY = stretchY;
-    stretched.beLike(path);
+    stretched.copyLayout(path);
     stretched.startAlong = 0;
     for (let i = 0; i <= path.segmentCount; i++) {
       stretched.x[i] = path.x[i] * stretchX;
@@ -36,7 +36,7 @@ export class AxisFrame {
     return stretched;
   }
 
-  /** Brings the blocks from `first` on, planned on that path, back to the machine's frame. */
+  /** Converts the blocks from `first` on, planned on the path of the last `of`, to the machine's frame. */
   restore(blocks: BlockColumns, first: number): void {
     const { path, stretched, stretchX, stretchY } = this;
     if (path === null) return;

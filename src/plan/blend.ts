@@ -3,8 +3,8 @@
  * motion under one constant acceleration vector, and also exactly one command to the board. Velocity is
  * continuous, the acceleration vector obeys |a| ≤ A, |v| ≤ V, and the path stays within δ of the drawing.
  *
- * Source: parabolic blends as in Oquam and in Romi's planners. The two passes over entry and exit speeds are
- * our own; they let the pen change its speed inside dense curves too.
+ * Source: parabolic blends as in Oquam and in Romi's planners. They use one speed per corner. Here each corner
+ * has an entry and an exit speed, so the pen can change its speed inside dense curves too.
  *
  *               u1 /      φ       turn angle; s = sin(φ/2)
  *                 /       L       longest tangent: min(2 room / s, half the shorter segment), mm
@@ -39,11 +39,11 @@ import { newStraight, writeStraight } from "./trapezoid.js";
 /** Below this sin(φ/2) the path is straight and there is nothing to round. */
 const STRAIGHT = 1e-12;
 
-/** Above this sin(φ/2) a curve is only as long as A requires: speed dips to cos(φ/2) in its middle. */
+/** Above this sin(φ/2) a curve is only as long as A requires, because speed falls to v cos(φ/2) in its middle. */
 const SHARP = 0.35;
 
-/** A straight piece shorter than this, in mm, is a rounding error between two curves. */
-const NO_PIECE = 1e-10;
+/** A shorter straight between two curves is a rounding error, mm. */
+const SHORTEST_STRAIGHT_MM = 1e-10;
 
 export class BlendPlanner {
   private readonly line = new SoftLine();
@@ -132,13 +132,12 @@ export class BlendPlanner {
       const v1 = vIn[i + 1];
       const after = vOut[i + 1];
       const perMm = drawn[i] / length[i];
-      // Half the duration of the corner's curve: q/2A. Where the speed is constant from the previous corner
-      // to the next, a longer and softer curve takes no more time, so use the full tangent; not for sharp
-      // corners.
+      // Half the duration of the corner's curve: q/2A. At constant speed a longer, softer curve takes no more
+      // time, so use the full tangent. Sharp corners are excluded: speed would fall in the middle.
       const isSteady = v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1;
       const tau = isSteady && sine[i + 1] < SHARP ? tangent[i + 1] / v1 : change[i + 1] / (2 * accel);
       const rest = length[i] - used - v1 * tau;
-      if (rest > NO_PIECE) {
+      if (rest > SHORTEST_STRAIGHT_MM) {
         straight.x = x[i] + ux[i] * used;
         straight.y = y[i] + uy[i] * used;
         straight.ux = ux[i]!;

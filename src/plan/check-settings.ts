@@ -72,7 +72,7 @@ const MOTION_NAMES = [
   "layers",
 ];
 
-/** @throws PlotwrightError "bad-setting" for settings that are not there, or that have other names */
+/** @throws PlotwrightError "bad-setting" for missing settings and unknown names */
 export function checkSettingNames(motion: MotionSettings, pen: PenSettings): void {
   checkNames("motion", motion, MOTION_NAMES);
   for (const name of ["mode", "draw", "travel"] as const) {
@@ -91,14 +91,16 @@ function checkShaper({ shaper = "none", mode }: MotionSettings, machine: Machine
   if (shaper === "none") return;
   if (!machine?.springs) {
     throw bad(
-      `shaper ${shaper} needs to know how the machine swings, and ${machine?.name ?? "no machine"} was not measured: ` +
+      `shaper ${shaper} needs the measured swing of the machine, but ` +
+        `${machine ? `machine "${machine.name}" was not measured` : "no machine is given"}: ` +
         "plot the ringing sheet, or choose shaper none",
     );
   }
   checkNumbers(`machine "${machine.name}"`, SPRINGS_TABLE, machine.springs);
   if (mode === "scurve") {
     throw bad(
-      `shaper ${shaper} and mode scurve are two filters for one motion: choose mode blend, or shaper none`,
+      `shaper ${shaper} cannot be combined with mode scurve, since both filter the motion: ` +
+        "choose mode blend, or shaper none",
     );
   }
 }

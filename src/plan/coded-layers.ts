@@ -1,6 +1,6 @@
 /**
- * Codes in layer names as settings: a code in a layer's name applies to that layer, unless the settings
- * already set the same value for it.
+ * Converts codes in layer names to settings of those layers. A value that the settings already have for a layer
+ * overrides its code.
  *
  *   +h40   pen-down height 40 %            ignored unless it is below the up height
  *   +s25   pen-down speed, percent         on the AxiDraw scale: 110 is 8.6979 inches per second

@@ -7,9 +7,9 @@
  *         +---------+----> s
  *
  * The centripetal acceleration κ v² and the braking share the limit A (the friction circle of vehicle
- * dynamics). While κ is constant, with u = κ v²/A the solution is u(s) = sin(asin u₀ − 2 κ s): a carriage
- * that goes round a circle at the highest possible speed stops within an eighth of it. For κ = 0 it is v² =
- * v₀² − 2 A s. Speed never exceeds the plan's, so no corner is taken faster than planned.
+ * dynamics). For constant κ, with u = κ v²/A, the solution is u(s) = sin(asin u₀ − 2 κ s): a carriage on a
+ * circle at the highest possible speed stops within an eighth of it. For κ = 0 it is v² = v₀² − 2 A s. Speed
+ * never exceeds the plan's, so no corner is taken faster than planned.
  *
  * Every piece spans a few ms or half a degree of the plan, with v² linear in s. That is exact on straight
  * blocks; on curved ones the error is a fraction of a micrometre.
@@ -69,12 +69,11 @@ export function comeToRest(
   pen: PenSettings | null,
 ): RestPlan {
   const state = stateAt(trajectory, tS);
-  // A pen that comes down on the way to a stroke lifts at once. It may have touched the paper all the same, so the
-  // carriage goes on to the stroke's start.
+  // A pen on its way down to a stroke lifts at once. It may have touched the paper already, so the carriage still
+  // moves on to the stroke's start.
   const isLowering = !state.penUp && state.stroke < 0;
   const accel = isLowering ? NO_BRAKING : state.penUp ? limits.travelAccel : limits.drawAccel;
-  // A drop that the plan has for later than the stop is not given any more. A pen that is up only for a short travel
-  // goes to its full height.
+  // Drops planned for after the stop are not sent. A pen that was lifted only for a short travel goes to full height.
   const isUp = isPenUpBefore(trajectory, tS) && !(pen && (liftedTo(trajectory, tS) ?? 100) < pen.upPct);
   const lift: Lift | null = isUp || !pen ? null : { pen, atOnce: isLowering };
   if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, lift);
@@ -93,7 +92,7 @@ interface Lift {
 }
 
 /**
- * The planned motion brakes, and the shaper makes the carriage's motion of it.
+ * Brakes the planned motion; the shaper then turns it into the carriage's motion.
  *
  * @param lift null: the pen is up
  */
@@ -116,7 +115,7 @@ function shapedRest(
   if (speed2 > REST_SPEED * REST_SPEED) stopS = slowDown(planned, tS, speed2, accel, pieces);
   const end = stateAt(planned, stopS);
   const rest = shapeRest(planned, run, kernel, tS, state, pieces, end);
-  // At the very start of a run nothing moves yet.
+  // At the start of a run nothing moves yet.
   if (rest.shaped.count === 0) return finish(pieces, end, tS, -1, lift);
   const planS = stopS < plannedEndS - SHORTEST_PIECE_S ? stopS + kernel.meanDelayS : runEndS;
   return finish(rest.shaped, end, planS, state.stroke, lift, { rest: rest.planned, kernel });
@@ -181,7 +180,7 @@ class Brake {
   }
 }
 
-/** The end of a piece that starts at `t` in block `k`, short enough that the path turns by little. */
+/** The end of a piece that starts at `t` in block `k`; within a piece the path turns by at most PIECE_TURN. */
 function pieceEnd(trajectory: Trajectory, k: number, t: number): number {
   const from = blockState(trajectory, k, t, newMotionState());
   const leftS = trajectory.durationS[k] - t;

@@ -1,5 +1,5 @@
 /**
- * Entry and exit speed of one corner's curve: the highest that the path before and after it allow.
+ * The highest entry and exit speed of one corner's curve that the path before and after it allows.
  *
  *   s = sin(φ/2)     φ the turn angle
  *   L       mm       longest tangent on either side           A  mm/s²
@@ -13,8 +13,8 @@
  *     v0² + v0 q ≤ F      F  the speed² reached by accelerating all the way to the vertex
  *     v1² + v1 q ≤ B      B  the same for braking, computed backwards
  *
- * and the corner hands v1² − v1 q to the next straight (forwards) and v0² − v0 q to the previous one
- * (backwards).
+ * The next straight then starts at speed² v1² − v1 q, measured at the vertex; the previous one, computed
+ * backwards, at v0² − v0 q.
  *
  * For a given q the highest speeds are min(maxSpeed, 2 A L/q, root of v² + v q = F or B). They fall as q
  * rises, so the fastest corner has the smallest q for which the velocity change is at most q:
@@ -95,7 +95,7 @@ export class CornerSpeeds {
       used = q;
       const turned = Math.sqrt((v0 - v1) * (v0 - v1) + 4 * s * s * v0 * v1);
       const excess = turned - q;
-      if (Math.abs(excess) <= SAME * maxSpeed) break;
+      if (Math.abs(excess) <= ROUNDING * maxSpeed) break;
       if (excess > 0) low = q;
       else high = q;
       const isSlow = Math.abs(excess) > before / 2;
@@ -109,15 +109,18 @@ export class CornerSpeeds {
   }
 }
 
-/** Relative differences below this are rounding errors. */
-const SAME = 2e-15;
+/** Relative differences of speed below this are rounding errors. */
+const ROUNDING = 2e-15;
 
 /**
- * A first estimate of q for a corner that is limited on one side only. That side has the root v of v² + v q =
- * E. The other side has the speed that its tangent allows, w = R/q with R = 2 A L, or else the speed limit, w
- * = m. With cos φ = c the velocity change is q² = v² + w² − 2 c v w. Both equations give v = (E + w² − q²)/(q
- * + 2 c w). Inserting that in the first one gives a cubic: in z = q²/R with b = E/R, or in y = q/m with b =
- * E/m².
+ * A first estimate of q for a corner that is limited on one side only.
+ *
+ *   v² + v q = E                      the limited side
+ *   w = R/q, R = 2 A L, or w = m      the other side: the speed that its tangent allows, or the speed limit
+ *   q² = v² + w² − 2 c v w            the velocity change, with c = cos φ
+ *
+ * The first and the last give v = (E + w² − q²)/(q + 2 c w). Inserted in the first, this gives a cubic: in
+ * z = q²/R with b = E/R, or in y = q/m with b = E/m².
  */
 function guess(E: number, m: number, R: number, c: number): number {
   let b = E / R;

@@ -16,12 +16,11 @@
  *     ------------·´ φ
  *
  * s and c come from |u1 − u0| = 2 s and |u1 + u0| = 2 c. This keeps full precision for the tiny turns of
- * dense curves, where 1 − cos φ would cancel. There is no trigonometry and no NaN: a straight line gives no
- * limit, a reversal a full stop.
+ * dense curves, where 1 − cos φ would cancel. A straight line has no limit; a reversal is a full stop.
  */
 import type { RunPath } from "./run-path.js";
 
-/** Below this sin²(φ/2) a vertex counts as straight: any limit from it would be far above the speed limit. */
+/** Below this sin²(φ/2) a vertex counts as straight: its limit would be far above the speed limit. */
 const STRAIGHT = 1e-24;
 
 /** cos²(φ/2) of a turn of 1 rad: anything sharper is a corner, not a sample of a curve. */

@@ -3,9 +3,9 @@
  *
  *   u(t) = 1/w ∫ q over [t − w, t] = (Q(t) − Q(t − w)) / w        Q: the integral of q
  *
- * So it is a sum of two taps: copies of the integral, each delayed and weighted. If the input has constant
- * acceleration per block, u has constant jerk between any two instants at which a tap passes the end of a
- * block. So the output consists of blocks again, exactly. It is longer than the input by w.
+ * This is the sum of two taps: copies of the integral, each delayed and weighted. The input has constant
+ * acceleration per block. So u has constant jerk as long as neither tap passes the end of a block, and the output
+ * consists of blocks again, exactly. It is longer than the input by w.
  *
  * The output obeys every convex limit of the input: |v| ≤ V, |a| ≤ A. Its velocity is a difference of
  * positions, its acceleration (v(t) − v(t − w))/w, and its jerk (a(t) − a(t − w))/w, at most 2A/w.
@@ -31,8 +31,7 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
   const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
   const { alongMm } = from;
   const { rate, change } = alongRates(from, count);
-  // Position of each tap in the input: its block, the seconds since the start of that block, and the seconds
-  // left in it.
+  // Position of each tap in the input: its block, and the seconds since its start and until its end.
   const weight = [1 / widthS, -1 / widthS];
   const block = [0, count + 1];
   const since = [0, 0];
@@ -74,8 +73,7 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
       alongJ += w * change[k];
     }
     if (block[0] === block[1]) {
-      // Within a single block the mean is known exactly; rounding errors of differences would add up over a
-      // long block.
+      // Both taps are in one block, where the mean is known exactly. Differences would add up rounding errors.
       const k = block[0];
       const t = since[0] - widthS / 2;
       ax = pax[k]!;

@@ -1,19 +1,19 @@
 /**
- * The filter of input shapers (shapers.ts): the output is the planned motion q several times, each time later
- * and weighted. x and y have impulses of their own.
+ * The filter of input shapers (shapers.ts): the output is a sum of delayed, weighted copies of the planned
+ * motion q. Each axis has its own impulses.
  *
  *   u(t) = Σ Aᵢ q(t − tᵢ)      Σ Aᵢ = 1
  *
- * If q has constant acceleration per block, so has u between any two instants at which an impulse passes the
- * end of a block. So the output consists of blocks again, exactly. It is longer than the input by the delay
- * of the last impulse. With weights Aᵢ ≥ 0 each axis keeps the input's limits of speed and acceleration.
+ * q has constant acceleration per block. So u has constant acceleration as long as no copy passes the end of a
+ * block, and the output consists of blocks again, exactly. It is longer than the input by the delay of the last
+ * impulse. With weights Aᵢ ≥ 0 each axis keeps the input's limits of speed and acceleration.
  *
- * Method: each axis alone is a sequence of pieces of constant acceleration. A block ends wherever a piece of
- * either axis does.
+ * Method: each axis separately is a sequence of pieces of constant acceleration. An output block ends wherever a
+ * piece of either axis ends.
  */
 import type { BlockColumns } from "./block-columns.js";
 
-/** A copy of the motion of one axis. */
+/** One delayed, weighted copy of the motion of an axis. */
 export interface Impulse {
   readonly delayS: number;
   readonly weight: number;
@@ -51,7 +51,7 @@ const delayed = (impulses: readonly Impulse[], byS: number): readonly Impulse[] 
 /** Ends of blocks closer in time than this are treated as one, s. */
 const SAME_S = 1e-11;
 
-/** One coordinate of the output: the piece of constant acceleration that the walk has come to. */
+/** One coordinate of the output: its current piece of constant acceleration. */
 class Axis {
   /** When it begins and ends, s after the start of the input. */
   startS = 0;
@@ -62,7 +62,7 @@ class Axis {
   a = 0;
   private readonly delayS: Float64Array;
   private readonly weight: Float64Array;
-  /** For each impulse: the block that it is in, and when it leaves that. */
+  /** For each impulse: its current block, and when it leaves that block. */
   private readonly block: Int32Array;
   private readonly leavesS: Float64Array;
 
@@ -84,9 +84,7 @@ class Axis {
     this.endS = this.delayS[0]!;
   }
 
-  /**
-   * Goes to the next piece. Row `end` of the input's columns is the rest after its last block.
-   */
+  /** Goes to the next piece. Row `end` of the input's columns is the rest after the last block. */
   next(
     first: number,
     end: number,
@@ -139,7 +137,7 @@ export class ImpulseFilter {
    * Appends the filtered run to `out`, without rests at its beginning and end. The place along the drawing is
    * set later (shaped-along.ts).
    *
-   * @param from its blocks from `first` on are the run
+   * @param from the run is its blocks from `first` on
    * @param end where the run comes to rest
    * @returns how much later than the input the output begins to move, s
    */
@@ -169,7 +167,7 @@ export class ImpulseFilter {
       const sy = tS - y.startS;
       const vx = x.v + sx * x.a;
       const vy = y.v + sy * y.a;
-      // An axis whose impulses come later waits at the beginning.
+      // The axis whose first impulse is later rests at the beginning.
       if (out.count === firstOut && vx === 0 && vy === 0 && x.a === 0 && y.a === 0) beginS = nextS;
       else {
         const px = x.p + (sx * (x.v + vx)) / 2;

@@ -1,7 +1,7 @@
 /**
- * The line of least bending between bounds: how far to move each point of a polyline to its left.
+ * Finds the line with the least bending within bounds: how far to move each point of a polyline to the left.
  *
- *   y     mm     the points' offsets, low ≤ y ≤ high; fixed where low = high, which both ends must be
+ *   y     mm     offset of each point, low ≤ y ≤ high; fixed where low = high; both ends must be fixed
  *   φ     rad    the polyline's turn at each point, to the left
  *   ℓ     mm     lengths of its segments
  *
@@ -10,13 +10,13 @@
  *
  * Method: alternating directions (Boyd et al. 2011, section 5.2) with over-relaxation. Each round solves the
  * problem without bounds, a symmetric five-diagonal system whose factors stay the same, and then applies the
- * bounds. A few rounds are accurate enough, since between bounds distant points hardly affect each other.
- * Linear time; the result does not depend on the direction of the polyline.
+ * bounds. A few rounds are accurate enough, because distant points hardly affect each other. Linear time. The
+ * result does not depend on the direction of the polyline.
  */
 
 const ROUNDS = 4;
 /** Penalty weight of the bounds, as a share of the diagonal. */
-const BOUND = 0.3;
+const BOUND_WEIGHT = 0.3;
 const RELAXATION = 1.8;
 
 export class LeastBending {
@@ -36,7 +36,7 @@ export class LeastBending {
   private below2 = new Float64Array(0);
   /** The right-hand side, and the weight of the bounds; both 0 for a fixed point. */
   private right = new Float64Array(0);
-  private held = new Float64Array(0);
+  private boundWeight = new Float64Array(0);
   /** The half-solved system, and the values carried from one round to the next. */
   private halfway = new Float64Array(0);
   private carry = new Float64Array(0);
@@ -56,7 +56,7 @@ export class LeastBending {
     this.below1 = new Float64Array(size);
     this.below2 = new Float64Array(size);
     this.right = new Float64Array(size);
-    this.held = new Float64Array(size);
+    this.boundWeight = new Float64Array(size);
     this.halfway = new Float64Array(size);
     this.carry = new Float64Array(size);
   }
@@ -100,7 +100,7 @@ export class LeastBending {
   }
 
   private factor(n: number): void {
-    const { weight, bending, perLength, isFree, inverse, below1, below2, right, held } = this;
+    const { weight, bending, perLength, isFree, inverse, below1, below2, right, boundWeight } = this;
     // D times the first subdiagonal of L in the previous column, and the second one in the previous two.
     let first1 = 0;
     let second1 = 0;
@@ -109,7 +109,7 @@ export class LeastBending {
       let d = 1;
       let first = 0;
       let second = 0;
-      right[i] = held[i] = 0;
+      right[i] = boundWeight[i] = 0;
       if (isFree[i] === 1) {
         const a = perLength[i - 1];
         const c = perLength[i];
@@ -118,8 +118,8 @@ export class LeastBending {
         const after = weight[i + 1] * c;
         const diagonal = before * a + own * (a + c) + after * c;
         right[i] = bending[i] * (a + c) - bending[i - 1] * a - bending[i + 1] * c;
-        held[i] = BOUND * diagonal;
-        d = diagonal + held[i] - (i > 1 ? below2[i - 2] * second2 : 0) - below1[i - 1] * first1;
+        boundWeight[i] = BOUND_WEIGHT * diagonal;
+        d = diagonal + boundWeight[i] - (i > 1 ? below2[i - 2] * second2 : 0) - below1[i - 1] * first1;
         // The last point is fixed, so these read no segment beyond it.
         if (isFree[i + 1] === 1) first = -own * c - after * (c + perLength[i + 1]) - below1[i - 1] * second1;
         if (i + 2 < n && isFree[i + 2] === 1) second = after * perLength[i + 1];
@@ -147,11 +147,11 @@ export class LeastBending {
   }
 
   /**
-   * Backward substitution, then clamps each point to its bounds: y is the over-relaxed solution plus
-   * everything clamped off before (the dual variable). Afterwards `halfway` holds the next right-hand side.
+   * Substitutes backward, then clamps each point to its bounds. y is the over-relaxed solution plus the sum of what
+   * earlier rounds clamped off (the dual variable). Afterwards `halfway` holds the next right-hand side.
    */
   private substituteBackward(n: number): void {
-    const { y, low, high, inverse, below1, below2, right, held, halfway, carry } = this;
+    const { y, low, high, inverse, below1, below2, right, boundWeight, halfway, carry } = this;
     let x1 = 0;
     let x2 = 0;
     for (let i = n - 1; i > 0; i--) {
@@ -161,7 +161,7 @@ export class LeastBending {
       const free = RELAXATION * x + carry[i];
       y[i] = Math.min(high[i], Math.max(low[i], free));
       carry[i] = free - RELAXATION * y[i];
-      halfway[i] = right[i] + held[i] * (2 * y[i] - free);
+      halfway[i] = right[i] + boundWeight[i] * (2 * y[i] - free);
     }
   }
 }

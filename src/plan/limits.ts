@@ -15,9 +15,9 @@ export interface RunLimits {
   readonly speedX: number;
   readonly speedY: number;
   /**
-   * The frame in which runs are planned is stretched by these: there |a| ≤ `accel` is the limit of both axes. 1
-   * unless an axis has a limit of its own (axis-frame.ts). `speed`, `speedX`, `speedY` and `motorSpeed` are the
-   * machine's.
+   * Stretch of the frame in which runs are planned, so that |a| ≤ `accel` is the limit of both axes there; 1
+   * unless an axis has its own limit (axis-frame.ts). `speed`, `speedX`, `speedY` and `motorSpeed` are in the
+   * machine's frame.
    */
   readonly stretchX: number;
   readonly stretchY: number;
@@ -51,7 +51,7 @@ const STEP_RATE_SHARE = 0.98;
 /**
  * On a mixed machine (H-bot, CoreXY) each motor moves |x ± y|: up to √2 times the carriage's acceleration.
  * The motor's acceleration limit therefore holds in every direction if A ≤ limit/√2. Its speed limit is
- * applied per direction in `capSegments`. A shaped motion keeps A in each axis, so the motor may get 2 A.
+ * applied per direction in `capSegments`. Shaping keeps A only in each axis separately, so a motor may get 2 A.
  */
 export function runLimits(
   limits: MotionLimits,
@@ -81,13 +81,13 @@ export function runLimits(
   };
 }
 
-/** For a stroke that is drawn at a share of its layer's speed. */
+/** The limits of a stroke drawn at `factor` times its layer's speed. */
 export const slower = (limits: RunLimits, factor: number): RunLimits =>
   factor === 1 ? limits : { ...limits, speed: limits.speed * factor };
 
 /**
- * The limits for planning a line that is then shaped. Its shaped motion keeps V in each axis, so on a mixed machine a
- * motor may get 2 V. A straight keeps its direction, and with it the limit of `capSegments`.
+ * The limits for planning a line that is then shaped. Shaping keeps V only in each axis separately, so on a mixed
+ * machine a motor may get 2 V. A straight keeps its direction, so there the limit of `capSegments` is enough.
  */
 export const shapedLimits = (path: RunPath, limits: RunLimits): RunLimits =>
   limits.mixed && path.segmentCount > 1
@@ -117,15 +117,15 @@ export const accelEverywhere = (motion: MotionSettings, accel: number): number =
 export const isStretched = ({ stretchX, stretchY }: RunLimits): boolean => stretchX !== 1 || stretchY !== 1;
 
 /**
- * Whether V holds in every direction: the frame is not stretched, no axis is slower, and no motor. In the worst
- * direction a motor runs at √2 (mixed) or 1 (direct) times the carriage's speed.
+ * Whether V is allowed in every direction: the frame is not stretched, and no axis or motor is slower. In the
+ * worst direction a motor runs at √2 (mixed) or 1 (direct) times the carriage's speed.
  */
 const isSameEverywhere = (limits: RunLimits): boolean =>
   !isStretched(limits) &&
   limits.speed <= Math.min(limits.speedX, limits.speedY) &&
   limits.speed <= limits.motorSpeed / (limits.mixed ? Math.SQRT2 : 1);
 
-/** Whether each axis and the motors can reach (vx, vy) of the machine, with the slack of a merged block. */
+/** Whether the axes and motors can reach velocity (vx, vy) in the machine frame, with the slack of a merged block. */
 export function canReach({ speedX, speedY, motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
   const ax = Math.abs(vx);
   const ay = Math.abs(vy);

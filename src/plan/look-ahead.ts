@@ -2,9 +2,8 @@
  * Exact look-ahead: the highest speeds at the vertices under |a| ≤ A along the path.
  *
  * Method: v² changes by at most 2 A ℓ over a segment of length ℓ. A backward pass lowers each vertex so that
- * the pen can brake for what follows; a forward pass lowers it to what the pen can reach. Each limit is
- * lowered only as far as every feasible profile must lower it, so no feasible profile is faster anywhere.
- * Linear, no backtracking.
+ * the pen can brake for what follows. A forward pass lowers it to what the pen can reach. Both lower a limit only
+ * as far as necessary, so no other allowed profile is faster anywhere. Linear, no backtracking.
  *
  *   v2   in: max speed² at each vertex, (mm/s)²; out: the planned speed²
  *

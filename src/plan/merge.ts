@@ -17,9 +17,8 @@
  * At each block, start with a group about as long as the previous one. The group grows until it fails, or
  * shrinks until it passes (greedy, no backtracking). Linear in the number of blocks.
  *
- * A pair may take a little longer than its blocks (STRETCH). A pair's motion oscillates slightly around the
- * mean, and an arc drawn at V or at A leaves no room for that: without extra time there would be few pairs on
- * curves.
+ * A pair may take slightly longer than its blocks (STRETCH). Its velocity oscillates slightly around that of an
+ * arc, so on an arc drawn at V or A almost no pair would be allowed without extra time.
  */
 import type { BlockColumns } from "./block-columns.js";
 import { canReach, SLACK, type RunLimits } from "./limits.js";
@@ -45,7 +44,7 @@ export interface MergeRules {
   readonly toleranceMm: number;
   /** ε of pairs shorter than SHORT_S, mm. */
   readonly shortToleranceMm: number;
-  /** s. */
+  /** Blocks shorter than this should be merged, s. */
   readonly floorS: number;
   /** False if a pair must match the plan at equal times: velocity jumps at vertices, or the motion is shaped. */
   readonly isSmooth: boolean;
@@ -54,8 +53,8 @@ export interface MergeRules {
 }
 
 /**
- * For the blocks of a shaped motion: a jolt of the size of the tolerance swings too, unless it is too short for
- * the gantry to follow. The floor is above the 5 ms that a command may take the board.
+ * For the blocks of a shaped motion. The tolerance is small, because a deviation excites the swing again unless it
+ * is too short for the gantry to follow. The floor is above the 5 ms that a command may take the board.
  */
 export const SHAPED_RULES: MergeRules = {
   toleranceMm: 0.005,
@@ -117,8 +116,8 @@ export function mergeBlocks(
 const MIN_GROUP = 3;
 
 /**
- * Sets `pair` to the longest one starting at block i that is found by growing or shrinking from `guess`; false
- * if there is none. `trial` is for use here.
+ * Grows or shrinks a group that begins at block i, and first ends at `guess`. Sets `pair` to the longest one found;
+ * false if there is none. `trial` is a temporary.
  */
 function findLongest(
   blocks: BlockColumns,
@@ -218,8 +217,8 @@ function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floo
  * line between its end values by at most |e″| d²/8.
  *
  * Being early or late along the line is allowed, since only the drawn line matters. An offset of s mm along
- * the line counts as A s²/v²: twice the max deviation of a line drawn at v under A (it may be drawn slower
- * nearby).
+ * the line counts as A s²/v²: twice the max deviation of a line drawn at v under A, because the line may be drawn
+ * slower nearby.
  */
 function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, rules: MergeRules): boolean {
   const { durationS, startS, x, y, vx, vy, ax, ay } = blocks;
@@ -250,11 +249,12 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
     const dx = isFirst ? x0 + u * (vx0 + (u * a1x) / 2) - x[k] : x1 + u * (vx1 + (u * a2x) / 2) - x[k];
     const dy = isFirst ? y0 + u * (vy0 + (u * a1y) / 2) - y[k] : y1 + u * (vy1 + (u * a2y) / 2) - y[k];
     // In the block that contains the pair's middle, use the half whose acceleration differs more.
-    const hasKnot = isFirst && t + d > halfS;
-    const isMoreLater = hasKnot && lengthOf(a2x - ax[k], a2y - ay[k]) > lengthOf(a1x - ax[k], a1y - ay[k]);
-    const countsFirst = isFirst && !isMoreLater;
-    const ex = (((countsFirst ? a1x : a2x) - ax[k]) * d * d) / 8;
-    const ey = (((countsFirst ? a1y : a2y) - ay[k]) * d * d) / 8;
+    const hasMiddle = isFirst && t + d > halfS;
+    const isSecondWorse =
+      hasMiddle && lengthOf(a2x - ax[k], a2y - ay[k]) > lengthOf(a1x - ax[k], a1y - ay[k]);
+    const usesFirst = isFirst && !isSecondWorse;
+    const ex = (((usesFirst ? a1x : a2x) - ax[k]) * d * d) / 8;
+    const ey = (((usesFirst ? a1y : a2y) - ay[k]) * d * d) / 8;
     const rest = tolerance - Math.abs(ex) - Math.abs(ey);
     if (rest > 0 && dx * dx + dy * dy <= rest * rest) continue;
     const ux = vx[k];

@@ -1,4 +1,4 @@
-/** How far beside the drawing the pen of a swinging machine would be (spring-pen.ts), while it draws. */
+/** The deviation of the drawn line from the drawing on a machine that swings (model: spring-pen.ts). */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { Springs } from "../machines/profile.js";
 import { swingPen, type PenPoint } from "./spring-pen.js";
@@ -6,19 +6,19 @@ import type { Trajectory } from "./trajectory.js";
 
 export interface PenError {
   readonly maxMm: number;
-  /** 99 % of the drawing time the pen is nearer than this. */
+  /** The 99th percentile over the drawing time. */
   readonly p99Mm: number;
   readonly rmsMm: number;
 }
 
 const STEP_S = 0.001;
-/** The line is searched this far before and after the place where the pen should be, mm. */
+/** The line is searched this far before and after the pen's nominal position, mm. */
 const NEAR_MM = 2;
-/** Width of the classes that are counted for the percentile, mm, and their number. */
-const CLASS_MM = 0.001;
-const CLASSES = 5_000;
+/** Width and number of the histogram bins for the percentile. */
+const BIN_MM = 0.001;
+const BINS = 5_000;
 
-/** `see` is called for each place of the pen, about every ms; `mm` is its distance from the drawing, 0 with the pen up. */
+/** Calls `see` about every ms with the pen's position and its distance from the drawing, mm (0 with the pen up). */
 export function penError(
   strokes: StrokeSet,
   trajectory: Trajectory,
@@ -26,7 +26,7 @@ export function penError(
   see: (pen: PenPoint, mm: number) => void = () => undefined,
 ): PenError {
   const line = new NearLine(strokes);
-  const secondsIn = new Float64Array(CLASSES);
+  const secondsIn = new Float64Array(BINS);
   let maxMm = 0;
   let squares = 0;
   let seconds = 0;
@@ -41,16 +41,16 @@ export function penError(
     maxMm = Math.max(maxMm, mm);
     squares += dt * mm * mm;
     seconds += dt;
-    secondsIn[Math.min(CLASSES - 1, Math.floor(mm / CLASS_MM))] += dt;
+    secondsIn[Math.min(BINS - 1, Math.floor(mm / BIN_MM))] += dt;
   });
   if (seconds === 0) return { maxMm: 0, p99Mm: 0, rmsMm: 0 };
   let left = seconds / 100;
-  let top = CLASSES - 1;
+  let top = BINS - 1;
   while (top > 0 && left >= secondsIn[top]) left -= secondsIn[top--];
-  return { maxMm, p99Mm: (top + 1) * CLASS_MM, rmsMm: Math.sqrt(squares / seconds) };
+  return { maxMm, p99Mm: (top + 1) * BIN_MM, rmsMm: Math.sqrt(squares / seconds) };
 }
 
-/** Distances from the drawing near a place on it. */
+/** Distances of points from the part of a stroke around a given place. Places are asked for in drawing order. */
 class NearLine {
   private stroke = -1;
   private point = 0;
@@ -66,7 +66,7 @@ class NearLine {
       this.point = first;
       this.startMm = 0;
     }
-    // On to the segment in which the search begins.
+    // Skip to the segment in which the search begins.
     while (this.point + 1 < last) {
       const length = this.lengthOf(this.point);
       if (this.startMm + length >= alongMm - NEAR_MM) break;

@@ -1,32 +1,34 @@
 /**
- * A pen in flight: the part of its way for which the carriage need not wait, because the tip is clear of the paper.
+ * Pen moves during travel: the carriage does not wait while the tip is clear of the paper.
  *
  *   height ^  full           /‾‾‾‾‾‾‾\               only for long travels
  *          |  hop       ____/_________\____          contact height and a margin: what a short travel needs
- *          |  contact  /                   \         below it the tip may touch the paper
+ *          |  contact  /                   \         below this the tip may touch the paper
  *          |  down  __/                     \____
  *          +---------|---------------------|----> time
  *             carriage starts        carriage arrives
  *
- * The servo needs the lift and drop times for the whole way between the down and up heights, and moves evenly. It moves
- * in frames: it starts up to one frame after the command. The carriage counts as arrived within `NEAR_MM` of the stroke.
+ * The lift and drop times are for the full distance between the down and up heights; the servo's speed is constant. The
+ * servo reads its pulse once per frame, so it starts up to one frame after the command. The carriage counts as arrived
+ * within `NEAR_MM` of the stroke.
  *
- * A shaped travel is a weighted mean of copies of the planned one, the last of which ends with it. So it is never farther
- * from the stroke than the planned one is at the same time before its end, and needs no rule of its own.
+ * A shaped travel is a weighted mean of copies of the planned one. The last copy ends with the shaped travel, the others
+ * earlier. So the shaped travel is never farther from the stroke than the planned one at the same time before its end,
+ * and the same rules are safe for both.
  *
- * "safe" trusts the tip to be clear at the hop height only; "fast" at the contact height itself.
+ * With "safe" the tip counts as clear at the hop height, with "fast" already at the contact height.
  */
 import type { PenSettings } from "../settings/pen.js";
 import { liftTiming, penOfLayer } from "./pen-times.js";
 
-/** A frame of the servo's pulses. */
+/** Interval of the servo's pulses. */
 const FRAME_S = 0.024;
-/** What the hop height is above the contact height, percent of the way from down to up. */
+/** Hop height above the contact height, percent of the distance from down to up. */
 const MARGIN_PCT = 15;
-/** A tip that touches this near to a stroke's start leaves no mark to be seen. */
+/** A tip that touches this near to a stroke's start leaves no visible mark. */
 const NEAR_MM = 0.1;
 
-/** A lift that has begun. */
+/** The timing of a lift. */
 export interface Lift {
   readonly heightPct: number;
   /** How long the carriage waits for it. */
@@ -35,7 +37,7 @@ export interface Lift {
   readonly moveS: number;
 }
 
-/** The travel between a lift and a drop, s. */
+/** The travel between a lift and a drop. Times in s. */
 export interface Approach {
   readonly startS: number;
   readonly endS: number;
@@ -44,14 +46,14 @@ export interface Approach {
 }
 
 export interface Lowering {
-  /** When the pen goes down to the hop height; null if it is not above. */
+  /** When the pen is lowered to the hop height; null if it is not above it. */
   readonly hoverS: number | null;
   readonly dropS: number;
   /** When it is down. */
   readonly downS: number;
 }
 
-/** A pen with its own lift rate lifts as gently as that says, and the carriage waits for it. */
+/** A pen with a lift rate is lifted slowly on purpose, so the carriage waits for it. */
 export const liftsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off" && !pen.liftPctPerS;
 export const dropsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off" && !pen.dropPctPerS;
 
@@ -87,7 +89,7 @@ export function lowerDuring(
   let fromPct = topPct;
   let dropS = nearS - Math.max(0, topPct - clearPct) / down;
   if (dropS < firstFrameS + (topPct - pen.downPct) / up) {
-    // It turns back on its way up: t + (down + up rate (t − first frame) − clear) / down rate = near.
+    // The pen turns back before it reaches the top: t + (down + up rate (t − first frame) − clear) / down rate = near.
     dropS = (down * nearS + clearPct - pen.downPct + up * firstFrameS) / (down + up);
     fromPct = Math.max(clearPct, pen.downPct + up * (dropS - firstFrameS));
   }
@@ -102,7 +104,7 @@ export function lowerDuring(
   return { hoverS, dropS, downS: endS + waitS };
 }
 
-/** The carriage is at most this far from the stroke when the drop is given, mm; 0 if it waits for the whole drop. */
+/** Max distance of the carriage from the stroke when the drop begins, mm; 0 if it waits for the whole drop. */
 export function landingMm(pen: PenSettings, accel: number): number {
   const layers = Object.keys(pen.layers ?? {}).map((id) => penOfLayer(pen, id));
   return Math.max(...[pen, ...layers].map((one) => (dropsInFlight(one) ? landingOf(one, accel) : 0)));
@@ -114,16 +116,16 @@ function landingOf(pen: PenSettings, accel: number): number {
   return (accel * beforeEndS * beforeEndS) / 2;
 }
 
-/** A board waits for whole milliseconds. So must the plan: half a millisecond for each stroke adds up to seconds. */
+/** A board waits for whole milliseconds, so the plan does too: half a millisecond per stroke would add up to seconds. */
 const wholeMs = (s: number): number => Math.max(0, Math.ceil(1_000 * s - 1e-6)) / 1_000;
 
-/** Braking from `NEAR_MM` to rest takes this long, s. */
+/** Time to brake over the last `NEAR_MM`, s. */
 const nearTime = (accel: number): number => Math.sqrt((2 * NEAR_MM) / accel);
 
-/** At this height the tip is clear of the paper, whatever the servo: percent of its range. */
+/** At this height the tip is clear of the paper, with a margin for the servo's errors; percent of the servo's range. */
 const hopHeight = (pen: PenSettings): number => atShare(pen, pen.contactPct + MARGIN_PCT);
 
-/** From this height on the planner takes the tip to be clear. */
+/** From this height on the planner treats the tip as clear of the paper. */
 const clearHeight = (pen: PenSettings): number =>
   pen.overlap === "safe" ? hopHeight(pen) : atShare(pen, pen.contactPct);
 

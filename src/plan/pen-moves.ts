@@ -1,4 +1,4 @@
-/** A plan's pen moves: stored in columns, and read as objects where there are few. */
+/** A plan's pen moves: stored in columns, read as objects. */
 import type { PenMove, PenMoveColumns } from "./trajectory.js";
 
 export class PenMoveWriter implements PenMoveColumns {

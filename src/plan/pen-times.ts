@@ -1,5 +1,5 @@
 /**
- * The time of whole pen moves, for which the carriage waits. What it need not wait for: pen-flight.ts.
+ * Durations of whole pen moves. pen-flight.ts has the part for which the carriage need not wait.
  *
  *   lift time = delay + distance / rate     distance: between the down and up heights, % of the servo's range
  */
@@ -32,7 +32,7 @@ export function dropTiming(pen: PenSettings, fromPct: number): PenTiming {
   return { heightPct: pen.downPct, waitS: moveTime(pen, fromPct, pen.dropMs, pen.dropPctPerS) };
 }
 
-/** The servo's last pulse frame, plus settling. */
+/** The servo's last pulse interval, plus settling. */
 const RESEAT_S = 0.06;
 
 /** The wait for a pen that is already down to change its height by `byPct`, at the drop rate of `pen`. */

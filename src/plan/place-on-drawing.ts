@@ -11,7 +11,7 @@ export function movedPlace(
   const last = strokes.offsets.length - 2;
   let { stroke, alongMm } = place;
   if (by.strokes) {
-    // Back from the middle of a stroke means to its beginning first.
+    // The first step back from the middle of a stroke goes to its beginning.
     const back = by.strokes < 0 && alongMm > 0 ? 1 : 0;
     stroke = Math.min(last, Math.max(0, stroke + by.strokes + back));
     alongMm = 0;
@@ -59,10 +59,12 @@ interface Moving {
 }
 
 /**
- * The place on the same stroke that is nearest to a point: mm along the plan and mm along the drawing differ slightly
- * where the plan rounds a corner. The search follows the stroke as long as it comes nearer, up to `withinMm`, because the
- * other side of a narrow tip may be nearer but is another place. If the stroke runs against `vx`, `vy` there, the pen is
- * not on it, and the result is the given place.
+ * Corrects a place to the point of the same stroke that is nearest to (x, y). This is needed because mm along the plan
+ * and mm along the drawing differ slightly where the plan rounds a corner.
+ *
+ * The search follows the stroke while the distance falls, at most `withinMm`. A search over the whole stroke could find
+ * the other side of a narrow tip. If the stroke runs against (vx, vy) at the result, that is the wrong side too, and the
+ * given place is returned.
  */
 export function snappedPlace(
   { xy, offsets }: StrokeSet,

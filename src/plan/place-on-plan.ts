@@ -1,10 +1,10 @@
-/** Which place of the drawing a plan is at, by its time. */
+/** The place in the drawing at a given time of a plan. */
 import { stateAt, type Place, type Trajectory } from "./trajectory.js";
 
-/** Rounding between a command's plan time and the trajectory's. */
+/** Rounding difference between a command's plan time and the trajectory's. */
 const SAME_TIME_S = 1e-7;
 
-/** The first place that is still to be drawn at `planS`, when the carriage rests there; null when none is. */
+/** The first place still to be drawn at `planS`, where the carriage is at rest; null if everything is drawn. */
 export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
   const { runs } = trajectory;
   for (let run = 0; run < runs.count; run++) {
@@ -16,7 +16,7 @@ export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
   return null;
 }
 
-/** The place at `planS` where a stroke is being drawn, else the next one to be drawn. */
+/** The place being drawn at `planS`; between strokes, the next one to be drawn. */
 export function placeAt(trajectory: Trajectory, planS: number): Place | null {
   const state = stateAt(trajectory, planS);
   return state.stroke >= 0 ? { stroke: state.stroke, alongMm: state.alongMm } : nextPlace(trajectory, planS);

@@ -1,5 +1,5 @@
 /**
- * Strokes to motion: the sequence of runs and pen moves. The motion mode decides how each run moves.
+ * Plans strokes as a sequence of runs and pen moves. The motion mode decides how each run moves.
  *
  *   travel | drop | draw stroke 0 | lift | travel | drop | draw stroke 1 | lift | travel home
  *
@@ -82,7 +82,7 @@ export function plan(
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;
   const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, runs);
-  if (options.liftFirst ?? false) builder.liftAnyway();
+  if (options.liftFirst ?? false) builder.liftFirst();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
     if (stroke === from.stroke) builder.draw(stroke, from.alongMm, penBesideMm);
@@ -145,7 +145,7 @@ class PlanBuilder {
   private pen: PenSettings;
   private penUp = true;
   private heightPct: number;
-  /** When the last lift of this plan began, s; null: none, and how high the pen really is may not be known. */
+  /** When the last lift of this plan began, s; null: none yet, so the pen's real height may be unknown. */
   private liftS: number | null = null;
   private lastLayer = -1;
 
@@ -195,7 +195,7 @@ class PlanBuilder {
     if (fromAlong > 0 && path.segmentCount === 0) return;
     const layer = strokes.layer[stroke];
     const place = Math.hypot(path.x[0] - this.x, path.y[0] - this.y);
-    if (fromAlong > 0 && place >= SHORTEST_MM && place < penBesideMm) path.comeFrom(this.x, this.y);
+    if (fromAlong > 0 && place >= SHORTEST_MM && place < penBesideMm) path.prependPoint(this.x, this.y);
     const x = path.x[0];
     const y = path.y[0];
     const gap = Math.hypot(x - this.x, y - this.y);
@@ -232,7 +232,7 @@ class PlanBuilder {
     this.movePen(true, liftBefore(this.pen, travelMm));
   }
 
-  liftAnyway(): void {
+  liftFirst(): void {
     const { heightPct, waitS } = liftTiming(this.pen, this.heightPct);
     this.movePen(true, { heightPct, waitS, moveS: waitS });
   }
@@ -247,7 +247,7 @@ class PlanBuilder {
     if (waitS > 0) this.movePen(true, { heightPct: this.heightPct, waitS, moveS: waitS });
   }
 
-  /** @param travelS when the travel began that has just ended; null: the carriage has waited since */
+  /** @param travelS start of the travel that has just ended; null if the carriage has waited since */
   private drop(travelS: number | null): void {
     if (!this.penUp) return;
     const { blocks, pen, heightPct, liftS } = this;

@@ -1,8 +1,8 @@
 /**
- * What the steps of quality set: speed, acceleration and corner rounding together, from how the machine swings.
+ * The quality setting: it sets speed, acceleration and corner rounding together, from the machine's measured swing.
  *
- * A shaped carriage leaves the line by up to A/32f², and a wrong frequency leaves a share of that on the paper, so A
- * is lowered with f² on weak machines. From 10 Hz on the motors, not the springs, are the limit.
+ * A shaped carriage leaves the line by up to A/32f². If the measured frequency is slightly wrong, a share of that
+ * appears on paper. So on machines below 10 Hz A is reduced in proportion to f². Above, the motors are the limit.
  */
 import { PlotwrightError } from "../errors.js";
 import { DEFAULT_MOTION, DRAW_TABLE, type MotionSettings } from "../settings/motion.js";
@@ -17,10 +17,10 @@ const STEPS = {
   fast: { speed: 85, accel: 1_750, corner: 0.022, travelSpeed: 220, travelAccel: 2_500 },
 } as const satisfies Record<Quality, object>;
 
-/** From this frequency on the acceleration is the full one, Hz. */
+/** From this frequency on the full acceleration is used, Hz. */
 const STIFF_HZ = 10;
 
-/** What a step of quality sets. */
+/** The settings that a quality sets. */
 export type QualityMotion = Pick<MotionSettings, "shaper" | "draw" | "travel">;
 
 /** @throws PlotwrightError "bad-setting" for fine or fast on a machine that was not measured */
@@ -30,7 +30,7 @@ export function motionOfQuality(quality: Quality, springs: Springs | null): Qual
       return { shaper: "none", draw: DEFAULT_MOTION.draw, travel: DEFAULT_MOTION.travel };
     throw new PlotwrightError(
       "bad-setting",
-      `Quality ${quality} needs to know how the machine swings: plot the ringing sheet, it takes ten minutes.`,
+      `Quality ${quality} needs the measured swing of the machine: plot the ringing sheet, which takes ten minutes.`,
     );
   }
   const { speed, accel, corner, travelSpeed, travelAccel } = STEPS[quality];
@@ -51,7 +51,7 @@ export function motionOfQuality(quality: Quality, springs: Springs | null): Qual
   };
 }
 
-/** The step whose numbers these are; null: numbers of the user's own. */
+/** The quality that gives these settings; null if the user changed them. */
 export function qualityOf({ shaper, draw, travel }: MotionSettings, springs: Springs | null): Quality | null {
   const isSame = (quality: Quality): boolean => {
     if (springs === null && quality !== "normal") return false;

@@ -116,8 +116,8 @@ export class RunPath {
     this.segmentCount = n;
   }
 
-  /** Copies everything from another path except its points; call `measure` after setting them. */
-  beLike(other: RunPath): void {
+  /** Copies everything from another path except its points; set those, then call `measure`. */
+  copyLayout(other: RunPath): void {
     this.reserve(other.segmentCount + 1);
     this.segmentCount = other.segmentCount;
     this.startAlong = other.startAlong;
@@ -153,7 +153,7 @@ export class RunPath {
   /**
    * Prepends the point (x, y), slightly beside the drawing. The new segment covers no part of the drawing.
    */
-  comeFrom(x: number, y: number): void {
+  prependPoint(x: number, y: number): void {
     const { segmentCount: n } = this;
     for (const column of [this.x, this.y]) column.copyWithin(1, 0, n + 1);
     for (const column of [this.length, this.ux, this.uy]) column.copyWithin(1, 0, n);
@@ -176,7 +176,7 @@ export class RunPath {
     return along;
   }
 
-  /** Marks the first and last `mm` for easing, and splits the segments where those end. */
+  /** Marks the first and last `mm` for easing, and splits segments at the boundaries. */
   ease(mm: number): void {
     if (this.segmentCount === 0) return;
     const whole = this.endAlong() - this.startAlong;

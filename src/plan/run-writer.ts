@@ -1,7 +1,10 @@
 /**
- * One run from rest to rest: blocks of constant acceleration (junction.ts, blend.ts), merged if the settings
- * ask for it (merge.ts). In `scurve` mode they are filtered over time (filter.ts). With a shaper they are too
- * (impulse-filter.ts), and then merged once more, because that filter makes several blocks of each.
+ * Writes one run, from rest to rest:
+ *
+ *   1. blocks of constant acceleration       junction.ts, blend.ts
+ *   2. fewer, longer blocks                  merge.ts, if the settings ask for it
+ *   3. a filter over time                    filter.ts in mode `scurve`, impulse-filter.ts with a shaper
+ *   4. a second merge, with a shaper         that filter splits each block into several
  */
 import { AxisFrame } from "./axis-frame.js";
 import { BlendPlanner } from "./blend.js";
@@ -26,7 +29,7 @@ interface WritesBlocks {
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void;
 }
 
-/** A planner for each corner rule. `scurve` filters the blocks of `blend`. */
+/** The planner of each mode. `scurve` filters the blocks of `blend`. */
 const CORNERS: Readonly<Record<MotionMode, () => WritesBlocks>> = {
   junction: () => ({ write: writeJunctionRun }),
   blend: () => new BlendPlanner(),

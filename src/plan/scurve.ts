@@ -2,15 +2,15 @@
  * Mode `scurve`: |j| ≤ J at every instant, and continuous acceleration. Blocks of constant acceleration, as
  * in `blend`, are filtered by a box over time (filter.ts).
  *
- *   line with corners   box of w = 2 A'/J, since a can go from −A' to A' within w
- *                       the box deviates by A' w²/24 = A'³/6J²: its share of δ is given below
- *   single straight     box of w = A'/J: with a speed for which the steady phase lasts w, a never goes
- *                       from A' to −A' within a box; on a straight the box does not deviate
- *   polygon             a stop at every corner, if that is faster: then each side is a single straight
+ *   line with corners   w = 2 A'/J, since a can go from −A' to A' within w
+ *                       the box deviates by A' w²/24 = A'³/6J², which is BOX_SHARE of δ
+ *   single straight     w = A'/J, and a speed for which the constant-speed phase lasts w, so that a never goes
+ *                       from A' to −A' within w; on a straight the box does not deviate
+ *   polygon             a stop at every corner, if that is faster: each side is then a single straight
  *
- * The share of δ: the larger the box's share, the larger A', and the less remains for corners. On the sample
- * drawings 3/4 takes the least total time (1/2: 2 % more; 0.85: about the same). As J grows, w tends to 0, A'
- * to A, and the mode becomes `blend`.
+ * A larger BOX_SHARE allows a larger A', but leaves less of δ for corners. On the sample drawings 3/4 takes the
+ * least total time (1/2: 2 % more; 0.85: about the same). As J grows, w tends to 0, A' to A, and the motion to
+ * that of `blend`.
  */
 import { capSegments, mmPerFrameMm, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";

@@ -1,10 +1,10 @@
 /**
- * Where on the drawing a shaped motion is: where the planned motion was, one mean delay ago. The carriage itself
- * leaves the line (it has to, to keep the pen on it), so its own place is no measure for that.
+ * The place on the drawing at a time of a shaped motion is that of the planned motion one mean delay earlier. It
+ * cannot be measured on the carriage's own path, because that leaves the line to keep the pen on it.
  */
 import type { Trajectory } from "./trajectory.js";
 
-/** Sets `alongMm` of every block: inside a planned block by its speeds at both ends. */
+/** Sets `alongMm` of every block; inside a planned block it is interpolated from the speeds at both ends. */
 export function fillAlong(shaped: Trajectory, planned: Trajectory, delayS: number): void {
   const { runs, startS, alongMm } = shaped;
   const { durationS, vx, vy, ax, ay } = planned;

@@ -1,8 +1,8 @@
 /**
- * A stop in a shaped motion: the planned motion brakes, and goes through the shaper as the rest of it would have, so
- * that the pen does not swing afterwards.
+ * A stop in a shaped motion: brakes the planned motion, and shapes the braking too, so that the pen does not swing
+ * afterwards.
  *
- *   planned   ──recent──|──braking──|            recent: what the shaper still remembers at the stop
+ *   planned   ──recent──|──braking──|            recent: the planned motion within the shaper's length before the stop
  *   shaped              |──────────────────|     from the stop on; longer by the shaper's last delay
  */
 import { BlockColumns } from "./block-columns.js";
@@ -13,11 +13,11 @@ import { blockState, newMotionState, type MotionState, type Trajectory } from ".
 
 /** Shorter pieces are rounding errors, s. */
 const NO_PIECE_S = 1e-9;
-/** Too quick for the gantry to follow, s. */
+/** A correction within this time is too quick for the gantry to follow, s. */
 const JOIN_S = 0.02;
 
 export interface ShapedRest {
-  /** Both count time from the stop's beginning; the planned motion begins before it. */
+  /** Both have time 0 where the stop begins; the planned motion begins before that. */
   readonly planned: BlockColumns;
   readonly shaped: BlockColumns;
 }
@@ -25,9 +25,9 @@ export interface ShapedRest {
 /**
  * @param planned the motion before the shaper
  * @param tS when the braking begins
- * @param carriage where it is then
- * @param braking blocks of the planned motion from `tS` on; none if it is at rest then
- * @param end where it comes to rest
+ * @param carriage its state at `tS`
+ * @param braking blocks of the planned motion from `tS` on; none if that is at rest
+ * @param end where the planned motion comes to rest
  */
 export function shapeRest(
   planned: Trajectory,
@@ -54,8 +54,8 @@ export function shapeRest(
 }
 
 /**
- * The carriage follows merged blocks (merge.ts), so it is a few µm beside the exact motion. Two blocks of constant
- * acceleration lead from where it is to the exact motion JOIN_S later.
+ * The carriage follows merged blocks (merge.ts), so it is a few µm away from the exact motion. Two blocks of constant
+ * acceleration lead from its state to the exact motion JOIN_S later.
  */
 function joinFrom(
   carriage: MotionState,
@@ -80,7 +80,7 @@ function joinFrom(
   for (; k < exact.count; k++) out.pushFrom(exact, k);
 }
 
-/** Merged blocks stay within what the blocks need. */
+/** The maxima of these blocks, as limits for merging them. */
 function limitsOf({ count, vx, vy, ax, ay }: BlockColumns): RunLimits {
   let speed = 0;
   let accel = 0;
@@ -91,7 +91,7 @@ function limitsOf({ count, vx, vy, ax, ay }: BlockColumns): RunLimits {
   return { ...NO_LIMITS, speed, accel };
 }
 
-/** Appends what run `run` does from `fromS` to `toS`. Time 0 is `toS`. */
+/** Appends the part of run `run` from `fromS` to `toS`. Time 0 is `toS`. */
 function addWindow(planned: Trajectory, run: number, fromS: number, toS: number, out: BlockColumns): void {
   const { runs, startS, durationS } = planned;
   const state = newMotionState();

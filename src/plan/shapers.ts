@@ -1,9 +1,10 @@
 /**
- * Input shapers: impulses after which a spring is at rest. Each axis is a damped spring of natural frequency f
- * and damping ratio ζ. A motion sent twice, the second time half a swing later, makes two swings that cancel.
+ * Input shapers: sequences of impulses that leave a damped spring at rest. Each axis is such a spring, of natural
+ * frequency f and damping ratio ζ. The simplest shaper sends the motion twice, half a period apart, so that the two
+ * swings cancel.
  *
  *   T = 1/(f √(1 − ζ²))       period of the damped swing, s
- *   K = exp(−ζπ/√(1 − ζ²))    what is left of a swing after T/2; K^p after p T/2
+ *   K = exp(−ζπ/√(1 − ζ²))    the share of a swing that is left after T/2; K^p after p T/2
  *
  *   zv    1, K           at 0, T/2            no swing at f; the shortest
  *   mzv   1, √2 k, k²    at 0, 3T/8, 3T/4     no swing at f, less near it; k = K^¾
@@ -46,8 +47,8 @@ export function shaperKernel(shaper: Shaper, springs: Springs | null): Kernel | 
 }
 
 /**
- * How far the carriage may leave the planned line, mm: |u(t) − q(t − D)| ≤ A σ²/2, where D is the mean delay and σ² the
- * variance of the impulses. The limit is that of the planned motion, pen down.
+ * Max deviation of the carriage from the planned line, mm: |u(t) − q(t − D)| ≤ A σ²/2, where D is the mean delay and σ²
+ * the variance of the impulses. A is the acceleration limit with the pen down.
  */
 export function leavesLineMm({ shaper, draw, layers }: MotionSettings, springs: Springs | null): number {
   if (shaper === undefined || shaper === "none" || springs === null) return 0;

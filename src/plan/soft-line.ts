@@ -14,9 +14,9 @@
  *    /  drawing  \                             unevenness, which only costs speed, disappears.
  *
  * There are three kinds of points. Corners too sharp for their curve to use half a segment (ℓ s/2 > 2 δ) move
- * outwards. Bends below SMOOTH whose speed is limited by A move to bend less. All others stay. Points of
- * bends also move along the line (EVEN), since the curve at a point can be no longer than the shorter segment
- * allows.
+ * outwards. Bends below SMOOTH whose speed is limited by A move so that the line bends less. All others stay. Points
+ * of bends also move along the line (EVEN) to make their two segments more equal, because the shorter one limits
+ * the length of the curve.
  *
  * Why this stays within δ: every point P' is within δ of its P, so each segment P'Q' lies in the stadium of
  * PQ, the set of points within δ of PQ, which is convex. A corner's curve crosses the bisector at a point M.
@@ -43,18 +43,15 @@ const FAST = 4;
  */
 const EVEN = 0.3;
 /** Moving along the line must leave this share of δ. */
-const LEFT = 0.75;
+const KEEP_SHARE = 0.75;
 /** Max relative displacement of two neighbours, as a share of their segment. */
 const SHEAR = 0.5;
 /** Below this s the direction of the bend is uncertain. */
-const HARDLY = 0.015;
-/**
- * Added to an s before dividing by it, so that the quotient stays finite on straight lines; negligible
- * elsewhere.
- */
-const NOT_ZERO = 1e-6;
+const UNCERTAIN_SINE = 0.015;
+/** Added to a divisor that is 0 on straight lines, to keep the quotient finite; negligible elsewhere. */
+const TINY = 1e-6;
 
-/** A `kind` that marks a point of a bend, instead of mm outwards. */
+/** Value of `kind` for a point of a bend. */
 const FREE = -1;
 
 /** What can be softened on a path. */
@@ -72,7 +69,7 @@ export class SoftLine {
   private sine = new Float64Array(0);
   /** mm outwards at corners; FREE at bends; 0 for points that stay. */
   private kind = new Float64Array(0);
-  /** mm of δ that moving along the line uses up at each point, and mm of δ that are left there. */
+  /** mm of δ that moving along the line takes at each point, and mm of δ that remain there. */
   private taken = new Float64Array(0);
   private left = new Float64Array(0);
   /**
@@ -118,7 +115,7 @@ export class SoftLine {
     const along = dx * bx + dy * by;
     const rest = left * left - dx * dx - dy * dy;
     const deep = (half * s) / 2;
-    // Usually room ≥ deep, compared here in squares: without this, planning takes 5 % longer.
+    // room ≥ deep, compared in squares. Usually true; without this check planning takes 5 % longer.
     if (rest >= deep * deep + (half * along) / 2) return half;
     const inwards = along / (2 * s);
     const room = Math.sqrt(Math.max(0, rest + inwards * inwards)) - inwards;
@@ -165,7 +162,7 @@ export class SoftLine {
   private evenOut(path: RunPath, corner: number): void {
     const { segmentCount: n, x, y, length, ux, uy } = path;
     const { even, sine, kind, taken, along } = this;
-    even.beLike(path);
+    even.copyLayout(path);
     even.x[0] = x[0];
     even.y[0] = y[0];
     taken[0] = 0;
@@ -178,7 +175,7 @@ export class SoftLine {
       if (kind[i] === FREE) {
         const s = sine[i];
         const leaves = s + Math.max(sine[i - 1], sine[i + 1]) / 2;
-        const mayLeave = ((1 - LEFT) * corner) / (leaves + NOT_ZERO);
+        const mayLeave = ((1 - KEEP_SHARE) * corner) / (leaves + TINY);
         const limit = Math.min((SHEAR / 2) * Math.min(length[i - 1], length[i]), mayLeave);
         tau = between(EVEN * (length[i] - length[i - 1]), -limit, limit);
         const per = tau * halfPerCosine(s * s);
@@ -220,7 +217,7 @@ export class SoftLine {
       left[i] = rest;
       if (kind[i] === FREE) {
         const inside = Math.max(0, rest - Math.max(depth[i - 1], depth[i], depth[i + 1]));
-        const side = between(turn[i] / (2 * HARDLY), -1, 1);
+        const side = between(turn[i] / (2 * UNCERTAIN_SINE), -1, 1);
         const more = (rest - inside) / 2;
         const middle = -side * more;
         const half = inside + Math.abs(side) * more;
@@ -233,14 +230,12 @@ export class SoftLine {
     }
   }
 
-  /**
-   * From the evened line to the soft one. Sheared neighbours stay in place; false if even that does not help.
-   */
+  /** Moves the points of the evened line. Sheared neighbours stay; false if there are still sheared ones then. */
   private move(n: number): boolean {
     const { even, soft, shiftX, shiftY } = this;
     this.shift(n);
     if (this.stayWhereSheared(n) > 0 && this.stayWhereSheared(n) > 0) return false;
-    soft.beLike(even);
+    soft.copyLayout(even);
     for (let i = 0; i <= n; i++) {
       soft.x[i] = even.x[i] + shiftX[i];
       soft.y[i] = even.y[i] + shiftY[i];

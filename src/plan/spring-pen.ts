@@ -5,7 +5,7 @@
  *   x″ = ω² (u − x) + 2ζω (u′ − x′)      ω = 2πf
  *
  * While u has constant acceleration a, the difference d = x − u obeys d″ + 2ζω d′ + ω² d = −a, whose solution is
- * exact: a decaying swing around −a/ω². A jump of the carriage's velocity is one of d′.
+ * exact: a decaying swing around −a/ω². When the carriage's velocity jumps, d′ jumps by the opposite amount.
  */
 import type { Springs } from "../machines/profile.js";
 import { blockState, newMotionState, type Trajectory } from "./trajectory.js";
@@ -25,7 +25,7 @@ export class SpringAxis {
     this.swing = this.omega * Math.sqrt(1 - damping * damping);
   }
 
-  /** `t` seconds further, under constant acceleration of the carriage. */
+  /** Advances by `t` seconds, under constant acceleration of the carriage. */
   advance(t: number, accel: number): void {
     const centre = -accel / (this.omega * this.omega);
     const from = this.d - centre;
@@ -44,11 +44,11 @@ export interface PenPoint {
   readonly y: number;
   /** −1 unless the pen is down. */
   readonly stroke: number;
-  /** mm along the stroke, as the plan has it. */
+  /** mm along the stroke, from the plan. */
   readonly alongMm: number;
 }
 
-/** Calls `see` about every `stepS` seconds, in motion and for a moment after it. Jerk counts as steps of acceleration. */
+/** Calls `see` about every `stepS` seconds in motion, and after each wait. Jerk is approximated by steps of acceleration. */
 export function swingPen(
   trajectory: Trajectory,
   { xHz, yHz, damping }: Springs,

@@ -1,7 +1,7 @@
-/** Summary figures of a trajectory, for people and for `plan --json`. */
+/** Summary figures of a trajectory, as shown to users and by `plan --json`. */
 import { blockLength, type Trajectory } from "./trajectory.js";
 
-/** What `trajectoryStats` finds. */
+/** The result of `trajectoryStats`. */
 export interface TrajectoryStats {
   /** Distance with the pen down, mm. */
   readonly drawMm: number;

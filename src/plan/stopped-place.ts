@@ -1,12 +1,12 @@
 /**
- * Where an interrupted plot really stopped: the journal is up to half a second old, but a board that kept its
- * counters reports the pen's position, and whether it is down.
+ * Finds where an interrupted plot really stopped. The journal is up to half a second old, but a board that still has
+ * its step counters reports the position, and whether the pen is down.
  *
  *    journal ──drawn since──┐         pen down: on a stroke, so the plot resumes from exactly that point
  *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: travelling to a stroke, which is drawn next, or going home,
  *                         (x, y)       after the last stroke or before a change of pens
  *
- * The first match after the journal's place counts: a part drawn twice does less harm than a missing one.
+ * The first match after the journal's place is used: a part drawn twice does less harm than a missing one.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { strokeLengthMm } from "./place-on-drawing.js";
@@ -15,9 +15,9 @@ import type { Place } from "./trajectory.js";
 /** Tolerance for rounded corners, merged blocks and whole steps, mm. */
 const NEAR_MM = 0.08;
 
-/** A pen that is down so near to a stroke's start may not have reached it, mm: by rounding, or as `pen-flight.ts` says. */
+/** A pen that is down this near to a stroke's start may not have reached it yet: by rounding, or by pen-flight.ts; mm. */
 const LANDING_MM = 0.15;
-/** How far the carriage may stand beside the drawing: `leavesMm` by shaping (shapers.ts), and by all else. */
+/** Max distance of the carriage from the drawing: `leavesMm` by shaping (shapers.ts), and all else. */
 const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
 
 export interface PenPlace {
@@ -30,9 +30,9 @@ export interface PenPlace {
 export interface SinceThen {
   /** How far, mm, including travel. */
   readonly aheadMm: number;
-  /** The strokes before which it goes home. */
+  /** Strokes before which it goes home. */
   readonly stops?: readonly number[];
-  /** How far shaping may take it beside the line (`leavesLineMm`). */
+  /** Max deviation from the line by shaping (`leavesLineMm`). */
   readonly leavesMm?: number;
   /** How far before a stroke the pen may begin to come down (`landingMm`). */
   readonly landingMm?: number;
@@ -48,7 +48,7 @@ export function stoppedPlace(
   const nearMm = nearMmOf(leavesMm);
   const { xy, offsets } = strokes;
   const count = offsets.length - 1;
-  // At home without a stroke drawn since: it may as well not have set out yet.
+  // The carriage at home with no stroke drawn since may simply not have started yet.
   const hasSetOut = journal.alongMm > 0 || (journal.stroke > 0 && !stops.includes(journal.stroke));
   let leftMm = aheadMm + journal.alongMm;
   for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
@@ -78,8 +78,10 @@ export function stoppedPlace(
 }
 
 /**
- * The pen is down, but the carriage is still on its way to the stroke. Where the stroke goes back along that way, it is
- * only certain to be drawn beyond `landingMm`. `alongMm`: where on the stroke the carriage may be instead.
+ * Whether the pen is down while the carriage is still travelling to the stroke. A stroke may lead back along the travel:
+ * then a position within `landingMm` of its start does not prove that the stroke has begun.
+ *
+ * @param alongMm where on the stroke the carriage may be instead, if anywhere
  */
 function isLanding(
   { xy, offsets }: StrokeSet,
@@ -96,9 +98,9 @@ function isLanding(
 }
 
 /**
- * The same after the server ended while the board kept running: the board has played everything it received, so it
- * stopped after what was sent at the last entry. An earlier place where the line crosses itself is excluded. Null if the
- * pen is up, or if nothing matches because not everything that was sent has arrived.
+ * The same if the server ended while the board kept running. The board has played everything it received, so it stopped
+ * after the place that was sent by the last entry, and earlier places where the line crosses itself are excluded. Null
+ * if the pen is up, or if nothing matches because not everything that was sent has arrived.
  */
 export function placeBehindSent(
   strokes: StrokeSet,
@@ -125,7 +127,7 @@ function alongOf(
   let passMm: number | null = null;
   let gapMm = nearMm;
   const last = offsets[stroke + 1] - 1;
-  // A dot is a piece of no length.
+  // A dot is a piece of zero length.
   for (let i = offsets[stroke]; i < Math.max(last, offsets[stroke] + 1); i++) {
     const j = Math.min(i + 1, last);
     const piece = [xy[2 * i], xy[2 * i + 1], xy[2 * j], xy[2 * j + 1]] as const;
@@ -141,7 +143,7 @@ function alongOf(
   return passMm;
 }
 
-/** The nearest point of a piece, 0 … 1 along it, and its distance. */
+/** The nearest point of a segment as a share of its length, and its distance. */
 function nearest(
   x0: number,
   y0: number,

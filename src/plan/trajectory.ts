@@ -10,7 +10,7 @@ import type { Kernel } from "./impulse-filter.js";
  *
  *     run 0 travel | drop | run 1 draw | lift | run 2 travel | drop | run 3 draw | lift | run 4 travel home
  *
- * With the setting `pen.overlap`, a lift goes on during the travel after it, and a drop begins in the travel before.
+ * With the setting `pen.overlap`, a lift continues during the travel after it, and a drop begins in the travel before it.
  */
 export interface Trajectory {
   /** Number of blocks. */
@@ -43,8 +43,8 @@ export interface Trajectory {
   readonly endX: number;
   readonly endY: number;
   /**
-   * The motion before shaping, if it is shaped: the same runs, whose blocks begin at the same time or a little earlier.
-   * The pen is where this motion was one mean delay ago, as far as its swinging is kept out.
+   * For a shaped trajectory: the motion before shaping. It has the same runs, whose blocks begin at the same time or
+   * slightly earlier. If shaping cancels all swing, the pen is where this motion was one mean delay earlier.
    */
   readonly planned?: PlannedMotion | null | undefined;
 }
@@ -85,7 +85,7 @@ export interface PenMove {
   readonly startS: number;
   /** How long the carriage waits for it, at rest before run `beforeRun`. */
   readonly waitS: number;
-  /** How long the pen takes for the way between the down height and the up height of this move. */
+  /** Time that the pen needs between the down height and the up height of this move, s. */
   readonly moveS: number;
   /** Target height, percent of the servo's range. */
   readonly heightPct: number;
@@ -153,14 +153,14 @@ export function stateAt(
   return out;
 }
 
-/** When the pen has arrived: up by its time, and down when the next run begins, which waits for it. */
+/** When a pen move ends: a lift by its duration, a drop when the next run begins, which waits for it. */
 function penRestS({ penMoves, runs }: Trajectory, move: number): number {
   const { up, startS, moveS, waitS, beforeRun } = penMoves;
   if (up[move] === 1) return startS[move] + moveS[move];
   return beforeRun[move] < runs.count ? runs.startS[beforeRun[move]] : startS[move] + waitS[move];
 }
 
-/** Where on the drawing the pen is at `tS`, during a run: where the planned motion was one mean delay ago. */
+/** mm along the stroke at `tS`, during a run: where the planned motion was one mean delay earlier. */
 function plannedAlong({ trajectory, kernel }: PlannedMotion, run: number, tS: number): number {
   const plannedS = tS - kernel.meanDelayS;
   const { firstBlock } = trajectory.runs;
@@ -170,7 +170,7 @@ function plannedAlong({ trajectory, kernel }: PlannedMotion, run: number, tS: nu
 }
 
 /**
- * The point of the line that the pen is on, where `stateAt` gives the carriage's: a shaped motion leaves the line to
+ * The state of the pen on the drawn line. `stateAt` gives the carriage's: with shaping, the carriage leaves the line to
  * keep the pen on it.
  */
 export function drawnAt(trajectory: Trajectory, tS: number): MotionState {
@@ -275,7 +275,7 @@ function lengthBetween(
 const GAUSS_NODES = [0.5 - Math.sqrt(0.15), 0.5, 0.5 + Math.sqrt(0.15)];
 const GAUSS_WEIGHTS = [5 / 18, 8 / 18, 5 / 18];
 
-/** True where block `k` is the last of its run. */
+/** True if block `k` is the last of its run. */
 function endsRun(trajectory: Trajectory, k: number): boolean {
   const { firstBlock, count } = trajectory.runs;
   const run = lastNotAfter(k, count, (i) => firstBlock[i]);
@@ -296,7 +296,7 @@ function startOf(trajectory: Trajectory): readonly [number, number] {
 
 const endOf = (trajectory: Trajectory): readonly [number, number] => [trajectory.endX, trajectory.endY];
 
-/** Index of the last of `count` ascending values that is ≤ `value`; −1 where there is none. */
+/** Index of the last of `count` ascending values that is ≤ `value`; −1 if none is. */
 function lastNotAfter(value: number, count: number, at: (index: number) => number): number {
   let low = 0;
   let high = count;

@@ -12,9 +12,7 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 
-/**
- * A relative change of speed² below this, or a cruise below this share of the straight, is a rounding error.
- */
+/** Rounding error, as a share: of speed² for a change of it, and of the straight for the cruise. */
 const NEGLIGIBLE = 1e-11;
 
 export interface Straight {

@@ -7,9 +7,9 @@ import { SCALE, cleanRings, combine, regionOf, ringOf, type Region } from "../ge
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
- * Region of each filled shape, in paint order, by its fill rule, cut to its clip and to `limit`. `lines` are
- * the shapes' subpaths, tag = shape; an open subpath is closed by a straight line, as in SVG. With `hasOutlines`
- * also of each shape that is not filled, as far as its lines are closed.
+ * The region of each filled shape, in paint order, by its fill rule, cut to its clip and to `limit`. With `hasOutlines`
+ * also the region inside the closed lines of each shape that is not filled. `lines` are the shapes' subpaths, tag =
+ * shape. An open subpath of a filled shape is closed by a straight line, as in SVG.
  */
 export function filledAreas(
   lines: Lines,
@@ -42,7 +42,7 @@ export function filledAreas(
   return areas;
 }
 
-/** Of the areas, those of shapes that are filled: an outline hides nothing. */
+/** The areas of filled shapes only, because an outline hides nothing. */
 export const filledOnly = (areas: ReadonlyMap<number, Region>, drawing: Drawing): Map<number, Region> =>
   new Map([...areas].filter(([shape]) => drawing.paths.fill[shape] >= 0));
 

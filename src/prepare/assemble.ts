@@ -19,7 +19,7 @@ export interface PreparedLayer extends FileLayer {
   readonly drawMm: number;
 }
 
-/** Sorts lines by part of a layer, keeping the file's order within each; from here on their tag is the part. */
+/** Sorts lines by part of a layer (speed-parts.ts), in the file's order within each, and sets their tag to the part. */
 export function byLayer(lines: Lines, parts: SpeedParts): Lines {
   const layer = new Uint32Array(lines.tag.length);
   const tagged = { ...lines, tag: layer };
@@ -85,9 +85,8 @@ export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): s
 }
 
 /**
- * The strokes of the visible layers, with the layers renumbered. With `reinkMm` a layer is split into
- * several, "red", "red (2)" …, so that the stop between layers serves for taking up ink. `shifts` by layer
- * id.
+ * The strokes of the visible layers, with the layers renumbered. With `reinkMm` a layer is split into several, "red",
+ * "red (2)" …, because the plot can stop between layers to take up ink. `shifts`: by layer id.
  */
 export function strokeSetOf(
   lines: Lines,
@@ -150,7 +149,7 @@ const plainLayer = ({ id, name, color }: StrokeLayer): StrokeLayer => ({ id, nam
 /** A stroke stores its layer as a 16-bit index. */
 const MAX_PORTIONS = 65_536;
 
-/** The portions of a layer's parts follow each other: a part that is drawn slower begins a new one. */
+/** Splits layers into portions for `reinkMm`. Each part of a layer begins a new portion. */
 function inkedStrokeSet(
   given: Lines,
   parts: SpeedParts,
@@ -164,7 +163,7 @@ function inkedStrokeSet(
   let i = 0;
   for (let k = 0; k < layers.length; k++) {
     if (!isVisible[k]) continue;
-    // A layer without strokes is kept, as it is without portions.
+    // Layers without strokes are kept too, as in `unshifted`.
     out.push(plainLayer(layers[k]));
     let number = 1;
     for (const first = i; i < layer.length && parts.layer[lines.tag[i]] === k; i++) {

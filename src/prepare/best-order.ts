@@ -1,14 +1,12 @@
 /**
- * Order "best": starts from the order "fast" and improves it as long as there is time.
+ * Order "best": starts from the order "fast" and improves it until the time is up.
  *
- * It works layer by layer, each from the end of the previous layer to the start of the next, so that every
- * gain within a layer is a gain overall. A closed line counts as a point, its start point. From time to time
- * the start point of each closed line moves to the corner closest to its neighbours, and the search
- * continues.
+ * It works layer by layer, each from the end of the previous layer to the start of the next, so that every gain within a
+ * layer is a gain overall. A closed line is treated as a point, its start point. Between rounds of the search, the start
+ * point of each closed line moves to the corner closest to its neighbours.
  *
- * With a clock the search ends after `orderS`; without one after about the same amount of work. Without a
- * clock the result is the same in every run, so page, server and a job resumed after a crash see the same
- * strokes.
+ * With a clock the search ends after `orderS`. Without one it ends after about the same amount of work, and the result
+ * is the same in every run, so page, server and a job resumed after a crash have the same strokes.
  */
 import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
@@ -23,8 +21,7 @@ const KICKS_PER_S = 70_000;
 const MAX_KICKS = 1_000;
 const ENDS_PER_CHECK = 4_096;
 /**
- * Tours with more strokes than this are searched in blocks only: reversing stretches of them would take all
- * the time.
+ * Longer tours are searched only in blocks: reversing sections of the whole tour would take all the time.
  */
 const MAX_WHOLE_TOUR = 50_000;
 /** Share of the time for searching the whole ring at once. */
@@ -52,16 +49,16 @@ export function improveTour(lines: Lines, tour: Tour, freeStart: boolean, second
   });
 }
 
-interface Spot {
+interface Point {
   readonly x: number;
   readonly y: number;
 }
 
-const HOME: Spot = { x: 0, y: 0 };
+const HOME: Point = { x: 0, y: 0 };
 
-const spotAt = (lines: Lines, p: number): Spot => ({ x: lines.xy[2 * p], y: lines.xy[2 * p + 1] });
-const entryOf = (lines: Lines, tour: Tour, i: number): Spot => spotAt(lines, entryPoint(lines, tour, i));
-const exitOf = (lines: Lines, tour: Tour, i: number): Spot => spotAt(lines, exitPoint(lines, tour, i));
+const pointAt = (lines: Lines, p: number): Point => ({ x: lines.xy[2 * p], y: lines.xy[2 * p + 1] });
+const entryOf = (lines: Lines, tour: Tour, i: number): Point => pointAt(lines, entryPoint(lines, tour, i));
+const exitOf = (lines: Lines, tour: Tour, i: number): Point => pointAt(lines, exitPoint(lines, tour, i));
 
 /** The search budget of one layer, and the progress reports. */
 class Budget {
@@ -95,8 +92,8 @@ function improveRange(
   tour: Tour,
   first: number,
   end: number,
-  from: Spot,
-  to: Spot,
+  from: Point,
+  to: Point,
   freeStart: boolean,
   budget: Budget,
 ): void {
@@ -104,7 +101,7 @@ function improveRange(
   if (count < 2) return;
   const ring = new Int32Array(2 * count + 2);
   const xy = new Float64Array(2 * ring.length);
-  // A stroke that represents the rest of the plot: entered where this layer ends, left where it begins.
+  // This stroke represents the rest of the plot: it begins where this layer ends, and ends where this layer begins.
   ring.set([2 * count, 2 * count + 1]);
   xy.set([to.x, to.y, from.x, from.y], 4 * count);
   for (let k = 0; k < count; k++) {

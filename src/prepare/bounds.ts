@@ -7,8 +7,8 @@ import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
 
 /**
- * Box of verbs [verbFrom, verbTo), whose coordinates start at `at`, transformed by `map`. Written to `out`
- * from `outAt` on: x0, y0, x1, y1. Moves that draw nothing do not count.
+ * Writes the box of verbs [verbFrom, verbTo), whose coordinates start at `at`, transformed by `map`, to `out` from
+ * `outAt` on: x0, y0, x1, y1. Moves that draw nothing are ignored.
  */
 export function boundsOfVerbs(
   verbs: Uint8Array,
@@ -64,7 +64,7 @@ export function boundsOfVerbs(
   out[outAt + 3] = y1;
 }
 
-/** Beyond this the squares below might overflow; the control points then serve as a bound. */
+/** Beyond this the squares below might overflow, so the control points are used as the bound. */
 const OVERFLOWING = 1e100;
 
 /** Reused by each call of `extremesOf`. */

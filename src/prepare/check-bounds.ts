@@ -5,10 +5,10 @@ import { PlotwrightError } from "../errors.js";
 import { boxOfPoints, type Box } from "../geometry/box.js";
 import type { MachineProfile } from "../machines/profile.js";
 
-/** mm; rounding and the play of the carriage are no reason to refuse a plot. */
+/** Tolerance for rounding, mm. */
 const SLACK = 0.01;
 
-/** Whether a machine reaches all of a box, with 0.01 mm to spare for rounding. */
+/** Whether a machine reaches all of a box, with a tolerance of 0.01 mm for rounding. */
 export const isReached = (
   box: Box,
   { widthMm, heightMm }: Pick<MachineProfile, "widthMm" | "heightMm">,
@@ -29,8 +29,8 @@ export function unreachedCount(
 }
 
 /**
- * Checks that a machine reaches every stroke, with 0.01 mm to spare for rounding. `planSvg` does it; call it yourself
- * when you use the steps.
+ * Checks that a machine reaches every stroke, with a tolerance of 0.01 mm for rounding. `planSvg` calls it; call it
+ * yourself if you use the single steps.
  *
  * @throws PlotwrightError "out-of-bounds", with the figures
  */

@@ -7,8 +7,8 @@ import { cleanRings, combine, regionOf, ringOf, type Region } from "../geometry/
 import { flattenVerbs } from "./flatten.js";
 
 /**
- * Returns a function that gives the region that clips a shape, nested clips included, or null. Each region is
- * computed on first use.
+ * Returns a function for the region that clips a shape, nested clips included; null for a shape without a clip. Each
+ * region is computed on first use.
  */
 export function clipRegions(
   drawing: Drawing,

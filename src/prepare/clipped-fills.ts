@@ -1,6 +1,6 @@
 /**
- * Cuts lines by clip paths. For a fill without a stroke of its own, the clip's edge becomes part of its
- * outline.
+ * Cuts lines by clip paths. A fill without a stroke is drawn as the outline of its clipped area, so the clip's edge
+ * becomes part of its outline.
  */
 import type { Drawing } from "../drawing/drawing.js";
 import { LineBuilder, lineCount, totalLength, type Lines } from "../geometry/polyline.js";
@@ -9,7 +9,7 @@ import { ANYWHERE } from "./shapes.js";
 import { filledAreas } from "./areas.js";
 import type { Work } from "./work.js";
 
-/** mm that may be lost before the shape counts as cut: rounding. */
+/** A loss of length up to this is rounding: the shape counts as whole, mm. */
 const UNCUT = 0.001;
 
 /** `lines` are the shapes' outlines, tag = shape; `clipOf` gives the region that clips a shape, or null. */

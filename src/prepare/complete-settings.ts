@@ -1,4 +1,4 @@
-/** Completes the settings of `prepare` with their defaults, and refuses those that are not settings. */
+/** Completes the settings of `prepare` with their defaults, and rejects unknown names and invalid values. */
 import { checkNames, refuseSetting } from "../check-arguments.js";
 import {
   DEFAULT_PREPARE,

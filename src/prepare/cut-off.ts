@@ -1,4 +1,4 @@
-/** What the margins cut off: the lines that `prepare` would draw without them, and how many are concerned. */
+/** Finds the lines that the margins cut off, to show them on the page. */
 import type { Drawing } from "../drawing/drawing.js";
 import { EMPTY_BOX, boxContains, boxOfPoints, boxesTouch, isEmptyBox, type Box } from "../geometry/box.js";
 import { lineCount, pickLines, type Lines } from "../geometry/polyline.js";
@@ -11,20 +11,20 @@ import { isFarAway, type Placement } from "./place.js";
 import { cropBox, strokedOnly } from "./shapes.js";
 
 export interface CutOff {
-  /** mm; what lies outside is not drawn. */
+  /** Lines outside this box are not drawn, mm. */
   readonly limit: Box;
-  /** The lines that leave the limit, whole: the parts inside it are drawn. */
+  /** The lines that are outside the limit at least in part. Their parts inside are drawn. */
   readonly lines: Lines;
-  /** How many of them lie outside entirely; the rest is drawn in part. */
+  /** How many of them are entirely outside. */
   readonly outsideCount: number;
 }
 
-/** mm of line that may be lost at the margins without a word: rounding. */
+/** A line that leaves the limit by less than this is not listed: rounding, mm. */
 const UNNOTICED_MM = 0.1;
-/** Precise enough to be looked at. */
+/** Precise enough for the screen. */
 const FLATTEN_MM = 0.1;
 
-/** Null where nothing is cut off. Only shapes that leave the limit cost time. `place`: by the same settings. */
+/** Null if nothing is cut off. Only shapes that leave the limit are flattened. `place`: from the same settings. */
 export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: Placement): CutOff | null {
   const limit = cropBox(settings, place);
   if (limit === null) return null;

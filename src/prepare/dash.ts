@@ -5,12 +5,12 @@ import { insideRange } from "../geometry/clip.js";
 import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
 import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
 
-/** A pattern with a shorter period than this, mm, is drawn solid: no pen resolves it. */
+/** A pattern with a shorter period than this is drawn as a solid line, because no pen resolves it, mm. */
 const FINEST_PERIOD = 0.05;
 
 /**
- * Splits every line whose tag has a pattern (lengths in mm on paper); dots and other lines pass unchanged.
- * Dashes outside `box` are skipped, since a very long line would have no end of them.
+ * Splits every line whose tag has a pattern (lengths in mm on paper). Dots and other lines are copied. Dashes outside
+ * `box` are skipped, since a very long line would have too many.
  */
 export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern | null, box: Box): Lines {
   const builder = new LineBuilder();
@@ -23,12 +23,12 @@ export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern 
   return builder.finish();
 }
 
-/** The pattern on the paper; `map` takes the file's page to the paper, without distortion. */
+/** The pattern on the paper; `map` maps the file's page to the paper, without distortion. */
 export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: Affine): DashPattern {
   const scale = meanScale(map);
   const pattern = { lengths: lengths.map((length) => length * scale), offset: offset * scale };
   if (measure === undefined) return pattern;
-  // A vector on the paper is turned back to the page, and measured there.
+  // A vector on the paper is mapped back to the page and measured there.
   const det = determinant(map);
   const back = { a: map.d / det, b: -map.b / det, c: -map.c / det, d: map.a / det, e: 0, f: 0 };
   return { ...pattern, measure: compose(compose(scaling(scale), { ...measure, e: 0, f: 0 }), back) };
@@ -84,13 +84,13 @@ class Dasher {
     return Math.hypot(measure.a * dx + measure.c * dy, measure.b * dx + measure.d * dy);
   }
 
-  /** Draws the dashes of a straight piece. */
+  /** Draws the dashes of a segment. */
   private dash(x0: number, y0: number, x1: number, y1: number, length: number): void {
     if (this.isDrawing) this.builder.point(x0, y0);
     let along = 0;
     while (length - along > this.left) {
       along += this.left;
-      // A dash ends or begins here. A dash of zero length ends where it began and leaves a dot.
+      // A dash ends or begins here. A dash of zero length becomes a dot.
       this.builder.point(x0 + ((x1 - x0) * along) / length, y0 + ((y1 - y0) * along) / length);
       if (this.isDrawing) this.builder.end(this.tag);
       this.index = (this.index + 1) % this.pattern.lengths.length;
@@ -118,7 +118,7 @@ class Dasher {
     let into = ((offset % this.period) + this.period) % this.period;
     for (this.index = 0; this.index < lengths.length - 1; this.index++) {
       const length = lengths[this.index];
-      // At the start of a dash of zero length, that dash is still to be drawn.
+      // A dash of zero length at this position is not drawn yet.
       if (into < length || (into === 0 && length === 0)) break;
       into -= length;
     }

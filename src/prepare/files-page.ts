@@ -1,16 +1,16 @@
 /**
- * How the file's page lies on the paper, unless the user has chosen a place: a file made for this paper keeps its true size,
- * and the paper is turned to an orientation that the machine reaches.
+ * Places the file's page on the paper unless the user has chosen a place. A file made for this paper keeps its true size,
+ * and the paper is turned so that the machine reaches it.
  */
 import { PAPER_SIZES, type PaperSize } from "../drawing/paper.js";
 import type { Box } from "../geometry/box.js";
 import { DEFAULT_PREPARE, PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
 import { orientedPaper } from "./place.js";
 
-/** Width and height as they lie. */
+/** Width along x and height along y, unlike `PaperSize`, which is portrait. */
 type Size = PaperSize;
 
-/** mm. Programs that write pages in whole pixels are off by a quarter of it. */
+/** Tolerance for equal sizes, mm. Programs that write pages in whole pixels are off by about 0.25 mm. */
 const SAME_PAGE_MM = 1;
 
 const turned = ({ widthMm, heightMm }: Size): Size => ({ widthMm: heightMm, heightMm: widthMm });
@@ -23,19 +23,19 @@ const isSameSheet = (a: Size, b: Size): boolean => isAbout(a, b) || isAbout(a, t
 const reaches = (machine: Size, { widthMm, heightMm }: Size): boolean =>
   widthMm <= machine.widthMm && heightMm <= machine.heightMm;
 
-/** False for a page that no paper setting holds. */
+/** False for a page that is too small or too large for the paper setting. */
 export const canBePaper = ({ widthMm, heightMm }: Size): boolean =>
   [widthMm, heightMm].every((mm) => mm >= PAPER_TABLE.widthMm.min && mm <= PAPER_TABLE.widthMm.max);
 
-/** The page corner on the paper's corner at true size, cut off only where the page ends. */
+/** True if the page's corner is on the paper's corner, at true size, and lines are cut off only at the page's edge. */
 const isPageOnCorner = ({ fit, place, cropToPage, clipToMargins }: PrepareSettings): boolean =>
   !fit && place === null && cropToPage && !clipToMargins;
 
-/** Whether `onFilesPage` has nothing to add. */
+/** Whether `onFilesPage` would change nothing. */
 export const isOnFilesPage = (settings: PrepareSettings, page: Size): boolean =>
   isPageOnCorner(settings) && isSameSheet(settings.paper, page);
 
-/** The paper is the file's page, at true size; page and paper are turned together if the machine needs it. */
+/** Makes the paper the file's page, at true size. Turns both by 90° if the machine reaches the page only that way. */
 export function onFilesPage<S extends PrepareSettings>(settings: S, page: Size, machine: Size | null): S {
   const { widthMm, heightMm } = page;
   const portrait = widthMm > heightMm ? turned(page) : page;
@@ -64,7 +64,7 @@ const NOT_CHOSEN = {
 const isChosen = (settings: PrepareSettings): boolean =>
   Object.entries(NOT_CHOSEN).some(([key, value]) => settings[key as keyof PrepareSettings] !== value);
 
-/** For a drawing that is opened. What was chosen by hand stays. */
+/** The settings for a newly opened drawing. Settings that the user has changed stay. */
 export function placedForPage<S extends PrepareSettings>(settings: S, page: Size, machine: Size | null): S {
   if (isChosen(settings)) return settings;
   if (isSameSheet(settings.paper, page)) return onFilesPage(settings, page, machine);
@@ -76,7 +76,7 @@ export function placedForPage<S extends PrepareSettings>(settings: S, page: Size
   return isBetterTurned ? { ...settings, landscape: !landscape } : settings;
 }
 
-/** How far from home a drawing inside the margins goes. */
+/** The farthest point from home of a drawing inside the margins. */
 function insideOf({ paper, margins, marginMm }: PrepareSettings, landscape: boolean): Size {
   const { widthMm, heightMm } = orientedPaper(paper, landscape);
   return {
@@ -85,13 +85,13 @@ function insideOf({ paper, margins, marginMm }: PrepareSettings, landscape: bool
   };
 }
 
-/** For the drawing after one that lay on its own page: as if nothing had been chosen. */
+/** Undoes `onFilesPage`, for the next drawing. */
 export const withoutFilesPage = <S extends PrepareSettings>(settings: S): S =>
   isPageOnCorner(settings) ? { ...settings, ...NOT_CHOSEN } : settings;
 
 /**
- * Paper and drawing together a quarter clockwise, so that the plot is the same on a sheet that lies the other way.
- * `frame`: the drawing's own box on the paper, before a placed box is turned.
+ * Turns paper and drawing together by 90° clockwise, so that the plot is the same on a sheet in the other orientation.
+ * `frame`: the drawing's box on the paper, before a placed box is turned.
  */
 export function quarterTurned<S extends PrepareSettings>(settings: S, frame: Box): S {
   const { paper, landscape, margins, place, rotateDeg } = settings;
@@ -118,7 +118,7 @@ const turnedMargins = ({ topMm, rightMm, bottomMm, leftMm }: FourMargins): FourM
   leftMm: bottomMm,
 });
 
-/** The same for a box on a sheet of that height. */
+/** The same for a box on a sheet of height `heightMm`. */
 export const quarterTurnedBox = ({ x0, y0, x1, y1 }: Box, heightMm: number): Box => ({
   x0: heightMm - y1,
   y0: x0,

@@ -1,4 +1,4 @@
-/** Shapes to polylines: curves become chords within a tolerance in mm, after mapping to the paper. */
+/** Converts shapes to polylines: curves become chords within a tolerance in mm, after mapping to the paper. */
 import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type DrawingPaths } from "../drawing/drawing.js";
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import { flattenCubic } from "../geometry/cubic.js";
@@ -16,9 +16,9 @@ export interface VerbRange {
 }
 
 /**
- * One line for each subpath of the shapes where `wanted` is set; its tag is the shape. A subpath of zero
- * length is a dot. A shape without stroke is drawn as the outline of its fill: its subpaths are closed, and
- * its dots are dropped.
+ * Makes one line from each subpath of the shapes for which `wanted` is 1; its tag is the shape. A subpath of zero
+ * length becomes a dot. A shape without a stroke is drawn as the outline of its fill: its subpaths are closed, and its
+ * dots are dropped.
  */
 export function flattenShapes(
   paths: DrawingPaths,

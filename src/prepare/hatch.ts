@@ -2,14 +2,14 @@
  * Fills an area with parallel lines one pen width apart.
  *
  *    ┌─────────────┐    The area first shrinks by half a pen width, so that ink ends at the shape's edge.
- *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    Lines lie at whole multiples of the spacing from the paper's corner, for every
- *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    shape, so that the hatches of neighbouring shapes line up.
+ *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    Lines are at multiples of the spacing from the paper's corner, so that the
+ *    │╱╱╱╱╱╱╱╱╱╱╱╱╱│    hatches of neighbouring shapes line up.
  *    └─────────────┘
  *
- * Method: rotate the rings so that hatch lines are horizontal, intersect every edge with the levels that it
- * crosses, sort the crossings of each level, and draw between the first and second, third and fourth … The
- * rings are clean (they do not cross each other), so inside and outside alternate. Every other line runs
- * backwards, and where two neighbouring lines end close to each other they are drawn without lifting the pen.
+ * Method: rotate the rings so that hatch lines are horizontal. Intersect every edge with the levels that it crosses, and
+ * sort the crossings of each level. Draw from the first to the second, from the third to the fourth, and so on: the rings
+ * do not cross each other, so inside and outside alternate. Neighbouring lines whose ends are close are drawn back and
+ * forth without lifting the pen.
  *
  * Symbols: u along the lines, v across, both mm; level n is v = n · spacing.
  */
@@ -18,16 +18,16 @@ import { LineBuilder } from "../geometry/polyline.js";
 import { SCALE, regionContains, regionOf, type Region } from "../geometry/region.js";
 import type { HatchSettings } from "../settings/prepare.js";
 
-/** mm; no pen is finer, and a smaller spacing would only fill the memory. */
+/** Min spacing, mm: no pen is finer, and smaller spacings would need too much memory. */
 const FINEST_SPACING = 0.05;
 /** Neighbouring lines are linked if their ends are closer than this many spacings. */
 const LONGEST_LINK = 2;
 /**
- * mm: links are checked this much further inside, because along a straight border rounding decides between
- * inside and outside.
+ * Links are checked this much further inside, mm: directly on a straight border, rounding would decide whether a point
+ * is inside.
  */
 const HAIR = 1e-3;
-/** A sharp corner of the inset is cut off at this many widths. */
+/** Sharp corners of the inset are cut off at this multiple of the width. */
 const MITER_LIMIT = 2;
 
 /** Adds the hatch of `area` to `builder` under `tag`. */
@@ -41,7 +41,7 @@ export function hatchArea(area: Region, hatch: HatchSettings, tag: number, build
   if (hatch.cross) hatchDirection(inner, spacing, angle + Math.PI / 2, tag, builder);
 }
 
-/** The area without a border of this width, mm. */
+/** Shrinks the area by this width, mm. */
 function inset(rings: Paths64, width: number): Region {
   // Clipper.inflatePaths does the same, but adds the whole library to the page's worker bundle.
   const offset = new ClipperOffset(MITER_LIMIT);
@@ -70,8 +70,8 @@ function hatchDirection(
 }
 
 /**
- * For each level, the u values where ring edges cross it. A vertex on a level counts only for the edge below
- * it.
+ * For each level, the u values where ring edges cross it. A vertex on a level belongs only to the edge below the level,
+ * so it is not counted twice.
  */
 function crossings(rings: Paths64, spacing: number, cos: number, sin: number): Map<number, number[]> {
   const levels = new Map<number, number[]>();
@@ -99,7 +99,7 @@ interface Chain {
   level: number;
 }
 
-/** Links lines of neighbouring levels into zigzags, as long as the link lies inside the area. */
+/** Links lines of neighbouring levels into zigzags if the link is inside the area. */
 class HatchWriter {
   private open: Chain[] = [];
 
@@ -154,7 +154,7 @@ class HatchWriter {
     return best;
   }
 
-  /** Whether a short link stays in the area, checked at its middle and quarters. */
+  /** Whether a short link is inside the area, checked at three points. */
   private isInside(u0: number, v0: number, u1: number, v1: number): boolean {
     return [0.25, 0.5, 0.75].every((t) => {
       const u = u0 + t * (u1 - u0);

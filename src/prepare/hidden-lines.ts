@@ -1,9 +1,9 @@
 /**
- * Hidden lines: a filled shape covers what was painted before it.
+ * Removes hidden lines: a filled shape covers everything painted before it.
  *
- * A line is cut by the areas of later shapes only, one after the other. A tree of boxes (Flatbush) finds the
- * areas that can touch it, so the cost grows with the overlaps and not with the square of the drawing. A
- * shape's own fill hides none of its own lines.
+ * Each line is cut by the areas of all later shapes. A tree of boxes (Flatbush) finds the areas that can touch it, so the
+ * cost grows with the number of overlaps and not with the square of the drawing. A shape's fill does not hide its own
+ * lines.
  */
 import Flatbush from "flatbush";
 import { boxOfPoints } from "../geometry/box.js";
@@ -12,8 +12,8 @@ import { cutLine, type Region } from "../geometry/region.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
- * `lines` have their shape as tag; `areas` by shape; a higher shape is painted later. Shapes that do not take
- * part (hidden layers) neither cover nor are covered.
+ * The tag of each line is its shape; `areas` by shape. A shape with a higher index is painted later. Shapes for which
+ * `takesPart` is false (hidden layers) neither cover nor are covered.
  */
 export function hideCovered(
   lines: Lines,

@@ -1,13 +1,12 @@
 /**
  * Joins lines whose ends meet, within a layer, so that the pen stays down.
  *
- * Every end is paired with at most one other end nearby; chains of paired lines become one line. Round one
- * pairs ends at the same point, the straightest continuation first: where lines cross in a mesh, the pen then
- * runs straight through instead of turning. Round two pairs the remaining ends, nearest first.
+ * Every end is paired with at most one other end nearby; chains of paired lines become one line. The first round pairs
+ * ends at the same point, the straightest continuation first, so that in a mesh the pen goes straight through a crossing
+ * instead of turning. The second round pairs the remaining ends, nearest first.
  *
- * Symbols: end 2i is the first point of line i, end 2i + 1 its last. `far[e]` is the other end of the chain
- * that ends in e (valid for chain ends only), so that a chain is never joined to itself unless this closes a
- * real loop.
+ * Symbols: end 2i is the first point of line i, end 2i + 1 its last. `far[e]` is the other end of the chain that ends in
+ * e (valid for chain ends only). It shows when a pair would join a chain to itself, which is allowed only for real loops.
  *
  * No points move: joining adds the gap, at most `radius`, as a straight segment. Dots and closed lines are
  * unchanged.
@@ -16,13 +15,13 @@ import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 import { LineBuilder, SAME_POINT, isClosedLine, lineLength, type Lines } from "../geometry/polyline.js";
 import { tagRanges } from "./tour.js";
 
-/** Max candidates compared at one point: keeps a star of 100 000 rays linear. */
+/** Max candidates compared at one point, so that the time stays linear even for a star of 100 000 rays. */
 const MAX_CANDIDATES = 24;
 /** A chain shorter than this many radii is not closed: its ends are close only because it is short. */
 const SHORTEST_LOOP = 4;
 const UNPAIRED = -1;
 
-/** Lines of one tag must be contiguous. `radius` in mm; 0 joins only ends that coincide (or nearly). */
+/** Lines of one tag must be contiguous. `radius` in mm; 0 joins only ends that coincide. */
 export function joinLines(lines: Lines, radius: number): Lines {
   const builder = new LineBuilder();
   for (const [first, end] of tagRanges(lines)) {
@@ -56,7 +55,7 @@ class Pairing {
   private readonly far: Int32Array;
   private readonly length: Float64Array;
   private readonly xy: Float64Array;
-  /** Unit vector from each end, out of its line. */
+  /** Unit vector at each end, pointing away from its line. */
   private readonly out: Float64Array;
   /** The ends that can still be paired, and 1 for each of them. */
   private readonly free: PointGrid;
@@ -93,11 +92,11 @@ class Pairing {
         this.take(e + 1);
       }
     }
-    this.takeLonely();
+    this.removeIsolated();
   }
 
-  /** Takes the ends that have no other one within the radius: almost all in most drawings. */
-  private takeLonely(): void {
+  /** Removes ends without another end within the radius: almost all in most drawings. */
+  private removeIsolated(): void {
     const two = new NearestPoints(2);
     for (let e = 0; e < this.isFree.length; e++) {
       if (this.isFree[e] === 0) continue;
@@ -134,7 +133,7 @@ class Pairing {
       const other = near.ids[k];
       if (other === e || !this.mayPair(e, other)) continue;
       if (!straightest) return other;
-      // Straight on means that the two lines leave the point in opposite directions.
+      // The continuation is straight if the two vectors are opposite.
       const cost = out[2 * e] * out[2 * other] + out[2 * e + 1] * out[2 * other + 1];
       if (cost < bestCost) {
         bestCost = cost;
@@ -167,7 +166,7 @@ class Pairing {
   }
 }
 
-/** Writes the chain that contains line `i`, in line i's direction, starting at its free end if it has one. */
+/** Writes the chain that contains line `i`, in line i's direction. It starts at a free end; a loop starts at line `i`. */
 function writeChain(
   lines: Lines,
   first: number,

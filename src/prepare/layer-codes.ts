@@ -7,11 +7,11 @@
  *   code   = "+h" 0…100   pen-down height, percent     upper or lower case; of several valid ones
  *          | "+s" 1…110   pen-down speed, percent      the last one applies; codes out of range are ignored
  *          | "+d" 1…      wait before the layer, ms
- *          | "+v" 1…100   percent of the speed at which the layer would be drawn; a code of plotwright
+ *          | "+v" 1…100   percent of the layer's usual speed; an extension of plotwright
  *   number = digits: the N of "plot layer N"
  *   text   = the rest, the readable name
  *
- * Codes follow each other without a space; the text starts at the first thing that is not a code.
+ * There are no spaces between codes; the text starts after the last code.
  */
 export interface LayerCodes {
   readonly skip: boolean;
@@ -46,9 +46,7 @@ export function parseLayerName(name: string): LayerCodes {
   return { skip: false, pause, number, penDownPct, drawSpeedPct, speedSharePct, delayMs, text: rest };
 }
 
-/**
- * The name that `parseLayerName` reads back; a space separates text that would otherwise be read as a code.
- */
+/** The inverse of `parseLayerName`. A space separates text that would otherwise be read as a code. */
 export function formatLayerName(codes: LayerCodes): string {
   if (codes.skip) return `%${codes.text}`;
   const head = [

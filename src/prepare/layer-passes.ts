@@ -1,10 +1,10 @@
-/** Layers drawn more than once, for more ink, with as little travel as possible. */
+/** Repeats layers that are drawn more than once, for more ink, with little travel. */
 import { LineBuilder, distance, type Lines } from "../geometry/polyline.js";
 import { tagRanges } from "./tour.js";
 
 /**
- * Repeats each tag's lines `passesOf` times. Every second pass runs backwards, last line first and each line
- * reversed, if that saves travel: it begins where the previous pass ends.
+ * Repeats each tag's lines `passesOf` times. If it saves travel, every second pass is drawn backwards (last line first,
+ * each line reversed), because it then begins where the previous pass ends.
  */
 export function repeatLines(lines: Lines, passesOf: (tag: number) => number): Lines {
   const ranges = tagRanges(lines);
@@ -19,8 +19,8 @@ export function repeatLines(lines: Lines, passesOf: (tag: number) => number): Li
 }
 
 /**
- * Whether going back and forth takes less travel than starting over each time, including the travel to the
- * next tag.
+ * Whether drawing back and forth takes less travel than starting from the same end each time, including the travel to
+ * the next tag.
  */
 function goesBack(lines: Lines, first: number, end: number, passes: number, next: number | null): boolean {
   const { xy, offsets } = lines;

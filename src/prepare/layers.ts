@@ -10,9 +10,9 @@ const MAX_LAYERS = 65_535;
 
 /** A layer as it is in the file. */
 export interface FileLayer extends StrokeLayer {
-  /** How many colours its lines have; `color` is the one with the greatest length of line. */
+  /** Number of colours of its lines; `color` is the one with the greatest length. */
   readonly colorCount: number;
-  /** How wide the file draws its lines, the mean by length, in mm on the file's page; 0: the file does not say. */
+  /** Mean stroke width of its lines by length, mm on the file's page; 0 if the file has no widths. */
   readonly strokeWidthMm: number;
 }
 
@@ -42,7 +42,7 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
       areas[keyOf(shape)] += shapeMm * strokeWidth[shape];
       lengths[keyOf(shape)] += shapeMm;
     }
-    // Most shapes have the same layer and ink as the next one: a run of them is added once.
+    // Consecutive shapes of the same layer and colour are added together.
     const next = shape + 1;
     const isAlike =
       next < paths.count &&
@@ -102,7 +102,7 @@ export function inOrder(table: LayerTable, wanted: readonly string[]): LayerTabl
 /** Length assigned to a dot when choosing a layer's main colour, mm. */
 const DOT_MM = 0.1;
 
-/** The length of a shape's lines on the file's page; for a curve, that of its control polygon. */
+/** The length of a shape's lines on the file's page; for a curve, the length of its control polygon. */
 function lengthOf({ verbs, coords, verbOffsets, coordOffsets }: DrawingPaths, shape: number): number {
   let lengthMm = 0;
   let start = coordOffsets[shape];
@@ -119,7 +119,7 @@ function lengthOf({ verbs, coords, verbOffsets, coordOffsets }: DrawingPaths, sh
 const between = (coords: Float64Array, from: number, to: number): number =>
   distance(coords[from], coords[from + 1], coords[to], coords[to + 1]);
 
-/** The colour that a shape is drawn in: its stroke, or else its fill (then its outline is drawn). */
+/** The colour in which a shape is drawn: that of its stroke, otherwise of its fill (then its outline is drawn). */
 const inkOf = ({ stroke, fill }: DrawingPaths, shape: number): number =>
   stroke[shape] >= 0 ? stroke[shape] : fill[shape];
 
@@ -132,8 +132,8 @@ function layerOf(
   strokeWidthMm: number,
 ): FileLayer {
   const [[ink]] = [...inks].sort(([, a], [, b]) => b - a);
-  const look = { color: ink >= 0 ? drawing.colors[ink] : null, colorCount: inks.size, strokeWidthMm };
-  if (mode === "group") return { id: drawing.groups[key].id, name: drawing.groups[key].name, ...look };
-  if (mode === "stroke") return { id: drawing.colors[key], name: drawing.colors[key], ...look };
-  return { id: "all", name: "All strokes", ...look };
+  const colors = { color: ink >= 0 ? drawing.colors[ink] : null, colorCount: inks.size, strokeWidthMm };
+  if (mode === "group") return { id: drawing.groups[key].id, name: drawing.groups[key].name, ...colors };
+  if (mode === "stroke") return { id: drawing.colors[key], name: drawing.colors[key], ...colors };
+  return { id: "all", name: "All strokes", ...colors };
 }

@@ -1,6 +1,6 @@
 /**
- * Order "fast": always goes to the nearest remaining end. A line can be entered at either end, a closed one
- * at any point. 20 000 strokes take about 0.01 s.
+ * Order "fast": the next line is always the one with the nearest end. A line can start at either end, a closed one at
+ * any point. 20 000 strokes take about 0.01 s.
  */
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
@@ -15,9 +15,8 @@ export interface PenPlace {
 }
 
 /**
- * Orders lines [first, end), writing the same range of `tour.order`, from a start position (mm). A closed
- * line may start at any point, or without `freeStart` only at its own. Returns the final position of the pen
- * and its travel.
+ * Orders lines [first, end) from a start position (mm), and writes them to the same range of `tour.order`. With
+ * `freeStart`, a closed line may start at any point. Returns the final position of the pen and its travel.
  */
 export function nearestOrder(
   lines: Lines,
@@ -63,7 +62,7 @@ interface Entries {
   readonly isClosed: Uint8Array;
 }
 
-/** All points where a line can start: both ends, one for a dot, all points of a closed line. */
+/** All points where a line can start: both ends, the point of a dot, all points of a closed line with `freeStart`. */
 function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean): Entries {
   const { xy, offsets } = lines;
   const maxEntries = offsets[end] - offsets[first];

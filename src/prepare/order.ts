@@ -1,7 +1,7 @@
 /**
- * Drawing order, layer by layer: less pen-up travel, the same lines.
+ * Orders lines within each layer for less pen-up travel.
  *
- * In every mode the result is never longer than the file's order: the shorter of the two is used.
+ * If the file's order has less travel than the result, the file's order is used.
  */
 import { distance, type Lines } from "../geometry/polyline.js";
 import { improveTour } from "./best-order.js";
@@ -11,7 +11,7 @@ import { fileTour, tagRanges, travelOf, type Tour } from "./tour.js";
 import type { Work } from "./work.js";
 
 /**
- * Lines of one tag (layer) must be contiguous; they still are afterwards, with the tags in the same order.
+ * Lines of one tag (layer) must be contiguous. The tags stay in the same order.
  *
  * @param asDrawnMm the travel of the lines in their current order
  */

@@ -2,8 +2,8 @@
  * The pens of a drawing: which pen draws which layer, where the plot stops to change pens, and the correction
  * for a pen that sits off-centre in the holder.
  *
- * With layers a (red), b (red) and c (black) the plot stops for the first pen too, and before c's first stroke. A
- * drawing of a single pen does not stop for it:
+ * For example, with layers a (red), b (red) and c (black), the plot stops before these strokes. A drawing with a single
+ * pen does not stop at its beginning.
  *
  *   strokes   0 1 2 | 3 4 | 5 6 7        "pens"    0, 5
  *   layers    a     | b   | c            "layers"  0, 3, 5
@@ -28,7 +28,7 @@ export interface PlotPen {
   readonly offsetYMm: number;
 }
 
-/** The user's pens, which layer uses which, and where the plot stops to change them. */
+/** The user's pens, the pen of each layer, and where the plot stops to change pens. */
 export interface PenSetup {
   /** The pens that `layerPens` refers to. */
   readonly pens: readonly PlotPen[];
@@ -36,13 +36,13 @@ export interface PenSetup {
   readonly layerPens: Readonly<Record<string, string>>;
   /** "pens": stop where a different pen is needed, and before a layer whose name begins with "!". */
   readonly penStops: PenStopMode;
-  /** By layer id: whether to stop before it, overriding its pen and name. Ignored under "never". */
+  /** By layer id: whether to stop before it; overrides the rule for its pen and name. Ignored with "never". */
   readonly layerStops: Readonly<Record<string, boolean>>;
 }
 
 export const NO_PENS: PenSetup = { pens: [], layerPens: {}, penStops: "pens", layerStops: {} };
 
-/** The plot waits, with the pen up, before it draws this stroke. */
+/** A stop: the plot waits, with the pen up, before it draws this stroke. */
 export interface PenStop {
   readonly strokeIndex: number;
   readonly layerId: string;
@@ -61,8 +61,8 @@ export function penOf({ pens, layerPens }: PenSetup, layer: StrokeLayer): PlotPe
 }
 
 /**
- * Where the plot waits for the operator, in order. There is a stop before the first stroke if several pens are needed,
- * since any of them may be in the holder, or if its layer asks for one. Linear in strokes.
+ * Where the plot waits for the operator, in order. There is a stop before the first stroke if its layer asks for one, or
+ * if several pens are needed, since any of them may be in the holder. Linear in strokes.
  */
 export function penStopsOf(strokes: StrokeSet, setup: PenSetup): readonly PenStop[] {
   if (setup.penStops === "never") return [];
@@ -89,7 +89,7 @@ function pensUsed(strokes: StrokeSet, setup: PenSetup): ReadonlySet<string> {
 }
 
 function stopsBefore(setup: PenSetup, layer: StrokeLayer, isFirst: boolean, needsOther: boolean): boolean {
-  // The further parts of a layer exist only to stop for ink.
+  // Layers are split only for stops to take up ink.
   if (layer.partOf !== undefined) return true;
   const own = setFor(setup.layerStops, layer.id);
   if (own !== undefined) return own;

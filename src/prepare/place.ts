@@ -134,7 +134,7 @@ export const boxAt = (boxes: Float64Array, i: number): Box => ({
 });
 
 /**
- * Box of everything the file draws, including hidden layers: layers plotted one at a time must still align.
+ * Box of everything that the file draws, including hidden layers, so that layers plotted one at a time still align.
  */
 function contentBox(drawing: Drawing, boxes: Float64Array, whole: Box, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
@@ -168,11 +168,11 @@ function clipBox(clip: ClipRegion, map: Affine): Box {
 /** mm. Anything beyond this (a thousand kilometres) is an error in the file. */
 const FAR_AWAY = 1e9;
 
-/** True for boxes that no paper could hold, so that they do not determine the scale. */
+/** True for boxes much larger than any paper, which must not determine the scale. */
 export const isFarAway = ({ x0, y0, x1, y1 }: Box): boolean =>
   !(x0 > -FAR_AWAY && y0 > -FAR_AWAY && x1 < FAR_AWAY && y1 < FAR_AWAY);
 
-/** Keeps rounding from pushing a line on the border across it, where it would be cropped: 3 nm on 300 mm. */
+/** Slightly below 1, so that rounding does not move a line on the border across it, where it would be cropped. */
 const FIT_SHARE = 1 - 1e-11;
 
 function fitted(content: Box, inside: Box): Affine {
@@ -187,7 +187,7 @@ function fitted(content: Box, inside: Box): Affine {
   return compose(toMiddle, compose(scaling(s), fromMiddle));
 }
 
-/** The content's top left corner at x, y, in the size asked for. */
+/** Moves the content's top left corner to x, y and scales it to the given size. */
 function placed(content: Box, place: PlacedBox): Affine {
   if (isEmptyBox(content)) return IDENTITY;
   const ratio = (wanted: number | null, have: number): number | null =>
@@ -211,7 +211,7 @@ export function pageCorners(drawing: Drawing, map: Affine): number[] {
 
 const pageBox = (drawing: Drawing, map: Affine): Box => boxOfPoints(pageCorners(drawing, map));
 
-/** Only for maps that scale and translate. */
+/** Only for maps of scale and translation. */
 function movedBoxes(boxes: Float64Array, { a, d, e, f }: Affine): Float64Array {
   const moved = new Float64Array(boxes.length);
   for (let i = 0; i < boxes.length; i += 4) {

@@ -1,10 +1,9 @@
 /**
- * From the file's drawing to pen strokes: the steps below, in that order.
+ * Converts the file's drawing to pen strokes, by the steps below.
  *
- * The tag of a line is its shape until lines are sorted by layer, and its part of a layer (speed-parts.ts)
- * from then on. Hidden layers
- * are processed up to the counts, so that the page can show what showing them would add; they are dropped
- * only then. They hide nothing, and nothing hides them.
+ * The tag of a line is its shape until lines are sorted by layer, and after that its part of a layer (speed-parts.ts).
+ * Hidden layers are processed up to the counts, so that the page can show their figures, and dropped after that. They
+ * hide nothing, and nothing hides them.
  */
 import type { Drawing } from "../drawing/drawing.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
@@ -51,9 +50,9 @@ import { spreadLines } from "./spread.js";
 import { linesOfTour, travelAsDrawn } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** The result of `prepare`: the strokes, and what the page tells about them. */
+/** The result of `prepare`: the strokes and figures about them. */
 export interface Prepared {
-  /** What the pen draws, in drawing order. */
+  /** The strokes, in drawing order. */
   readonly strokes: StrokeSet;
   /** All layers of the file under the layer mode, including hidden ones, in drawing order. */
   readonly layers: readonly PreparedLayer[];
@@ -66,7 +65,7 @@ export interface Prepared {
   readonly travelMm: number;
   /** Distance with the pen down. */
   readonly drawMm: number;
-  /** What is left out with this paper and these settings; the drawing's own warnings are not repeated. */
+  /** Warnings about lines left out with this paper and these settings. The drawing's own warnings are not repeated. */
   readonly warnings: readonly string[];
 }
 
@@ -153,7 +152,7 @@ export function prepare(
   lines = repeatLines(spread, passesOf);
   const isOnceEach = lines === spread;
   let travelMm = travelAsDrawn(lines);
-  // An order that is shorter for one pass may end where starting the next pass takes longer.
+  // With several passes, an order with less travel per pass may need more travel between passes.
   if (settings.spread === "none" && travelMm > unordered) {
     lines = asInFile;
     travelMm = unordered;

@@ -1,18 +1,18 @@
 /**
- * Drops what is already drawn: the parts of every straight piece that lie within a tolerance of an earlier
- * piece with the same (or opposite) direction. Shared borders and doubled shapes are drawn once.
+ * Drops repeated lines: every part of a segment that is within a tolerance of an earlier, parallel segment. So shared
+ * borders and doubled shapes are drawn once.
  *
  *      earlier  ────────────────────
- *      this         ═══════════════════════     within tolerance over [t0, t1]: dropped there,
+ *      this         ═══════════════════════     within tolerance from t0 to t1: dropped there,
  *                   t0            t1            the rest stays
  *
- * Pieces are indexed in a tree of boxes (Flatbush); only pieces of the same tag (layer) are compared.
+ * Pieces (segments and dots) are indexed in a tree of boxes (Flatbush). Only pieces of the same tag are compared.
  */
 import Flatbush from "flatbush";
 import { LineBuilder, distance, lineCount, type Lines } from "../geometry/polyline.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** `tolerance` in mm; 0 keeps everything. A dot is dropped if an earlier dot lies within the tolerance. */
+/** `tolerance` in mm; 0 keeps everything. A dot is dropped if an earlier dot is within the tolerance. */
 export function dropRepeats(lines: Lines, tolerance: number, work: Work): Lines {
   if (!(tolerance > 0) || lineCount(lines) === 0) return lines;
   const pieces = piecesOf(lines);
@@ -100,7 +100,7 @@ function addNewParts(
   const y = (t: number): number => (t === 1 ? y1 : y0 + t * (y1 - y0));
   let at = 0;
   for (const [from, to] of covered) {
-    // A remainder shorter than the tolerance is not worth a pen lift: it counts as covered.
+    // A remainder shorter than the tolerance is dropped too, to save a pen lift.
     if ((from - at) * length > tolerance) addPart(builder, x(at), y(at), x(from), y(from));
     if (builder.openPoints > 1) builder.end(tag);
     else builder.drop();
@@ -142,7 +142,7 @@ function coveredRanges(lines: Lines, pieces: Pieces, piece: number, tolerance: n
   return merged;
 }
 
-/** The range of t on piece p where piece q runs alongside, within the tolerance at both ends. */
+/** The range of t on segment p where segment q is within the tolerance; null if there is none. */
 function sharedRange(xy: Float64Array, p: number, q: number, tolerance: number): [number, number] | null {
   const x0 = xy[2 * p];
   const y0 = xy[2 * p + 1];
@@ -158,7 +158,7 @@ function sharedRange(xy: Float64Array, p: number, q: number, tolerance: number):
   const from = Math.max(Math.min(ta, tb), 0);
   const to = Math.min(Math.max(ta, tb), 1);
   if ((to - from) * Math.sqrt(length2) <= tolerance * 1e-3) return null;
-  // For two straight pieces the distance is linear in t, so checking both ends of the range is enough.
+  // The distance of two straight lines is linear in t, so checking both ends of the range is enough.
   const slope = (across(q + 1) - across(q)) / (tb - ta);
   const gapAt = (t: number): number => Math.abs(across(q) + slope * (t - ta));
   return gapAt(from) <= tolerance && gapAt(to) <= tolerance ? [from, to] : null;

@@ -27,7 +27,7 @@ export function cropBox(settings: PrepareSettings, place: Placement): Box | null
   return inside ? intersectBoxes(inside, reach) : reach;
 }
 
-/** Shapes worth flattening: those that touch `limit` and are not absurdly far away. */
+/** Marks the shapes to flatten: those that touch `limit` and are not extremely far away. */
 export function shapesOnPaper(
   drawing: Drawing,
   place: Placement,
@@ -36,7 +36,7 @@ export function shapesOnPaper(
 ): Uint8Array {
   const wanted = new Uint8Array(drawing.paths.count);
   const within = limit === null || isFarAway(limit) ? EMPTY_BOX : limit;
-  // Never true if one shape is empty, since `whole` is infinite then.
+  // Not true if a shape is empty, because `whole` is infinite then.
   if (boxContains(within, place.whole)) return wanted.fill(1);
   const boxes = place.shapeBoxes();
   let outside = 0;
@@ -72,7 +72,7 @@ export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, lim
   return dashLines(lines, patternOf, limit ?? ANYWHERE);
 }
 
-/** mm of line that may be lost at the margins without a warning: rounding. */
+/** A loss of line at the margins up to this is rounding and causes no warning, mm. */
 const UNNOTICED_CROP = 0.1;
 
 export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): Lines {
@@ -81,7 +81,7 @@ export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): 
   const lost = totalLength(lines) - totalLength(kept);
   if (lost > UNNOTICED_CROP) {
     warnings.push(
-      `${Math.ceil(lost)} mm of line lie outside the margins and are cut off. Make the margins smaller, or the drawing.`,
+      `${Math.ceil(lost)} mm of line lie outside the margins and are cut off. Make the margins or the drawing smaller.`,
     );
   }
   return kept;
@@ -95,14 +95,14 @@ export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Li
     y: Math.round(corners[k + 1] * SCALE),
   }));
   const page = regionOf([ring]);
-  // Cutting by the region is slow for a large drawing, and most lie within their page.
+  // Most drawings are within their page. Check that first, because cutting a large drawing by a region is slow.
   const [x0, y0, x1, y1] = corners;
   const isUpright = Math.min(Math.abs(x1 - x0), Math.abs(y1 - y0)) < 1e-6;
   if (isUpright && boxContains(boxOfPoints(corners), boxOfPoints(lines.xy))) return lines;
   return cutLines(lines, () => page);
 }
 
-/** Removes the outlines of shapes that have no stroke of their own. */
+/** Removes the outlines of shapes without a stroke. */
 export function strokedOnly(lines: Lines, drawing: Drawing): Lines {
   const kept: number[] = [];
   for (let i = 0; i < lineCount(lines); i++) if (drawing.paths.stroke[lines.tag[i]] >= 0) kept.push(i);

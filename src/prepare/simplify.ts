@@ -1,10 +1,10 @@
 /**
- * Fewer points, the same line within a tolerance: Douglas and Peucker's method, with a work list instead of
- * recursion. (D. Douglas, T. Peucker, The Canadian Cartographer 10(2), 1973)
+ * Removes points whose loss changes the line by no more than a tolerance: Douglas and Peucker's method, with a work list
+ * instead of recursion. (D. Douglas, T. Peucker, The Canadian Cartographer 10(2), 1973)
  *
  *        ·  far
- *      /   \           the point farthest from the chord stays if it is farther than the tolerance,
- *  a ·-------· b       and both halves are checked again; otherwise all between a and b are dropped
+ *      /   \           if the point farthest from the chord is farther than the tolerance, it stays, and both
+ *  a ·-------· b       halves are checked again; otherwise all points between a and b are dropped
  *
  * The distance is measured to the chord as a segment, so a line that doubles back keeps its turning point.
  */

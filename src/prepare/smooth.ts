@@ -1,10 +1,10 @@
-/** Rounder lines, and new start points for closed lines. */
+/** Smooths lines, and moves the start points of closed lines. */
 import { LineBuilder, isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
 
 /**
- * Corner cutting (G. Chaikin, 1974): every segment is replaced by its middle half, and the halves are linked;
- * the limit is a quadratic B-spline. Open lines keep their end points, closed lines stay closed.
+ * Corner cutting (G. Chaikin, 1974): each round shortens every segment to its middle half and connects these by new
+ * segments. The limit is a quadratic B-spline. Open lines keep their end points, closed lines stay closed.
  */
 export function smoothLines(lines: Lines, rounds: number): Lines {
   let smooth = lines;

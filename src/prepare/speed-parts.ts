@@ -1,6 +1,6 @@
 /**
- * Parts of layers that are drawn at different speeds. From sorting by layer on, lines of one part have one tag:
- * so they are joined and ordered among themselves only. Parts of one layer follow each other.
+ * Splits layers into parts that are drawn at different speeds. After sorting by layer, the tag of a line is its part, so
+ * lines are joined and ordered only within a part. The parts of a layer are consecutive.
  *
  *   layers   outline          fill
  *   parts    0 full  1 half   2 full
@@ -41,7 +41,7 @@ export function speedPartsOf(drawing: Drawing, { layers, ofShape }: LayerTable):
   return { count: layer.length, ofShape: ofPart, layer, factor };
 }
 
-/** The share of its layer's speed for each line; undefined if all are 1. */
+/** Each line's share of its layer's speed; undefined if all are 1. */
 export function speedFactorsOf({ tag }: Lines, { factor }: SpeedParts): Float64Array | undefined {
   return factor.every((one) => one === 1) ? undefined : Float64Array.from(tag, (part) => factor[part]);
 }

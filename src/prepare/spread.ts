@@ -7,7 +7,7 @@ import { randomFrom } from "./random.js";
 import type { SpreadMode } from "../settings/prepare.js";
 import { tagRanges } from "./tour.js";
 
-/** Number of passes of "interleave": pass k draws every fourth line, from line k on. */
+/** Number of passes of "interleave": pass k draws every fourth line, starting with line k. */
 const PASSES = 4;
 
 /** Lines of one tag stay together. */
@@ -46,8 +46,8 @@ export interface InkPortions {
 }
 
 /**
- * Splits the lines of each tag into portions of at most `reach` mm: a line that no longer fits starts a new
- * portion, and a line longer than a portion is cut.
+ * Splits the lines of each tag into portions of at most `reach` mm. A line that does not fit starts a new portion, and a
+ * line longer than a portion is cut.
  */
 export function inkPortions(lines: Lines, reach: number): InkPortions {
   const builder = new LineBuilder();

@@ -1,15 +1,14 @@
 /**
- * Searches a long tour block by block: a block of neighbouring strokes is taken out, searched as a separate
- * small tour, and put back. On a ring of a thousand strokes reversing a stretch takes microseconds and
- * everything fits in the cache; on one of twenty thousand the same step takes ten times as long.
+ * Searches a long tour block by block: a block of neighbouring strokes is extracted, searched as a separate small tour,
+ * and written back. In a ring of 1000 strokes, reversing a section takes microseconds; in one of 20 000 it takes ten
+ * times as long.
  *
  *   ring   h ooo [s s s] oooooo [s s] oo [s] oo      s in the block, o outside, h home
  *   small    A    s s s     B    s s   C  s  D       each run of o is one stroke of the small tour
  *
- * A run of outside strokes is entered at its first end and left at its last, and costs the same in both
- * directions, exactly like a stroke. So the small tour is the whole problem with the outside fixed, and every
- * mm saved in it is saved overall. (This is tour-based partitioning, after K. Helsgaun's LKH; here the runs
- * need no special case.)
+ * A run of outside strokes has two ends and the same length in both directions, just like a stroke. So the small tour is
+ * the whole problem with the outside fixed, and every mm saved in it is saved overall. (Tour-based partitioning, after
+ * K. Helsgaun's LKH.)
  */
 import { PointGrid } from "../geometry/point-grid.js";
 import { TourSearch } from "./tour-search.js";
@@ -21,9 +20,9 @@ const KICKS = 8;
 const KICKS_BETWEEN_CHECKS = 512;
 
 /**
- * One pass over all strokes in blocks. `ring` is changed in place: ends in drawing order, stroke k with ends
- * 2k and 2k + 1 at `xy`; the stroke that represents home is first and in no block. `hasTime` is called from
- * time to time with the number of kicks since the last call. Returns whether the pass was finished.
+ * One pass over all strokes in blocks. Changes `ring` in place: the ends in drawing order; stroke k has ends 2k and
+ * 2k + 1, with coordinates in `xy`. The stroke that represents home is first and in no block. `hasTime` is called
+ * regularly with the number of kicks since the last call. Returns whether the pass was finished.
  */
 export function improveBlocks(
   ring: Int32Array,
@@ -35,7 +34,7 @@ export function improveBlocks(
   const strokes = ring.length / 2;
   const home = ring[0] >> 1;
   const order = strokesInSpace(xy, strokes, strokesInBlock);
-  // Different cuts in every pass, so that a block border in one pass is inside a block in the next.
+  // A random shift, so that a block border of one pass is inside a block in the next.
   const shift = Math.floor(random() * strokes);
   const blocks = Math.max(Math.round(strokes / strokesInBlock), 1);
   const isIn = new Uint8Array(strokes);

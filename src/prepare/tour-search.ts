@@ -6,25 +6,29 @@
  *
  *     … 2a+1 │ 6 7 │ 12 13 │ 5 4 │ 2b …        │ travel    6 7 a stroke, 5 4 one drawn backwards
  *
- * So every end has exactly one travel edge, to its partner, and reversing a stretch of the tour (2-opt) also
- * reverses its strokes: direction needs no moves of its own. One stroke represents home: it is entered where
- * the pen must end, and left where it begins.
+ * So every end has exactly one travel edge, to its partner. Reversing a section of the tour (2-opt) also reverses its
+ * strokes, so no special moves are needed for their directions. One stroke represents home: its entry is where the pen
+ * must end, its exit where the pen begins.
  *
- * Moves (after S. Lin, 1965, and I. Or, 1976): remove the travel edge t1 t2, go from t2 to a near end t3,
- * remove its travel edge t3 t4, and either close the ring from t4 to t1 (2-opt) or continue to a near t5,
- * remove t5 t6 and close there (the sequential 3-opt moves, including Or's relocation of a stretch with or
- * without reversing it). Gains stay positive at every step, which limits the search (Lin and Kernighan); near
- * ends come from lists of the nearest few.
+ * Moves (after S. Lin, 1965, and I. Or, 1976):
  *
- * Let rel(x) be the position of x counted from t2 away from t1 (rel t2 = 0, rel t1 = last). Positions with
- * even rel are entered, with odd rel left. Then rel tells which moves give a single ring again:
+ *     1. remove the travel edge t1 t2, connect t2 to a near end t3, remove its travel edge t3 t4
+ *     2. either connect t4 to t1 (2-opt)
+ *     3. or connect t4 to a near end t5, remove its travel edge t5 t6, connect t6 to t1 (3-opt; this includes Or's
+ *        move of a section to another place, reversed or not)
  *
- *     rel t3 even: 2-opt closes;  t5 after t3 must be even, t5 before t4 odd
- *     rel t3 odd : only a third edge inside t2 … t3 gives one ring: any t5 there
+ * The gain must be positive after every step, which limits the search (Lin and Kernighan). Near ends come from lists of
+ * the nearest few.
  *
- * To leave a local optimum: a double bridge over a short stretch, then a local search around it, undone if
- * the tour got longer (iterated local search, O. Martin, S. Otto, E. Felten, 1991). All changes are reversed
- * stretches, stored in a log, so undoing costs no more than doing.
+ * Let rel(x) be the position of x counted from t2 away from t1 (rel t2 = 0, rel t1 = last). A stroke is entered at an
+ * even rel and left at an odd one. A move must give a single ring again:
+ *
+ *     rel t3 even: 2-opt does;  for 3-opt, t5 after t3 must be even, t5 before t4 odd
+ *     rel t3 odd : 2-opt does not;  for 3-opt, t5 must be between t2 and t3
+ *
+ * To leave a local optimum: a double bridge over a short section (a kick), then a local search around it, undone if the
+ * tour became longer (iterated local search, O. Martin, S. Otto, E. Felten, 1991). All changes are reversals of sections,
+ * stored in a log, so undoing them takes no longer than making them.
  *
  * Invariants: `tour` and `place` are inverse; the ends of a stroke are neighbours in the ring at positions
  * 2i, 2i+1; `length` decreases with every accepted step. Lengths in mm.
@@ -48,12 +52,12 @@ export class TourSearch {
   private readonly place: Int32Array;
   private near = new Int32Array(0);
   private nearDistance = new Float64Array(0);
-  /** Ends whose surroundings must still be searched: a ring buffer, with each end in it at most once. */
+  /** Ends around which the search is still to be done: a ring buffer, with each end in it at most once. */
   private readonly queue: Int32Array;
   private readonly queued: Uint8Array;
   private queueFrom = 0;
   private queueSize = 0;
-  /** Reversed stretches since the last kick: first and last position of each. */
+  /** Reversed sections since the last kick: first and last position of each. */
   private log: number[] = [];
 
   // The best move around the current end.
@@ -62,8 +66,8 @@ export class TourSearch {
   private t5 = 0;
 
   /**
-   * `xy` holds the coordinates of the ends, x, y of end 0, of end 1 …; referenced, not copied. `order` is the
-   * initial ring: the ends in the order in which the pen meets them.
+   * `xy` has the coordinates of the ends: x, y of end 0, of end 1 …. It is referenced, not copied. `order` is the initial
+   * ring: the ends in drawing order.
    */
   constructor(
     private readonly xy: Float64Array,
@@ -85,7 +89,7 @@ export class TourSearch {
     this.near = new Int32Array(ends * NEAR).fill(-1);
     this.nearDistance = new Float64Array(ends * NEAR);
     const index = new PointGrid(xy);
-    // Two more, since an end finds itself and the other end of its stroke.
+    // Two more, because the result includes the end itself and the other end of its stroke.
     const found = new NearestPoints(NEAR + 2);
     for (let e = 0; e < ends; e++) {
       index.find(xy[2 * e], xy[2 * e + 1], Infinity, found);
@@ -117,7 +121,7 @@ export class TourSearch {
     return this.queueSize === 0;
   }
 
-  /** One double bridge and the following search; undone if the tour got longer. */
+  /** One double bridge and the search after it; undone if the tour became longer. */
   kick(): void {
     const strokes = this.ends / 2;
     if (strokes < 8) return;
@@ -132,10 +136,10 @@ export class TourSearch {
     const c3 = Math.max(cuts[2], c2 + 1);
     this.doubleBridge(start, c1, c2, c3);
     this.improve();
-    if (this.length > before + EPSILON) this.takeBack(before);
+    if (this.length > before + EPSILON) this.undo(before);
   }
 
-  /** Reorders the stretches b, c, d after stroke position `start` to d, c, b. */
+  /** Reorders the sections b, c, d after stroke position `start` to d, c, b. */
   private doubleBridge(start: number, c1: number, c2: number, c3: number): void {
     const at = (stroke: number, exit: number): number => this.tour[(2 * (start + stroke) + exit) % this.ends];
     const [p, b0, b1] = [at(0, 1), at(1, 0), at(c1, 1)];
@@ -147,7 +151,7 @@ export class TourSearch {
     for (const end of [p, b0, b1, c0, cEnd, d0, d1, n]) this.push(end);
   }
 
-  private takeBack(length: number): void {
+  private undo(length: number): void {
     for (let k = this.log.length - 2; k >= 0; k -= 2) this.turnPlaces(this.log[k], this.log[k + 1]);
     this.log.length = 0;
     this.length = length;
@@ -157,8 +161,7 @@ export class TourSearch {
   private improveAround(t1: number): boolean {
     const { tour, place, near, nearDistance, ends } = this;
     const p1 = place[t1];
-    // At odd positions a stroke is left, and the ring continues forwards to the partner; at even ones
-    // backwards.
+    // The partner of an odd position (the exit of a stroke) is the next one, that of an even position the previous one.
     const forward = (p1 & 1) === 1;
     const p2 = forward ? this.next(p1) : this.previous(p1);
     const t2 = tour[p2];
@@ -220,12 +223,12 @@ export class TourSearch {
     this.t5 = t5;
   }
 
-  /** Makes the move that was found, as reversed stretches. */
+  /** Makes the move that was found, as reversals of sections. */
   private makeMove(t1: number, t2: number): void {
     const { t3, t5, place } = this;
     const t4 = this.tour[this.partnerPlace(place[t3])];
     const t6 = t5 < 0 ? -1 : this.tour[this.partnerPlace(place[t5])];
-    // t3 is entered from the same side as t2 exactly when the 2-opt move closes.
+    // Even rel t3: t2 and t3 are both entries or both exits.
     const closes = (place[t3] & 1) === (place[t2] & 1);
     if (closes) {
       this.turn(t1, t2, t4, t3);
@@ -255,7 +258,7 @@ export class TourSearch {
   }
 
   /**
-   * The same for a ring of three stretches: exchanging any two neighbours gives the same ring, so exchange
+   * The same if the whole ring consists of three sections. Exchanging any two of them gives the same ring, so exchange
    * the two shortest.
    */
   private swapShortest(p: number, x0: number, x1: number, y0: number, y1: number, n: number): void {
@@ -278,7 +281,7 @@ export class TourSearch {
    */
   private turn(a: number, b: number, c: number, d: number): void {
     const { place, ends } = this;
-    // b … c runs forwards if b is entered (even); otherwise the same stretch is c … b.
+    // If b is an entry (even), the section is b … c in the ring, otherwise c … b.
     const forward = (place[b] & 1) === 0;
     const first = forward ? place[b] : place[c];
     const last = forward ? place[c] : place[b];

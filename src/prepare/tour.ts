@@ -55,7 +55,7 @@ export function travelOf(lines: Lines, tour: Tour): number {
   return order.length > 0 ? travel + distance(x, y, 0, 0) : 0;
 }
 
-/** The same for the lines in their current order. */
+/** The same travel for the lines in their current order. */
 export function travelAsDrawn(lines: Lines): number {
   const { xy, offsets } = lines;
   const count = lineCount(lines);

@@ -1,4 +1,4 @@
-/** What a long computation needs from its caller, since src has no clock and no signals of its own. */
+/** Progress, cancelling and time of a long computation, injected by the caller because src has no clock. */
 import { PlotwrightError } from "../errors.js";
 
 /** Progress and cancelling of a long computation. Everything is optional. */

@@ -2,7 +2,7 @@
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 
-/** "watch": can see everything and change nothing. */
+/** "watch": may see everything but change nothing. */
 export const ROLES = ["operate", "watch"] as const;
 export const roleSchema = z.enum(ROLES);
 export type Role = z.infer<typeof roleSchema>;

@@ -75,7 +75,7 @@ export const plotterSchema = z.object({
   name: z.string(),
   /** The name stored on the board (QT); null if it has none. */
   boardName: z.string().nullable().default(null),
-  /** Id of the machine profile for moves by hand; null: that of the last job. */
+  /** Id of the machine profile for manual moves; null: that of the last job. */
   machine: z.string().nullable().default(null),
   /** "virtual": no hardware, but the built-in board model. */
   kind: z.enum(["virtual", "serial"]),
@@ -102,12 +102,12 @@ export const plotterSchema = z.object({
 export type Plotter = z.infer<typeof plotterSchema>;
 
 export const queueSettingsSchema = z.object({
-  /** False: the next job waits until somebody has changed the paper and starts it. */
+  /** False: the next job waits until a user has changed the paper and starts it. */
   runOn: z.boolean(),
 });
 export type QueueSettings = z.infer<typeof queueSettingsSchema>;
 
-/** The browser that currently may change things; everybody may watch and stop. */
+/** The browser that may currently change things; all others may watch, and stop plots. */
 export const operatorSchema = z.object({ id: z.string(), name: z.string() });
 export type Operator = z.infer<typeof operatorSchema>;
 
@@ -133,7 +133,7 @@ export const snapshotSchema = z.object({
   /** The server's name on the network, such as "plotwright.local"; null while it has none. */
   localName: z.string().nullable().default(null),
   plotters: z.array(plotterSchema),
-  /** By plotter id; a plotter for which nothing was set has none. */
+  /** By plotter id; a plotter without settings is left out. */
   plotterSettings: z.record(z.string(), plotterSettingsSchema).default({}),
   jobs: z.array(jobSchema),
 });

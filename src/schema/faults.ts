@@ -1,4 +1,4 @@
-/** What is wrong with a value that a schema refuses, in plain words instead of those of the schema library. */
+/** Describes why a schema refuses a value, in plain words instead of those of the schema library. */
 import type { z } from "zod";
 
 type Issue = z.core.$ZodIssue;

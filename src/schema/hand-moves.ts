@@ -1,4 +1,4 @@
-/** Moves by hand: the bodies of POST /plotters/:id/…, answered with the plotter. */
+/** Manual moves: the bodies of POST /plotters/:id/…, answered with the plotter. */
 import { z } from "zod";
 import { plotSettingsSchema } from "./settings.js";
 

@@ -42,7 +42,7 @@ export const jobPlaceSchema = z.object({
 });
 export type JobPlace = z.infer<typeof jobPlaceSchema>;
 
-/** A stop made by the plot itself, until somebody resumes it. */
+/** A stop made by the plot itself, until a user resumes it. */
 export const plotWaitSchema = z.object({
   /** Another pen must be inserted. */
   kind: z.literal("pen"),
@@ -62,7 +62,7 @@ export const jobSchema = z.object({
   settings: plotSettingsSchema,
   /** Null until the server has planned it. */
   stats: jobStatsSchema.nullable(),
-  /** What is left out of the drawing, and what the planner had to change. Plain text. */
+  /** Parts of the drawing that are left out, and changes by the planner. Plain text. */
   warnings: z.array(z.string()),
   /** Share of the plot's time, 0 … 1. */
   progress: z.number(),

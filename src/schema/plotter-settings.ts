@@ -1,6 +1,6 @@
 /**
- * What belongs to a plotter and not to a drawing: its pen's heights and waits, its pens, and its presets. The server
- * stores one such record for each plotter. The plotter's model is `Plotter.machine`.
+ * Settings of a plotter instead of a drawing: its pen's heights and waits, its pens, and its presets. The server stores
+ * one such record for each plotter. The plotter's model is `Plotter.machine`.
  */
 import { z } from "zod";
 import {

@@ -123,7 +123,7 @@ const replacedPenSchema = z.object({
   hop: z.object({ longestMm: z.number(), upPct: numberSchema(PEN_TABLE.upPct) }).nullish(),
 });
 
-/** Both told how far up the pen is clear of the paper: the higher of the two is the contact height. */
+/** Both were heights at which the pen is clear of the paper: the higher of the two becomes the contact height. */
 function upgradePen(stored: unknown): unknown {
   const replaced = replacedPenSchema.safeParse(stored);
   if (!replaced.success || "overlap" in (stored as object)) return stored;
@@ -163,9 +163,9 @@ export const plotSettingsSchema = z.object({
   penStops: z.enum(PEN_STOP_MODES).default(NO_PENS.penStops),
   layerStops: byLayer(z.boolean()).default({}),
   /**
-   * How much motion is sent to the board ahead of the pen. A board with a queue of one (before firmware 3)
-   * still plays all of it after an emergency stop. Less than 300 ms stops sooner, but then the pen stands
-   * still whenever the computer is busy for longer than that.
+   * How much motion is sent to the board ahead of the pen. A board with a queue of one command (before firmware 3)
+   * still plays all of it after an emergency stop. With less than 300 ms it stops sooner, but the pen pauses whenever
+   * the computer is busy for longer than that.
    */
   ...shapeWithDefaults(STREAM_TABLE),
   /** The complete profile of a machine that is not built in; used if `machine` is its id. */

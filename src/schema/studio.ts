@@ -20,7 +20,7 @@ export type Device = z.infer<typeof deviceSchema>;
 export const newPlotterSchema = z.object({
   name: nameSchema(100),
   device: deviceChoiceSchema,
-  /** Id of a machine profile for moves by hand. */
+  /** Id of a machine profile for manual moves. */
   machine: z.string().min(1).max(100).nullable().default(null),
 });
 export type NewPlotter = z.input<typeof newPlotterSchema>;

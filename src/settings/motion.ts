@@ -2,28 +2,28 @@ import { MIN_SPEED_FACTOR } from "../drawing/speed-factor.js";
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
 /**
- * How the pen moves: one set of limits with the pen down (`draw`), one with the pen up (`travel`).
+ * The motion settings: one set of limits with the pen down (`draw`), one with the pen up (`travel`).
  *
- * The corner rules and the page's words for them; src/plan/run-writer.ts has their planners.
+ * `CORNER_RULES` has the page's words for the corner rules; src/plan/run-writer.ts has their planners.
  */
 export const CORNER_RULES = {
   junction: {
     label: "Exact",
-    hint: "Slows down for every corner and turns on the point. The line is exactly the file’s.",
+    hint: "Slows down for every corner and turns exactly at its point. The line is exactly the file’s.",
   },
   blend: {
     label: "Rounded",
-    hint: "Sweeps through corners on a tiny curve: quicker, quieter, and the pen never jerks.",
+    hint: "Draws corners as tiny curves: faster, quieter, and the pen never jerks.",
   },
   scurve: {
     label: "Gentle",
-    hint: "As rounded, and speeds up and slows down softly too. Kindest to brush pens and tall machines.",
+    hint: "Like Rounded, and also speeds up and slows down softly. Best for brush pens and tall machines.",
   },
 } as const;
 export type MotionMode = keyof typeof CORNER_RULES;
 export const MOTION_MODES = Object.keys(CORNER_RULES) as readonly MotionMode[];
 
-/** How the swinging of the machine is kept out of the line (src/plan/shapers.ts). */
+/** Input shapers against the swinging of the machine (src/plan/shapers.ts). */
 export const SHAPERS = ["none", "zv", "mzv", "zvd", "ei"] as const;
 export type Shaper = (typeof SHAPERS)[number];
 
@@ -84,7 +84,8 @@ export const DRAW_TABLE = {
     slider: [50, 3_000],
   },
   /**
-   * δ: how far the line may deviate from the drawing (blend), or is assumed to for speed limits (junction).
+   * δ: max deviation of the line from the drawing (blend). In junction mode the line does not deviate, but δ sets the
+   * corner speed.
    */
   cornerMm: {
     ...corner,
@@ -116,7 +117,7 @@ export const TRAVEL_TABLE = {
     default: 1_000,
     slider: [50, 5_000],
   },
-  cornerMm: { ...corner, about: "how far corners may be cut, pen up", default: 0.5 },
+  cornerMm: { ...corner, about: "how far corners may be cut short, pen up", default: 0.5 },
   jerkMmPerS3: {
     ...jerk,
     about: "maximum change of acceleration, pen up (scurve)",
@@ -140,7 +141,7 @@ export const MOTION_TABLE = {
   shaper: {
     kind: "choice",
     label: "Against swinging",
-    about: "how the machine's swinging is kept out of the line; needs its measured frequencies",
+    about: "input shaper against the machine's swinging; needs its measured frequencies",
     flag: "--shaper",
     default: "none",
     choices: SHAPERS,
@@ -183,7 +184,7 @@ export const AXIS_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** Limits of single axes; null or left out: none but those of the whole motion. */
+/** Limits of single axes; null or left out: only the limits of the whole motion apply. */
 export type AxisLimits = { readonly [K in keyof typeof AXIS_TABLE]?: number | null | undefined };
 
 export const FIT_TABLE = {
@@ -201,7 +202,7 @@ export const FIT_TABLE = {
   floorMs: {
     kind: "number",
     label: "Commands of at least",
-    about: "shorter commands are used only where the drawing needs them",
+    about: "commands are shorter than this only where the drawing requires it",
     default: 15,
     min: 0,
     max: 200,
@@ -244,11 +245,11 @@ export const MOTOR_ACCEL = {
   step: 1_000,
 } as const satisfies NumberSetting;
 
-/** Of the speed at which a layer or a stroke would be drawn: what is drawn slower. */
+/** For a layer or stroke that is drawn slower: its share of the usual speed. */
 export const SPEED_FACTOR = {
   kind: "number",
   label: "Share of the speed",
-  about: "share of the speed at which it would be drawn",
+  about: "share of the usual speed at which it is drawn",
   default: 1,
   min: MIN_SPEED_FACTOR,
   max: 1,
@@ -256,9 +257,9 @@ export const SPEED_FACTOR = {
   step: 0.05,
 } as const satisfies NumberSetting;
 
-/** Overrides for one layer; what is left out is as for all layers. */
+/** Overrides for one layer; limits that are left out are those of all layers. */
 export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined } & {
-  /** The share of that speed at which the layer is drawn, from 0.01 to 1. */
+  /** The layer is drawn at this share of the speed, from 0.01 to 1. */
   readonly speedFactor?: number | undefined;
 };
 
@@ -266,7 +267,7 @@ export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefi
 export interface MotionSettings extends AxisLimits {
   /** How corners are taken. */
   readonly mode: MotionMode;
-  /** How the machine's swinging is kept out of the line; default none. Another one needs the machine's springs. */
+  /** Input shaper against the machine's swinging; default none. All others need the machine's `springs`. */
   readonly shaper?: Shaper | undefined;
   /** Limits with the pen down. */
   readonly draw: MotionLimits;

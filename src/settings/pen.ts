@@ -30,7 +30,7 @@ export const PEN_TABLE = {
     default: 30,
     slider: [0, 100],
   },
-  /** With a rate set, a delay on top of the time that the move takes; without, the whole time. */
+  /** The whole time of a lift or drop; with a rate set, an extra wait after the move. */
   liftMs: {
     ...delay,
     label: "Wait after lifting",
@@ -47,7 +47,7 @@ export const PEN_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** How fast the pen rises and sinks if a rate is set. The default is the page's initial value. */
+/** Rates of lift and drop, if set. The default is the page's initial value. */
 export const LIFT_RATE = {
   ...rate,
   label: "Rises at",
@@ -64,7 +64,7 @@ export const DROP_RATE = {
 export const PEN_OVERLAPS = ["off", "safe", "fast"] as const;
 export type PenOverlap = (typeof PEN_OVERLAPS)[number];
 
-/** Whether the carriage moves while the pen does (src/plan/pen-flight.ts). */
+/** Whether the carriage moves during pen moves (src/plan/pen-flight.ts). */
 export const OVERLAP_TABLE = {
   overlap: {
     kind: "choice",
@@ -74,7 +74,7 @@ export const OVERLAP_TABLE = {
     default: "safe",
     choices: PEN_OVERLAPS,
   },
-  /** Share of the way from down to up. */
+  /** Percent of the distance from down to up. */
   contactPct: {
     ...height,
     label: "Tip touches at",
@@ -108,19 +108,19 @@ export const LAYER_WAIT = {
   step: 500,
 } as const satisfies NumberSetting;
 
-/** Overrides for one layer's pen; what is left out is as for all layers. */
+/** Overrides for one layer's pen; settings that are left out are those of all layers. */
 export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undefined } & {
   /** A wait with the pen up before the layer's first stroke. */
   readonly beforeMs?: number | undefined;
 };
 
-/** Pen heights, and how long the motion waits for the pen. Start from `DEFAULT_PEN`. */
+/** Pen heights, and how long the carriage waits for the pen. Start from `DEFAULT_PEN`. */
 export interface PenSettings extends ValuesOf<typeof PEN_TABLE>, ValuesOf<typeof OVERLAP_TABLE> {
   /** How fast the pen rises; null or left out: as fast as the servo can. */
   readonly liftPctPerS?: number | null | undefined;
-  /** How fast the pen sinks; null or left out: as fast as the servo can. A low rate is gentle. */
+  /** How fast the pen sinks; null or left out: as fast as the servo can. */
   readonly dropPctPerS?: number | null | undefined;
-  /** By layer id: heights and waits of its own. */
+  /** By layer id: heights and waits of that layer. */
   readonly layers?: Readonly<Record<string, LayerPen>> | undefined;
 }
 

@@ -13,7 +13,7 @@ export type MirrorMode = (typeof MIRROR_MODES)[number];
 export const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
 export type SpreadMode = (typeof SPREAD_MODES)[number];
 
-/** Free edges of the paper as it lies. */
+/** Margins of the paper, in the orientation in which it lies. */
 export interface FourMargins {
   readonly topMm: number;
   readonly rightMm: number;
@@ -21,14 +21,14 @@ export interface FourMargins {
   readonly leftMm: number;
 }
 
-/** Where the drawing's own box goes, mm from the paper's top left corner. */
+/** Where the drawing's bounding box is placed, mm from the paper's top left corner. */
 export interface PlacedBox {
   readonly xMm: number;
   readonly yMm: number;
-  /** One of the two null: the drawing keeps its proportions. Both null: its true size. */
+  /** If one is null, the drawing keeps its proportions. If both are null, it has its true size. */
   readonly widthMm: number | null;
   readonly heightMm: number | null;
-  /** Then a clockwise rotation about the box's centre; size and centre stay the same. */
+  /** A clockwise rotation about the box's centre, applied last. */
   readonly turnDeg?: number | undefined;
 }
 
@@ -170,7 +170,7 @@ export const PREPARE_TABLE = {
   hideCovered: {
     kind: "switch",
     label: "Hide lines under filled shapes",
-    about: "leave out what lies under shapes painted later",
+    about: "leave out lines under shapes that are painted later",
     flag: "--hide-covered",
     default: false,
   },
@@ -242,7 +242,7 @@ export const PREPARE_TABLE = {
   smoothRounds: {
     kind: "number",
     label: "Smoothing, rounds",
-    about: "rounds of corner cutting (Chaikin); each doubles the points",
+    about: "rounds of corner cutting (Chaikin); each round doubles the number of points",
     flag: "--smooth",
     panel: "lines",
     default: 0,
@@ -283,7 +283,7 @@ export const PREPARE_TABLE = {
   spread: {
     kind: "choice",
     label: "Against wet ink",
-    about: "draw neighbours apart in time, so that ink dries",
+    about: "draw neighbouring strokes at different times, so that ink dries",
     flag: "--spread",
     default: "none",
     choices: SPREAD_MODES,
@@ -291,7 +291,7 @@ export const PREPARE_TABLE = {
   reinkMm: {
     kind: "number",
     label: "Take up ink every",
-    about: "split layers after this length of drawing, to take up ink; 0 never",
+    about: "stop after this length of drawing, to take up ink; 0: never",
     flag: "--reink",
     default: 0,
     min: 0,
@@ -334,13 +334,13 @@ export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
   readonly layerOrder: readonly string[];
   /** By layer id: how many times to draw it; default once. */
   readonly layerRepeats: Readonly<Record<string, number>>;
-  /** By layer id: an offset applied last, so that a pen mounted off-centre lines up with the others. */
+  /** By layer id: an offset, applied last, that aligns a pen mounted off-centre with the others. */
   readonly layerShifts?: Readonly<Record<string, ShiftMm>> | undefined;
   /** One margin per side; null: `marginMm` on all sides. */
   readonly margins: FourMargins | null;
-  /** Explicit position and size, after rotating and mirroring; overrides `fit`. Null: `fit` decides. */
+  /** Position and size, after rotating and mirroring; overrides `fit`. Null: `fit` applies. */
   readonly place: PlacedBox | null;
-  /** The machine's travel from home: cut off what lies outside; null: do not cut. */
+  /** The machine's travel from home: lines outside are cut off. Null: nothing is cut off. */
   readonly reach: PaperSize | null;
   /** How areas are filled with lines. */
   readonly hatch: HatchSettings;

@@ -1,6 +1,6 @@
 /**
- * Quality: a choice of settings, not a setting. What is stored and planned are the numbers that it sets
- * (src/plan/quality.ts), and each of them can still be changed.
+ * Quality is not stored as a setting: choosing one sets several other settings (src/plan/quality.ts), and each of
+ * those can still be changed.
  */
 import type { ChoiceSetting, SettingsTable } from "./setting.js";
 
@@ -11,7 +11,7 @@ export const QUALITY_TABLE = {
   quality: {
     kind: "choice",
     label: "Quality",
-    about: "speed, acceleration and corner rounding together, from how the machine swings",
+    about: "sets speed, acceleration and corner rounding together, from the machine's measured swing",
     flag: "--quality",
     default: "normal",
     choices: QUALITIES,

@@ -21,7 +21,7 @@ export interface NumberSetting extends Described {
   /** `min` itself is not allowed, for example a speed of 0. */
   readonly minExcluded?: true;
   readonly isWhole?: true;
-  /** "" for a plain count. */
+  /** "" for a number without a unit. */
   readonly unit: string;
   /** The increment of an arrow key in the page's field. */
   readonly step: number;
@@ -34,7 +34,7 @@ export interface NumberSetting extends Described {
 export interface SwitchSetting extends Described {
   readonly kind: "switch";
   readonly default: boolean;
-  /** What `--no-…` does. */
+  /** The effect of `--no-…`. */
   readonly aboutOff?: string;
 }
 
@@ -68,7 +68,7 @@ export const isAllowed = (row: NumberSetting, value: number): boolean =>
   value <= row.max &&
   (!row.isWhole || Number.isInteger(value));
 
-/** "0 to 1000 mm", "more than 0, up to 1000 mm/s", "a whole number, 0 to 5". */
+/** A range as text: "0 to 1000 mm", "more than 0, up to 1000 mm/s", "a whole number, 0 to 5". */
 export function rangeInWords({ min, max, minExcluded, isWhole, unit }: NumberSetting): string {
   const upTo = max === Infinity ? "" : `, up to ${max}`;
   const range = minExcluded ? `more than ${min}${upTo}` : `${min} to ${max}`;

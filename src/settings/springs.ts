@@ -1,4 +1,4 @@
-/** The fields of a machine's springs (src/machines/profile.ts), which are measured with the ringing sheet. */
+/** The swing of a machine (`Springs` in src/machines/profile.ts), measured with the ringing sheet. */
 import type { SettingsTable } from "./setting.js";
 
 const frequency = {
@@ -16,19 +16,19 @@ export const SPRINGS_TABLE = {
   xHz: {
     ...frequency,
     label: "Swings along x",
-    about: "how fast the machine swings along x, from the ringing sheet",
+    about: "frequency at which the machine swings along x, from the ringing sheet",
     flag: "--spring-x",
   },
   yHz: {
     ...frequency,
     label: "Swings along y",
-    about: "how fast the machine swings along y, from the ringing sheet",
+    about: "frequency at which the machine swings along y, from the ringing sheet",
     flag: "--spring-y",
   },
   damping: {
     kind: "number",
     label: "Damping",
-    about: "how quickly the swinging dies away: 0 never",
+    about: "damping ratio of the swing; 0: it never ends",
     flag: "--damping",
     default: 0.05,
     min: 0,

@@ -5,7 +5,8 @@ export const STREAM_TABLE = {
   sendAheadMs: {
     kind: "number",
     label: "Sent ahead",
-    about: "motion sent ahead of the pen; less stops sooner, but a busy computer may make the pen pause",
+    about:
+      "motion sent ahead of the pen; with less, stops are faster, but the pen may pause when the computer is busy",
     flag: "--send-ahead-ms",
     default: 300,
     min: 100,

@@ -17,12 +17,10 @@ export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
   "": STREAM_TABLE,
 };
 
-/**
- * Rows without a default of their own: limits that only apply if they are set; and what is not in a job's
- * settings, which is the machine's springs and the choice that sets several settings.
- */
+/** Paths of two command-line options that are not in a job's settings. */
 export const SPRINGS_PATH = "springs";
 export const QUALITY_PATH = "quality";
+/** Tables whose rows have no default in a job's settings; `otherwise`: what applies without the option. */
 const OTHER_TABLES: Readonly<Record<string, { table: SettingsTable; otherwise: string }>> = {
   motion: { table: AXIS_TABLE, otherwise: "none" },
   [SPRINGS_PATH]: { table: SPRINGS_TABLE, otherwise: "as measured" },
@@ -51,14 +49,14 @@ export const SETTING_FLAGS: readonly SettingFlag[] = [
   ),
 ];
 
-/** "--margin <mm>", "--order <none|fast|best>", "--fit". */
+/** An option with its value as text: "--margin <mm>", "--order <none|fast|best>", "--fit". */
 export function flagInWords({ flag, row }: SettingFlag): string {
   if (row.kind === "switch") return flag;
   if (row.kind === "choice") return `${flag} <${row.choices.join("|")}>`;
   return `${flag} <${UNIT_WORDS[row.unit] ?? row.unit}>`;
 }
 
-/** "0 to 1000 mm, default 15"; for a choice or a switch only the default. */
+/** Range and default as text: "0 to 1000 mm, default 15"; for a choice or a switch only the default. */
 export function valuesInWords({ row, otherwise }: SettingFlag): string {
   if (row.kind === "switch") return `default ${row.default ? "on" : "off"}`;
   if (row.kind === "choice") return `default ${otherwise ?? row.default}`;

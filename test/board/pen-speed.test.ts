@@ -48,10 +48,10 @@ describe.each(MACHINES)("the pen of %s", (machine) => {
       const moved = driver.pen({ up });
       // In small steps: each command waits for the reply to the one before.
       for (let i = 0; i < 40; i++) await world.advance((0.01 * WAY_PCT) / ratePctPerS);
-      const wayPct = Math.abs(board.state().penPct - fromPct);
+      const distancePct = Math.abs(board.state().penPct - fromPct);
       const elapsedS = world.nowS() - startS;
-      expect(wayPct).toBeLessThanOrEqual(1.03 * ratePctPerS * elapsedS);
-      expect(wayPct).toBeGreaterThan(ratePctPerS * (elapsedS - 2 * FRAME_S));
+      expect(distancePct).toBeLessThanOrEqual(1.03 * ratePctPerS * elapsedS);
+      expect(distancePct).toBeGreaterThan(ratePctPerS * (elapsedS - 2 * FRAME_S));
       await world.run(moved);
       expect(board.state().penPct).toBeCloseTo(up ? GENTLE.upPct : GENTLE.downPct, 1);
       expect(world.nowS() - startS).toBeGreaterThan(WAY_PCT / ratePctPerS);

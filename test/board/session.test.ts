@@ -50,9 +50,9 @@ describe("identifying the board", () => {
   });
 
   it.each([
-    ["OK", "OK\r\n", /It said: "OK"/],
-    ["its own error", "!4\r\n", /It said: .*"!4"/],
-    ["the command itself", "V\r\nERROR\r\n", /It said: .*"V", "ERROR"/],
+    ["OK", "OK\r\n", /It sent: "OK"/],
+    ["its own error", "!4\r\n", /It sent: .*"!4"/],
+    ["the command itself", "V\r\nERROR\r\n", /It sent: .*"V", "ERROR"/],
     ["bytes without an end", "\x81\x7e", /choose another device\.$/],
   ])("does not take a device that answers %s, as a modem may, for a plotter", async (_, reply, words) => {
     const { clock, session } = newSession(() => reply);

@@ -31,7 +31,7 @@ describe("the settings' options", () => {
       expect(customMachine).toMatchObject({ id: "axidraw-v3", springs });
     }
     expect(settingsOf("--quality", "normal").motion).toMatchObject(motionOfQuality("normal", null));
-    expect(() => settingsOf("--quality", "fast")).toThrow(/needs to know how the machine swings/);
+    expect(() => settingsOf("--quality", "fast")).toThrow(/needs the measured swing of the machine/);
     // A machine that was measured on the page is known by its id.
     const folder = mkdtempSync(join(tmpdir(), "plotwright-"));
     try {

@@ -54,7 +54,7 @@ describe("a machine with switches", () => {
         .then(() => "done")
         .catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
     };
-    expect(await failure(false)).toMatch(/^board-error: .* moved 330 mm along x and met no switch/);
+    expect(await failure(false)).toMatch(/^board-error: .* moved 330 mm along x and reached no switch/);
     expect(await failure(true)).toMatch(/^board-error: The switch of x \(B0\) stays pressed/);
   });
 });

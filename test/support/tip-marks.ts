@@ -114,11 +114,11 @@ class Tip {
   private beginFrame(): void {
     const { commands, pen, servo } = this;
     while (this.index + 1 < commands.length && commands[this.index + 1].atS <= this.frameS()) this.index++;
-    const wayPct = (commands[this.index]?.heightPct ?? pen.upPct) - this.toPct;
-    const wholeS = (wayPct > 0 ? pen.liftMs : pen.dropMs) / 1_000 / servo.speed;
+    const distancePct = (commands[this.index]?.heightPct ?? pen.upPct) - this.toPct;
+    const wholeS = (distancePct > 0 ? pen.liftMs : pen.dropMs) / 1_000 / servo.speed;
     const mostPct = ((pen.upPct - pen.downPct) * FRAME_S) / wholeS;
     this.fromPct = this.toPct;
-    this.toPct += Math.max(-mostPct, Math.min(mostPct, wayPct));
+    this.toPct += Math.max(-mostPct, Math.min(mostPct, distancePct));
   }
 
   private frameS(): number {

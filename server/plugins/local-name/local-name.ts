@@ -245,10 +245,7 @@ function nextLabel(label: string): string {
 
 const portOf = ({ data }: DnsRecord): unknown => (data as { readonly port?: unknown }).port;
 
-/**
- * Text to compare two claims by. Sorted, so that both sides get the same result whatever the order of the
- * records.
- */
+/** Text for comparing two claims. Sorted, so that the order of the records does not matter. */
 const inOrder = (records: readonly DnsRecord[]): string =>
   records
     .map((record) => `${record.type} ${record.type === "A" ? String(record.data) : String(portOf(record))}`)

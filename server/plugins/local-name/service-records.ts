@@ -40,7 +40,7 @@ export function answerTo({ name, type }: DnsQuestion, records: readonly DnsRecor
     (record) => sameName(record.name, name) && (type === "ANY" || type === record.type),
   );
   if (answers.length === 0) return null;
-  // Who asks for the service will ask for its port and addresses next.
+  // A client that asks for the service will ask for its port and addresses next.
   const isService = answers.some((record) => record.type === "PTR");
   return { answers, additionals: isService ? records.filter((record) => !answers.includes(record)) : [] };
 }

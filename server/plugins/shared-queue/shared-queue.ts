@@ -92,8 +92,8 @@ export class SharedQueue {
   }
 
   /**
-   * Call before a job starts. Null: it may start, and the database shows it as begun. Otherwise why it must
-   * not.
+   * Call before a job starts. Returns null if it may start (the database then shows it as begun), otherwise the reason
+   * why not.
    */
   async claim(jobId: string): Promise<string | null> {
     const { shared, store, serverId, queue, log } = this.#parts;
@@ -212,8 +212,7 @@ export class SharedQueue {
   }
 
   /**
-   * Starts taken jobs if the plotter's queue runs on by itself. Tried every round, since the board may be
-   * missing.
+   * Starts taken jobs if the plotter's queue runs automatically. Tried every round, since the board may be missing.
    */
   async #startTaken(): Promise<void> {
     const { queue } = this.#parts;

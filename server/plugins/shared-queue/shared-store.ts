@@ -41,7 +41,7 @@ CREATE TABLE IF NOT EXISTS plotwright_servers (
   id         text PRIMARY KEY,
   seen_at    timestamptz NOT NULL
 )`;
-/** So long that waiting jobs are in effect never deleted. */
+/** Long enough that waiting jobs are practically never deleted. */
 const RETENTION_DAYS = 3_650;
 const MAX_LISTED = 500;
 /** Timeout of queries while a user waits for a plot to start. A broken network reports no error by itself. */

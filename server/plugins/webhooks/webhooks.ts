@@ -138,8 +138,7 @@ export class Webhooks {
           this.#busy.delete(webhookId);
         })
         .then(() => this.#next(webhookId))
-        // For example a full disk. The next try is when a job changes; trying again at once would loop
-        // forever.
+        // For example a full disk. The next try is when a job changes: an immediate retry would loop.
         .catch((error: unknown) => this.#parts.log(`webhooks: ${String(error)}`));
       this.#running.add(run);
     }, pauseMs);

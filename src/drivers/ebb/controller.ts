@@ -1,4 +1,4 @@
-/** The three parts of this folder that `registry.ts` lists. */
+/** The exports of this folder for `registry.ts`. */
 import type { ControllerDescription } from "../driver.js";
 import { EBB_FIELDS } from "./protocol/ebb-controller.js";
 import { ebbFirmware } from "./protocol/firmware-motion.js";

@@ -1,4 +1,4 @@
-/** Grbl as a driver. Experimental: it shows that a controller that plans by itself fits the interface. */
+/** The driver for Grbl. Experimental: it shows that the interface also fits a controller that plans by itself. */
 import type { Driver } from "../driver.js";
 import { GrblMachine } from "./machine/grbl-machine.js";
 import { GrblSession } from "./machine/session.js";

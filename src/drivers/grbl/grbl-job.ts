@@ -1,6 +1,5 @@
 /**
- * Makes a job for a Grbl from strokes: a model of the motion that its planner produces, and the lines to
- * send.
+ * Makes a job for a Grbl from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
  */
 import type { StrokeSet } from "../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../machines/profile.js";
@@ -13,7 +12,7 @@ import { dwellS, grblOf, type GrblController } from "./model/grbl-controller.js"
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
 import { moveTimeS } from "./model/planner.js";
 
-/** Lines of G-code. The last one is answered when everything is done. */
+/** Lines of G-code. The reply to the last one comes when everything is done. */
 export interface GrblCommands extends MachineCommands {
   readonly lines: readonly string[];
 }
@@ -24,9 +23,9 @@ export function grblCommandsOf(commands: MachineCommands): GrblCommands {
   return commands as GrblCommands;
 }
 
-/** mm, absolute, mm/min. A reset restores the defaults of some of them. */
+/** mm, absolute coordinates, mm/min. Sent again after a reset, which may restore other defaults. */
 export const MODES = "G21G90G94";
-/** Answered when everything before it is done. */
+/** The reply comes when everything before it is done. */
 export const SYNC = "G4P0";
 
 export function planGrblJob(
@@ -54,7 +53,7 @@ export function planGrblJob(
   return { trajectory, commands, lines: () => [MODES, ...commands().lines] };
 }
 
-/** The pen as moved by the Z axis: always between the profile's two heights. */
+/** Pen settings with the times of the Z axis, which always moves between the profile's two heights. */
 function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
   const ms = 1_000 * (penTimeS(grbl) + dwellS(grbl.penWaitMs / 1_000));
   const { upPct, downPct, layers = {}, contactPct, fullHeightMm } = pen;
@@ -70,7 +69,7 @@ function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
 const penTimeS = ({ penUpZMm, penDownZMm, penSpeedMmPerS, penAccelMmPerS2 }: GrblController): number =>
   moveTimeS(Math.abs(penUpZMm - penDownZMm), penSpeedMmPerS, penAccelMmPerS2);
 
-/** To a height, and the wait after it. */
+/** The move to a height, and the wait after it. */
 export const penLines = (grbl: GrblController, zMm: number): [move: string, wait: string] => [
   `G1Z${number(zMm)}F${number(60 * grbl.penSpeedMmPerS)}`,
   wait(grbl.penWaitMs / 1_000),
@@ -114,7 +113,7 @@ function writeCommands(
       add(`G1X${number(x)}Y${number(y)}${move.feed === feed ? "" : `F${number(move.feed)}`}`, startS);
       feed = move.feed;
     }
-    // Runs begin at rest, so the planner rounds no corner here.
+    // Wait for rest, as planned: otherwise Grbl's planner would continue into the next run without a stop.
     if (moves.length > 0) add(SYNC, endOfRun(trajectory, run));
   }
   if (lines.length === 0) add(SYNC, 0);

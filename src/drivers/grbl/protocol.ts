@@ -1,8 +1,8 @@
-/** Grbl's replies, and the bytes that act at once. */
+/** Grbl's replies and real-time commands. */
 import { PlotwrightError } from "../../errors.js";
 import type { Axes } from "./model/planner.js";
 
-/** Removed on receipt: they need no line end and no room, and get no `ok`. */
+/** Real-time commands: single bytes that act at once, need no line end and no room in the buffer, and get no `ok`. */
 export const NOW = { status: "?", hold: "!", reset: "\x18" } as const;
 
 /** Max unanswered characters, including line ends: the buffer of an Arduino. */
@@ -10,11 +10,11 @@ export const RX_BYTES = 128;
 
 export const isGreeting = (line: string): boolean => /^Grbl(HAL)? /.test(line);
 
-/** "Grbl 1.1h" of a greeting or of the reply to `$I`; null if the line has no version. */
+/** The version in a greeting or in the reply to `$I`, such as "Grbl 1.1h"; null if the line has none. */
 export function versionOf(line: string): string | null {
   const match = /^Grbl(?:HAL)? ([\w.]+)/.exec(line) ?? /^\[VER:([\w.]*[a-z\d])/.exec(line);
   if (!match) return null;
-  // "1.1h.20190830": the date adds nothing to the letter.
+  // Drop the date of "1.1h.20190830".
   return `Grbl ${match[1].replace(/\.\d{6,}$/, "")}`;
 }
 
@@ -50,13 +50,13 @@ function axesOf(text: string | undefined): Axes | null {
 }
 
 const ERRORS: Readonly<Record<number, string>> = {
-  8: "it must be idle for that",
-  9: "it is locked after an alarm",
+  8: "the machine must be idle for that",
+  9: "the machine is locked after an alarm",
   11: "the line is too long",
-  15: "the target is beyond its travel",
-  20: "it does not know that command",
+  15: "the target is outside the machine's travel",
+  20: "Grbl does not know that command",
   22: "no feed rate was set",
-  33: "the target is wrong",
+  33: "the target is invalid",
 };
 
 export const refusal = (line: string, code: number): PlotwrightError =>
@@ -67,8 +67,8 @@ export const refusal = (line: string, code: number): PlotwrightError =>
 
 const ALARMS: Readonly<Record<number, string>> = {
   1: "a limit switch was hit",
-  2: "the target is beyond its soft limits",
-  3: "it was reset while it moved",
+  2: "the target is beyond the soft limits",
+  3: "the machine was reset during a motion",
 };
 
 export const alarm = (code: number): PlotwrightError =>

@@ -1,4 +1,4 @@
-/** The settings that do not change a plot on a Grbl, by path, in words: it plans its motion by itself, and its Z axis moves the pen. */
+/** Labels of the settings that Grbl ignores, by path: Grbl plans its motion by itself, and its Z axis moves the pen. */
 import {
   AXIS_TABLE,
   DRAW_TABLE,

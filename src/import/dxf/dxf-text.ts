@@ -5,7 +5,7 @@
  *   ┌ top ───────── capitals' height ┐
  *   │ middle                         │ height        text height is the height of capitals
  *   └ baseline ──────────────────────┘
- *     bottom: as far below as a "g" reaches
+ *     bottom: the lowest point of a "g"
  */
 import type { DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";

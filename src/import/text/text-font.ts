@@ -16,10 +16,10 @@ export interface LaidOutGlyph {
   readonly at?: number;
 }
 
-/** How letters are to be shaped. */
+/** Options for shaping letters. */
 export interface LetterStyle {
   readonly family: string;
-  /** False where letters are placed one by one. Default: true. */
+  /** False if letters are placed one by one. Default: true. */
   readonly hasLigatures?: boolean;
   /** Whether pairs of letters are moved together or apart. Default: true. */
   readonly hasKerning?: boolean;
@@ -52,11 +52,11 @@ export interface FontFace {
 export interface TextFont {
   /** Outlines are filled; single strokes are drawn as lines. */
   readonly kind: "outline" | "single-stroke";
-  /** If given, text that asks for another one is reported. */
+  /** If given, text that asks for another face is reported. */
   readonly face?: FontFace | undefined;
   /** Default: those of a usual font. */
   readonly metrics?: FontMetrics;
-  /** Whether it has small capitals of its own; if not, they are made from its capitals. */
+  /** Whether the font has small capitals; if not, they are made from its capitals. */
   readonly hasSmallCaps?: boolean;
   /** The glyphs of one line of text. `family` is the font family that the drawing asks for. */
   layout(
@@ -80,7 +80,7 @@ export const USUAL_METRICS: FontMetrics = {
   ascent: 0.9,
   descent: 0.21,
   xHeight: 0.46,
-  // As CSS Inline Layout 3, §4.2 asks for if a font has none.
+  // From CSS Inline Layout 3, §4.2, for fonts without values.
   subscript: 1 / 5,
   superscript: 1 / 3,
   underline: -0.12,

@@ -1,11 +1,9 @@
 /**
- * Compiles a trajectory to EBB commands: pen moves, and between them each run of the trajectory
- * in the form that suits the firmware: legs with one ramp or parabola each (leg-runs), or slices
- * of constant speed (write-slices).
+ * Compiles a trajectory to EBB commands: pen moves, and between them the runs. How a run is written depends on the
+ * firmware: as legs with one ramp or parabola each (leg-runs.ts), or as slices of constant speed (write-slices.ts).
  *
- * The host model predicts the exact board state (steps and accumulators) after each command, and the
- * next command is computed from that state. So rounding never adds up, and the final step counters equal
- * those of the plan.
+ * A model of the firmware predicts the exact board state (steps and accumulators) after each command, and the next
+ * command is computed from that state. So rounding never adds up, and the final step counters equal the plan's.
  */
 import { checkObject } from "../../../check-arguments.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -19,12 +17,12 @@ import {
   penCommand,
   penMoveSetUp,
   penSetUpCommands,
-  type PenWay,
+  type ServoMove,
 } from "../protocol/commands.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { checkEbbProfile } from "../protocol/ebb-controller.js";
 import { firmwareFeatures, type FirmwareFeatures } from "../protocol/firmware.js";
-import type { LegWriter, MotorPlace, RunWriter } from "./leg.js";
+import type { LegWriter, MotorState, RunWriter } from "./leg.js";
 import { LegRuns } from "./leg-runs.js";
 import { RunWalk } from "./run-walk.js";
 import { StreamColumns } from "./stream-columns.js";
@@ -33,7 +31,7 @@ import { SliceRuns } from "./write-slices.js";
 import { SteppedWriter } from "./write-stepped.js";
 import { TimedWriter } from "./write-timed.js";
 
-/** The board that `compile` writes for. */
+/** The board that `compile` writes commands for. */
 export interface CompileOptions {
   /** A machine with an EiBotBoard. */
   readonly machine: MachineProfile;
@@ -41,17 +39,17 @@ export interface CompileOptions {
   readonly firmware: string;
   /** Heights and speeds of the pen. */
   readonly pen: PenSettings;
-  /** State of the board at the start; default: at home, as after EM and CS. */
+  /** State of the board at the start; default: at home, all zero, as after EM and CS. */
   readonly start?: BoardState | undefined;
 }
 
 /**
- * Commands that play a trajectory on a board with that firmware, from the pen heights to the last pen move.
- * `setUpCommands` switch the motors on before it, once per session; `EM,0,0` switches them off.
+ * Compiles a trajectory to the commands for a board with the given firmware, from setting the pen heights to the last
+ * pen move. Send `setUpCommands` before it, once per session: they switch the motors on. `EM,0,0` switches them off.
  *
  * @throws PlotwrightError "bad-setting" for an invalid firmware version, an incomplete machine profile, or a machine
  *   without an EiBotBoard
- * @throws TypeError for an argument of another kind
+ * @throws TypeError for an argument of the wrong type
  * @throws RangeError for a trajectory with values that are not finite
  */
 export function compile(trajectory: Trajectory, options: CompileOptions): CommandStream {
@@ -84,12 +82,12 @@ export function commandLine(stream: CommandStream, index: number): string {
 
 class Compiler {
   private readonly columns = new StreamColumns();
-  private readonly m1: MotorPlace;
-  private readonly m2: MotorPlace;
+  private readonly m1: MotorState;
+  private readonly m2: MotorState;
   private readonly runs: RunWriter;
-  /** The pen heights set last, percent. */
+  /** The current pen heights of the board, percent. */
   private readonly heights: { up: number; down: number };
-  /** The set-up lines sent so far, by "SC,number". */
+  /** The current set-up lines, by "SC,number". */
   private readonly parameters = new Map<string, string>();
 
   constructor(
@@ -135,47 +133,47 @@ class Compiler {
   /** A pen move for which the carriage waits. */
   private penMove(move: PenMove): void {
     const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
-    const way = this.wayOf(move, { inFlight: false, run: -1, planS: move.startS });
-    this.still(
-      penCommand(this.options.machine, way, waitMs),
+    const servoMove = this.servoMoveOf(move, { inFlight: false, run: -1, planS: move.startS });
+    this.writeIdle(
+      penCommand(this.options.machine, servoMove, waitMs),
       Math.max(1, waitMs * TICKS_PER_MS),
       move.startS,
       -1,
     );
   }
 
-  /** A pen move that costs the run a tick. */
+  /** A pen move during a run. It takes one tick, in which the motors do not move. */
   private penMoveInFlight(move: PenMove, run: number, planS: number): void {
-    const way = this.wayOf(move, { inFlight: !move.up, run, planS });
-    this.still(penCommand(this.options.machine, way, 0), 1, planS, run);
+    const servoMove = this.servoMoveOf(move, { inFlight: !move.up, run, planS });
+    this.writeIdle(penCommand(this.options.machine, servoMove, 0), 1, planS, run);
   }
 
-  /** The rest of a pen move that began in flight. */
+  /** Waits for the rest of a pen move that began during the run. */
   private waitForPen(waitS: number, planS: number): void {
     const waitMs = Math.round(waitS * 1_000);
-    if (waitMs > 0) this.still(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
+    if (waitMs > 0) this.writeIdle(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
   }
 
-  /** Sets the height and speed of a pen move if they changed. */
-  private wayOf(
+  /** Converts a pen move, and sets its height and speed on the board if they changed. */
+  private servoMoveOf(
     move: PenMove,
     { inFlight, run, planS }: { readonly inFlight: boolean; readonly run: number; readonly planS: number },
-  ): PenWay {
+  ): ServoMove {
     const { machine, pen } = this.options;
     const { heights } = this;
-    const wayPct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
+    const distancePct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
     if (move.up) heights.up = move.heightPct;
     else heights.down = move.heightPct;
-    const way: PenWay = {
+    const servoMove: ServoMove = {
       up: move.up,
       heightPct: move.heightPct,
-      wayPct,
+      distancePct,
       timeMs: 1_000 * move.moveS,
       ratePctPerS: move.up ? pen.liftPctPerS : pen.dropPctPerS,
       inFlight,
     };
-    this.setUp(penMoveSetUp(machine, way), planS, run);
-    return way;
+    this.setUp(penMoveSetUp(machine, servoMove), planS, run);
+    return servoMove;
   }
 
   /** Writes the set-up lines that differ from those sent before. */
@@ -184,12 +182,12 @@ class Compiler {
       const parameter = line.slice(0, line.lastIndexOf(","));
       if (this.parameters.get(parameter) === line) continue;
       this.parameters.set(parameter, line);
-      this.still(line, 0, planS, run);
+      this.writeIdle(line, 0, planS, run);
     }
   }
 
   /** A command during which the motors do not move. */
-  private still(line: string, ticks: number, planS: number, run: number): void {
+  private writeIdle(line: string, ticks: number, planS: number, run: number): void {
     const { columns, m1, m2 } = this;
     columns.text.line(line);
     columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
@@ -207,8 +205,8 @@ function runWriterFor(
   trajectory: Trajectory,
   walk: RunWalk,
   columns: StreamColumns,
-  m1: MotorPlace,
-  m2: MotorPlace,
+  m1: MotorState,
+  m2: MotorState,
 ): RunWriter {
   const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns, m1, m2);
   switch (features.motion) {

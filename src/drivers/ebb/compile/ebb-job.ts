@@ -1,4 +1,4 @@
-/** Strokes to a job for an EBB: our own plan, within what its firmware can execute, and the commands for it. */
+/** Plans strokes for an EBB within the limits of its firmware, and compiles the commands. */
 import type { StrokeSet } from "../../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { plan } from "../../../plan/plan.js";
@@ -11,7 +11,7 @@ import type { BoardState, CommandStream } from "./command-stream.js";
 import { compile } from "./compile.js";
 import { plotLines } from "./plot-lines.js";
 
-/** Firmware to plan for while no board has been asked: every newer one does at least as well. */
+/** Firmware to plan for while the board's is unknown. All newer ones can do at least as much. */
 export const OLDEST_PLANNED_FIRMWARE = "2.5.3";
 
 export function planEbbJob(
@@ -36,7 +36,7 @@ export function planEbbJob(
   return ebbJob(trajectory, machine, firmware, settings.pen, options.board as BoardState | undefined);
 }
 
-/** A trajectory as a job. `start`: what the board's counters show; left out: as after its motors were switched on. */
+/** A trajectory as a job. `start`: the board's counters; left out: all zero, with the motors just switched on. */
 export function ebbJob(
   trajectory: Trajectory,
   machine: MachineProfile,
@@ -50,8 +50,8 @@ export function ebbJob(
 }
 
 /**
- * How far beside the drawing a pen may stand that was stopped on its line: what the planned line may leave it by, and
- * the rounding to steps.
+ * Max distance from the drawing of a pen that was stopped on its line: the deviation of the planned line, and the
+ * rounding to steps.
  */
 function penBesideMmOf({ draw, layers, fit }: MotionSettings, machine: MachineProfile): number {
   const corners = Object.values(layers ?? {}).map((layer) => layer.cornerMm ?? 0);

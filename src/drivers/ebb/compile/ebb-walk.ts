@@ -1,4 +1,4 @@
-/** A straight move with the pen up, as a job of its own. */
+/** A straight move with the pen up, as a separate job. */
 import type { MachineProfile } from "../../../machines/profile.js";
 import { planTravel } from "../../../plan/plan.js";
 import type { JobSettings, MachineJob } from "../../machine-job.js";

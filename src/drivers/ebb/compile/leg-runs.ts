@@ -1,14 +1,14 @@
 /**
- * Writes runs for firmware with ramps (2.5.3 and newer): walks each run in time, cuts it into legs, and
- * writes each leg as one command of the kind that suits the firmware.
+ * Writes runs for firmware with ramps (2.5.3 and newer): cuts each run into legs, in order of time, and writes each
+ * leg as one command of the kind that the firmware has.
  *
  *   plan    |--block--|--block--|b|b|b|----------block----------|
  *   legs    |---leg---|---leg---|--leg--|--leg--|--leg--|--leg--|     every leg at least 5 ms (8 with LM)
  *
- * Cuts lie at block ends where possible, so that a leg is one parabola and its command exact. Blocks too
- * short for a command are combined. Every leg leads from the predicted exact state of the board (steps and
- * accumulators) to the plan's position at the leg's end, with the plan's speeds at both ends, so rounding
- * never adds up. The run time is linear in the number of blocks.
+ * Cuts are at block ends where possible: the leg is then one parabola, and its command exact. Blocks too short for a
+ * command are combined. Every leg leads from the predicted exact state of the board (steps and accumulators) to the
+ * plan's position at the leg's end, with the plan's speeds at both ends. So rounding never adds up. Linear in the
+ * number of blocks.
  */
 import type { Trajectory } from "../../../plan/trajectory.js";
 import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
@@ -18,23 +18,23 @@ import {
   type LegWriter,
   type Midway,
   type MotorLeg,
-  type MotorPlace,
+  type MotorState,
   type RunWriter,
 } from "./leg.js";
 import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
-/** If one acceleration misses a leg's end speeds by more, the leg gets two (0.2 mm/s at 80 steps/mm). */
+/** If one acceleration misses a leg's end speeds by more than this, the leg gets two (0.2 mm/s at 80 steps/mm). */
 const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
 
-/** A deviation of half a step from the line, as a rate for one tick. */
-const MOST_OFF_RATE = ACCUMULATOR_RANGE / 2;
+/** Max deviation from the line: half a step, as a rate during one tick. */
+const MAX_DEVIATION_RATE = ACCUMULATOR_RANGE / 2;
 
 /** Max extra speed to make up for idle ticks: 32 steps/s, 0.4 mm/s at 80 steps/mm. */
-const HIGHEST_MAKE_UP_RATE = rateFromStepsPerS(32);
+const MAX_MAKE_UP_RATE = rateFromStepsPerS(32);
 
-/** As `turnTicks` of the writer, for shaped motion: with its higher acceleration a motor is faster so far from a turn. */
+/** `turnTicks` for shaped motion: shorter, because its acceleration is higher, so the motor moves farther in that time. */
 const SHAPED_TURN_TICKS = 12;
 
 /** Min ticks of the command that ends a run, about 1 ms. The idle tick must fit too. */
@@ -44,11 +44,11 @@ export class LegRuns implements RunWriter {
   private readonly leg = newLeg();
   private readonly half = newLeg();
   private runIndex = 0;
-  /** Where the current leg ends: the tick, the block that holds up to there, and whether the run ends too. */
+  /** Where the current leg ends: the tick, the block there, and whether the run ends too. */
   private cutTick = 0;
   private cutBlock = 0;
   private cutIsRunEnd = false;
-  /** What is still to be written during the run, in order of time. */
+  /** Pen moves still to be written during the run, in order of time. */
   private midway: readonly Midway[] = [];
 
   constructor(
@@ -56,11 +56,11 @@ export class LegRuns implements RunWriter {
     private readonly walk: RunWalk,
     private readonly writer: LegWriter,
     private readonly columns: StreamColumns,
-    private readonly m1: MotorPlace,
-    private readonly m2: MotorPlace,
+    private readonly m1: MotorState,
+    private readonly m2: MotorState,
   ) {}
 
-  /** A reversal nearer than this to a cut needs no cut of its own. */
+  /** A reversal within this many ticks of a cut needs no separate cut. */
   private get turnTicks(): number {
     return this.trajectory.planned ? SHAPED_TURN_TICKS : this.writer.turnTicks;
   }
@@ -76,8 +76,9 @@ export class LegRuns implements RunWriter {
     for (;;) {
       const tick = columns.boardTicks;
       this.cut(tick, block, notBefore);
-      this.aim(leg, tick, block);
-      if (this.writer.turnTicks > 0 && this.cutShort(leg, tick, block, notBefore)) this.aim(leg, tick, block);
+      this.setLeg(leg, tick, block);
+      if (this.writer.turnTicks > 0 && this.shortenForTurn(leg, tick, block, notBefore))
+        this.setLeg(leg, tick, block);
       if (this.writeLeg(leg)) {
         notBefore = 0;
         block = walk.blockAt(columns.boardTicks, Math.max(block, this.cutBlock));
@@ -90,7 +91,7 @@ export class LegRuns implements RunWriter {
     this.rest(run);
   }
 
-  /** Writes what is due by `tick`. */
+  /** Writes the pen moves due by `tick`. */
   private writeMidway(tick: number): void {
     while (this.midwayTick() <= tick) {
       const [next, ...later] = this.midway;
@@ -105,10 +106,7 @@ export class LegRuns implements RunWriter {
     return next ? this.walk.tickOf(next.atS) : Infinity;
   }
 
-  /**
-   * Waits for the end of a run in which no more steps are due, so that it takes the planned
-   * time on every firmware.
-   */
+  /** Waits if the last step of a run comes before its planned end, so that it takes the planned time on every firmware. */
   private rest(run: number): void {
     const { walk, columns, m1, m2 } = this;
     const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
@@ -118,7 +116,7 @@ export class LegRuns implements RunWriter {
     columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
 
-  /** Sets the next cut after `tick`, which lies in `block`; not before `notBefore`. */
+  /** Sets the next cut after `tick`, which is in `block`; not before `notBefore`. */
   private cut(tick: number, block: number, notBefore: number): void {
     const { walk, writer } = this;
     const last = walk.end - 1;
@@ -128,13 +126,13 @@ export class LegRuns implements RunWriter {
     let k = block;
     while (k < last && walk.endTick(k) < soonest) k++;
     if (k !== block && this.trajectory.planned) {
-      // Room for two commands: one acceleration seldom joins short blocks of a shaped motion.
+      // Room for two commands: short blocks of a shaped motion seldom fit one acceleration.
       soonest = Math.max(shortest, tick + 2 * writer.minTicks);
       while (k < last && walk.endTick(k) < soonest) k++;
     }
     let end = k === last ? runEnd : walk.endTick(k);
     if (k !== block) {
-      // Short blocks are combined: take no more of a long block than needed.
+      // Short blocks are combined. Take no more of a following long block than needed.
       if (end - soonest >= writer.minTicks) end = soonest;
     } else {
       end = this.withinBlock(tick, block, soonest, end);
@@ -152,7 +150,7 @@ export class LegRuns implements RunWriter {
         k = walk.blockAt(end, block);
       }
     }
-    // The rest of the run must be long enough for a command, after a tick for each pen move.
+    // The rest of the run must be long enough for a command, plus a tick for each pen move.
     const restTicks = writer.minTicks + this.midway.length;
     if (end < runEnd && runEnd - end < restTicks) {
       const earlier = runEnd - restTicks;
@@ -169,7 +167,7 @@ export class LegRuns implements RunWriter {
     this.cutIsRunEnd = end >= runEnd;
   }
 
-  /** Where to cut a block that is long enough, given the longest possible command. */
+  /** Where to cut a block that is long enough for a command but may be too long for one. */
   private withinBlock(tick: number, block: number, soonest: number, blockEnd: number): number {
     const { walk, writer } = this;
     const jerkTicks = walk.hasJerk(block) ? writer.maxTicksForJerk(walk.jerk(block)) : Infinity;
@@ -193,8 +191,9 @@ export class LegRuns implements RunWriter {
   }
 
   /**
-   * A shaped motion has short blocks of high acceleration, so a motor that reverses near a cut gets the cut right there.
-   * Otherwise it would either need a command of its own, too short for the board, or jump.
+   * The tick near the cut at which a motor of a shaped motion reverses; Infinity if none does. The cut then moves there.
+   * Shaped motion has short blocks of high acceleration: a separate command would be too short for the board, and
+   * without any cut the motor would jump.
    */
   private turnNear(end: number, block: number, soonest: number, runEnd: number): number {
     const { walk, writer } = this;
@@ -211,14 +210,14 @@ export class LegRuns implements RunWriter {
   }
 
   /**
-   * A motor that reverses too near to a leg's end for a separate leg is driven without reversing. On a long
-   * leg that moves it off the line by a quarter of its reverse speed times the leg's time. If that is too
-   * far, the reversal gets the shortest possible leg. Returns true if the cut was changed.
+   * A motor that reverses too near to a leg's end for a separate leg is driven without reversing. On a long leg that
+   * moves it off the line by a quarter of its reverse speed times the leg's duration. If that is too far, the reversal
+   * gets the shortest possible leg. Returns true if the cut was moved.
    */
-  private cutShort({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
+  private shortenForTurn({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
     const { walk, writer } = this;
     const motor = backwards(m1) > backwards(m2) ? m1 : m2;
-    if (backwards(motor) * ticks <= 4 * MOST_OFF_RATE || ticks < 2 * writer.minTicks) return false;
+    if (backwards(motor) * ticks <= 4 * MAX_DEVIATION_RATE || ticks < 2 * writer.minTicks) return false;
     const soonest = Math.max(tick + writer.minTicks, notBefore);
     const isAtStart = Math.abs(motor.v0) < Math.abs(motor.v1);
     const end = isAtStart ? soonest : Math.max(soonest, this.cutTick - writer.minTicks);
@@ -231,7 +230,7 @@ export class LegRuns implements RunWriter {
     return true;
   }
 
-  private aim(leg: Leg, tick: number, block: number): void {
+  private setLeg(leg: Leg, tick: number, block: number): void {
     const { walk } = this;
     walk.startLegs(tick, block, leg.m1, leg.m2);
     walk.endLegs(this.cutTick, this.cutBlock, this.cutIsRunEnd, leg.m1, leg.m2);
@@ -247,9 +246,8 @@ export class LegRuns implements RunWriter {
    */
   private slowDown(leg: Leg): void {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
-    // An idle tick is made up for by higher speed, unless the increase could be visible: then the leg takes
-    // longer.
-    const idle = peak > HIGHEST_MAKE_UP_RATE * leg.ticks ? this.writer.idleTicks : 0;
+    // Higher speed makes up for an idle tick. If that increase could be visible, the leg takes longer instead.
+    const idle = peak > MAX_MAKE_UP_RATE * leg.ticks ? this.writer.idleTicks : 0;
     const ticks = Math.max(
       leg.ticks + idle,
       Math.ceil((leg.ticks * peak) / HIGHEST_PLANNED_RATE),
@@ -268,19 +266,19 @@ export class LegRuns implements RunWriter {
 
   /**
    * Writes a leg as one command, or as two if one acceleration cannot join the speeds.
-   * False: nothing written yet.
+   * Returns false if nothing was written, because no step is due.
    */
   private writeLeg(leg: Leg): boolean {
     if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
-      return this.put(leg);
-    if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.put(leg);
+      return this.writeCommand(leg);
+    if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.writeCommand(leg);
     const { half } = this;
     half.ticks = leg.ticks >> 1;
     half.isParabola = true;
     half.isLast = false;
     halve(leg.m1, leg.ticks, half.ticks, half.m1);
     halve(leg.m2, leg.ticks, half.ticks, half.m2);
-    if (!this.put(half)) return this.put(leg);
+    if (!this.writeCommand(half)) return this.writeCommand(leg);
     leg.ticks -= half.ticks;
     for (const [motor, first] of [
       [leg.m1, half.m1],
@@ -289,11 +287,11 @@ export class LegRuns implements RunWriter {
       motor.p0 = first.p1;
       motor.v0 = first.v1;
     }
-    this.put(leg);
+    this.writeCommand(leg);
     return true;
   }
 
-  private put(leg: Leg): boolean {
+  private writeCommand(leg: Leg): boolean {
     const { columns, m1, m2 } = this;
     const planS = this.walk.planS(columns.boardTicks);
     const ticks = this.writer.write(leg, m1, m2);
@@ -312,7 +310,7 @@ const meanRate = (motor: MotorLeg, ticks: number): number =>
 /** The smaller of the end speeds if they have opposite signs, otherwise 0. */
 const backwards = ({ v0, v1 }: MotorLeg): number => (v0 * v1 < 0 ? Math.min(Math.abs(v0), Math.abs(v1)) : 0);
 
-/** True if the distance differs from what the mean of the two speeds would cover. */
+/** True if one acceleration from v0 to v1 would miss the leg's distance. */
 function isBent(motor: MotorLeg, ticks: number): boolean {
   const mean = rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S);
   return Math.abs((motor.v0 + motor.v1) / 2 - mean) > JOIN_RATE;

@@ -8,7 +8,7 @@ export interface MotorLeg {
   /** The plan's position at the start and the end. */
   p0: number;
   p1: number;
-  /** The plan's speed there, within the leg. */
+  /** The plan's speed at the start and the end, measured inside the leg. */
   v0: number;
   v1: number;
 }
@@ -25,22 +25,22 @@ export interface Leg {
 }
 
 /** Predicted state of one motor. */
-export interface MotorPlace {
+export interface MotorState {
   steps: number;
   acc: number;
 }
 
-/** Something to write while a run goes on: a pen move. */
+/** A pen move to be written during a run. */
 export interface Midway {
   /** Trajectory seconds. */
   readonly atS: number;
-  /** `planS`: where the plan is then, a few ms later than `atS` at most. */
+  /** `planS`: the plan time at which it is written, at most a few ms after `atS`. */
   write(run: number, planS: number): void;
 }
 
 /**
- * Writes the commands for one run of the trajectory, from the motors' current positions to its end, with what comes
- * midway at the first end of a command that is not before its time.
+ * Writes the commands for one run of the trajectory, from the motors' current positions to its end. Each pen move in
+ * `midway` is written at the first end of a command at or after its time.
  */
 export interface RunWriter {
   write(run: number, midway: readonly Midway[]): void;
@@ -52,13 +52,11 @@ export interface LegWriter {
   readonly minTicks: number;
   readonly maxTicks: number;
   /**
-   * A motor must not reverse within a leg. But a reversal within this many ticks of an end of the leg, where
-   * the motor moves only a few µm, is not worth a separate command. 0: motors may reverse anywhere.
+   * A motor must not reverse within a leg. A reversal within this many ticks of the leg's start or end is tolerated,
+   * because the motor moves only a few µm in that time. 0: motors may reverse anywhere.
    */
   readonly turnTicks: number;
-  /**
-   * Ticks of every command in which the motors stand still; the rest of it runs faster to make up for them.
-   */
+  /** Idle ticks of every command, in which the motors rest. The other ticks run faster to make up for them. */
   readonly idleTicks: number;
   /** One command can join any two speeds (it has a jerk). */
   readonly joinsAnySpeeds: boolean;
@@ -68,7 +66,7 @@ export interface LegWriter {
    * Returns the ticks it takes (normally `leg.ticks`), or 0 if no motor has to move yet
    * and nothing was written.
    */
-  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number;
+  write(leg: Leg, m1: MotorState, m2: MotorState): number;
 }
 
 export const newLeg = (): Leg => ({
@@ -79,7 +77,7 @@ export const newLeg = (): Leg => ({
   isLast: false,
 });
 
-/** The part of the error, in steps, to correct in one command of `ticks` ticks. */
+/** How much of the position error to correct in one command of `ticks` ticks, in steps. */
 export function correction(errorSteps: number, ticks: number, isLast: boolean): number {
   if (isLast) return errorSteps;
   const limit = MAX_CORRECTION_STEPS_PER_TICK * ticks;

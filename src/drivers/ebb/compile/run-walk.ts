@@ -59,7 +59,7 @@ export class RunWalk {
     m2.v0 = this.v2;
   }
 
-  /** Writes them as the end of both legs. At the run's end, the exact end of the block. */
+  /** The same for the end of both motors' legs. At the run's end, it uses the exact end of the block. */
   endLegs(tick: number, block: number, isRunEnd: boolean, m1: MotorLeg, m2: MotorLeg): void {
     const { startS, durationS } = this.trajectory;
     this.evaluate(isRunEnd ? durationS[block] : this.planS(tick) - startS[block], block);

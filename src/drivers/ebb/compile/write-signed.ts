@@ -1,7 +1,7 @@
 /**
  * Writes legs for firmware 3: LT if the acceleration is constant, otherwise T3.
  *
- * A timed command of T ticks is followed by one idle tick, so a leg of n ticks runs in T = n − 1, with speeds
+ * A timed command of T ticks is followed by one idle tick, so a leg of n ticks uses T = n − 1, with speeds
  * scaled by n/T. With R, A, J the accumulator gains exactly (before the divisions by 2 and 6 are truncated)
  *
  *   R T + A T²/2 + J T³/6
@@ -13,7 +13,7 @@ import { ACCUMULATOR_RANGE } from "../../../units.js";
 import { rateAt, registersFor, sumOfRates } from "../model/accumulator.js";
 import type { CommandText } from "../protocol/commands.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import { correction, type Leg, type LegWriter, type MotorLeg, type MotorPlace } from "./leg.js";
+import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } from "./leg.js";
 import { HIGHEST_RATE } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
@@ -49,12 +49,12 @@ export class SignedWriter implements LegWriter {
     return MAX_JERK_TICKS;
   }
 
-  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
+  write(leg: Leg, m1: MotorState, m2: MotorState): number {
     const ticks = leg.ticks - this.idleTicks;
     const stretch = leg.ticks / ticks;
     const { a1, a2 } = this;
-    aim(leg, leg.m1, m1, ticks, stretch, a1);
-    aim(leg, leg.m2, m2, ticks, stretch, a2);
+    setArguments(leg, leg.m1, m1, ticks, stretch, a1);
+    setArguments(leg, leg.m2, m2, ticks, stretch, a2);
     const hasJerk = a1.jerk !== 0 || a2.jerk !== 0;
     this.text.name(hasJerk ? "T3" : "LT");
     this.text.number(ticks);
@@ -70,16 +70,16 @@ export class SignedWriter implements LegWriter {
   }
 }
 
-function aim(
+function setArguments(
   leg: Leg,
   motor: MotorLeg,
-  place: MotorPlace,
+  state: MotorState,
   ticks: number,
   stretch: number,
   out: Arguments,
 ): void {
   const planned = motor.p1 - motor.p0;
-  const error = motor.p0 + 0.5 - place.steps - place.acc / RANGE;
+  const error = motor.p0 + 0.5 - state.steps - state.acc / RANGE;
   const distance = (planned + correction(error, ticks, leg.isLast)) * RANGE;
   const v0 = motor.v0 * stretch;
   const v1 = motor.v1 * stretch;
@@ -92,7 +92,7 @@ function aim(
   keepInRange(out, ticks);
 }
 
-/** Rates were limited before; this keeps them in range if rounding and correction exceed the limit. */
+/** The planned rates are limited already. Rounding and correction may still exceed the range slightly. */
 function keepInRange(a: Arguments, ticks: number): void {
   const registers = registersFor("signed", a.rate, a.accel, a.jerk);
   const last = rateAt(ticks, registers.rate, registers.accel, registers.jerk);
@@ -103,10 +103,10 @@ function keepInRange(a: Arguments, ticks: number): void {
   else if (under > 0) a.rate += Math.ceil(under);
 }
 
-function run(a: Arguments, ticks: number, place: MotorPlace): void {
+function run(a: Arguments, ticks: number, state: MotorState): void {
   const { rate, accel, jerk } = registersFor("signed", a.rate, a.accel, a.jerk);
-  const sum = place.acc + sumOfRates(ticks, rate, accel, jerk);
+  const sum = state.acc + sumOfRates(ticks, rate, accel, jerk);
   const steps = Math.floor(sum / RANGE);
-  place.steps += steps;
-  place.acc = sum - steps * RANGE;
+  state.steps += steps;
+  state.acc = sum - steps * RANGE;
 }

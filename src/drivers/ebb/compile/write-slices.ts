@@ -9,19 +9,19 @@ import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 import { slowRate } from "../model/slow-rate.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { HIGHEST_SLICE_RATE, OLD_FIRMWARE, TOO_FAST } from "../protocol/limits.js";
-import { newLeg, type Midway, type MotorPlace, type RunWriter } from "./leg.js";
+import { newLeg, type Midway, type MotorState, type RunWriter } from "./leg.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
 /**
- * The board reads a command in 4 to 7 ms (firmware before 2.7, EBB command reference, "Performance"). With
- * shorter slices it would pause between them. With longer ones the speed jumps are larger.
+ * The board reads a command in 4 to 7 ms (firmware before 2.7; EBB command reference, "Performance"). Shorter slices
+ * would cause pauses, longer ones larger jumps of speed.
  */
 const SLICE_MS = 10;
 const SLICE_TICKS = SLICE_MS * TICKS_PER_MS;
 
 /** Max steps per millisecond of one motor. */
-const MOST_STEPS_PER_MS = (HIGHEST_SLICE_RATE / ACCUMULATOR_RANGE) * TICKS_PER_MS;
+const MAX_STEPS_PER_MS = (HIGHEST_SLICE_RATE / ACCUMULATOR_RANGE) * TICKS_PER_MS;
 
 export class SliceRuns implements RunWriter {
   private readonly leg = newLeg();
@@ -32,8 +32,8 @@ export class SliceRuns implements RunWriter {
     private readonly features: FirmwareFeatures,
     private readonly walk: RunWalk,
     private readonly columns: StreamColumns,
-    private readonly m1: MotorPlace,
-    private readonly m2: MotorPlace,
+    private readonly m1: MotorState,
+    private readonly m2: MotorState,
   ) {}
 
   write(run: number, midway: readonly Midway[]): void {
@@ -54,17 +54,17 @@ export class SliceRuns implements RunWriter {
       const leftTicks = walk.endTick(last) - columns.boardTicks;
       isLast = leftTicks < 1.5 * SLICE_TICKS;
       const ms = isLast ? Math.max(0, Math.round((leftTicks - features.idleTicks) / TICKS_PER_MS)) : SLICE_MS;
-      // Aim at the plan's position at the slice's real end: then whole milliseconds cause no speed error,
-      // except in the last slice.
+      // The target is the plan's position at the slice's real end, so that rounding to whole milliseconds causes no
+      // speed error, except in the last slice.
       const tick = columns.boardTicks + ms * TICKS_PER_MS + features.idleTicks;
       block = isLast ? last : walk.blockAt(tick, block);
       walk.endLegs(tick, block, isLast, leg.m1, leg.m2);
       const steps1 = Math.round(leg.m1.p1) - m1.steps;
       const steps2 = Math.round(leg.m2.p1) - m2.steps;
-      const leastMs = Math.ceil(Math.max(Math.abs(steps1), Math.abs(steps2)) / MOST_STEPS_PER_MS);
-      if (leastMs > ms) walk.origin += (leastMs - ms) * TICKS_PER_MS;
-      if (leastMs > ms + 1) columns.warnOnce(TOO_FAST);
-      this.writeSlice(Math.max(leastMs, ms), steps1, steps2, run);
+      const minMs = Math.ceil(Math.max(Math.abs(steps1), Math.abs(steps2)) / MAX_STEPS_PER_MS);
+      if (minMs > ms) walk.origin += (minMs - ms) * TICKS_PER_MS;
+      if (minMs > ms + 1) columns.warnOnce(TOO_FAST);
+      this.writeSlice(Math.max(minMs, ms), steps1, steps2, run);
     }
     writeMidway(Infinity);
     this.lateTicks = columns.boardTicks - walk.endTick(last);
@@ -80,13 +80,13 @@ export class SliceRuns implements RunWriter {
     columns.text.number(steps2);
     columns.text.end();
     const stepping = Math.max(this.step(m1, ms, steps1), this.step(m2, ms, steps2));
-    // Without steps it is a plain delay, with no idle tick after it.
+    // An SM without steps is a plain delay and has no idle tick.
     const ticks = stepping > 0 ? stepping + features.idleTicks : ms * TICKS_PER_MS;
     columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
 
   /** Updates one motor's state. Returns the ticks until its last step. */
-  private step(motor: MotorPlace, ms: number, steps: number): number {
+  private step(motor: MotorState, ms: number, steps: number): number {
     if (steps === 0) return 0;
     const rate = slowRate(this.features.arithmetic, ms, Math.abs(steps));
     const counts = Math.abs(steps) * ACCUMULATOR_RANGE - motor.acc;

@@ -1,9 +1,9 @@
 /**
  * Writes legs for firmware 2.5.3 to 2.6: LM, where each motor stops after its own number of steps.
  *
- * Each motor goes to the whole step nearest to the plan, counted from the predicted counter. The rate is set
- * so that the last step falls on the leg's last tick: both motors end together, and neither waits. The
- * accumulator is then just above zero, so every leg starts from nearly the same state.
+ * Each motor goes to the whole step nearest to the plan, counted from the predicted counter. The rate is chosen so that
+ * the last step is on the leg's last tick: both motors end together, and neither waits. The accumulator is then just
+ * above zero, so every leg starts from nearly the same state.
  *
  *   tick k adds R + (k − 1) A (magnitudes); one idle tick follows
  *
@@ -14,7 +14,7 @@ import { ACCUMULATOR_RANGE } from "../../../units.js";
 import { registersFor, sumOfRates, type Registers } from "../model/accumulator.js";
 import type { CommandText } from "../protocol/commands.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import type { Leg, LegWriter, MotorLeg, MotorPlace } from "./leg.js";
+import type { Leg, LegWriter, MotorLeg, MotorState } from "./leg.js";
 import { HIGHEST_RATE, SLOWEST_PART_OF_MEAN } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
@@ -45,11 +45,11 @@ export class SteppedWriter implements LegWriter {
     return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
   }
 
-  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
+  write(leg: Leg, m1: MotorState, m2: MotorState): number {
     const { a1, a2, text } = this;
     const ticks = leg.ticks - this.features.idleTicks;
-    aim(leg.m1, m1, ticks, a1);
-    aim(leg.m2, m2, ticks, a2);
+    setArguments(leg.m1, m1, ticks, a1);
+    setArguments(leg.m2, m2, ticks, a2);
     if (a1.steps === 0 && a2.steps === 0) return 0;
     text.name("LM");
     for (const a of [a1, a2]) {
@@ -62,39 +62,39 @@ export class SteppedWriter implements LegWriter {
   }
 }
 
-function aim(motor: MotorLeg, place: MotorPlace, ticks: number, out: Arguments): void {
-  out.steps = Math.round(motor.p1) - place.steps;
+function setArguments(motor: MotorLeg, state: MotorState, ticks: number, out: Arguments): void {
+  out.steps = Math.round(motor.p1) - state.steps;
   if (out.steps === 0) {
     out.rate = out.accel = 0;
     return;
   }
   const direction = Math.sign(out.steps);
-  const distance = Math.abs(out.steps) * RANGE - place.acc;
+  const distance = Math.abs(out.steps) * RANGE - state.acc;
   const mean = distance / ticks;
   const slope = (direction * (motor.v1 - motor.v0)) / ticks;
   const room = Math.min(mean * (1 - SLOWEST_PART_OF_MEAN), HIGHEST_RATE - mean);
   const steepest = ticks > 1 ? Math.max(0, (2 * room) / (ticks - 1)) : 0;
   out.accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
-  // Rounded up: the last step comes on the last tick, never later.
+  // Rounded up, so that the last step is never after the last tick.
   out.rate = Math.ceil(mean - (out.accel * (ticks - 1)) / 2);
 }
 
-/** Advances the motor until its steps are done. Returns the ticks that takes. */
-function run(a: Arguments, ticks: number, place: MotorPlace): number {
+/** Advances the motor until its steps are done. Returns the number of ticks. */
+function run(a: Arguments, ticks: number, state: MotorState): number {
   if (a.steps === 0) return 0;
   const registers = registersFor("late", a.rate, a.accel);
-  const distance = Math.abs(a.steps) * RANGE - place.acc;
+  const distance = Math.abs(a.steps) * RANGE - state.acc;
   const last = tickOfSum(distance, ticks, registers);
-  place.acc += sumOfRates(last, registers.rate, registers.accel, 0) - Math.abs(a.steps) * RANGE;
-  place.steps += a.steps;
+  state.acc += sumOfRates(last, registers.rate, registers.accel, 0) - Math.abs(a.steps) * RANGE;
+  state.steps += a.steps;
   return last;
 }
 
-/** First tick at which the sum of rates reaches `distance`, which happens by tick `ticks` at the latest. */
+/** First tick at which the sum of rates reaches `distance`; at most `ticks`. */
 function tickOfSum(distance: number, ticks: number, { rate, accel }: Registers): number {
   let low = 1;
   let high = ticks;
-  // It is nearly always the last tick: check that first.
+  // Usually the last tick.
   if (ticks > 1 && sumOfRates(ticks - 1, rate, accel, 0) < distance) return ticks;
   while (low < high) {
     const middle = (low + high) >> 1;

@@ -1,18 +1,17 @@
 /**
  * Writes legs for firmware 2.7 to 2.8: LT with a constant acceleration per motor.
  *
- * This LT takes the direction from the sign of Rate and applies Accel to its magnitude. A magnitude that
- * falls below zero wraps to full speed. So a motor must never reverse within a leg (the compiler cuts there),
- * and its speeds are kept at or above zero.
+ * This LT takes the direction from the sign of Rate and applies Accel to its magnitude. A magnitude that falls below
+ * zero wraps to full speed. So a motor must never reverse within a leg (the compiler cuts there), and its speeds must
+ * not be negative.
  *
- * The accumulator holds the fraction of a step moved since the last step, in the direction of travel.
- * After a reversal that fraction counts from the wrong side. If zero is nearer to the true position, the
- * command clears the accumulator.
+ * The accumulator has the fraction of a step moved since the last step, in the direction of travel. After a reversal
+ * that fraction counts in the wrong direction. If zero is nearer to the true position, the command clears it.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import { registersFor, sumOfRates } from "../model/accumulator.js";
 import type { CommandText } from "../protocol/commands.js";
-import { correction, type Leg, type LegWriter, type MotorLeg, type MotorPlace } from "./leg.js";
+import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } from "./leg.js";
 import { HIGHEST_RATE } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
@@ -44,10 +43,10 @@ export class TimedWriter implements LegWriter {
     return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
   }
 
-  write(leg: Leg, m1: MotorPlace, m2: MotorPlace): number {
+  write(leg: Leg, m1: MotorState, m2: MotorState): number {
     const { a1, a2, text } = this;
-    aim(leg, leg.m1, m1, a1);
-    aim(leg, leg.m2, m2, a2);
+    setArguments(leg, leg.m1, m1, a1);
+    setArguments(leg, leg.m2, m2, a2);
     // The board refuses a command with both rates zero. Nothing is lost by waiting for the next leg.
     if (a1.rate === 0 && a2.rate === 0) return 0;
     text.name("LT");
@@ -65,12 +64,12 @@ export class TimedWriter implements LegWriter {
   }
 }
 
-function aim(leg: Leg, motor: MotorLeg, place: MotorPlace, out: Arguments): void {
+function setArguments(leg: Leg, motor: MotorLeg, state: MotorState, out: Arguments): void {
   const { ticks } = leg;
   const planned = motor.p1 - motor.p0;
   const direction = planned < 0 || (planned === 0 && motor.v0 + motor.v1 < 0) ? -1 : 1;
-  const ahead = direction * (place.steps - motor.p0) - 0.5;
-  const errorKept = -(ahead + place.acc / RANGE);
+  const ahead = direction * (state.steps - motor.p0) - 0.5;
+  const errorKept = -(ahead + state.acc / RANGE);
   const errorCleared = -ahead;
   out.clear = Math.abs(errorCleared) + CLEAR_WORTH_STEPS < Math.abs(errorKept);
   const error = out.clear ? errorCleared : errorKept;
@@ -97,11 +96,11 @@ function keepAboveZero(a: Arguments, ticks: number): void {
   if (lowest < 0) a.rate += Math.sign(a.rate) * -lowest;
 }
 
-function run(a: Arguments, ticks: number, place: MotorPlace): void {
-  if (a.clear) place.acc = 0;
+function run(a: Arguments, ticks: number, state: MotorState): void {
+  if (a.clear) state.acc = 0;
   const { rate, accel } = registersFor("half", a.rate, a.accel);
-  const sum = place.acc + sumOfRates(ticks, rate, accel, 0);
+  const sum = state.acc + sumOfRates(ticks, rate, accel, 0);
   const steps = Math.floor(sum / RANGE);
-  place.steps += a.rate < 0 ? -steps : steps;
-  place.acc = sum - steps * RANGE;
+  state.steps += a.rate < 0 ? -steps : steps;
+  state.acc = sum - steps * RANGE;
 }

@@ -1,47 +1,46 @@
 /**
- * Detects a board that answers and accepts commands but whose motors do not move: the step counters that it
- * reports stay the same while the plan advances. Without this, a long command would hide the fault until its
- * end.
+ * Detects a board that answers and accepts commands but does not step: the step counters that it reports stay the same
+ * while the plan advances. Otherwise a long command would hide the fault until its end.
  */
 import { parseSteps } from "../protocol/replies.js";
 import type { StreamPlace } from "../stream/timeline.js";
 import type { Clock } from "../../transport.js";
 
-/** Seconds of this computer without a step, with motion planned all the time. */
+/** Seconds of this computer without a step although motion is planned. */
 const STALL_S = 1.2;
-/** What counts as planned motion, steps of one motor: far more than the two times can differ. */
+/** Min planned steps of one motor in that time; far more than the error of the board's estimated time. */
 const MOVED_STEPS = 160;
 
-interface Standing {
+interface LastChange {
   readonly steps: string;
   readonly sinceS: number;
   readonly planned: readonly [number, number];
 }
 
 export class AdvanceWatch {
-  private standing: Standing | null = null;
+  private lastChange: LastChange | null = null;
 
   constructor(
     private readonly clock: Clock,
     private readonly speed: number,
   ) {}
 
-  /** One answer to QS, and where the board should be now. True: the motors do not move. */
+  /** Call with each reply to QS and the board's planned place. True if the motors do not move. */
   isStalled(reply: string, at: StreamPlace): boolean {
     const steps = parseSteps(reply).join();
     const planned = plannedSteps(at);
     const nowS = this.clock.nowS();
-    if (this.standing?.steps !== steps) {
-      this.standing = { steps, sinceS: nowS, planned };
+    if (this.lastChange?.steps !== steps) {
+      this.lastChange = { steps, sinceS: nowS, planned };
       return false;
     }
-    const { sinceS, planned: before } = this.standing;
+    const { sinceS, planned: before } = this.lastChange;
     const moved = Math.max(Math.abs(planned[0] - before[0]), Math.abs(planned[1] - before[1]));
     return nowS - sinceS > STALL_S * this.speed && moved > MOVED_STEPS;
   }
 }
 
-/** Step counts at a time of a stream, as if each command ran evenly. */
+/** Step counts at a time of a stream, interpolated linearly within a command. */
 function plannedSteps({ stream, commandIndex, planS }: StreamPlace): readonly [number, number] {
   const before = Math.max(0, commandIndex - 1);
   const [fromS, toS] = [stream.planS[commandIndex], stream.planS[commandIndex + 1]];

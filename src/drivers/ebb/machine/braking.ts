@@ -1,4 +1,4 @@
-/** The settings with which a stop brakes and lifts. */
+/** The settings for the braking and the lift of a stop. */
 import { settingsIdOf, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { withLayerCodes } from "../../../plan/coded-layers.js";
 import { accelEverywhere, drawLimitsOf } from "../../../plan/limits.js";
@@ -8,7 +8,7 @@ import type { PenSettings } from "../../../settings/pen.js";
 import type { JobSettings } from "../../machine-job.js";
 import { motionForFirmware } from "../protocol/firmware-motion.js";
 
-/** As the layer of the place was planned; null: travelling to a stroke. */
+/** The settings of the layer at `place`; null while travelling. */
 export function brakingAt(
   settings: JobSettings,
   { layer, layers }: StrokeSet,

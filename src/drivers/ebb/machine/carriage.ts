@@ -1,9 +1,9 @@
 /**
- * The carriage and pen of one connected board: their position, and the few ways to move them.
+ * The carriage and pen of one connected board: their position, and the operations that move them.
  *
- * Positions are absolute steps from home. The board's counters start at 0 whenever its motors are switched
- * on; `origin` is the position at that moment. An AxiDraw has no end switches: the place where its motors are
- * switched on after it was moved by hand is home.
+ * Positions are absolute steps from home. The board's counters start at 0 whenever its motors are switched on; `origin`
+ * is the position at that moment. An AxiDraw has no end switches: home is where the carriage is when the motors are
+ * switched on after it was moved by hand.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
@@ -20,7 +20,7 @@ import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
-import { mostAheadS, Streamer } from "../stream/streamer.js";
+import { maxAheadS, Streamer } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
@@ -37,13 +37,13 @@ const STUCK_S = 2;
 /** How long a newly connected board may keep moving. */
 const STILL_S = 2;
 
-/** The board begins shortly after the command was written, and ends as much later. */
+/** The board begins, and so ends, this much after the command was written. */
 const SETTLE_S = 0.02;
 /** Time for a servo to move from end to end and settle. */
 const SERVO_MS = 400;
-/** Value of the board's layer variable while its counters count from home: this plus the microstep mode. */
+/** The board's layer variable while its counters count from home is this plus the microstep mode. */
 const PLACE_KNOWN = 112;
-/** The same when the counters do not count from home. A board that has restarted holds 0. */
+/** Its value while the counters do not count from home. After a restart of the board it is 0. */
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
 
@@ -51,10 +51,7 @@ export class Carriage {
   penUp: boolean | null = null;
   penMoving = false;
   motorsOn: boolean | null = null;
-  /**
-   * Set until something moves, for a board that was left in the middle of a plot: its state when it was
-   * connected.
-   */
+  /** The pen of a board that was left in the middle of a plot, as found when connecting; null after the first move. */
   left: { readonly penUp: boolean } | null = null;
   /** Underruns of all streams on this connection. */
   underrunCount = 0;
@@ -76,7 +73,7 @@ export class Carriage {
     this.queueDepth = connection.features.hasImmediateLift ? connection.features.maxFifoDepth : 1;
   }
 
-  /** Called after connecting: a board that kept its counters still knows where the carriage is. */
+  /** Called after connecting. A board that was not restarted still has the position in its counters. */
   async takeOver(): Promise<void> {
     const { session, features } = this.connection;
     if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
@@ -89,10 +86,7 @@ export class Carriage {
     await this.liftWhereLeft();
   }
 
-  /**
-   * A pen that was left on the paper during a plot would bleed; the plot's up height is still set on the
-   * board.
-   */
+  /** Lifts a pen that was left on the paper, where it would bleed. The board still has the plot's up height. */
   private async liftWhereLeft(): Promise<void> {
     const { session } = this.connection;
     const penUp = Number(await session.query("QP")) === 1;
@@ -109,7 +103,7 @@ export class Carriage {
     const [counter1, counter2] = parseSteps(await session.query("QS"));
     const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
     if (features.hasClear) {
-      // The accumulators cannot be read. One tick at the lowest rate sets them to 1 and moves nothing.
+      // The accumulators cannot be read. This clears them and adds one tick at the lowest rate, so both are 1.
       await session.send("LT,1,1,0,1,0,3");
       this.state = { steps1, steps2, acc1: 1, acc2: 1 };
     } else {
@@ -121,7 +115,7 @@ export class Carriage {
   }
 
   /**
-   * The same if the position was known and can be read; otherwise false. `stillS`: board seconds to wait for
+   * The same if the position was known and can be read; otherwise returns false. `stillS`: board seconds to wait for
    * rest.
    */
   async findPlaceAgain(stillS: number): Promise<boolean> {
@@ -131,9 +125,9 @@ export class Carriage {
   }
 
   /**
-   * The board's layer variable is 0 after each start of the board. It records whether the counters still
-   * count from home, and the microstep mode; 0 if they do not. Without the clearing commands of 2.7 they do
-   * not always count from home, see `findPlace`.
+   * The microstep mode, if the board's counters still count from home; otherwise 0. The board's layer variable records
+   * this: it is 0 after each start of the board. Before firmware 2.7, `findPlace` has to zero the counters, so they do
+   * not always count from home.
    */
   private async markedMode(): Promise<number> {
     const { session, features } = this.connection;
@@ -144,7 +138,7 @@ export class Carriage {
     return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
   }
 
-  /** Only a position that counts from home can be found by the next connection. */
+  /** Records on the board whether its counters count from home: only then can the next connection find the position. */
   private async markHome(): Promise<void> {
     const isFromHome = this.origin[0] === 0 && this.origin[1] === 0;
     await this.mark(isFromHome ? PLACE_KNOWN + this.microstepMode : SWITCHED_ON);
@@ -159,7 +153,7 @@ export class Carriage {
     if (features.hasClear) await session.send(features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`);
   }
 
-  /** A board that was left during a plot still plays its queue; a long move may block it. */
+  /** Waits until the motors rest: a board that was left during a plot still plays its queue, possibly a long move. */
   private async untilStill(limitS: number = STILL_S * this.connection.waitSpeed): Promise<void> {
     const { session, boardClock } = this.connection;
     const untilS = boardClock.nowS() + limitS;
@@ -201,14 +195,13 @@ export class Carriage {
   }
 
   /**
-   * How long the motors may keep running after an emergency stop. A queue of one command is always full while
-   * more waits to be sent, and the board reads nothing until there is room: it plays everything that was sent
-   * ahead.
+   * How long the motors may keep running after an emergency stop. A board with a queue of one command reads nothing
+   * while the queue is full, so it plays everything that was sent ahead before it reads the stop.
    */
   emergencyStopMs({ sendAheadMs }: MachineSettings): number {
     if (this.queueDepth > 1) return ANSWER_MS;
     const windowS = sendAheadMs / 1_000 + (this.connection.boardClock.latenessS?.() ?? 0);
-    return Math.round(1_000 * mostAheadS(windowS, LONGEST_COMMAND_S)) + ANSWER_MS;
+    return Math.round(1_000 * maxAheadS(windowS, LONGEST_COMMAND_S)) + ANSWER_MS;
   }
 
   /** For the log that users send with a report. */
@@ -218,7 +211,7 @@ export class Carriage {
     session.log.add("note", `emergency stop: takes up to ${takesMs} ms on firmware ${features.version}`);
   }
 
-  /** `certain` is called with each place that the board certainly reached with its motors supplied. */
+  /** `certain` is called with each place that the board certainly reached with its motors powered. */
   streamer(settings: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
@@ -255,7 +248,7 @@ export class Carriage {
     );
   }
 
-  /** Asks twice, because a single odd answer may belong to another query. */
+  /** Queries a second time, because a single unexpected reply may belong to another query. */
   private async checkRestart(streamer: Streamer): Promise<void> {
     const { session } = this.connection;
     const answer = await session.query(this.markQuery, STILL_S).catch(() => null);
@@ -265,7 +258,7 @@ export class Carriage {
     streamer.abandon(boardRestarted());
   }
 
-  /** After the position is lost: lifts the pen, and lets the carriage be pushed home. */
+  /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed home. */
   async letGo(settings: MachineSettings): Promise<void> {
     await this.untilStill();
     if (this.queueDepth > 1) await this.connection.session.send(`CU,4,${this.queueDepth}`);
@@ -273,7 +266,7 @@ export class Carriage {
     await this.motorsOff();
   }
 
-  /** Plays a plan on a streamer of this carriage, to its end or to where it is cut. */
+  /** Plays a plan on a streamer of this carriage, to its end or to a cut. */
   async play(streamer: Streamer, plot: PlannedPlot, settings: MachineSettings): Promise<StreamReport> {
     const start = this.state!;
     this.left = null;
@@ -328,30 +321,30 @@ export class Carriage {
     this.penIs(true);
   }
 
-  /** Drops what the board has queued of a move, which rejects with `conflict`; the position is read back. */
+  /** Clears the board's queue. The current move rejects with `conflict`, and the position is read back. */
   stopAtOnce(): void {
     this.playing?.stopAtOnce(new PlotwrightError("conflict", "The move was stopped at once."));
   }
 
-  /** Before the connection is closed during motion: nothing more is drawn, and the pen is lifted. */
+  /** Before the connection is closed during motion: stops and lifts the pen. */
   async leave(settings: MachineSettings): Promise<void> {
     this.stopAtOnce();
     await this.untilStill();
     await this.movePen(true, settings);
   }
 
-  /** Lifts or lowers the pen by hand; resolves when it has arrived. */
+  /** Lifts or lowers the pen outside a plot; resolves when it has arrived. */
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
     const { session, boardClock } = this.connection;
     const machine = machineOf(settings);
     const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
     const pen = { ...settings.pen, ...(up ? { upPct: pct } : { downPct: pct }) };
-    const way = penMoveOf(pen, up);
+    const move = penMoveOf(pen, up);
     this.penIs(up, true);
     try {
       for (const line of penSetUpCommands(machine, pen)) await session.send(line);
-      await session.send(penCommand(machine, way), way.timeMs / 1000);
-      await new Promise<void>((resolve) => void boardClock.after(way.timeMs / 1000 + SETTLE_S, resolve));
+      await session.send(penCommand(machine, move), move.timeMs / 1000);
+      await new Promise<void>((resolve) => void boardClock.after(move.timeMs / 1000 + SETTLE_S, resolve));
     } catch (error) {
       this.penIs(null);
       throw error;
@@ -374,7 +367,7 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** Lets the carriage be moved by hand; its position is then unknown. */
+  /** Switches the motors off, so that the carriage can be moved by hand. Its position is then unknown. */
   async motorsOff(): Promise<void> {
     await this.mark(0);
     await this.connection.session.send("EM,0,0");
@@ -384,7 +377,7 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** Makes this place home. */
+  /** Makes the current position home. */
   async setHome(machine: MachineProfile, pen: PenSettings): Promise<void> {
     await this.ready(machine, pen);
     const { session, features } = this.connection;
@@ -402,7 +395,7 @@ export class Carriage {
     this.events.changed();
   }
 
-  /** The motors were without power: the carriage may be anywhere. */
+  /** Call if the motors were without power or something else moved the carriage: it may be anywhere. */
   async forgetPlace(): Promise<void> {
     this.state = null;
     this.left = null;
@@ -421,7 +414,7 @@ export class Carriage {
     if (line === "QC") this.events.supplyRead(isPowerLow(line, reply));
   }
 
-  /** Keeps the stream's clock in step with the board, and reports the button and the motors' supply. */
+  /** The queries polled during a stream: for the board's time, its button and the motors' supply. */
   private pollLines(): readonly string[] {
     const { features } = this.connection;
     if (this.queueDepth > 1) return ["QU,6", "QG", "QS", "QC", this.markQuery];

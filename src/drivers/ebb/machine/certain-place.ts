@@ -1,11 +1,10 @@
 /**
- * The last place that a board certainly reached with its motors supplied. A board keeps counting steps when
- * the motors' supply fails, and counts from 0 again after a restart. Its counters alone do not show what is
- * drawn.
+ * The last place that a board certainly reached with its motors powered. The step counters alone do not prove that: a
+ * board keeps counting when the motors' supply fails, and counts from 0 after a restart.
  *
  *   one poll:  QS ─── the position ───> QC ─── the supply is good ───> QL ─── the mark is still set
  *
- * The board answers these in order: what QC and QL report was already true at QS.
+ * The board answers in order, so what QC and QL report was already true at QS.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { parseSteps } from "../protocol/replies.js";
@@ -31,7 +30,7 @@ export class CertainPlace {
     private readonly lastLine: string,
   ) {}
 
-  /** One answer of a poll, in order. Returns a place if it was the last answer and all three were good. */
+  /** Call with each reply of a poll, in order. Returns the place on the last reply if all three were good. */
   answered(line: string, reply: string, asked: PollTime, streamer: Streamer): CertainAt | null {
     if (line === "QS") this.at = this.placeOf(reply, asked, streamer);
     else if (isPowerLow(line, reply)) this.at = null;

@@ -13,17 +13,16 @@ export interface Connection {
   readonly boardClock: Clock;
   /** Board seconds per second of this computer. */
   readonly speed: number;
-  /** The same for a duration in which both must finish: the slower of board and computer decides. */
+  /** The same for timeouts on both board and computer: the slower of the two counts. */
   readonly waitSpeed: number;
 }
 
-/** Rejects with `board-timeout` or `disconnected`; the line is closed then. */
+/** Rejects with `board-timeout` or `disconnected`, after closing the connection. */
 export async function connectBoard(
   transport: Transport,
   { clock, machineClock, speed, events }: ConnectOptions,
 ): Promise<Connection> {
-  // Even with a fast virtual board, connection and computer are no faster: silence is measured on the slower
-  // clock.
+  // A fast virtual board does not make connection or computer faster, so timeouts are measured on the slower clock.
   const session = new BoardSession(transport, { clock: speed < 1 ? machineClock : clock });
   try {
     const identity = await session.identify();

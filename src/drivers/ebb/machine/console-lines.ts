@@ -1,6 +1,6 @@
 /**
- * Decides which typed lines must not reach the board: those that restart it, hang it, or change how it
- * answers. Compares the command and its numbers as the board reads them, so that "cu,01,0" equals "CU,1,0".
+ * Decides which typed lines must not be sent: those that restart the board, hang it, or change how it answers. Commands
+ * and numbers are compared as the board reads them, so that "cu,01,0" equals "CU,1,0".
  */
 import { commandName } from "../protocol/replies.js";
 
@@ -13,7 +13,7 @@ const STEP_EACH_TICK = 2 ** 31;
 
 const TOO_LONG = `it would move for more than ${LONGEST_S} s`;
 
-/** By the first number of CU: all others change how the board answers, counts or moves. */
+/** First numbers of CU that are allowed; all others change how the board answers, counts or moves. */
 const HARMLESS_SWITCHES = [3, 60];
 
 type Rule = (numbers: readonly number[]) => string | null;
@@ -45,7 +45,7 @@ const RULES: Readonly<Record<string, Rule>> = {
     stepsTake(steps1, rate1, [accel1, jerk1]) ?? stepsTake(steps2, rate2, [accel2, jerk2]),
 };
 
-/** Null for a line that may be sent. */
+/** Why a line must not be sent; null if it may. */
 export function whyRefused(line: string): string | null {
   if (!/^[\x20-\x7e]+$/.test(line)) return "it is not one line of plain characters";
   const name = commandName(line);
@@ -55,7 +55,7 @@ export function whyRefused(line: string): string | null {
   return rule?.(numbersOf(line)) ?? null;
 }
 
-/** As the board reads them: digits up to the first other character, 0 if there are none. */
+/** A line's numbers as the board reads them: digits up to the first other character; 0 without digits. */
 const numbersOf = (line: string): number[] =>
   line
     .split(",")

@@ -1,7 +1,7 @@
 /**
- * One line typed to the board, with all its answers. Refuses lines after which the board and the driver would
- * no longer understand each other (console-lines.ts). After lines that move or reset the motors' counters,
- * the driver reads the position back or forgets it.
+ * Sends one typed line to the board and collects its replies. Refuses lines that would break the communication
+ * (console-lines.ts). After lines that move the motors or reset their counters, it reads the position back or forgets
+ * it.
  */
 import { PlotwrightError } from "../../../errors.js";
 import type { ConsoleAnswer } from "../../driver.js";
@@ -13,7 +13,7 @@ const MOVES = new Set(["SM", "XM", "LM", "LT", "L3", "T3", "TD", "TR", "HM", "ES
 const ZEROES = new Set(["EM", "CS"]);
 const PEN = new Set(["SP", "TP", "S2", "SC", "SE"]);
 
-/** Rejects with `bad-setting` for a line that is refused, with `board-timeout` if nothing is answered. */
+/** Rejects with `bad-setting` if the line is refused, and with `board-timeout` if the board does not answer. */
 export async function sendLine(carriage: Carriage, line: string): Promise<ConsoleAnswer> {
   const why = whyRefused(line);
   if (why !== null) throw new PlotwrightError("bad-setting", `${JSON.stringify(line)} was not sent: ${why}.`);
@@ -22,13 +22,13 @@ export async function sendLine(carriage: Carriage, line: string): Promise<Consol
   return { replies, note: await noteOn(carriage, name) };
 }
 
-/** All lines up to the answer of a query that is sent after it: some commands answer with more than one line. */
+/** Some commands answer with several lines. A query is sent after the line; all lines before its reply are returned. */
 async function repliesTo(carriage: Carriage, line: string): Promise<string[]> {
   const { session } = carriage.connection;
   const mark = `console: ${line}`;
   session.log.add("note", mark);
   await session.query(line, LONGEST_S).catch((error: unknown) => {
-    // An error is a line of its own.
+    // An error reply is in the log too.
     if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
   });
   await session.query("QM", LONGEST_S);
@@ -39,18 +39,18 @@ async function repliesTo(carriage: Carriage, line: string): Promise<string[]> {
     if (kind === "#" && text === mark) break;
     if (kind === "<" && text !== undefined) answers.unshift(text);
   }
-  // After a line of unknown form the session asks for V, to match answers and queries again.
+  // After a reply of unknown form the session sends V to match replies to queries again: drop that reply.
   return answers.slice(0, -1).filter((text) => commandName(line) === "V" || !/^EBBv.* Version /.test(text));
 }
 
 async function noteOn(carriage: Carriage, name: string): Promise<string | null> {
   if (PEN.has(name)) {
     carriage.penIs(null);
-    return "The pen was moved or set outside plotwright. The next move sets heights and speeds again.";
+    return "The line may have moved the pen or changed its settings. The next move sets heights and speeds again.";
   }
   if (ZEROES.has(name)) {
     await carriage.forgetPlace();
-    return "The motors' counters were set to zero, so the position is forgotten. Home is where the machine is when it moves next.";
+    return "The line set the motors' counters to zero, so the position is unknown. The next move starts from here as home.";
   }
   if (!MOVES.has(name)) return null;
   return (await carriage.findPlaceAgain(LONGEST_S))

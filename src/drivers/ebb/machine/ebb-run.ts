@@ -1,8 +1,8 @@
 /**
- * The stream of one plot on the board: plays plans, brings them to rest along the path, and switches from one
- * plan to another in motion. The caller decides what is drawn, and when.
+ * One plot on the board: plays plans, brings them to rest along the path, and switches from one plan to another in
+ * motion. The caller decides what is drawn, and when.
  *
- * Commands already written to the board play out, at most the streamer's window. Any change applies after
+ * Commands already written to the board (at most the streamer's window) cannot be changed. Any change applies after
  * them.
  */
 import type { StrokeSet } from "../../../drawing/stroke-set.js";
@@ -38,16 +38,16 @@ const SNAP_MM = 0.5;
 /** A place nearer than this to the end of a stroke counts as its end. */
 const EDGE_MM = 0.05;
 
-/** A path to rest, and what follows it. */
+/** A path to rest, and the state after it. */
 interface Rest {
   readonly part: EbbPart;
-  /** What is still to be drawn after it; null if nothing. */
+  /** The first place still to be drawn; null if everything is drawn. */
   readonly place: Place | null;
   readonly state: BoardState;
 }
 
 export class EbbRun implements MachineRun {
-  /** Set when the stream was stopped on purpose: what is still to be drawn. */
+  /** Set when the stream was stopped on purpose: the first place still to be drawn. */
   stopped: { readonly place: Place | null } | null = null;
   readonly progress = new RunProgress<EbbPart>();
 
@@ -55,9 +55,9 @@ export class EbbRun implements MachineRun {
   private readonly strokes: StrokeSet;
   private readonly events: RunEvents;
   private emergency = false;
-  /** The last place that the board certainly reached with its motors supplied. */
+  /** The last place that the board certainly reached with its motors powered. */
   private certain: Place | null = null;
-  /** No more streaming is allowed. */
+  /** Set by `fail`: nothing more may be streamed. */
   private failure: PlotwrightError | null = null;
   /** The heights that the board moves the pen to. */
   private boardPen: PenSettings;
@@ -75,7 +75,7 @@ export class EbbRun implements MachineRun {
     return this.request.settings();
   }
 
-  /** Remains set when all commands are written and the board is polled until it is at rest. */
+  /** Still set after all commands are written, until the board is at rest. */
   get playing(): object | null {
     return this.streamer;
   }
@@ -85,11 +85,11 @@ export class EbbRun implements MachineRun {
   }
 
   /** Switching to another plan; until that is done, no third plan is accepted. */
-  get isGoingOver(): boolean {
-    return this.streamer?.isGoingOver ?? false;
+  get isSwitching(): boolean {
+    return this.streamer?.isSwitching ?? false;
   }
 
-  /** What the board receives next begins here. */
+  /** The place where the next command to be sent begins. */
   get sentPlace(): Place | undefined {
     const { streamer } = this;
     if (!streamer?.playing) return undefined;
@@ -102,7 +102,7 @@ export class EbbRun implements MachineRun {
     const { carriage } = this;
     this.stopped = null;
     if (carriage.penUp !== true) await carriage.movePen(true, this.settings);
-    // The request may have arrived while the pen went up.
+    // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
     this.boardPen = this.settings.pen;
     const { trajectory: whole } = plot;
@@ -118,12 +118,12 @@ export class EbbRun implements MachineRun {
       const report = await played;
       const { trajectory } = this.progress.partOf(report.end.stream);
       const planS = report.end.stream.planS[report.end.commandIndex + 1];
-      // A run stopped at rest ends in the middle of the plan: its path to rest has no command.
+      // A play stopped while the carriage was at rest ends in the middle of the plan; its path to rest has no command.
       const isWhole = report.complete && !this.stopped;
       const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
       carriage.penUp = penUp;
-      // The board is at rest, so a lift that had begun is over, even if rounding puts its last instant later.
-      this.events.tell({
+      // The board is at rest, so the pen is too, even if its planned end is slightly later by rounding.
+      this.events.progressed({
         ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
         penUp,
         penMoving: false,
@@ -154,7 +154,7 @@ export class EbbRun implements MachineRun {
     streamer.replace(rest.part.commands);
   }
 
-  /** Drops the board's queue: it stops at once, and `play` ends with the position read back. */
+  /** Clears the board's queue: it stops at once, and `play` ends with the position read back. */
   stopAtOnce(): void {
     if (!this.streamer) return;
     this.emergency = true;
@@ -170,8 +170,8 @@ export class EbbRun implements MachineRun {
   }
 
   /**
-   * A place some time ahead that the board has not received yet; null if too little is left for one. The pen
-   * is either up there or within a stroke: at the end of a stroke, a new plan would start with the pen down.
+   * A place at least `leadS` ahead that the board has not received yet; null if too little is left. The pen is either
+   * up there or within a stroke. The end of a stroke is excluded, because a new plan would start there with the pen down.
    */
   placeAhead(leadS: number): PlaceAhead | null {
     const { streamer } = this;
@@ -185,14 +185,14 @@ export class EbbRun implements MachineRun {
       if (isDown && !isWithinStroke(this.strokes, rest.place)) continue;
       const { endX: x, endY: y } = rest.part.trajectory;
       const from = rest.place;
-      const goOver = (plot: PlannedPlot, afterS: number): boolean =>
-        this.goOver({ index, part, rest, isDown }, plot, afterS);
-      return { from, x, y, board: rest.state, goOver };
+      const switchTo = (plot: PlannedPlot, afterS: number): boolean =>
+        this.switchTo({ index, part, rest, isDown }, plot, afterS);
+      return { from, x, y, board: rest.state, switchTo };
     }
     return null;
   }
 
-  private goOver(
+  private switchTo(
     { index, part, rest, isDown }: { index: number; part: EbbPart; rest: Rest; isDown: boolean },
     plot: PlannedPlot,
     afterSectionS: number,
@@ -241,8 +241,8 @@ export class EbbRun implements MachineRun {
   }
 
   /**
-   * What is still to be drawn at a time of a part; from the pen's position if it is drawing. In a shaped motion that
-   * differs from the carriage's position `x`, `y`.
+   * The first place still to be drawn at a time of a part. Within a stroke it is the place nearest to the pen. In a
+   * shaped motion the pen's position differs from the carriage's, `x`, `y`.
    */
   private placeIn({ trajectory, next }: EbbPart, planS: number, x: number, y: number): Place | null {
     const { stroke, alongMm, ...drawn } = drawnAt(trajectory, planS);
@@ -253,7 +253,7 @@ export class EbbRun implements MachineRun {
       : snappedPlace(this.strokes, { stroke, alongMm }, pen, SNAP_MM);
   }
 
-  /** Applies new heights in mid-plot; if the pen is down at another height than it should be, it moves there. */
+  /** Commands that apply new heights in mid-plot. A pen that is down moves to the new down height. */
   private heightsChange(isDown: boolean, state: BoardState, planS: number): CommandStream {
     const { pen } = this.settings;
     const machine = machineOf(this.settings);
@@ -262,7 +262,7 @@ export class EbbRun implements MachineRun {
     if (isDown && byPct > 0) {
       const { heightPct, ratePctPerS } = penMoveOf(pen, false);
       const timeMs = 1_000 * reseatWaitS(pen, byPct);
-      const reseat = { up: false, heightPct, wayPct: byPct, timeMs, ratePctPerS };
+      const reseat = { up: false, heightPct, distancePct: byPct, timeMs, ratePctPerS };
       lines.push([penCommand(machine, reseat), timeMs / 1000]);
     }
     return restingStream(lines, state, planS);
@@ -275,7 +275,7 @@ export class EbbRun implements MachineRun {
     this.certain = this.placeOrEnd(place, x, y);
   }
 
-  /** The board has dropped its queue: its counters show what it has drawn. */
+  /** The board's queue is cleared: the counters show how far it drew. */
   private async afterEmergency(streamer: Streamer): Promise<Place | null> {
     this.emergency = false;
     await this.carriage.findPlace();
@@ -296,7 +296,7 @@ export class EbbRun implements MachineRun {
     return swungPlace(this.strokes, trajectory, planS, place, springs);
   }
 
-  /** One command has not run; the counters still show how far the board came. */
+  /** The board refused one command. The counters still show how far it drew. */
   private async afterRefusal(streamer: Streamer, refused: RefusedCommand): Promise<Place | null> {
     const { carriage, strokes, settings } = this;
     try {
@@ -313,25 +313,25 @@ export class EbbRun implements MachineRun {
       await carriage.movePen(true, settings);
       return place;
     } catch {
-      // It does not report its position: home has to be set again.
+      // The position cannot be read back, so home has to be set again.
       await carriage.forgetPlace().catch(() => undefined);
       return this.certain;
     }
   }
 
-  /** Resumes from a place of a stream, with the pen at `x`, `y`. */
+  /** The first place still to be drawn at a place of a stream, with the carriage at `x`, `y`. */
   private placeOrEnd({ stream, planS }: StreamPlace, x: number, y: number): Place | null {
     const part = this.progress.partOf(stream);
     return this.placeIn(part, planS, x, y) ?? this.endOf(part.trajectory);
   }
 
-  /** Everything of a plan is drawn, and only the move home is left: it waits for a command. */
+  /** The end of the last stroke: for a stop when everything is drawn and only the travel home is left. */
   private endOf({ runs }: Trajectory): Place | null {
     const stroke = runs.stroke.reduce((last, one) => Math.max(last, one), -1);
     return stroke < 0 ? this.progress.place : { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
   }
 
-  /** Set by events during `play`, which the compiler cannot see. */
+  // These two are methods because TypeScript does not know that events may set `stopped` during `play`.
   private wasStopped(): boolean {
     return this.stopped !== null;
   }

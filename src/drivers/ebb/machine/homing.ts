@@ -1,8 +1,8 @@
 /**
- * Finds home with the machine's own switches. Each axis in turn moves towards 0 in short steps until its
- * switch is pressed, then back in very short ones until it is released. That place is home.
+ * Finds home with the machine's own switches. Each axis in turn moves towards 0 in short steps until its switch is
+ * pressed, then back in very short steps until it is released. That position is home.
  *
- * Polling between short moves needs only the board's PI, which every firmware has.
+ * Polling between short moves needs only the command PI, which every firmware has.
  */
 import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -14,9 +14,9 @@ import type { Carriage } from "./carriage.js";
 /** Shorter than the travel of a pressed switch. */
 const SEEK_MM = 1;
 const RELEASE_MM = 0.05;
-/** A switch that is still pressed this far away is not an end switch. */
+/** A switch that is still pressed after this distance is not an end switch. */
 const MAX_RELEASE_MM = 10;
-/** The machine may be this much longer than its travel. */
+/** Max distance to a switch, as a multiple of the profile's travel. */
 const SLACK = 1.1;
 const SEEK_SPEED_MM_PER_S = 30;
 
@@ -47,7 +47,7 @@ async function seekAxis(
     await carriage.walk(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
   };
   for (let movedMm = 0; !(await isPressed(carriage, input)); movedMm += SEEK_MM) {
-    if (movedMm > maxMm) throw unmet(machine, axis, maxMm, input);
+    if (movedMm > maxMm) throw noSwitch(machine, axis, maxMm, input);
     await step(-SEEK_MM);
   }
   for (let movedMm = 0; await isPressed(carriage, input); movedMm += RELEASE_MM) {
@@ -66,7 +66,7 @@ const withTravelSpeed = (settings: MachineSettings, speedMmPerS: number): Machin
   return { ...settings, motion: { ...motion, travel } };
 };
 
-const unmet = (
+const noSwitch = (
   { name }: MachineProfile,
   axis: string,
   maxMm: number,
@@ -74,11 +74,11 @@ const unmet = (
 ): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The ${name} moved ${Math.round(maxMm)} mm along ${axis} and met no switch. Check its cable, and the input (${port}${pin}) in the machine's profile.`,
+    `The ${name} moved ${Math.round(maxMm)} mm along ${axis} and reached no switch. Check the switch's cable, and its input (${port}${pin}) in the machine's profile.`,
   );
 
 const stuck = (axis: string, { port, pin }: SwitchInput): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The switch of ${axis} (${port}${pin}) stays pressed although the carriage moved away from it. The profile may have its two states swapped.`,
+    `The switch of ${axis} (${port}${pin}) stays pressed although the carriage moved away from it. Check whether the machine's profile has its two states swapped.`,
   );

@@ -1,4 +1,4 @@
-/** What the board reports about its supply and its button. */
+/** Reads the motors' supply and the button from the board's replies. */
 
 /**
  * The second value of `QC` is the motor supply through a divider: about 300 for 9 V. Below this the supply is

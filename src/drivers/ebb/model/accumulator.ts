@@ -14,9 +14,9 @@
  *   half   (2.7 – 2.8)   rate = R − A/2         accel = A        magnitudes; direction from the steps or rate
  *   signed (3.0 on)      rate = R − A/2 + J/6   accel = A − J    signed, 32 bits, division towards zero
  *
- * Source: ebb.c of each generation (evil-mad/EggBot). Exact in doubles: while |r| ≤ 2^31 every term of S
- * stays below 2^53 up to MAX_PIECE_TICKS ticks; longer commands are split into pieces. A rate that leaves
- * its range wraps as the registers do: the piece ends there and the next continues with the wrapped rate.
+ * Source: ebb.c of each generation (evil-mad/EggBot). Exact in doubles: while |r| ≤ 2^31 every term of S stays below
+ * 2^53 up to MAX_PIECE_TICKS ticks; longer commands are split into pieces. A rate that leaves its range wraps, as in
+ * the board's registers: the piece ends there, and the next one continues with the wrapped rate.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import type { TickArithmetic } from "../protocol/firmware.js";
@@ -68,7 +68,7 @@ interface Piece {
 }
 
 /** State of one motor after some ticks of a command. */
-export interface AxisPlace {
+export interface AxisState {
   /** Signed steps since the command began. */
   net: number;
   acc: number;
@@ -140,7 +140,7 @@ export class AxisMotion {
   }
 
   /** The state after `tick` ticks; after the last tick, the final state. */
-  placeAt(tick: number, out: AxisPlace): AxisPlace {
+  placeAt(tick: number, out: AxisState): AxisState {
     const piece = this.pieceAt(tick);
     if (piece === undefined || tick >= this.ticks) {
       out.net = this.net;
@@ -184,7 +184,7 @@ export class AxisMotion {
     return made;
   }
 
-  /** Late and half count magnitudes; 0 − n keeps zero from turning into −0. */
+  /** Late and half count magnitudes. 0 − n avoids −0. */
   private signed(value: number): number {
     return this.forward ? value : 0 - value;
   }
@@ -249,7 +249,7 @@ function sameSignTicks(
     const r = rateAt(k, rate, accel, jerk);
     return r >= low && r <= high;
   };
-  // The rate is monotone up to its vertex, so checking the end is enough.
+  // The rate is monotone up to its vertex, so checking the last tick is enough.
   let end = limit;
   if (jerk !== 0) {
     const vertex = -accel / jerk - 0.5;

@@ -1,6 +1,5 @@
 /**
- * Parses the parameters of SM, XM, LM, L3, LT, T3, TD and HM into orders for the queue,
- * as each firmware does.
+ * Parses the parameters of SM, XM, LM, L3, LT, T3, TD and HM into entries of the motion queue, as each firmware does.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../../units.js";
@@ -103,7 +102,7 @@ export class MotionCommands {
     return Math.min(3, p.uint(max));
   }
 
-  /** HM: the target is known at once, the start only when the motors have stopped. */
+  /** HM: the target is known when it is parsed, the start only when the motors have stopped. */
   home(p: Parameters): (steps1: number, steps2: number) => readonly Order[] {
     const takesTarget = this.features.motion === "timed" || this.features.motion === "jerk";
     const fastest = Math.min(TICKS_PER_S, Math.max(1, p.uint()));

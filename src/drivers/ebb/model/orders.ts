@@ -157,8 +157,8 @@ export class RunningMove {
 }
 
 /**
- * Firmware 3 starts a backward move just below the overflow, so that its first step takes as long
- * as a forward one.
+ * Firmware 3 clears the accumulator of a backward move to just below the overflow, so that its first step takes as long
+ * as that of a forward move.
  */
 function clearedAccumulator(arithmetic: TickArithmetic, registers: Registers): number {
   if (arithmetic !== "signed") return 0;

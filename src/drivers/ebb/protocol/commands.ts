@@ -1,6 +1,6 @@
 /**
- * Command lines of the EiBotBoard: those at the start and end of a plot, and a writer
- * for the commands between.
+ * Command lines of the EiBotBoard: those at the start and end of a plot, pen moves, and a text writer for the commands
+ * between.
  */
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
@@ -8,9 +8,9 @@ import { checkEbbProfile, ebbOf } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
 import { servoPosFromPct } from "./servo-height.js";
 
-/** The servo moves during this part of the wait for it; the rest is time to settle. */
+/** The servo moves during this part of its wait; the rest is time to settle. */
 const SERVO_PART_OF_WAIT = 0.65;
-/** A drop in flight is as slow as its time says: a quicker one would touch the paper before the carriage arrives. */
+/** A drop during travel takes its full time: a quicker one would touch the paper before the carriage arrives. */
 const WHOLE_WAIT = 1;
 const SERVO_FRAME_MS = 24;
 /** The standard servo output: the only one that SP moves. */
@@ -33,7 +33,7 @@ export function setUpCommands(machine: MachineProfile, pen: PenSettings, firmwar
 /** After the last plot: motors off, so that the carriage can be moved by hand. */
 export const closingCommands = (): string[] => ["EM,0,0"];
 
-/** Pen heights and speeds; they apply to every SP that follows. Empty if S2 moves the pen. */
+/** Sets the pen's heights and speeds for all later SP. Empty if S2 moves the pen. */
 export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): string[] {
   const lift = penMoveOf(pen, true);
   const drop = penMoveOf(pen, false);
@@ -43,11 +43,11 @@ export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): str
 }
 
 /** One move of the pen from one height to another. */
-export interface PenWay {
+export interface ServoMove {
   readonly up: boolean;
   /** Target height and distance, percent of the servo's range. */
   readonly heightPct: number;
-  readonly wayPct: number;
+  readonly distancePct: number;
   /** Total time from the command until the pen has settled. */
   readonly timeMs: number;
   /** Requested speed; null or left out: fast enough to arrive within `timeMs`. */
@@ -56,48 +56,49 @@ export interface PenWay {
   readonly inFlight?: boolean | undefined;
 }
 
-/** The move between the two heights of the settings. */
-export function penMoveOf(pen: PenSettings, up: boolean): PenWay {
-  const wayPct = Math.abs(pen.upPct - pen.downPct);
+/** The full move between the up and down heights of the settings. */
+export function penMoveOf(pen: PenSettings, up: boolean): ServoMove {
+  const distancePct = Math.abs(pen.upPct - pen.downPct);
   const heightPct = up ? pen.upPct : pen.downPct;
   const delayMs = up ? pen.liftMs : pen.dropMs;
   const ratePctPerS = up ? pen.liftPctPerS : pen.dropPctPerS;
-  const timeMs = ratePctPerS ? delayMs + (1_000 * wayPct) / ratePctPerS : delayMs;
-  return { up, heightPct, wayPct, timeMs, ratePctPerS };
+  const timeMs = ratePctPerS ? delayMs + (1_000 * distancePct) / ratePctPerS : delayMs;
+  return { up, heightPct, distancePct, timeMs, ratePctPerS };
 }
 
 /** Height and speed of SP in one direction. Empty if S2 moves the pen. */
-export function penMoveSetUp(machine: MachineProfile, way: PenWay): string[] {
+export function penMoveSetUp(machine: MachineProfile, move: ServoMove): string[] {
   if (ebbOf(machine).servoPin !== STANDARD_PIN) return [];
-  const [heightNumber, rateNumber] = way.up ? [4, 11] : [5, 12];
+  const [heightNumber, rateNumber] = move.up ? [4, 11] : [5, 12];
   return [
-    `SC,${heightNumber},${servoPosFromPct(machine, way.heightPct)}`,
-    `SC,${rateNumber},${servoRate(machine, way)}`,
+    `SC,${heightNumber},${servoPosFromPct(machine, move.heightPct)}`,
+    `SC,${rateNumber},${servoRate(machine, move)}`,
   ];
 }
 
-/**
- * One pen move that holds the queue for `waitMs`. The set-up commands define the heights and speeds of SP.
- */
-export function penCommand(machine: MachineProfile, way: PenWay, waitMs: number = way.timeMs): string {
+/** One pen move, which holds the queue for `waitMs`. SP uses the heights and speeds that were set up before. */
+export function penCommand(machine: MachineProfile, move: ServoMove, waitMs: number = move.timeMs): string {
   const delayMs = Math.max(0, Math.min(MAX_DELAY_MS, Math.round(waitMs)));
-  if (ebbOf(machine).servoPin === STANDARD_PIN) return `SP,${way.up ? 1 : 0},${delayMs}`;
-  const position = servoPosFromPct(machine, way.heightPct);
-  return `S2,${position},${ebbOf(machine).servoPin},${servoRate(machine, way)},${delayMs}`;
+  if (ebbOf(machine).servoPin === STANDARD_PIN) return `SP,${move.up ? 1 : 0},${delayMs}`;
+  const position = servoPosFromPct(machine, move.heightPct);
+  return `S2,${position},${ebbOf(machine).servoPin},${servoRate(machine, move)},${delayMs}`;
 }
 
 /** Max delay of SP and S2. */
 export const MAX_DELAY_MS = 65_535;
 
 /** Change of servo position per 24 ms frame: the requested rate, or one that arrives within the wait. */
-function servoRate(machine: MachineProfile, { wayPct, timeMs, ratePctPerS, inFlight }: PenWay): number {
+function servoRate(
+  machine: MachineProfile,
+  { distancePct, timeMs, ratePctPerS, inFlight }: ServoMove,
+): number {
   const { servoPosAt0Pct, servoPosAt100Pct } = ebbOf(machine);
   const unitsPerPct = Math.abs(servoPosAt100Pct - servoPosAt0Pct) / 100;
   const partOfWait = inFlight ? WHOLE_WAIT : SERVO_PART_OF_WAIT;
   const frames = ratePctPerS
-    ? ((wayPct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
+    ? ((distancePct / ratePctPerS) * 1_000) / SERVO_FRAME_MS
     : Math.max(1, Math.floor((timeMs * partOfWait) / SERVO_FRAME_MS));
-  const rate = ratePctPerS && wayPct === 0 ? 1 : (wayPct * unitsPerPct) / frames;
+  const rate = ratePctPerS && distancePct === 0 ? 1 : (distancePct * unitsPerPct) / frames;
   return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(rate - 1e-9)));
 }
 

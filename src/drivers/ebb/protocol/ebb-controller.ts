@@ -1,4 +1,4 @@
-/** What a machine profile says about its EiBotBoard. AxiDraw, NextDraw, EggBot and others have one. */
+/** The fields of a machine profile for its EiBotBoard. */
 import { PlotwrightError } from "../../../errors.js";
 import { checkController, checkProfile } from "../../../machines/check-profile.js";
 import type { Controller, ControllerFields } from "../../../machines/controller.js";

@@ -1,4 +1,4 @@
-/** Limits that a firmware puts on the plan itself, before commands are compiled. */
+/** Limits of the firmware on the plan itself. */
 import type { LayerMotion, MotionLimits, MotionSettings } from "../../../settings/motion.js";
 import type { FirmwareRules } from "../../machine-job.js";
 import { firmwareFeatures } from "./firmware.js";
@@ -16,16 +16,16 @@ const SLICED_ACCEL_MM_PER_S2 = 500;
 export const firmwareLimitsMotion = (firmware: string | null): boolean =>
   firmware !== null && firmwareFeatures(firmware).motion === "slices";
 
-/** A version is a bare number here; other controllers' begin with their name. */
+/** A version of an EBB is a bare number; those of other controllers begin with their name. */
 export const ebbFirmware: FirmwareRules = {
   isOwn: (firmware) => /^v?\d/.test(firmware),
   limitsMotion: firmwareLimitsMotion,
 };
 
 /**
- * The settings limited to what this firmware can execute smoothly: before 2.5.3, which has only
- * constant speeds, accelerations are limited to 500 mm/s² and nothing is shaped. Idempotent. Newer or unknown (null) firmware
- * gets the settings unchanged.
+ * Limits the settings to what this firmware can execute smoothly. Firmware before 2.5.3 has only constant speeds, so
+ * accelerations are limited to 500 mm/s² and nothing is shaped. For newer or unknown (null) firmware the settings are
+ * unchanged. Idempotent.
  *
  * Throws `bad-setting` for an invalid version.
  */

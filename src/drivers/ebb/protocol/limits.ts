@@ -1,13 +1,13 @@
 /** The board's speed limits, and the warnings of the compiler. */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 
-/** The board's limit is one step per tick. No rate above this is written. */
+/** Max rate in a command. The board's own limit is one step per tick. */
 export const HIGHEST_RATE = Math.floor(0.999 * ACCUMULATOR_RANGE);
-/** Plans are slowed down to this rate, which leaves room to correct fractions of a step. */
+/** Plans are slowed down to this rate, to leave room for corrections of fractions of a step. */
 export const HIGHEST_PLANNED_RATE = Math.floor(0.985 * ACCUMULATOR_RANGE);
 /** Min rate of a step-limited motor, as a part of the leg's mean rate. */
 export const SLOWEST_PART_OF_MEAN = 0.01;
-/** Max planned rate for slices, each of which takes whole milliseconds, whole steps and an idle tick. */
+/** Max planned rate of slices: lower, because a slice has whole milliseconds, whole steps and an idle tick. */
 export const HIGHEST_SLICE_RATE = Math.floor(0.95 * ACCUMULATOR_RANGE);
 
 export const TOO_FAST =

@@ -1,7 +1,7 @@
 /**
  * The board's replies in both syntaxes. stream/answer-queue.ts matches replies to commands.
  *
- * Legacy (boot default): values end with "\r\n" or "\n\r" by command; most commands add "OK\r\n".
+ * Legacy (default after a start): values end with "\r\n" or "\n\r", depending on the command; most commands add "OK\r\n".
  * Future (CU,10,1; firmware 3.0 and newer): one line per command, starting with its name.
  * So lines are split at any run of CR and LF.
  */

@@ -1,16 +1,14 @@
 /**
  * Matches reply lines to commands.
  *
- * The board answers in order, but its replies have no number, some end in `OK` and some do not, an error may
- * or may not be followed by an `OK`, and after `CU,10,1` the command name comes first (firmware 3.x). So
- * every waiting command knows the shape of its reply, and a line is assigned to the first command that it
- * fits. A value that fits only a later command proves that the replies before it were lost. The plot
- * continues, and the lost replies are counted.
+ * The board answers in order, but its replies have no number. Some end in `OK` and some do not, an error may or may not
+ * be followed by an `OK`, and after `CU,10,1` the command name comes first (firmware 3.x). So every waiting command
+ * has the pattern of its reply, and a line is assigned to the first command that it fits. A value that fits only a later
+ * command proves that the replies before it were lost. The plot continues, and lost replies are counted.
  *
- * A line that fits no command is ignored and logged. An `OK` where a value is due is either surplus, or
- * the value was lost and a second `OK` follows. In both cases the order is in doubt until the reply to
- * `V` arrives, which cannot be confused with any other. Until then, values may belong to another
- * command and are discarded.
+ * A line that fits no command is ignored and logged. An `OK` where a value is due is either surplus, or the value was
+ * lost and a second `OK` follows. In both cases the order is in doubt until the reply to `V` arrives, which cannot be
+ * confused with any other. Until then, values may belong to another command and are discarded.
  */
 import { commandName, replyShape, type ReplyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
@@ -20,7 +18,7 @@ const TWO_NUMBERS = /^-?\d+,-?\d+$/;
 /** Two readings of the A/D converter, 10 bits each. */
 const TWO_READINGS = /^(0*\d{1,3}|0*10[01]\d|0*102[0-3]),(0*\d{1,3}|0*10[01]\d|0*102[0-3])$/;
 
-/** Pattern of each command's value, without the name. Tells the replies of different commands apart. */
+/** Pattern of each command's value, without the name, to distinguish the replies of different commands. */
 const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
   V: /firmware version \d/i,
   QM: /^\d,\d,\d(,\d)?$/,
@@ -59,7 +57,7 @@ interface Waiting {
 /** Not anchored at the start: noise without a line end may precede the error. */
 const ERROR_LINE = /!(\d+)\s*Err:\s*(.*)$/;
 
-/** The reply was lost, or cannot be told apart from another command's. Queries may be repeated. */
+/** The reply was lost, or may belong to another command. Queries may be repeated. */
 export class LostAnswer extends PlotwrightError {
   constructor(line: string) {
     super("board-error", `The board's reply to ${line} was lost on the connection.`);
@@ -75,7 +73,7 @@ export class AnswerQueue {
    * The order of replies is in doubt. Set by the session, which then sends `V`; the reply to `V` clears it.
    */
   inDoubt = false;
-  /** Only a few commands long, so no ring buffer is needed. `head` avoids shifting the array. */
+  /** The waiting commands from `head` on: only a few, so no ring buffer is needed. `head` avoids shifting the array. */
   private waiting: Waiting[] = [];
   private head = 0;
   /** An error was just received: ignore the OK that some firmware sends after it. */
@@ -168,7 +166,7 @@ export class AnswerQueue {
       if (!named && (value === "" || candidate.shape.isNamed)) continue;
       // A second value for the same query: one of the two is not its reply.
       if (candidate.value !== null) return false;
-      // Later commands with the same name send the same line, so do not skip other commands because of it.
+      // Several commands may have the same name: such a line does not prove that earlier replies were lost.
       if (isPlain(candidate.shape) && i > this.head) return false;
       for (let before = i - this.head; before > 0; before--) this.loseFirst();
       candidate.value = value;
@@ -182,8 +180,7 @@ export class AnswerQueue {
   private loseFirst(): void {
     const lost = this.shift();
     this.lostCount++;
-    // The later reply proves that this command was processed, so a lost OK does no harm. Only
-    // a lost value does.
+    // The later reply proves that this command was processed, so a lost OK does no harm, but a lost value does.
     if (isPlain(lost.shape) || (lost.value !== null && !this.inDoubt)) {
       lost.awaited.settle(null, lost.value ?? "");
       return;
@@ -216,7 +213,7 @@ export class AnswerQueue {
 
 const isPlain = (shape: ReplyShape): boolean => shape.valueEnd === null;
 
-/** Advice for error codes whose own text does not tell the user what to do. */
+/** Advice for error codes whose text does not say what to do. */
 const ERROR_ADVICE: Readonly<Record<number, string>> = {
   0: "the move is too fast or too slow for the board",
   8: "this firmware does not know the command: update the firmware, or check that the right firmware was chosen",

@@ -1,20 +1,19 @@
 /**
- * The host's estimate of the board's position on its own time line.
+ * The host's estimate of the board's time, counted along the commands.
  *
- * The host cannot query the board's time, and a reply may have been waiting unread while the host was
- * stalled. But a command cannot begin before it was written, and a reply that needed a free slot in the
- * board's queue proves that some command had begun *by then*.
+ * The host cannot query the board's time, and a reply may have been waiting unread while the host was stalled. But a
+ * command cannot begin before it was written, and a reply that needed a free slot in the board's queue proves that some
+ * command had begun by then.
  *
  *   origin   host clock at board time 0, seconds; board time now = clock − origin
  *   proof    "the command starting at board time t has begun", received at host time h:  origin ≤ h − t
  *
- * A proof is late by the connection's latency and the host's own stalls. So the origin increases only
- * slowly: one late reply does not make the board seem late, but many in a row (a board whose clock is slower
- * than the host's) do.
+ * A proof is late by the connection's latency and the host's own stalls. So the origin increases only slowly: a single
+ * late reply hardly changes it, but many in a row do, as with a board whose clock is slower than the host's.
  *
- * A stray or lost OK can also shift the count of replies by one command. So a single acknowledgement moves
- * the estimate by no more than the two clocks can have drifted apart. The reply to a query for the number of
- * waiting commands is reliable and applies at once.
+ * A stray or lost OK can also shift the count of replies by one command. So a single acknowledgement moves the estimate
+ * by no more than the two clocks can have drifted apart. The reported number of waiting commands is reliable and
+ * applies at once.
  */
 const UPWARD_SHARE = 0.1;
 /**
@@ -34,8 +33,8 @@ export class BoardPace {
   }
 
   /**
-   * A command that starts at `startS` is written now. Returns how long the board has been without commands,
-   * seconds; its time line stood still meanwhile.
+   * Call when a command that starts at `startS` is written. Returns how long the board was without commands, seconds;
+   * the board's time did not advance meanwhile.
    */
   written(startS: number, nowS: number): number {
     if (!this.running) {
@@ -50,12 +49,12 @@ export class BoardPace {
   }
 
   /**
-   * An acknowledgement: the command starting at `startS` has begun. `waited`: the reply had to wait for that,
+   * An acknowledgement proves that the command starting at `startS` has begun. `waited`: the reply had to wait for that,
    * so the command has only just begun.
    */
   acknowledged(startS: number, nowS: number, waited: boolean): void {
-    const mostS = STEP_S + DRIFT_SHARE * (nowS - this.lastBegunS);
-    const byS = Math.min(mostS, Math.max(-mostS, nowS - startS - this.originS));
+    const maxS = STEP_S + DRIFT_SHARE * (nowS - this.lastBegunS);
+    const byS = Math.min(maxS, Math.max(-maxS, nowS - startS - this.originS));
     if (byS < 0) this.originS += byS;
     else if (waited) this.originS += UPWARD_SHARE * byS;
     this.lastBegunS = nowS;

@@ -1,7 +1,4 @@
-/**
- * Command streams that are cut or made by hand: they are played when one plan takes over from another in
- * motion.
- */
+/** Functions to cut and build command streams, for a switch from one plan to another in motion. */
 import { commandLine } from "../compile/compile.js";
 import type { BoardState, CommandStream } from "../compile/command-stream.js";
 
@@ -16,7 +13,7 @@ export function boardStateBefore(stream: CommandStream, index: number, start: Bo
   };
 }
 
-/** The first command that begins `leadS` after command `index` or later. */
+/** The first command that begins at least `leadS` after command `index`. */
 export function commandAfter(commands: CommandStream, index: number, leadS: number): number {
   const fromS = commands.boardS[index] + leadS;
   let i = index;
@@ -25,8 +22,9 @@ export function commandAfter(commands: CommandStream, index: number, leadS: numb
 }
 
 /**
- * The command after those that are written together: a drop in mid-run and the rest of the run. A host that is killed
- * in between would leave the pen on the paper before the stroke.
+ * The end of the commands that must be written together, from `index` on. That is one command, except for a drop during
+ * a run: it is written with the rest of the run. Otherwise a host that is killed in between would leave the pen on the
+ * paper before the stroke.
  */
 export function endOfLanding(stream: CommandStream, index: number): number {
   const { run, count } = stream;
@@ -36,7 +34,7 @@ export function endOfLanding(stream: CommandStream, index: number): number {
   return end;
 }
 
-/** A plan begins by lowering the pen; here it is already down. */
+/** A stream without its initial drop, for a pen that is already down. */
 export function withoutDrop(commands: CommandStream): CommandStream {
   let first = 0;
   while (first < commands.count && commands.run[first] < 0) first++;
@@ -59,10 +57,7 @@ function streamFrom(stream: CommandStream, index: number): CommandStream {
   };
 }
 
-/**
- * A stream of commands during which the motors rest: each with the seconds that it occupies the board's
- * queue.
- */
+/** A stream of commands during which the motors rest, each with its duration in the board's queue. */
 export function restingStream(
   lines: readonly (readonly [line: string, durationS: number])[],
   state: BoardState,

@@ -2,9 +2,9 @@
  * One EiBotBoard over one transport: sends commands in order, matches replies to commands, detects a silent
  * board, and logs the communication. Knows nothing about motion.
  *
- * The board parses one command at a time and answers each once it is queued or done. A motion command that
- * has to wait for a slot in the queue is answered late by design. So the time-out applies to the *first*
- * unanswered command, from the time it became the first, and each command states how long it may take.
+ * The board parses one command at a time and answers it when it is queued or done. A motion command that has to wait for
+ * a slot in the queue is answered late. So the time-out applies only to the first unanswered command, from the time it
+ * became the first, and each command states how long it may take.
  */
 import { checkObject } from "../../../check-arguments.js";
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
@@ -33,7 +33,7 @@ export interface Outgoing {
   readonly onReply?: (error: PlotwrightError | null, value: string) => void;
 }
 
-/** What a board says about itself. */
+/** The board's firmware, from its reply to `V`. */
 export interface BoardIdentity {
   /** For example "2.8.1". */
   readonly firmware: string;
@@ -51,7 +51,7 @@ const IDENTIFY_TRIES = 3;
 const IDENTIFY_PATIENCE_S = 0.7;
 const OVERSLEPT_S = 0.25;
 /** How often a query is sent if its replies are lost. */
-const QUESTION_TRIES = 3;
+const QUERY_TRIES = 3;
 /** Log lines to search for the message about a device that is not an EiBotBoard. */
 const HEARD_LINES = 6;
 
@@ -136,8 +136,8 @@ export class BoardSession {
   }
 
   /**
-   * Identifies the board and switches it to the legacy reply syntax. Rejects with `board-timeout` if nothing
-   * answers, with `no-board` if another device does. Ignores what an earlier program left unread.
+   * Identifies the board and switches it to the legacy reply syntax. Rejects with `board-timeout` if nothing answers, and
+   * with `no-board` if another device does. Ignores unread replies to an earlier program.
    */
   async identify(): Promise<BoardIdentity> {
     for (let attempt = 1; ; attempt++) {
@@ -156,7 +156,7 @@ export class BoardSession {
         throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
       }
     }
-    // An earlier program may have switched it to the other reply syntax.
+    // An earlier program may have switched the board to the other reply syntax.
     if (firmwareFeatures(this.identity.firmware).hasFutureSyntax) await this.send("CU,10,0");
     return this.identity;
   }
@@ -166,8 +166,8 @@ export class BoardSession {
    * repeated if its reply is lost.
    */
   query(line: string, waitS = 0): Promise<string> {
-    const isQuestion = /^(Q|PI|V)/.test(commandName(line));
-    return this.ask(line, waitS, false, isQuestion ? QUESTION_TRIES : 1);
+    const isRepeatable = /^(Q|PI|V)/.test(commandName(line));
+    return this.ask(line, waitS, false, isRepeatable ? QUERY_TRIES : 1);
   }
 
   /** Sends a command that is answered by OK. Resolves at the reply: the command is then queued or done. */
@@ -226,8 +226,8 @@ export class BoardSession {
   }
 
   /**
-   * A line arrived that belongs to no command: replies may have been lost or be surplus. The reply to `V` is
-   * unmistakable, so once it arrives, all earlier commands have been answered.
+   * Called for a line that belongs to no command: replies may have been lost or be surplus. The reply to `V` cannot be
+   * confused with others, so when it arrives, all earlier commands have been answered.
    */
   private findOrder(): void {
     if (this.isFindingOrder || !this.identity || this.answers.count === 0 || this.fault) return;
@@ -271,8 +271,8 @@ export class BoardSession {
   }
 
   /**
-   * One timer for the whole queue: it checks the first command at the earliest possible time-out and sleeps
-   * again for the remaining time. No timer is set or cleared per command.
+   * One timer for the whole queue instead of one per command: it checks the first command at the earliest possible
+   * time-out and then sleeps for the remaining time.
    */
   private watch(): void {
     const first = this.answers.first as SentCommand | null;
@@ -282,8 +282,7 @@ export class BoardSession {
     }
     const nowS = this.clock.nowS();
     const leftS = this.firstSinceS + this.patienceOf(first) - nowS;
-    // The timer fired far too late: this process was suspended. First read the
-    // replies that arrived meanwhile.
+    // If the timer fires far too late, this process was suspended. First read the replies that arrived meanwhile.
     const overslept = this.cancelWatch !== null && nowS - this.watchDueS > OVERSLEPT_S;
     if (leftS > 0 || overslept) {
       // Timers may fire slightly early; an extra millisecond avoids a second timer for the rest.
@@ -354,10 +353,10 @@ const silentAtStart = (cause: unknown): PlotwrightError =>
 
 function wrongBoard(lastLines: readonly string[]): PlotwrightError {
   const heard = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]);
-  const said = heard.map((line) => JSON.stringify(line)).join(", ");
+  const received = heard.map((line) => JSON.stringify(line)).join(", ");
   return new PlotwrightError(
     "no-board",
     "Something answers on this port, but it is not an EiBotBoard: choose another device." +
-      (said === "" ? "" : ` It said: ${said}.`),
+      (received === "" ? "" : ` It sent: ${received}.`),
   );
 }

@@ -3,17 +3,15 @@
  * alone are ambiguous: a line may pass the same steps several times, for example at a narrow tip or
  * where it retraces itself.
  *
- *   which command   The query before ES reports how many commands waited in the queue. All written
- *                   commands are answered by then, so the running command is that many before the last
- *                   one. It may have ended between the query and ES: then it was the next one.
- *   where in it     The ticks after which its motors have made exactly the counted steps, computed with
- *                   the same arithmetic as the board's.
- *   which of these  Before firmware 3, ES reports how many steps of the command were left. Otherwise the
- *                   time of the stop decides: a motor that reverses within a command passes the same
- *                   steps twice.
+ *   which command   The query before ES reports how many commands waited in the queue. All written commands are answered
+ *                   by then, so the running command is that many before the last one. If it ended between the query
+ *                   and ES, it was the next one.
+ *   where in it     The ticks after which its motors have made exactly the counted steps, computed with the board's own
+ *                   arithmetic.
+ *   which of these  A motor that reverses within a command passes the same steps twice. Before firmware 3, ES reports
+ *                   how many steps of the command were left. Otherwise the time of the stop decides.
  *
- * Firmware 2.7 and 2.8 does not stop but finishes all received commands: it is at the end
- * of the last command.
+ * Firmware 2.7 and 2.8 does not stop but finishes all received commands, so it is at the end of the last command.
  */
 import type { BoardState } from "../compile/command-stream.js";
 import { commandLine } from "../compile/compile.js";
@@ -31,7 +29,7 @@ const NO_STEPS: Steps = [0, 0];
 /** Tolerance in steps for the rounding of plan times to board times. */
 const SAME_STEPS = 2;
 
-/** Recorded at a stop. */
+/** Data recorded at a stop. */
 export interface StopNotes {
   /** Estimated board time when the stop was sent. */
   readonly boardS: number;
@@ -44,7 +42,7 @@ export interface StopNotes {
 export interface StopEvidence extends Readonly<StopNotes> {
   /** The commands written last, in order. */
   readonly commands: readonly InFlight[];
-  /** The one of them that the board refused, and so never ran. */
+  /** The one of them that the board refused and so never ran. */
   readonly refused?: InFlight | null;
 }
 
@@ -62,8 +60,7 @@ export function placeOfStop(
 ): NumberedPlace | null {
   const { waitingCount, stepsLeft: left, refused } = evidence;
   const commands = evidence.commands.filter((one) => one !== refused);
-  // The steps of a refused command are missing, so the commands after it run with that
-  // offset from their plan.
+  // The steps of a refused command are missing, so the commands after it are offset from their plan by these steps.
   const missing = refused ? stepsOf(refused, evidence.commands) : NO_STEPS;
   const missingBefore = ({ number }: InFlight): Steps =>
     refused && number > refused.number ? missing : NO_STEPS;
@@ -81,12 +78,12 @@ export function placeOfStop(
   });
   const nearest = new NearestTick(features, steps1, steps2, boardS);
   for (const command of fits.length > 0 ? fits : running) {
-    nearest.lookIn(command, stateBefore(command, evidence.commands), missingBefore(command));
+    nearest.search(command, stateBefore(command, evidence.commands), missingBefore(command));
   }
   return nearest.command && placeIn(nearest.command, nearest.boardS);
 }
 
-/** The position with these counters that is nearest to a board time; null if no command passes there. */
+/** The position with these step counters that is nearest to a board time; null if no command passes it. */
 export function placeOfCounters(
   commands: readonly InFlight[],
   features: FirmwareFeatures,
@@ -97,12 +94,12 @@ export function placeOfCounters(
   const nearest = new NearestTick(features, steps1, steps2, boardS);
   for (const command of commands) {
     const before = stateBefore(command, commands);
-    if (before && passes(command, before, steps1, steps2)) nearest.lookIn(command, before, NO_STEPS);
+    if (before && passes(command, before, steps1, steps2)) nearest.search(command, before, NO_STEPS);
   }
   return nearest.command && nearest.offSteps <= SAME_STEPS ? placeIn(nearest.command, nearest.boardS) : null;
 }
 
-/** Whether the counters lie between a command's start and end. A cheap test that rules out most commands. */
+/** Whether the counters are between those at a command's start and end: a fast check that excludes most commands. */
 function passes({ stream, index }: InFlight, before: BoardState, steps1: number, steps2: number): boolean {
   const isBetween = (from: number, to: number, steps: number): boolean =>
     steps >= Math.min(from, to) - SAME_STEPS && steps <= Math.max(from, to) + SAME_STEPS;
@@ -132,9 +129,7 @@ function placeIn({ number, stream, index, startS, endS }: InFlight, boardS: numb
   return { number, stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1] - fromS) };
 }
 
-/**
- * Among the ticks at which the counters are nearest to those reported (ideally equal), the nearest in time.
- */
+/** Finds the tick at which the counters are nearest to those reported (ideally equal); if several, the nearest in time. */
 class NearestTick {
   command: InFlight | null = null;
   boardS = 0;
@@ -148,8 +143,8 @@ class NearestTick {
     private readonly stopS: number,
   ) {}
 
-  /** `missing`: the steps by which the counters are short of the command's plan. */
-  lookIn(command: InFlight, before: BoardState | null, [missing1, missing2]: Steps): void {
+  /** `missing`: steps of the command's plan that are not in the counters. */
+  search(command: InFlight, before: BoardState | null, [missing1, missing2]: Steps): void {
     const { stream, index, startS, endS } = command;
     const move = before && moveOf(commandLine(stream, index), this.features, before);
     if (!move) {
@@ -164,7 +159,7 @@ class NearestTick {
         before.steps2 - missing2 + move.motion2.placeAt(tick, place).net,
       );
       this.offer(command, off, startS + tick / TICKS_PER_S);
-      // A motor makes at most one step per tick, so no tick before that can be nearer.
+      // A motor makes at most one step per tick, so none of the skipped ticks can be nearer.
       tick += Math.max(1, off - this.offSteps);
     }
   }

@@ -14,8 +14,8 @@ export interface StreamProgress extends StreamPlace {
 }
 
 /**
- * Plays one stream to its end and compares the board's step counters with the prediction. When `cancel` is raised, it
- * sends nothing more and ends once the commands already sent are done.
+ * Plays one stream to its end and compares the board's step counters with the prediction. After `cancel`, it sends
+ * nothing more and ends when the commands already sent are done.
  */
 export async function streamCommands(
   session: BoardSession,

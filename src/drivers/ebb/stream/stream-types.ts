@@ -13,14 +13,14 @@ export interface StreamOptions {
   /** "acks", for comparison only: the next command is written when the previous one is acknowledged. */
   readonly pacing?: "window" | "acks";
   /**
-   * Queries sent during the stream, every `everyS` board seconds. `QU,6`, `QG` or `QM` as the first keeps
-   * the time line accurate.
+   * Queries sent during the stream, every `everyS` board seconds. With `QU,6`, `QG` or `QM` as the first, the estimated
+   * board time stays accurate.
    */
   readonly poll?: { readonly lines: readonly string[]; readonly everyS: number };
   /** Board seconds beyond the plan after which a board that makes no progress counts as stuck. Default 2. */
   readonly stuckS?: number;
   readonly onPoll?: (line: string, reply: string, asked: PollTime) => void;
-  /** Sent right behind an emergency stop: a pen that was coming down must not reach the paper. */
+  /** Sent directly after an emergency stop, because a pen on its way down must not reach the paper. */
   readonly liftLine?: string;
   /** Offset to add to the board's step counters to get the streams' steps. Default 0, 0. */
   readonly origin?: readonly [number, number];

@@ -1,19 +1,18 @@
 /**
- * Sends command streams by a window of board time instead of by acknowledgement.
+ * Sends command streams by a window of board time instead of waiting for each acknowledgement.
  *
- * Board, USB and system buffers together always hold about `windowS` of motion (0.8 to 1.3 times as much with
- * commands of 150 ms), so that the board keeps moving while the host is stalled. The drawback: on firmware
- * with a queue of one, the board's parser is blocked by the commands written ahead, and an emergency stop has
- * to wait for them. Hence a window of 0.3 s, not 3 s. If the board's own queue is deeper, no more is written
- * than fits into it, and a stop is read at once.
+ * About `windowS` of motion is always sent ahead (0.8 to 1.3 times as much with commands of 150 ms), so that the board
+ * keeps moving while the host is stalled. The drawback: on firmware with a queue of one command, the commands sent ahead
+ * block the board's parser, and an emergency stop has to wait for them. So the window is 0.3 s, not 3 s. If the board's
+ * own queue is deeper, no more is sent than fits into it, and a stop is read at once.
  *
  *      executed        executing     waiting in the board      not yet written
  *   ───────────────|───────^──────|────────────────────────|- - - - - - - - - -
  *                  board time now  <------- windowS ------->
  *
- * Times are board times on the injected clock: with a virtual board that runs 20 times faster, that clock
- * runs 20 times faster too. A stream can be cut at any command and replaced by another while the board plays
- * what it has received, so a hold, a change of speed or a resume causes no gap.
+ * Times are board times on the injected clock: with a virtual board that runs 20 times faster, that clock runs 20 times
+ * faster too. A stream can be cut at any unsent command and replaced by another while the board plays what it has
+ * received, so a hold, a change of speed or a resume causes no gap.
  */
 import { commandLine } from "../compile/compile.js";
 import type { CommandStream } from "../compile/command-stream.js";
@@ -28,17 +27,17 @@ import { BoardTimeline, type InFlight, type StreamPlace } from "./timeline.js";
 
 /** Min time between wake-ups. */
 const MIN_WAKE_S = 0.004;
-/** Shorter underruns cannot be told apart from the connection's latency. */
+/** Shorter underruns cannot be distinguished from the connection's latency. */
 const DRY_S = 0.002;
 const IDLE_POLL_S = 0.02;
 /** Share of the window that is always filled, even if the next command is longer than the rest. */
 const RESERVE_SHARE = 0.8;
 
 /**
- * Max seconds of motion sent ahead of the pen, with commands of up to `commandS`: the window, or its reserve
- * plus one command, or one running and one waiting command.
+ * Max seconds of motion sent ahead of the pen, with commands of up to `commandS`: the largest of the window, its reserve
+ * plus one command, and one running plus one waiting command.
  */
-export const mostAheadS = (windowS: number, commandS: number): number =>
+export const maxAheadS = (windowS: number, commandS: number): number =>
   Math.max(windowS, RESERVE_SHARE * windowS + commandS, 2 * commandS);
 
 export class Streamer {
@@ -58,7 +57,7 @@ export class Streamer {
   private next = 0;
   /** Board time at second 0 of `stream`. */
   private offsetS = 0;
-  /** Nothing from `atIndex` on is written; the streams in `then`, if any, continue from there. */
+  /** Commands from `atIndex` on are not written; the streams in `then`, if any, continue from there. */
   private limit: { readonly atIndex: number; readonly then: readonly CommandStream[] } | null = null;
   private unanswered = 0;
   private lastWritten: StreamPlace | null = null;
@@ -96,7 +95,7 @@ export class Streamer {
   }
 
   /** True if other streams are set to follow the current one, without a later cut. */
-  get isGoingOver(): boolean {
+  get isSwitching(): boolean {
     return this.playing && (this.limit?.then.length ?? 0) > 0;
   }
 
@@ -111,14 +110,14 @@ export class Streamer {
     const stream = this.stream;
     if (!stream || !this.playing) throw new TypeError("nothing is being played");
     this.limit = { atIndex: this.next, then: [] };
-    // Later, so that the caller can replace the stream first.
+    // Not at once, so that the caller can replace the stream first.
     this.sleep(0);
     return { stream, commandIndex: this.next, planS: stream.planS[this.next] };
   }
 
   /**
-   * Ends the stream before `atIndex`, or continues there with other streams, one after the other. The first
-   * must be compiled from the state at that command. Returns false if the command has already been written.
+   * Ends the stream before `atIndex`, or continues there with other streams in sequence. The first must be compiled from
+   * the state at that command. Returns false if the command has already been written.
    */
   cutAt(atIndex: number, ...then: readonly CommandStream[]): boolean {
     if (!this.playing || this.next > atIndex) return false;
@@ -137,7 +136,7 @@ export class Streamer {
     return this.settle !== null && !this.ending;
   }
 
-  /** Motion that the board still has to execute, seconds. */
+  /** Duration of the sent commands that the board has not executed yet, seconds. */
   inFlightS(): number {
     return Math.max(0, this.timeline.endS - this.timeline.boardS());
   }
@@ -161,7 +160,7 @@ export class Streamer {
   }
 
   /**
-   * Makes the board stop at once and drop its queue (ES); `play` rejects with `error`. Afterwards
+   * Makes the board stop at once and clear its queue (ES); `play` rejects with `error`. Afterwards
    * `placeOfStop` finds the position of the stop from the step counters.
    */
   stopAtOnce(error: PlotwrightError): void {
@@ -184,14 +183,14 @@ export class Streamer {
     this.fail(error);
   }
 
-  /** Where the board was at the emergency stop; null if it had nothing to run. */
+  /** Where the board was at the emergency stop; null if no command had run. */
   placeOfStop(features: FirmwareFeatures, steps1: number, steps2: number): NumberedPlace | null {
     if (!this.stop) throw new TypeError("nothing was stopped");
     const refused = this.refused?.command ?? null;
     return placeOfStop({ ...this.stop, commands: this.timeline.recent(), refused }, features, steps1, steps2);
   }
 
-  /** Where the board was when it answered a poll with these counters; null if no command passes there. */
+  /** Where the board was when it answered a poll with these step counters; null if no command passes them. */
   placeOfCounters(
     features: FirmwareFeatures,
     steps1: number,
@@ -218,7 +217,7 @@ export class Streamer {
     this.take(then[0], then.slice(1));
   }
 
-  /** Writes the commands that are due, and sleeps until the next one is. */
+  /** Writes the commands that are due, and sleeps until the next is due. */
   private pump(): void {
     this.cancelWake?.();
     this.cancelWake = null;
@@ -244,15 +243,15 @@ export class Streamer {
   private mayWrite(stream: CommandStream, boardS: number, count: number): boolean {
     if (this.options.pacing === "acks") return this.unanswered === 0;
     const waiting = this.timeline.count;
-    // Always keep one whole command waiting behind the executing one, however long they are.
+    // Always keep one whole command waiting after the executing one, even if they are longer than the window.
     if (waiting < 2) return true;
     if (this.options.queueDepth > 1 && waiting + count > this.options.queueDepth) return false;
     return this.dueS(stream) <= boardS;
   }
 
   /**
-   * Board time at which to write the next command: when its end enters the window, or for a long command
-   * before the motion sent ahead has shrunk to the window's reserve.
+   * Board time at which to write the next command: when its end enters the window, or, for a long command, when the
+   * motion sent ahead falls to the window's reserve.
    */
   private dueS(stream: CommandStream): number {
     const { clock } = this.options;
@@ -351,24 +350,24 @@ export class Streamer {
     });
   }
 
-  private polled(line: string, reply: string, asked: PollTime, tellsTime: boolean): void {
+  private polled(line: string, reply: string, asked: PollTime, isFirst: boolean): void {
     if (!this.playing) return;
     this.options.onPoll?.(line, reply, asked);
-    const waiting = tellsTime ? waitingCount(line, reply) : null;
+    const waiting = isFirst ? waitingCount(line, reply) : null;
     if (waiting !== null && this.timeline.waiting(waiting)) {
-      // What it still holds must not be drawn if it recovers.
+      // The commands in its queue must not be drawn if it recovers.
       this.session.write([{ line: "ES" }]);
       this.fail(stuck());
     }
     if (!this.failure) this.pump();
   }
 
-  /** Everything has been written: sleeps until the last command should be over, then queries the board. */
+  /** Called when everything has been written: sleeps until the last command should be done, then queries the board. */
   private awaitEnd(boardS: number): void {
     if (this.ending) return;
     const leftS = this.timeline.endS - boardS;
     if (this.unanswered > 0 || leftS > 0) {
-      // The last replies wake the streamer; so does this timer, in case the time estimate is wrong.
+      // The last replies wake the streamer. The timer does so too, because the time estimate may be wrong.
       if (this.unanswered === 0) this.sleep(Math.max(MIN_WAKE_S, leftS));
       return;
     }

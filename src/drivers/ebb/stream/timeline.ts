@@ -1,9 +1,9 @@
 /**
  * The commands sent to the board, and the host's estimate of which one is running.
  *
- * Commands that take time follow one another on the board's time line. The running one is estimated from the
- * clock and corrected by the board's replies (a full queue frees a slot when a command ends) and by the
- * number of waiting commands that it reports.
+ * Each command has a start and end in board time. The running one is estimated from the clock, and corrected by the
+ * board's replies (a full queue has a free slot when a command ends) and by the number of waiting commands that it
+ * reports.
  *
  *    acknowledged ──────────────────────┐   unacknowledged: the queue before them is full
  *    [begun][running][waits in the queue]  [in the system's buffers]
@@ -20,7 +20,7 @@ export interface StreamPlace {
   readonly planS: number;
 }
 
-/** A written command that takes board time and may not be over yet. */
+/** A written command that takes board time and may not be finished yet. */
 export interface InFlight {
   readonly number: number;
   readonly startS: number;
@@ -31,14 +31,14 @@ export interface InFlight {
 }
 
 /**
- * A reply that comes later than this after the write means that the board's queue was full. Board seconds.
+ * If a reply takes longer than this, the board's queue was full. Board seconds.
  */
 const WAITED_S = 0.02;
 /** How far the estimate of the board's time may be ahead of its acknowledgements. Board seconds. */
 const ACK_SLACK_S = 0.05;
 
-/** Number of finished commands to remember: more than a board can still hold. */
-const KEPT_COUNT = 64;
+/** Number of finished commands to keep: more than fit in a board's queue. */
+const FINISHED_COUNT = 64;
 
 export class BoardTimeline {
   /** Board time at which the last written command ends. */
@@ -46,7 +46,7 @@ export class BoardTimeline {
   private readonly pace = new BoardPace();
   private flight: InFlight[] = [];
   /** The commands before those in `flight`. */
-  private readonly over: InFlight[] = [];
+  private readonly finished: InFlight[] = [];
   private writtenCount = 0;
   private ackedCount = 0;
   /** The number of the command that polls report as executing, and since when. */
@@ -68,13 +68,13 @@ export class BoardTimeline {
     const estimateS = Math.min(this.pace.boardS(nowS), this.endS);
     const unacked = this.entry(this.ackedCount);
     if (!unacked || nowS - unacked.writtenS < WAITED_S) return estimateS;
-    // Command n without a reply may also mean that the queue before it is full: then n − depth has not begun.
+    // If command n has no reply because the queue before it is full, command n − depth is the running one.
     const blocked = this.entry(this.ackedCount - this.queueDepth);
     const begunS = blocked ? blocked.startS + ACK_SLACK_S : Infinity;
     return Math.min(estimateS, begunS, unacked.startS);
   }
 
-  /** Number of written commands not known to be over. */
+  /** Number of written commands that may not be finished. */
   get count(): number {
     return this.flight.length;
   }
@@ -85,7 +85,7 @@ export class BoardTimeline {
 
   /** The command that runs at a board time; undefined after the last one. */
   at(boardS: number): InFlight | undefined {
-    // An overdue reply moves the estimate back, so a command that seemed to be over may still be running.
+    // An overdue reply moves the estimate back, so a command that seemed finished may still be running.
     return this.recent().find((entry) => boardS < entry.endS);
   }
 
@@ -135,22 +135,23 @@ export class BoardTimeline {
 
   forgetExecuted(boardS: number): void {
     const isOver = ({ endS, number }: InFlight): boolean => endS <= boardS && number < this.ackedCount;
-    let over = 0;
-    while (over < this.flight.length && isOver(this.flight[over])) over++;
-    if (over > 0) this.over.push(...this.flight.splice(0, over));
-    if (this.over.length > 2 * KEPT_COUNT) this.over.splice(0, this.over.length - KEPT_COUNT);
+    let count = 0;
+    while (count < this.flight.length && isOver(this.flight[count])) count++;
+    if (count > 0) this.finished.push(...this.flight.splice(0, count));
+    const { finished } = this;
+    if (finished.length > 2 * FINISHED_COUNT) finished.splice(0, finished.length - FINISHED_COUNT);
   }
 
-  /** The last commands written: those in flight and some that should be over. */
+  /** The last commands written: some finished ones, and those in flight. */
   recent(): readonly InFlight[] {
-    return [...this.over, ...this.flight];
+    return [...this.finished, ...this.flight];
   }
 
   /** One of the last commands written, by its number. */
   private entry(number: number): InFlight | undefined {
     const firstNumber = this.flight[0]?.number ?? this.writtenCount;
     return number < firstNumber
-      ? this.over[this.over.length - (firstNumber - number)]
+      ? this.finished[this.finished.length - (firstNumber - number)]
       : this.flight[number - firstNumber];
   }
 }

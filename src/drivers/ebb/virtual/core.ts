@@ -19,15 +19,15 @@ const BOOT_SERVO_UP = 22_565;
 const BOOT_SERVO_DOWN = 15_302;
 const BOOT_SERVO_RATE = 400;
 
-/** How the simulated servo differs from what the board tells it. */
+/** How the simulated servo differs from the commanded motion. */
 export interface VirtualServo {
-  /** 0.8: it needs a quarter more time than the board's rate says. Default 1. */
+  /** Share of the commanded rate: with 0.8 a move takes 1.25 times as long. Default 1. */
   readonly speed?: number;
   /** When its 24 ms frames begin, ms. Default: with every command. */
   readonly framePhaseMs?: number;
   /**
-   * Height at which the tip touches the paper, percent of the servo's range. Default: it touches where a drop ends,
-   * and leaves the paper where a lift begins.
+   * Height at which the tip touches the paper, percent of the servo's range. Default: the tip touches at the end of a
+   * drop and leaves the paper at the start of a lift.
    */
   readonly contactPct?: number;
 }
@@ -102,8 +102,8 @@ export class BoardCore {
   }
 
   /**
-   * Tick at which the running order ends, or the tip touches or leaves the paper during it; Infinity if nothing runs or
-   * it never ends. While nothing runs the tip draws nothing: what it did meanwhile counts when the next order begins.
+   * Tick at which the running order ends, or the tip touches or leaves the paper during it. Infinity if nothing runs or
+   * the order never ends. Contacts while nothing runs draw nothing; they are applied when the next order begins.
    */
   get nextEventTick(): number {
     if (this.running === null || this.frozenTick !== null) return Infinity;
@@ -244,7 +244,7 @@ export class BoardCore {
     return this.servo.positionAt(this.nowTick);
   }
 
-  /** Moves the pen; `up`: whether the board takes that for a lift. */
+  /** Moves the pen; `up`: whether the board treats this as a lift. */
   movePen(position: number, rate: number, up: boolean): void {
     const { servo, nowTick, machine } = this;
     if (this.contactTick <= nowTick) this.changeContact();
@@ -255,12 +255,12 @@ export class BoardCore {
     this.contactTick = Infinity;
     if (touches !== this.isLifted) return;
     if (contactPct !== undefined) this.contactTick = servo.passTick(servoPosFromPct(machine, contactPct));
-    // The frame that completes the travel.
+    // The servo arrives during the last frame.
     else this.contactTick = touches && this.servoOptions ? servo.arrivalTick - FRAME_TICKS : nowTick;
     if (this.contactTick <= nowTick) this.changeContact();
   }
 
-  /** The tip touches the paper or leaves it, which begins or ends a stroke. */
+  /** The tip touches or leaves the paper: a stroke begins or ends. */
   private changeContact(): void {
     this.contactTick = Infinity;
     this.splitRunning();
@@ -295,7 +295,7 @@ export class BoardCore {
 
   /** The line drawn so far, including the running move. */
   drawn(): DrawnPolyline[] {
-    // The line is sampled when orders end: settle the finished part, then continue from there.
+    // The line is sampled when an order ends, so the finished part of a running order is settled first.
     this.splitRunning();
     return this.line?.polylines(this.nowTick) ?? [];
   }
@@ -313,7 +313,7 @@ export class BoardCore {
     this.lastMove = null;
     let ticks = 1;
     if (order.kind === "servo") {
-      // A pen command between two moves holds the motors for a tick, which does not count as a stop.
+      // A pen command between two moves stops the motors for one tick, which does not count as an underrun.
       if (order.ticks <= 1 && lastMove) this.lastMove = { ...lastMove, endTick: lastMove.endTick + 1 };
       if (order.movesPen) {
         this.movePen(order.position, order.rate, order.penUp ?? order.position > this.servoPosition());

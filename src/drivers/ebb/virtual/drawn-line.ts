@@ -1,8 +1,8 @@
 /**
- * The line that the virtual board has drawn: positions of both motors, sampled so closely that the straight
- * line between two samples is never further than a microstep from the true path.
+ * The line that the virtual board has drawn: positions of both motors, sampled so densely that the straight line between
+ * two samples is never farther than a microstep from the true path.
  */
-import type { AxisPlace } from "../model/accumulator.js";
+import type { AxisState } from "../model/accumulator.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { ACCUMULATOR_RANGE } from "../../../units.js";
@@ -17,7 +17,7 @@ export interface DrawnPolyline {
   readonly xy: Float64Array;
 }
 
-/** What records the line. Times are board ticks. */
+/** Records the drawn line. Times are board ticks. */
 export interface LineRecord {
   /** Starts a new polyline: the pen was lifted or lowered, or the counters were reset. */
   begin(penDown: boolean, steps1: number, steps2: number, tick: number): void;
@@ -32,8 +32,8 @@ export class DrawnLine implements LineRecord {
   /** By polyline: its first point, and whether the pen was down. */
   private readonly firsts: number[] = [0];
   private readonly downs: boolean[] = [];
-  private readonly place1: AxisPlace = { net: 0, acc: 0 };
-  private readonly place2: AxisPlace = { net: 0, acc: 0 };
+  private readonly place1: AxisState = { net: 0, acc: 0 };
+  private readonly place2: AxisState = { net: 0, acc: 0 };
 
   constructor(
     private readonly machine: MachineProfile,
@@ -91,7 +91,7 @@ export class DrawnLine implements LineRecord {
     this.add(steps1 + this.place1.net, steps2 + this.place2.net);
   }
 
-  /** Adds a point. Drops points that do not change the line (no motion, or straight on). */
+  /** Adds a point. A point that continues a straight line replaces the last one. */
   private add(m1: number, m2: number): void {
     const first = this.firsts[this.firsts.length - 1];
     const n = this.pointCount;

@@ -1,9 +1,8 @@
 /**
  * The board's commands: a table of handlers by name, and the replies.
  *
- * A command is answered when it has been queued, or done if it acts at once. A command that has to
- * wait (for room in the queue; CU,4 and HM for the motors to stop) blocks everything behind it, as
- * in the board's parser.
+ * A command is answered when it is queued or, if it acts at once, done. A command that has to wait (for room in the
+ * queue, or in the case of CU,4 and HM for the motors to stop) blocks all later ones, as in the board's parser.
  */
 import { ebbOf } from "../protocol/ebb-controller.js";
 import { commandName, replyShape } from "../protocol/replies.js";
@@ -21,11 +20,11 @@ const MS16 = 65_535;
 const STANDARD_PIN = 4;
 const TICKS_PER_MS = TICKS_PER_S / 1_000;
 
-/** What a command does once it is parsed. */
+/** The effect of a parsed command. */
 interface Action {
   /** Orders for the queue, each added as soon as there is room. */
   readonly orders?: readonly Order[];
-  /** Called once nothing runs any more. */
+  /** Called when the motion queue is empty. Returns further orders. */
   readonly whenIdle?: () => readonly Order[];
   /** The values of the reply, read when the command is answered. */
   readonly values?: () => string;
@@ -71,7 +70,7 @@ export class Interpreter {
     this.handlers = this.commands();
   }
 
-  /** A command waits for room or for the motors to stop. Nothing else is parsed until it is done. */
+  /** True while a command waits for room or for the motors to stop. Nothing else is parsed meanwhile. */
   get isBlocked(): boolean {
     return this.blocked !== null;
   }
@@ -239,7 +238,7 @@ export class Interpreter {
     const { core } = this;
     if (value > 1) {
       if (!core.features.hasImmediateLift) throw new BoardFault(6, "Err: Invalid parameter value");
-      if (value === 3) this.liftForGood();
+      if (value === 3) this.disableDrops();
       return this.done(() => {
         core.movePen(core.servoUp, core.servoRateUp, true);
         core.penUp = true;
@@ -263,8 +262,8 @@ export class Interpreter {
     };
   }
 
-  /** SP,3: waiting pen-down orders lift the pen instead, and the down height becomes the up height. */
-  private liftForGood(): void {
+  /** SP,3: pen-down orders in the queue lift the pen instead, and the down height becomes the up height. */
+  private disableDrops(): void {
     const { core } = this;
     core.servoDown = core.servoUp;
     core.fifo.forEach((order, i) => {

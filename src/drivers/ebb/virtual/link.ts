@@ -13,9 +13,7 @@ interface LinkTarget {
 interface OutboxEntry {
   readonly bytes: Uint8Array;
   taken: number;
-  /**
-   * When the host wrote it. It waits in the system's buffer, so it is available as soon as the board reads.
-   */
+  /** When the host wrote it. */
   readonly tick: number;
   readonly resolve: () => void;
   readonly reject: (error: Error) => void;
@@ -76,7 +74,7 @@ export class VirtualLink implements Transport {
     if (!this.closed) this.dataListener?.(bytes);
   }
 
-  /** Delivers packets while the board reads. A write resolves once its rest fits into the system's buffer. */
+  /** Delivers packets while the board reads. A write resolves when its remaining bytes fit into the system's buffer. */
   pump(): void {
     if (this.isPumping) return;
     this.isPumping = true;

@@ -30,7 +30,7 @@ export const factoryInputs = (): BoardInputs => ({
   servoTimeoutMs: 60_000,
 });
 
-/** What survives a reset: the name in flash memory, and inputs from outside the board. */
+/** The state after a reset, which keeps the name in flash memory and the inputs from outside the board. */
 export const inputsAfterReset = ({ name, motorVolts, buttonDown }: BoardInputs): BoardInputs => ({
   ...factoryInputs(),
   name,

@@ -1,4 +1,4 @@
-/** The pen's servo: slews to its target at a set rate, from the start of one of the board's 24 ms frames on. */
+/** The pen's servo: moves to its target at a set rate, starting with one of the board's 24 ms frames. */
 export const FRAME_TICKS = 600;
 
 export class Servo {
@@ -8,7 +8,7 @@ export class Servo {
   private startTick = 0;
 
   /**
-   * @param speed 0.8: it needs a quarter more time than the board's rate says
+   * @param speed share of the commanded rate: with 0.8 a move takes 1.25 times as long
    * @param phaseTicks when its frames begin; null: with every command
    */
   constructor(
@@ -20,7 +20,7 @@ export class Servo {
     this.target = position;
   }
 
-  /** `rate`: change per frame; 0: at once. It starts with the next frame. */
+  /** Moves with the next frame. `rate`: change per frame; 0: at once. */
   moveTo(position: number, rate: number, tick: number): void {
     this.from = this.positionAt(tick);
     this.target = position;
@@ -31,22 +31,22 @@ export class Servo {
 
   positionAt(tick: number): number {
     if (this.rate === 0) return this.target;
-    const doneWay = (this.rate * Math.max(0, tick - this.startTick)) / FRAME_TICKS;
-    const way = this.target - this.from;
-    return Math.abs(way) <= doneWay ? this.target : this.from + Math.sign(way) * doneWay;
+    const moved = (this.rate * Math.max(0, tick - this.startTick)) / FRAME_TICKS;
+    const distance = this.target - this.from;
+    return Math.abs(distance) <= moved ? this.target : this.from + Math.sign(distance) * moved;
   }
 
-  /** Tick at which the frame ends in which it reaches its target. */
+  /** End of the frame in which the servo reaches its target. */
   get arrivalTick(): number {
     if (this.rate === 0) return this.startTick;
     return this.startTick + Math.ceil(Math.abs(this.target - this.from) / this.rate) * FRAME_TICKS;
   }
 
-  /** Tick at which it passes a position on its way; Infinity if that is not on its way. */
+  /** Tick at which the servo passes a position during the current move; Infinity if it does not. */
   passTick(position: number): number {
-    const way = this.target - this.from;
-    const wayThere = position - this.from;
-    if (wayThere * way < 0 || Math.abs(wayThere) > Math.abs(way)) return Infinity;
-    return this.rate === 0 ? this.startTick : this.startTick + (Math.abs(wayThere) / this.rate) * FRAME_TICKS;
+    const whole = this.target - this.from;
+    const part = position - this.from;
+    if (part * whole < 0 || Math.abs(part) > Math.abs(whole)) return Infinity;
+    return this.rate === 0 ? this.startTick : this.startTick + (Math.abs(part) / this.rate) * FRAME_TICKS;
   }
 }

@@ -1,13 +1,13 @@
 /**
- * The line that the virtual board's pen has drawn on a machine that swings: the motors' path as carriage, and the pen
- * on a spring for each axis of the drawing (src/plan/spring-pen.ts). It swings on while the motors stand still.
+ * The line that the virtual board has drawn on a machine that swings. The carriage follows the motors, and the pen hangs
+ * on a spring in each axis (src/plan/spring-pen.ts). It continues to swing while the motors rest.
  */
 import { PointBuffer } from "../../../geometry/growable.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { SpringAxis } from "../../../plan/spring-pen.js";
 import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
-import type { AxisPlace } from "../model/accumulator.js";
+import type { AxisState } from "../model/accumulator.js";
 import type { RunningMove } from "../model/orders.js";
 import type { DrawnPolyline, LineRecord } from "./drawn-line.js";
 
@@ -31,8 +31,8 @@ export class SwingingLine implements LineRecord {
   /** By polyline: its first point, and whether the pen was down. */
   private readonly firsts: number[] = [0];
   private readonly downs: boolean[] = [false];
-  private readonly place1: AxisPlace = { net: 0, acc: 0 };
-  private readonly place2: AxisPlace = { net: 0, acc: 0 };
+  private readonly place1: AxisState = { net: 0, acc: 0 };
+  private readonly place2: AxisState = { net: 0, acc: 0 };
 
   constructor(
     private readonly machine: MachineProfile,
@@ -85,7 +85,7 @@ export class SwingingLine implements LineRecord {
     });
   }
 
-  /** The motors stand still until `tick`; the pen swings out. */
+  /** Simulates the pen until `tick` while the motors rest. */
   private rest(tick: number): void {
     if (tick <= this.tick) return;
     this.axisX.rate += this.vx;
@@ -108,7 +108,7 @@ export class SwingingLine implements LineRecord {
     );
   }
 
-  /** mm/s during a tick of the move, 1 being its first. */
+  /** mm/s during a tick of the move; the first tick is 1. */
   private velocity({ motion1, motion2 }: RunningMove, tick: number): [number, number] {
     const steps1 = tick > motion1.ticks ? 0 : stepsPerSFromRate(motion1.rateDuring(tick));
     const steps2 = tick > motion2.ticks ? 0 : stepsPerSFromRate(motion2.rateDuring(tick));

@@ -1,8 +1,8 @@
 /**
  * A step-exact simulation of an EiBotBoard: bytes in, bytes out, on a clock.
  *
- * Discrete events in board ticks (40 µs): an order ends, a line arrives. Every event is processed at its own
- * tick, however late the timer fires, so millisecond timers do not reduce accuracy. Only the arrival of bytes
+ * The simulation processes events (an order ends, a line arrives) in board ticks of 40 µs. Every event is processed at
+ * its own tick, even if the timer fires late, so millisecond timers do not reduce accuracy. Only the arrival of bytes
  * from the host depends on the clock.
  *
  *   host ──write──> system buffer ──64-byte packets──> parser ──> queue (1 … 32) ──> motors, pen
@@ -30,7 +30,7 @@ export type { VirtualServo } from "./core.js";
 export type { DrawnPolyline } from "./drawn-line.js";
 
 /** Min supply voltage at which the motors turn. */
-const LEAST_MOTOR_VOLTS = 7;
+const MIN_MOTOR_VOLTS = 7;
 
 /** Which board to simulate, and how fast. Only the clock is required. */
 export interface VirtualBoardOptions {
@@ -48,11 +48,11 @@ export interface VirtualBoardOptions {
   readonly parseMs?: number;
   /** Max unparsed bytes before the board stops reading. Default 256. */
   readonly inputBytes?: number;
-  /** The pen's servo takes its time to reach the paper. Default: the tip touches and leaves it with the command. */
+  /** Simulate the time that the pen's servo takes. Default: the tip touches and leaves the paper with the command. */
   readonly servo?: VirtualServo;
   /**
-   * The pen swings on the gantry, so the drawn line rings. Positions and steps stay those of the motors. Default: the
-   * pen is exactly where the motors are.
+   * Simulate a gantry on which the pen swings, so that the drawn line rings. Reported positions and steps are still
+   * those of the motors. Default: the pen is exactly where the motors are.
    */
   readonly springs?: Springs;
   /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
@@ -136,15 +136,12 @@ export class VirtualBoard {
 
   // Byte interface, for a pseudo-terminal or a test.
 
-  /** Takes bytes from the host. Never refuses them; check `accepting` to behave like USB. */
+  /** Takes bytes from the host, always. Check `accepting` first to behave like USB. */
   receive(bytes: Uint8Array): void {
     this.take(bytes, this.clockTick());
   }
 
-  /**
-   * False while too much input is unparsed for the board to read more: stop sending,
-   * and continue at `onDrain`.
-   */
+  /** False while the board does not read, because too much input is unparsed. Continue to send at `onDrain`. */
   get accepting(): boolean {
     return this.input.byteCount < this.inputLimit;
   }
@@ -189,7 +186,7 @@ export class VirtualBoard {
     return this.core.drawn();
   }
 
-  /** Step counters, place, pen and queue now. */
+  /** The current step counters, position, pen and queue. */
   state(): VirtualBoardState {
     this.run();
     const { core, machine } = this;
@@ -229,13 +226,13 @@ export class VirtualBoard {
   }
 
   /**
-   * 0: switched off; about 5: powered by USB alone. With too low a voltage the board counts steps, but the
-   * motors do not turn. A voltage below the threshold set by CU,60 sets the power-lost flag.
+   * Sets the motors' supply. 0: switched off; about 5: powered by USB alone. If the voltage is too low, the board counts
+   * steps, but the motors do not turn. A voltage below the threshold set by CU,60 sets the power-lost flag.
    */
   setMotorVolts(volts: number): void {
     const { inputs } = this;
     this.run();
-    this.core.setTurnsMotors(volts >= LEAST_MOTOR_VOLTS);
+    this.core.setTurnsMotors(volts >= MIN_MOTOR_VOLTS);
     inputs.motorVolts = volts;
     if (inputs.powerThreshold > 0 && supplyReading(volts) < inputs.powerThreshold) {
       inputs.powerLostLatched = true;
@@ -243,8 +240,7 @@ export class VirtualBoard {
   }
 
   /**
-   * While true, the board answers, but its motion is frozen: the running order never ends,
-   * waiting ones never start.
+   * While true, the board answers, but its motion is frozen: the running order never ends, and waiting ones never start.
    */
   setFrozen(isFrozen: boolean): void {
     this.run();
@@ -252,7 +248,7 @@ export class VirtualBoard {
     this.run();
   }
 
-  /** While true, moves take their time, but the step counters (and motors) stand still. */
+  /** While true, moves take their normal time, but the step counters (and motors) do not change. */
   setMotionless(isMotionless: boolean): void {
     this.run();
     this.core.setMakesSteps(!isMotionless);
@@ -280,7 +276,7 @@ export class VirtualBoard {
     this.refusesNext = true;
   }
 
-  /** Infinity: as fast as USB. */
+  /** Limits the speed of received bytes. Infinity: no limit. */
   setUsbBytesPerS(bytesPerS: number): void {
     this.ticksPerByte = Number.isFinite(bytesPerS) ? TICKS_PER_S / bytesPerS : 0;
   }
@@ -303,7 +299,7 @@ export class VirtualBoard {
     this.run();
   }
 
-  /** Stops the board for good: its time stands still, and no timer keeps the process alive. */
+  /** Stops the board permanently: its time stops, and no timer keeps the process alive. */
   close(): void {
     this.isClosed = true;
     this.cancelTimer?.();

@@ -1,6 +1,6 @@
 /**
- * One connected Grbl: the position of its carriage and pen, and the few ways to move them. Its work
- * coordinates are mm from home. If the position is unknown, the carriage is assumed to be at home.
+ * One connected Grbl: the position of its carriage and pen, and the operations that move them. Its work coordinates are
+ * mm from home. If the position is unknown, the carriage is assumed to be at home.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
@@ -20,7 +20,7 @@ import type { GrblSession } from "./session.js";
 
 /** Allowance for the connection, the board and this computer. */
 const STOP_MS = 30;
-/** Makes this place home; a reset keeps it. */
+/** Makes the current position home. It stays home after a reset. */
 const SET_HOME = "G10L20P1X0Y0";
 const NO_STROKES = {
   xy: new Float64Array(0),
@@ -39,7 +39,7 @@ export class GrblMachine implements Machine {
   private at: Axes | null = null;
   private isAsleep = false;
   private byHand: LineStream | null = null;
-  /** The running stop of a move by hand. */
+  /** The running stop of a manual move. */
   private stopping: Promise<Status> | null = null;
 
   constructor(
@@ -65,7 +65,7 @@ export class GrblMachine implements Machine {
     return this.at && placeFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
   }
 
-  /** Ends the work that another program started. */
+  /** Stops motion that another program started. */
   async takeOver(): Promise<void> {
     const { state } = await this.session.status();
     if (state === "Idle") await this.session.send(MODES);
@@ -117,8 +117,8 @@ export class GrblMachine implements Machine {
     await this.ready(machine);
     if (this.penUp !== true) await this.movePen(true, settings);
     const { x, y } = this.place(machine)!;
-    const way = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
-    const job = planGrblJob(NO_STROKES, settings, machine, way);
+    const travel = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
+    const job = planGrblJob(NO_STROKES, settings, machine, travel);
     await this.perform({ trajectory: job.trajectory, commands: job.commands() });
   }
 
@@ -181,7 +181,7 @@ export class GrblMachine implements Machine {
     this.stopping.catch(() => undefined);
   }
 
-  /** Grbl does not report the motors' supply, but a board that does not answer is detected. */
+  /** Grbl does not report the motors' supply. The query detects a board that does not answer. */
   async isSupplyLow(): Promise<boolean> {
     await this.session.status();
     return false;
@@ -195,12 +195,12 @@ export class GrblMachine implements Machine {
     if (!/^[\x20-\x7e]{1,79}$/.test(line) || /[?!~]/.test(line)) {
       throw new PlotwrightError(
         "bad-setting",
-        `${JSON.stringify(line)} was not sent: a line has at most 79 plain characters, and ? ! ~ act at once instead of being read.`,
+        `${JSON.stringify(line)} was not sent: a line has at most 79 plain characters, and none of ? ! ~, which act at once.`,
       );
     }
     this.session.heard = [];
     await this.session.send(line).catch((error: unknown) => {
-      // An error is a line of its own.
+      // An error reply is among the received lines.
       if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
     });
     const replies = [...this.session.heard];
@@ -208,7 +208,10 @@ export class GrblMachine implements Machine {
     await this.session.send(SYNC).catch(() => undefined);
     this.penUp = null;
     await this.forgetPlace();
-    return { replies, note: "The machine may have moved. Home is where the machine is when it moves next." };
+    return {
+      replies,
+      note: "The machine may have moved, so its position is unknown. The next move starts from here as home.",
+    };
   }
 
   log(): string {
@@ -229,7 +232,7 @@ export class GrblMachine implements Machine {
     return new LineStream(this.session, commands, this.clock);
   }
 
-  /** After a reset: unlocks it, and restores the modes that the lines need and the position that it reports. */
+  /** Call after a reset: unlocks Grbl, restores the modes that the lines need, and takes over the reported position. */
   async recovered({ state, at }: Status): Promise<void> {
     if (state.startsWith("Alarm")) await this.session.send("$X");
     await this.session.send(MODES);

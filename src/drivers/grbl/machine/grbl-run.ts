@@ -1,6 +1,6 @@
 /**
- * One plot on a Grbl. A stop drops everything that the Grbl has queued, so the rest is planned again from its
- * position. It cannot switch to another plan in motion.
+ * One plot on a Grbl. A stop clears Grbl's queue, so the rest is planned again from the reported position. A Grbl cannot
+ * switch to another plan in motion.
  */
 import { strokeCount, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
@@ -37,10 +37,10 @@ interface Playing {
 export class GrblRun implements MachineRun {
   readonly progress = new RunProgress();
   stopped: { readonly place: Place | null } | null = null;
-  readonly isGoingOver = false;
+  readonly isSwitching = false;
 
   private current: Playing | null = null;
-  /** A running stop on purpose. */
+  /** A stop on request, while it runs. */
   private stopping: Promise<Status> | null = null;
   private isEmergency = false;
   private failure: PlotwrightError | null = null;
@@ -76,7 +76,7 @@ export class GrblRun implements MachineRun {
     this.stopping = null;
     this.isEmergency = false;
     if (machine.penUp !== true) await machine.movePen(true, this.request.settings());
-    // The request may have arrived while the pen went up.
+    // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
     const commands = grblCommandsOf(plot.commands);
     progress.add({ commands, trajectory: plot.trajectory, afterS });
@@ -88,7 +88,7 @@ export class GrblRun implements MachineRun {
     try {
       await played;
       await machine.arrived();
-      this.events.tell(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
+      this.events.progressed(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
       left = progress.place;
     } catch (error) {
       left = progress.place;
@@ -129,26 +129,26 @@ export class GrblRun implements MachineRun {
     });
   }
 
-  /** The Grbl has dropped its queue: its position shows what it has drawn. */
+  /** Grbl's queue is cleared: its position shows how far it drew. */
   private async whereStopped({ plot, commands, stream }: Playing, status: Status): Promise<Place | null> {
     const { machine, progress, strokes } = this;
     await machine.recovered(status);
     const at = machine.place(machineOf(this.request.settings()))!;
     const { trajectory } = plot;
     const planS = stopTime(trajectory, at, stream.boundsS, stream.planS);
-    this.events.tell({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
+    this.events.progressed({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
     const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
     if (stroke < 0) return nextPlace(trajectory, planS) ?? (this.isEmergency ? this.endOfDrawing() : null);
     return snappedPlace(strokes, { stroke, alongMm }, { ...at, vx, vy }, SNAP_MM);
   }
 
-  /** Only the move home is left: after an emergency stop it waits for a command. */
+  /** The end of the last stroke: for an emergency stop when only the travel home is left. */
   private endOfDrawing(): Place {
     const stroke = strokeCount(this.strokes) - 1;
     return { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
   }
 
-  /** Set by events during `play`, which the compiler cannot see. */
+  // A method because TypeScript does not know that events may set `stopped` during `play`.
   private wasStopped(): boolean {
     return this.stopped !== null;
   }

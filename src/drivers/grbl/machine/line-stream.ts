@@ -1,4 +1,4 @@
-/** Plays the lines of one job: sends as many ahead as fit into the buffer. */
+/** Plays the lines of one job: sends as many ahead as fit into Grbl's buffer. */
 import { PlotwrightError } from "../../../errors.js";
 import type { Clock } from "../../transport.js";
 import type { GrblCommands } from "../grbl-job.js";
@@ -6,8 +6,8 @@ import { QUEUE_MOVES } from "../model/planner.js";
 import { NOW, type Status } from "../protocol.js";
 import type { GrblSession } from "./session.js";
 
-/** Interval between queries whether it is at rest, s. */
-const ASK_S = 0.05;
+/** Interval of status queries while waiting for rest, s. */
+const POLL_S = 0.05;
 const REST_TRIES = 200;
 
 export class LineStream {
@@ -15,7 +15,7 @@ export class LineStream {
   private next = 0;
   private answeredCount = 0;
   private isOver = false;
-  /** The last time at which its place on the plan was known. */
+  /** The last time at which the position on the plan was known exactly. */
   private known: { readonly planS: number; readonly clockS: number };
   private settle: (error: PlotwrightError | null) => void = () => undefined;
 
@@ -60,14 +60,14 @@ export class LineStream {
     return [planS[from], planS[Math.min(count, this.answeredCount + 2)]];
   }
 
-  /** Slows down along the path and drops the rest of what was sent. `play` rejects with the error. */
+  /** Slows down along the path, then clears Grbl's queue. `play` rejects with the error. */
   async slowDown(error: PlotwrightError): Promise<Status> {
     this.isOver = true;
     this.session.now(NOW.hold);
     for (let i = 0; i < REST_TRIES; i++) {
       const { state } = await this.session.status();
       if (state === "Hold:0" || state === "Idle" || state.startsWith("Alarm")) break;
-      await new Promise<void>((resolve) => void this.clock.after(ASK_S, resolve));
+      await new Promise<void>((resolve) => void this.clock.after(POLL_S, resolve));
     }
     return this.stop(error);
   }
@@ -105,12 +105,12 @@ export class LineStream {
 
   private answered(index: number, error: PlotwrightError | null): void {
     if (error) {
-      // The Grbl would execute the lines after the one that it refused.
+      // Otherwise Grbl would execute the lines after the refused one.
       if (!this.isOver) this.session.now(NOW.hold);
       return this.end(error);
     }
     this.answeredCount = index + 1;
-    // It is answered when everything before it, and its own wait, are over.
+    // The reply to a wait comes when the wait and everything before it are done.
     if (this.commands.lines[index].startsWith("G4")) {
       this.known = { planS: this.takenS, clockS: this.clock.nowS() };
     }

@@ -27,9 +27,9 @@ interface SentLine {
   readonly settle: Settle;
 }
 
-/** Silence after which it counts as gone, s; its status is polled meanwhile. */
+/** Silence after which the board counts as gone, s; its status is polled meanwhile. */
 const PATIENCE_S = 3;
-const ASK_S = 0.5;
+const POLL_S = 0.5;
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
@@ -37,7 +37,7 @@ const IDENTIFY_S = 1;
 export class GrblSession {
   readonly log: SessionLog;
   version: string | null = null;
-  /** Called when it restarts or stops by itself; everything sent before is lost. */
+  /** Called when the board restarts or stops by itself; all lines sent before are lost. */
   onBreak: (error: PlotwrightError) => void = () => undefined;
   /** Lines received until the next command of the console. */
   heard: string[] = [];
@@ -66,13 +66,13 @@ export class GrblSession {
     transport.onClose(() => this.fail(lineLost()));
   }
 
-  /** Rejects with `no-board` if another device answers, with `board-timeout` if nothing does. */
+  /** Resolves with the version. Rejects with `no-board` if another device answers, `board-timeout` if nothing does. */
   async identify(): Promise<string> {
     for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
-      // While asleep, held or working for another program, it answers nothing else.
+      // A Grbl that sleeps, holds or works for another program answers only after a reset.
       if (i > 0) this.now(NOW.reset);
       const tooLate = new Promise<void>((resolve) => void this.clock.after(IDENTIFY_S, resolve));
-      // An empty line ends what another program may have left unfinished.
+      // The empty line ends a line that another program may have left unfinished.
       const answered = Promise.allSettled([this.send(""), this.send("$I")]).then(() => undefined);
       await Promise.race([answered, tooLate]);
       this.dropSent(silent("$I"));
@@ -104,7 +104,7 @@ export class GrblSession {
     return new Promise((resolve, reject) => this.write(line, (error) => (error ? reject(error) : resolve())));
   }
 
-  /** A byte that acts at once. */
+  /** Sends a real-time command. */
   now(byte: string): void {
     if (byte !== NOW.status) this.log.add("sent", byte === NOW.reset ? "(reset)" : byte);
     this.put(byte);
@@ -117,7 +117,7 @@ export class GrblSession {
     });
   }
 
-  /** Drops everything that it has. Sent and unanswered lines are settled with the error. */
+  /** Resets Grbl, which clears its queue. Unanswered lines are settled with the error. */
   async reset(error: PlotwrightError): Promise<Status> {
     const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
     this.now(NOW.reset);
@@ -199,15 +199,15 @@ export class GrblSession {
     for (const { settle } of this.sent.splice(0)) settle(error);
   }
 
-  /** While a reply is missing, its status is polled: it answers that even if a line waits for motion. */
+  /** While a reply is missing, polls the status: Grbl answers that even if a line waits for motion. */
   private watch(): void {
     this.cancelWatch = null;
     if (this.failure || this.sent.length === 0) return;
     // The first check must not use the time of an old reply.
     const sinceS = this.clock.nowS();
-    this.cancelWatch = this.clock.after(ASK_S, () => {
+    this.cancelWatch = this.clock.after(POLL_S, () => {
       if (this.clock.nowS() - Math.max(this.heardS, sinceS - PATIENCE_S) > PATIENCE_S) {
-        // A device that is not identified yet and has answered before is not a Grbl.
+        // A device that has answered but is not identified is not a Grbl.
         const isOther = this.version === null && this.heard.length > 0;
         this.fail(isOther ? notGrbl(this.heard.slice(-4)) : silent(this.sent[0]?.line ?? ""));
       } else {
@@ -250,6 +250,6 @@ function notGrbl(heard: readonly string[]): PlotwrightError {
   if (heard.length === 0) return silent("its version");
   return new PlotwrightError(
     "no-board",
-    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. Its answer: ${heard.join("; ")}.`,
+    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${heard.join("; ")}.`,
   );
 }

@@ -1,7 +1,7 @@
 /** Finds the place on a plan at which a stop left the carriage. */
 import type { Trajectory } from "../../../plan/trajectory.js";
 
-/** Blocks that are about as near as the nearest one: the path may cross itself. */
+/** Blocks within this of the nearest one count as equally near, because the path may cross itself. */
 const SAME_MM = 0.03;
 
 /**
@@ -20,8 +20,8 @@ export function stopTime(
     if (startS + trajectory.durationS[k] < fromS || startS > toS) continue;
     found.push(nearestOn(trajectory, k, x, y));
   }
-  const leastMm = Math.min(...found.map(({ awayMm }) => awayMm));
-  const near = found.filter(({ awayMm }) => awayMm <= leastMm + SAME_MM);
+  const minMm = Math.min(...found.map(({ awayMm }) => awayMm));
+  const near = found.filter(({ awayMm }) => awayMm <= minMm + SAME_MM);
   near.sort((a, b) => Math.abs(a.atS - nearS) - Math.abs(b.atS - nearS));
   return near[0]?.atS ?? nearS;
 }

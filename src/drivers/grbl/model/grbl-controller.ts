@@ -1,4 +1,4 @@
-/** What a machine profile says about its Grbl. */
+/** The fields of a machine profile for its Grbl. */
 import { PlotwrightError } from "../../../errors.js";
 import type { Controller } from "../../../machines/controller.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -9,7 +9,7 @@ const speed = { kind: "number", min: 0, minExcluded: true, max: 1_000, unit: "mm
 const accel = { kind: "number", min: 0, minExcluded: true, max: 50_000, unit: "mm/s²", step: 10 } as const;
 const height = { kind: "number", min: -200, max: 200, unit: "mm", step: 0.5 } as const;
 
-/** A Grbl that lifts the pen with its Z axis. X and Y have the same limits. `$…`: the setting of the firmware. */
+/** A Grbl that lifts the pen with its Z axis. X and Y have the same limits. `$110` and so on are Grbl's own settings. */
 export const GRBL_FIELDS = {
   maxSpeedMmPerS: { ...speed, label: "Highest speed", about: "$110 and $111, divided by 60", default: 100 },
   accelMmPerS2: { ...accel, label: "Acceleration", about: "$120 and $121", default: 1_000 },

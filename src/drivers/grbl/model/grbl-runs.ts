@@ -1,4 +1,4 @@
-/** Writes the runs of a plan as Grbl performs them, and stores the moves to send for them. */
+/** Writes the runs of a plan as Grbl will perform them, and records the moves to send. */
 import { motor1FromXy, motor2FromXy, placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { BlockColumns } from "../../../plan/block-columns.js";

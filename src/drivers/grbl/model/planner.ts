@@ -1,7 +1,7 @@
 /**
- * Grbl's own planner: the speed of each move in a queue. The job uses it to predict the motion, the virtual
- * Grbl to perform it. Written from the description of planner.c: a limit for each corner by junction
- * deviation, then one pass backwards from rest at the end of the queue, then constant acceleration.
+ * A model of Grbl's own planner: the speed of each move in its queue. The job uses it to predict the motion, the virtual
+ * Grbl to perform it. Written from the description of planner.c: a limit for each corner by junction deviation, one pass
+ * backwards from rest at the end of the queue, then constant acceleration.
  */
 
 /** X, Y and Z: a position in mm, a unit vector, or the limits of the axes. */
@@ -22,17 +22,17 @@ export interface Move {
   readonly accel: number;
   /** Limit by the feed and the axes, mm/s. */
   readonly speed: number;
-  /** Max speed² at its start, whatever follows. */
+  /** Max speed² at its start, before the limit by the moves after it. */
   readonly maxEntry2: number;
 }
 
 /** Max moves in the queue, including the running one. */
 export const QUEUE_MOVES = 15;
 
-/** Beyond these a corner counts as a reversal or as straight. */
+/** A corner with a greater cosine than this counts as straight, or as a reversal. */
 const SAME = 0.999999;
 
-/** A move between two different positions. `before`: the move that is queued before it. */
+/** A move between two different positions. `before`: the previous move in the queue. */
 export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, before: Move | null): Move {
   const delta: Axes = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
   const lengthMm = Math.hypot(...delta);
@@ -44,7 +44,7 @@ export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, b
   return { unit, lengthMm, accel: alongAxes(limits.accel, unit), speed, maxEntry2 };
 }
 
-/** Max value along a direction within the limits of all axes. */
+/** The limit along a direction that follows from the limits of the axes. */
 function alongAxes(limits: Axes, unit: Axes): number {
   let max = Infinity;
   for (let i = 0; i < 3; i++) if (unit[i] !== 0) max = Math.min(max, limits[i] / Math.abs(unit[i]));

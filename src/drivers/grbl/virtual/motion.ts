@@ -8,7 +8,7 @@ interface Phase {
   readonly accel: number;
 }
 
-/** Below this a speed is 0 and a length is done: mm/s, mm. */
+/** Speeds and lengths below this count as 0: mm/s, mm. */
 const NOTHING = 1e-9;
 
 export class GrblMotion {
@@ -64,7 +64,7 @@ export class GrblMotion {
     return this.phases.length > 0 ? this.atS + this.phases[0].durationS : Infinity;
   }
 
-  /** `to` differs from the end of the queue. Does not start the motion: see `go`. */
+  /** Queues a move to `to`, which must differ from the end of the queue. `go` starts the motion. */
   queue(to: Axes, feed: number): void {
     const before = this.isEmpty ? null : this.lastMove;
     this.lastMove = moveOf(this.target, to, feed, this.limits, before);
@@ -120,7 +120,7 @@ export class GrblMotion {
     const isOver = move.lengthMm - this.doneMm < 1e-6;
     if (isOver) {
       this.start = [0, 1, 2].map((i) => this.start[i] + move.unit[i] * move.lengthMm) as unknown as Axes;
-      // The sum of many moves must not drift from the requested positions.
+      // At the end of the queue, use the exact target: the sum of many moves drifts by rounding.
       if (this.moves.length === 1) this.start = this.target;
       this.moves.shift();
       this.doneMm = 0;
@@ -131,7 +131,7 @@ export class GrblMotion {
     else if (!(this.isHolding && this.speed === 0)) this.plan();
   }
 
-  /** The rest of the first move, from its current speed. */
+  /** Plans the rest of the first move, from its current speed. */
   private plan(): void {
     this.phases = [];
     if (this.isEmpty) return;
@@ -150,7 +150,7 @@ export class GrblMotion {
     this.add((peak - this.speed) / accel, accel);
     if (cruiseMm > NOTHING) this.add(cruiseMm / peak, 0);
     this.add((peak - end) / accel, -accel);
-    // Only rounding errors are left of it.
+    // If only a rounding error is left of the move, it still has to end.
     if (this.phases.length === 0) this.phases.push({ durationS: 0, accel: 0 });
   }
 

@@ -1,7 +1,6 @@
 /**
- * A small simulated Grbl: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's
- * model, reports, and the bytes that act at once. It supports the commands that this driver sends, and
- * refuses others as Grbl does.
+ * A small simulated Grbl: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's model,
+ * reports, and real-time commands. It supports the commands that this driver sends, and refuses others as Grbl does.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
@@ -14,7 +13,7 @@ import { RX_BYTES } from "../protocol.js";
 import { GrblMotion } from "./motion.js";
 
 const VERSION = "1.1h";
-/** How long it waits for more lines before it starts with a queue that is not full. */
+/** How long Grbl waits for more lines before it starts with a queue that is not full. */
 const START_S = 0.005;
 const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
 const ERROR = { number: 2, dollar: 3, locked: 9, unknown: 20, noFeed: 22, unused: 36 } as const;
@@ -51,12 +50,12 @@ export class VirtualGrbl implements VirtualMachine {
   private isHeld = false;
   private feed = 0;
   private isRapid = true;
-  /** Of the work coordinates, mm. */
+  /** Origin of the work coordinates, mm. */
   private offset: Axes = [0, 0, 0];
-  private isOffsetTold = false;
-  /** Machine seconds until which it waits; null: no G4 is running. */
+  private isOffsetReported = false;
+  /** Machine seconds at which the running G4 ends; null: none is running. */
   private waitUntilS: number | null = null;
-  private setOutS: number | null = null;
+  private startDueS: number | null = null;
   private cancelTimer: () => void = () => undefined;
   private isClosed = false;
   private readonly polylines: { penDown: boolean; xy: number[] }[] = [];
@@ -104,7 +103,7 @@ export class VirtualGrbl implements VirtualMachine {
       const character = String.fromCharCode(byte);
       if (character === "?") this.report();
       else if (character === "!") this.hold();
-      else if (character === "~") this.goOn();
+      else if (character === "~") this.resume();
       else if (character === "\x18") this.reset();
       else if (this.received.length < RX_BYTES) this.received += character;
       else this.lostCount++;
@@ -121,11 +120,11 @@ export class VirtualGrbl implements VirtualMachine {
       const answer = this.perform(line.toUpperCase());
       if (answer === null) break;
       this.received = this.received.slice(end + 1);
-      this.say(answer === 0 ? "ok" : `error:${answer}`);
+      this.reply(answer === 0 ? "ok" : `error:${answer}`);
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
-      this.setOutS ??= this.nowS + START_S;
-      if (this.motion.isFull || this.isWaitingForMotion()) this.setOutS = this.nowS;
+      this.startDueS ??= this.nowS + START_S;
+      if (this.motion.isFull || this.isWaitingForMotion()) this.startDueS = this.nowS;
     }
     this.schedule();
   }
@@ -137,7 +136,7 @@ export class VirtualGrbl implements VirtualMachine {
   private schedule(): void {
     this.cancelTimer();
     if (this.isClosed) return;
-    const dueS = Math.min(this.motion.nextS, this.waitUntilS ?? Infinity, this.setOutS ?? Infinity);
+    const dueS = Math.min(this.motion.nextS, this.waitUntilS ?? Infinity, this.startDueS ?? Infinity);
     if (dueS === Infinity) return;
     const delayS = Math.max(0, dueS - this.nowS) / this.speed;
     this.cancelTimer = this.clock.after(delayS, () => {
@@ -147,23 +146,22 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   /**
-   * Advances motion and waits to the current time, in the order in which they end. `leastS`: a timer may fire
-   * slightly early.
+   * Advances motion and waits to the current time, but at least to `minS`: a timer may fire slightly early.
    */
-  private catchUp(leastS = 0): void {
-    const toS = Math.max(this.nowS, leastS);
-    if (this.setOutS !== null && this.setOutS <= toS) {
-      this.motion.go(this.setOutS);
-      this.setOutS = null;
+  private catchUp(minS = 0): void {
+    const toS = Math.max(this.nowS, minS);
+    if (this.startDueS !== null && this.startDueS <= toS) {
+      this.motion.go(this.startDueS);
+      this.startDueS = null;
     }
     this.motion.advance(toS);
     if (this.waitUntilS !== null && this.waitUntilS <= toS) {
       this.waitUntilS = null;
-      this.say("ok");
+      this.reply("ok");
     }
   }
 
-  /** 0: done or queued; above: the error; null: the line has to wait. */
+  /** Returns 0 if the line is done or queued, an error code if it is refused, null if it has to wait. */
   private perform(line: string): number | null {
     if (line === "") return 0;
     if (line.startsWith("$")) return this.system(line);
@@ -183,15 +181,15 @@ export class VirtualGrbl implements VirtualMachine {
 
   private system(line: string): number {
     if (line === "$I") {
-      this.say(`[VER:${VERSION}.20190830:]`);
-      this.say(`[OPT:V,${QUEUE_MOVES},${RX_BYTES}]`);
+      this.reply(`[VER:${VERSION}.20190830:]`);
+      this.reply(`[OPT:V,${QUEUE_MOVES},${RX_BYTES}]`);
     } else if (line === "$X") this.isLocked = false;
     else if (line === "$SLP") this.isAsleep = true;
     else return ERROR.dollar;
     return 0;
   }
 
-  /** The line is answered when its own wait ends: it is removed from the buffer here. */
+  /** G4 is answered when its wait ends, so the line is removed from the buffer here. */
   private dwell(seconds: number | undefined): number | null {
     if (seconds === undefined) return 28;
     if (!this.motion.isEmpty) return null;
@@ -208,7 +206,7 @@ export class VirtualGrbl implements VirtualMachine {
     const set = (i: 0 | 1 | 2, letter: string): number =>
       words.has(letter) ? at[i] - (words.get(letter) ?? 0) : this.offset[i];
     this.offset = [set(0, "X"), set(1, "Y"), set(2, "Z")];
-    this.isOffsetTold = false;
+    this.isOffsetReported = false;
     this.newLine(false);
     return 0;
   }
@@ -244,11 +242,11 @@ export class VirtualGrbl implements VirtualMachine {
   private hold(): void {
     if (this.isLocked || this.isAsleep) return;
     this.isHeld = true;
-    this.setOutS = null;
+    this.startDueS = null;
     if (this.motion.isMoving) this.motion.hold();
   }
 
-  private goOn(): void {
+  private resume(): void {
     if (!this.isHeld || this.motion.isMoving) return;
     this.isHeld = false;
     if (!this.motion.isEmpty) this.motion.go(this.nowS);
@@ -259,23 +257,23 @@ export class VirtualGrbl implements VirtualMachine {
     this.motion.stop();
     this.received = "";
     this.isHeld = this.isAsleep = false;
-    this.waitUntilS = this.setOutS = null;
+    this.waitUntilS = this.startDueS = null;
     this.feed = 0;
     this.isRapid = true;
-    this.isOffsetTold = false;
-    if (wasMoving) this.say("ALARM:3");
+    this.isOffsetReported = false;
+    if (wasMoving) this.reply("ALARM:3");
     this.isLocked ||= wasMoving;
-    this.say(`Grbl ${VERSION} ['$' for help]`);
-    if (this.isLocked) this.say("[MSG:'$H'|'$X' to unlock]");
+    this.reply(`Grbl ${VERSION} ['$' for help]`);
+    if (this.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
   }
 
   private report(): void {
     const mm = (at: Axes): string => at.map((value) => value.toFixed(3)).join(",");
-    const offset = this.isOffsetTold ? "" : `|WCO:${mm(this.offset)}`;
-    this.isOffsetTold = true;
+    const offset = this.isOffsetReported ? "" : `|WCO:${mm(this.offset)}`;
+    this.isOffsetReported = true;
     const free = `${this.motion.freeCount},${RX_BYTES - this.received.length}`;
     const feed = Math.round(60 * this.motion.speedMmPerS);
-    this.say(`<${this.stateName()}|MPos:${mm(this.motion.at)}|Bf:${free}|FS:${feed},0${offset}>`);
+    this.reply(`<${this.stateName()}|MPos:${mm(this.motion.at)}|Bf:${free}|FS:${feed},0${offset}>`);
   }
 
   private stateName(): string {
@@ -285,7 +283,7 @@ export class VirtualGrbl implements VirtualMachine {
     return this.motion.isEmpty ? "Idle" : "Run";
   }
 
-  private say(line: string): void {
+  private reply(line: string): void {
     this.line?.deliver(`${line}\r\n`);
   }
 
@@ -321,7 +319,7 @@ export class VirtualGrbl implements VirtualMachine {
   }
 }
 
-/** A connection to it: written bytes arrive at once, its replies shortly after. */
+/** A connection to the virtual Grbl. Written bytes arrive almost at once. */
 class VirtualLine implements Transport {
   private listener: (bytes: Uint8Array) => void = () => undefined;
   private closeListener: (error?: Error) => void = () => undefined;
