@@ -28,6 +28,7 @@ import { connect, type Connection } from "./connection.js";
 import type { Devices } from "./devices.js";
 import { moveByHand, type HandMove } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
+import { SupplyWatch } from "./supply-watch.js";
 import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
 
 export interface PlotterOptions {
@@ -56,7 +57,6 @@ export interface PlotterOptions {
 export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
 
 const RECONNECT_S = 2;
-const SUPPLY_S = 2;
 
 export class PlotterDriver {
   readonly #clock: Clock;
@@ -74,9 +74,7 @@ export class PlotterDriver {
   #closed = false;
   /** After a real board was connected, the virtual board is never used in its place. */
   #hadSerial = false;
-  #powerIsLow = false;
-  #lastSupplyLow = false;
-  #cancelSupply: (() => void) | null = null;
+  readonly #supply: SupplyWatch;
   #virtual: VirtualMachine | null = null;
 
   readonly #options: PlotterOptions;
@@ -84,6 +82,12 @@ export class PlotterDriver {
   constructor(options: PlotterOptions) {
     this.#options = options;
     this.#clock = options.clock;
+    this.#supply = new SupplyWatch(options.clock, {
+      mayAsk: () => !this.#movingByHand && (this.#run === null || this.#run.isHeld),
+      lost: () => this.#powerLost(),
+      restored: () =>
+        this.#tell({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) }),
+    });
     this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
     const isVirtual = options.device === "virtual";
     this.#current = {
@@ -235,7 +239,7 @@ export class PlotterDriver {
   async close(): Promise<void> {
     this.#closed = true;
     this.#cancelRetry?.();
-    this.#cancelSupply?.();
+    this.#supply.stop();
     await this.#connecting;
     const run = this.#run;
     run?.fail(closedError());
@@ -257,6 +261,7 @@ export class PlotterDriver {
     this.#settings = settings;
     const connection = this.#connection;
     const virtual = this.#virtual;
+    this.#supply.stop();
     this.#machine = this.#connection = this.#virtual = null;
     this.#tell({
       connection: "connecting",
@@ -299,7 +304,7 @@ export class PlotterDriver {
         events: {
           changed: () => this.#machineChanged(),
           buttonPressed: () => void this.#run?.pause().catch(() => undefined),
-          supplyRead: (isLow) => this.#supplyRead(isLow),
+          supplyRead: (isLow) => this.#supply.read(isLow),
           lost: (error) => this.#lost(error),
         },
       });
@@ -332,8 +337,7 @@ export class PlotterDriver {
     await machine.takeOver();
     this.#machine = machine;
     this.#trouble = null;
-    this.#powerIsLow = false;
-    this.#watchSupply(machine);
+    this.#supply.watch(machine);
     this.#machineChanged();
     this.#tell({
       kind: connection.kind,
@@ -355,6 +359,7 @@ export class PlotterDriver {
   #lost(error: PlotwrightError): void {
     if (this.#closed) return;
     this.#trouble = error;
+    this.#supply.stop();
     this.#machine = null;
     this.#connection?.machine.close().catch(() => undefined);
     this.#connection = null;
@@ -369,46 +374,15 @@ export class PlotterDriver {
 
   #runEnded(): void {
     this.#run = null;
-    this.#tell({ activity: "none", ...(this.#machine && !this.#powerIsLow ? { connection: "idle" } : {}) });
+    this.#tell({ activity: "none", ...(this.#machine && !this.#supply.isLow ? { connection: "idle" } : {}) });
     this.#machineChanged();
   }
 
-  /**
-   * Reacts only to two low readings in a row: with a second program on the port, an answer may be mistaken.
-   */
-  #supplyRead(isLow: boolean): void {
-    if (isLow && this.#lastSupplyLow) this.#powerLost();
-    this.#lastSupplyLow = isLow;
-  }
-
-  /** Checks the motor supply while the board is idle. This also detects a board that no longer answers. */
-  #watchSupply(machine: Machine): void {
-    if (this.#closed) return;
-    this.#cancelSupply = this.#clock.after(SUPPLY_S, () => {
-      if (this.#closed || this.#machine !== machine) return;
-      const isPlaying = this.#movingByHand || (this.#run !== null && !this.#run.isHeld);
-      const asked = isPlaying ? Promise.resolve() : this.#askSupply(machine);
-      // A lost connection is reported by the machine's own event.
-      asked.catch(() => undefined).finally(() => this.#watchSupply(machine));
-    });
-  }
-
-  async #askSupply(machine: Machine): Promise<void> {
-    const isLow = (await machine.isSupplyLow()) && (await machine.isSupplyLow());
-    if (isLow) this.#powerLost();
-    else if (this.#powerIsLow) {
-      this.#powerIsLow = false;
-      this.#tell({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) });
-    }
-  }
-
   #powerLost(): void {
-    if (this.#powerIsLow) return;
-    this.#powerIsLow = true;
     this.#run?.fail(powerLost());
     this.#tell({ connection: "fault", message: powerLow().message });
-    const machine = this.#machine,
-      settings = this.#settings;
+    const settings = this.#settings;
+    const machine = this.#machine;
     machine
       ?.forgetPlace()
       .then(() => machine.letGo(settings))
@@ -424,7 +398,10 @@ export class PlotterDriver {
       return await action(machine);
     } finally {
       this.#movingByHand = false;
-      this.#tell({ activity: "none", ...(this.#machine && !this.#powerIsLow ? { connection: "idle" } : {}) });
+      this.#tell({
+        activity: "none",
+        ...(this.#machine && !this.#supply.isLow ? { connection: "idle" } : {}),
+      });
     }
   }
 
@@ -437,7 +414,7 @@ export class PlotterDriver {
       throw new PlotwrightError("busy", "The plotter is still moving: wait until it stops.");
     }
     if (!this.#machine) throw this.#trouble ?? notStarted();
-    if (this.#powerIsLow) throw powerLow();
+    if (this.#supply.isLow) throw powerLow();
     return this.#machine;
   }
 

@@ -76,6 +76,12 @@ export class BlockColumns {
     if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
   }
 
+  /** The blocks as a trajectory has them. The arrays are the same, not copies. */
+  ofTrajectory() {
+    const { count: blockCount, durationS, x, y, vx, vy, ax, ay, jx, jy, startS, alongMm } = this;
+    return { blockCount, durationS, x, y, vx, vy, ax, ay, jx, jy, startS, alongMm };
+  }
+
   /** Appends block i of other columns, without its jerk; or of these, if it lies beyond the current end. */
   pushFrom(from: BlockColumns, i: number): void {
     const { durationS, x, y, vx, vy, ax, ay, alongMm } = from;

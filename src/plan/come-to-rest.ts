@@ -255,18 +255,7 @@ function finish(
   const atEnd = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS: waitS, heightPct };
   const lifts = lift?.atOnce && runs ? [{ ...atEnd, beforeRun: 0, startS: 0, waitS: 0 }, atEnd] : [atEnd];
   const oneRun = (blocks: BlockColumns): Trajectory => ({
-    blockCount: blocks.count,
-    durationS: blocks.durationS,
-    x: blocks.x,
-    y: blocks.y,
-    vx: blocks.vx,
-    vy: blocks.vy,
-    ax: blocks.ax,
-    ay: blocks.ay,
-    jx: null,
-    jy: null,
-    startS: blocks.startS,
-    alongMm: blocks.alongMm,
+    ...blocks.ofTrajectory(),
     runs: {
       count: runs,
       firstBlock: runs ? Uint32Array.of(0, blocks.count) : Uint32Array.of(0),

@@ -293,18 +293,7 @@ class PlanBuilder {
     blocks.trim();
     firstBlock[runCount] = blocks.count;
     return {
-      blockCount: blocks.count,
-      durationS: blocks.durationS,
-      x: blocks.x,
-      y: blocks.y,
-      vx: blocks.vx,
-      vy: blocks.vy,
-      ax: blocks.ax,
-      ay: blocks.ay,
-      jx: blocks.jx,
-      jy: blocks.jy,
-      startS: blocks.startS,
-      alongMm: blocks.alongMm,
+      ...blocks.ofTrajectory(),
       runs: {
         count: runCount,
         firstBlock: firstBlock.slice(0, runCount + 1),

@@ -231,7 +231,7 @@ describe("pens on the page", () => {
 
   it("are waited for while plotting, and the board draws the layers in the chosen order", async () => {
     await plotBar(test.page).getByRole("button", { name: "Plot", exact: true }).click();
-    // The first pen too: any of the two may be in the holder.
+    // The plot also waits for the first pen: the holder may have either of the two.
     for (const pen of ["Red", "Blue"]) {
       const held = await waitForJob(({ wait }) => wait !== null && wait.penName === pen);
       expect(held.state).toBe("paused");

@@ -1,20 +1,18 @@
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import fc from "fast-check";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
-import { DISK_FULL } from "../../host/disk-fault.js";
-import { DrawingFiles } from "../../server/storage/drawing-files.js";
-import { JobQueue } from "../../host/queue/job-queue.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
 import { SERVER_STOPPED } from "../../host/queue/running-plots.js";
 import type { Planning } from "../../server/planning/planning.js";
 import type { Claims } from "../../host/queue/queue-parts.js";
-import { Store } from "../../server/storage/store.js";
+import type { Store } from "../../server/storage/store.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/schema/index.js";
-import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
+import { LED_PLANNING, type LedPlotter } from "./support/fakes.js";
 import { drawingOf } from "./support/jobs.js";
+import { openQueueIn } from "./support/open-queue.js";
 
 let dir: string;
 let store: Store;
@@ -34,26 +32,8 @@ afterEach(async () => {
   rmSync(dir, { recursive: true, force: true });
 });
 
-function openQueue(planning: Planning = LED_PLANNING, claims?: Claims): void {
-  store = Store.open(dir);
-  plotter = new LedPlotter();
-  events = [];
-  logged = [];
-  queue = new JobQueue({
-    store,
-    files: new DrawingFiles(dir, 1_000_000),
-    planning,
-    plotters: new Map([[plotter.id, plotter]]),
-    // What is announced is already on disk, unless the disk is reported as full.
-    announce: (event) => {
-      const isUnsaved = event.type === "job" && event.job.message?.includes(DISK_FULL) === true;
-      if (event.type === "job" && !isUnsaved) expect(store.jobs()).toContainEqual(event.job);
-      events.push(event);
-    },
-    nowIso: () => new Date().toISOString(),
-    log: (line) => logged.push(line),
-    claims,
-  });
+function openQueue(planning?: Planning, claims?: Claims): void {
+  ({ store, plotter, events, logged, queue } = openQueueIn(dir, planning, claims));
 }
 
 const add = (name: string): Promise<Job> =>
@@ -436,85 +416,4 @@ describe("the queue", () => {
     expect(queue.list()).toEqual([]);
     expect(events.at(-1)).toEqual({ type: "job-removed", id });
   });
-
-  it("agrees with a simple list on the queued jobs and their order, after any requests", async () => {
-    const step = fc.record({
-      ask: fc.constantFrom("add", "move", "remove", "start", "end", "fail", "cancel", "requeue", "reopen"),
-      at: fc.nat(7),
-      to: fc.nat(7),
-    });
-    await fc.assert(
-      fc.asyncProperty(fc.array(step, { maxLength: 25 }), async (steps) => {
-        await startAfresh();
-        // The model: ids of unfinished jobs in order, the one that plots, and the finished ones.
-        let open: string[] = [];
-        let plotting: string | null = null;
-        let ended: string[] = [];
-        for (const { ask, at, to } of steps) {
-          const waiting = open.filter((id) => id !== plotting);
-          const one = waiting[at % (waiting.length || 1)];
-          if (ask === "add") open.push((await add(`job ${open.length}`)).id);
-          if (ask === "move" && one !== undefined) {
-            const rest = open.filter((id) => id !== one);
-            const index = to % (rest.length + 1);
-            queue.move(one, rest[index] ?? null);
-            rest.splice(index, 0, one);
-            open = rest;
-          }
-          if (ask === "remove" && one !== undefined) {
-            await queue.remove(one);
-            open = open.filter((id) => id !== one);
-          }
-          if (ask === "start" && one !== undefined && plotting === null) {
-            await queue.start(one);
-            plotting = one;
-          }
-          if ((ask === "end" || ask === "fail") && plotting !== null) {
-            const run = await plotter.nextRun();
-            await settled();
-            if (ask === "end") run.end({ kind: "done" });
-            else run.fail(new Error("broken"));
-            await settled();
-            open = open.filter((id) => id !== plotting);
-            ended.push(plotting);
-            plotting = null;
-          }
-          if (ask === "cancel" && one !== undefined) {
-            queue.cancel(one);
-            open = open.filter((id) => id !== one);
-            ended.push(one);
-          }
-          const again = ended[at % (ended.length || 1)];
-          if (ask === "requeue" && again !== undefined) {
-            queue.requeue(again);
-            ended = ended.filter((id) => id !== again);
-            open.push(again);
-          }
-          if (ask === "reopen") {
-            store.close();
-            openQueue();
-            // Interrupted, and the user discards it.
-            if (plotting !== null) queue.cancel(plotting);
-            if (plotting !== null) ended.push(plotting);
-            open = open.filter((id) => id !== plotting);
-            plotting = null;
-          }
-          const listed = queue.list();
-          expect(listed.slice(0, open.length).map((job) => job.id)).toEqual(open);
-          expect(new Set(listed.slice(open.length).map((job) => job.id))).toEqual(new Set(ended));
-          expect(listed.filter((job) => job.state === "plotting").map((job) => job.id)).toEqual(
-            plotting === null ? [] : [plotting],
-          );
-        }
-      }),
-      { numRuns: 40 },
-    );
-  });
 });
-
-async function startAfresh(): Promise<void> {
-  await queue.close();
-  for (const job of queue.list()) await queue.remove(job.id);
-  store.close();
-  openQueue();
-}

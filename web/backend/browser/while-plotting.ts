@@ -1,4 +1,4 @@
-/** What the page does for a plot that its own worker runs: keeps the screen on, and asks before it is closed. */
+/** While this page runs a plot: keeps the screen on, and asks before the page is closed. */
 import type { ServerEvent } from "../../../src/schema/index.js";
 import type { HostClient } from "./host-client.js";
 

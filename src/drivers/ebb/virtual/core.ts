@@ -7,15 +7,14 @@
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
-import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
+import { stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
 import { pctFromServoPos, servoPosFromPct } from "../protocol/servo-height.js";
+import { BoardTotals, MAX_JOINED_TICKS, type BoardStatistics } from "./board-totals.js";
 import { DrawnLine, type DrawnPolyline, type LineRecord } from "./drawn-line.js";
 import { RunningMove, type Order } from "../model/orders.js";
 import { FRAME_TICKS, Servo } from "./servo.js";
 import { SwingingLine } from "./swinging-line.js";
 
-/** A gap after a slower move does not count as an underrun. */
-const MOVING_MM_PER_S = 1;
 const BOOT_SERVO_UP = 22_565;
 const BOOT_SERVO_DOWN = 15_302;
 const BOOT_SERVO_RATE = 400;
@@ -31,28 +30,6 @@ export interface VirtualServo {
    * and leaves the paper where a lift begins.
    */
   readonly contactPct?: number;
-}
-
-export interface BoardStatistics {
-  readonly moveCount: number;
-  /** Seconds spent in moves. */
-  readonly movingS: number;
-  /** Seconds in moves, pen waits and delays. */
-  readonly busyS: number;
-  readonly penMoveCount: number;
-  /** Number of times that the queue ran empty while the pen was moving, and the total time. */
-  readonly underrunCount: number;
-  readonly underrunS: number;
-  readonly longestUnderrunS: number;
-  /** Max change of velocity between consecutive moves, starts from rest included. */
-  readonly largestJumpMmPerS: number;
-  /** Max time that one motor of a step-limited move waited for the other. */
-  readonly longestMotorWaitS: number;
-  /** mm moved with the pen down, by motor path. */
-  readonly drawnMm: number;
-  readonly travelMm: number;
-  /** Number of moves that began while the pen's servo was still moving. */
-  readonly movesBeforePenArrivedCount: number;
 }
 
 interface Running {
@@ -97,20 +74,7 @@ export class BoardCore {
   private makesSteps = true;
   /** False: steps are counted, but the motors do not turn (no motor supply), so nothing is drawn. */
   private turnsMotors = true;
-  private readonly totals = {
-    moveCount: 0,
-    movingTicks: 0,
-    busyTicks: 0,
-    penMoveCount: 0,
-    underrunCount: 0,
-    underrunTicks: 0,
-    longestUnderrunTicks: 0,
-    largestJumpMmPerS: 0,
-    longestMotorWaitTicks: 0,
-    drawnMm: 0,
-    travelMm: 0,
-    movesBeforePenArrivedCount: 0,
-  };
+  private readonly totals = new BoardTotals();
   /** End tick and end rates of the last move; null if any other order came after it. */
   private lastMove: { endTick: number; v1: number; v2: number } | null = null;
 
@@ -291,7 +255,7 @@ export class BoardCore {
     this.contactTick = Infinity;
     if (touches !== this.isLifted) return;
     if (contactPct !== undefined) this.contactTick = servo.passTick(servoPosFromPct(machine, contactPct));
-    // The frame in which the last part of the way is done.
+    // The frame that completes the travel.
     else this.contactTick = touches && this.servoOptions ? servo.arrivalTick - FRAME_TICKS : nowTick;
     if (this.contactTick <= nowTick) this.changeContact();
   }
@@ -337,16 +301,7 @@ export class BoardCore {
   }
 
   statistics(): BoardStatistics {
-    const { movingTicks, busyTicks, underrunTicks, longestUnderrunTicks, longestMotorWaitTicks, ...counts } =
-      this.totals;
-    return {
-      ...counts,
-      movingS: sFromTicks(movingTicks),
-      busyS: sFromTicks(busyTicks),
-      underrunS: sFromTicks(underrunTicks),
-      longestUnderrunS: sFromTicks(longestUnderrunTicks),
-      longestMotorWaitS: sFromTicks(longestMotorWaitTicks),
-    };
+    return this.totals.statistics();
   }
 
   private start(order: Order): void {
@@ -378,34 +333,20 @@ export class BoardCore {
       this.mode1 = this.lastMode;
       this.mode2 = this.lastMode;
     }
-    this.totals.moveCount++;
-    if (this.servo.arrivalTick > this.nowTick + 1) this.totals.movesBeforePenArrivedCount++;
+    this.totals.addMove(move, this.servo.arrivalTick > this.nowTick + 1);
     this.noteJoint(move);
-    const { motion1, motion2 } = move;
-    if (motion1.ticks > 0 && motion2.ticks > 0) {
-      const waitTicks = Math.abs(motion1.ticks - motion2.ticks);
-      this.totals.longestMotorWaitTicks = Math.max(this.totals.longestMotorWaitTicks, waitTicks);
-    }
     this.running = { order, startTick: this.nowTick, endTick: this.nowTick + move.ticks, move };
   }
 
-  /** Records the gap and the velocity jump between the last move and this one. */
+  /** Counts the gap and the velocity jump between the last move and this one. */
   private noteJoint(move: RunningMove): void {
-    const { totals } = this;
-    let before = this.lastMove;
-    if (before !== null) {
-      const gapTicks = this.nowTick - before.endTick;
-      const isMoving = this.speedMmPerS(before.v1, before.v2) > MOVING_MM_PER_S;
-      if (gapTicks > 0.5 && isMoving) {
-        totals.underrunCount++;
-        totals.underrunTicks += gapTicks;
-        totals.longestUnderrunTicks = Math.max(totals.longestUnderrunTicks, gapTicks);
-      }
-      if (gapTicks > 0.5) before = null;
-    }
+    const { lastMove } = this;
+    const gapTicks = lastMove === null ? 0 : this.nowTick - lastMove.endTick;
+    if (lastMove !== null) this.totals.addGap(gapTicks, this.speedMmPerS(lastMove.v1, lastMove.v2));
+    const before = gapTicks > MAX_JOINED_TICKS ? null : lastMove;
     const v1 = move.motion1.rateDuring(1) - (before?.v1 ?? 0);
     const v2 = move.motion2.rateDuring(1) - (before?.v2 ?? 0);
-    totals.largestJumpMmPerS = Math.max(totals.largestJumpMmPerS, this.speedMmPerS(v1, v2));
+    this.totals.addJump(this.speedMmPerS(v1, v2));
   }
 
   private speedMmPerS(rate1: number, rate2: number): number {
@@ -435,9 +376,9 @@ export class BoardCore {
     this.steps2 += place2.net;
     this.acc1 = place1.acc;
     this.acc2 = place2.acc;
-    const wayMm = this.speedMmPerS(place1.net * RATE_OF_ONE_STEP_A_S, place2.net * RATE_OF_ONE_STEP_A_S);
-    if (this.isLifted) this.totals.travelMm += wayMm;
-    else this.totals.drawnMm += wayMm;
+    const pathMm = this.speedMmPerS(place1.net * RATE_OF_ONE_STEP_A_S, place2.net * RATE_OF_ONE_STEP_A_S);
+    if (this.isLifted) this.totals.travelMm += pathMm;
+    else this.totals.drawnMm += pathMm;
     this.lastMove = {
       endTick: tick,
       v1: lastRate(move.motion1, done),

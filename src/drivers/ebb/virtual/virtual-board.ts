@@ -17,14 +17,16 @@ import { machineById } from "../../../machines/profiles.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
 import { TICKS_PER_S } from "../../../units.js";
 import type { Clock, Transport } from "../../transport.js";
-import { BoardCore, type BoardStatistics, type VirtualServo } from "./core.js";
+import type { BoardStatistics } from "./board-totals.js";
+import { BoardCore, type VirtualServo } from "./core.js";
 import type { DrawnPolyline } from "./drawn-line.js";
 import { InputLines } from "./input.js";
 import { Interpreter } from "./interpreter.js";
 import { VirtualLink } from "./link.js";
 import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 
-export type { BoardStatistics, VirtualServo } from "./core.js";
+export type { BoardStatistics } from "./board-totals.js";
+export type { VirtualServo } from "./core.js";
 export type { DrawnPolyline } from "./drawn-line.js";
 
 /** Min supply voltage at which the motors turn. */

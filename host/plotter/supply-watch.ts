@@ -1,0 +1,79 @@
+/** Watches the motor supply of a connected machine. Asking also detects a board that no longer answers. */
+import type { Clock } from "../../src/index.js";
+import type { Machine } from "../../src/internal.js";
+
+const ASK_EVERY_S = 2;
+
+export interface SupplyEvents {
+  /** Whether the machine is free to be asked. */
+  mayAsk(): boolean;
+  lost(): void;
+  restored(): void;
+}
+
+export class SupplyWatch {
+  #isLow = false;
+  #wasReadLow = false;
+  #machine: Machine | null = null;
+  #cancel: (() => void) | null = null;
+  readonly #clock: Clock;
+  readonly #events: SupplyEvents;
+
+  constructor(clock: Clock, events: SupplyEvents) {
+    this.#clock = clock;
+    this.#events = events;
+  }
+
+  get isLow(): boolean {
+    return this.#isLow;
+  }
+
+  /** Asks this machine from now on, until another is watched or `stop` is called. */
+  watch(machine: Machine): void {
+    this.stop();
+    this.#isLow = false;
+    this.#machine = machine;
+    this.#askLater(machine);
+  }
+
+  stop(): void {
+    this.#cancel?.();
+    this.#machine = null;
+  }
+
+  /**
+   * A reading that came during a plot. Only two low ones in a row count: with a second program on the port, an answer
+   * may be mistaken.
+   */
+  read(isLow: boolean): void {
+    if (isLow && this.#wasReadLow) this.#lost();
+    this.#wasReadLow = isLow;
+  }
+
+  #askLater(machine: Machine): void {
+    this.#cancel = this.#clock.after(ASK_EVERY_S, () => {
+      const asked = this.#events.mayAsk() ? this.#ask(machine) : Promise.resolve();
+      // A lost connection is reported by the machine's own event.
+      asked
+        .catch(() => undefined)
+        .finally(() => {
+          if (this.#machine === machine) this.#askLater(machine);
+        });
+    });
+  }
+
+  async #ask(machine: Machine): Promise<void> {
+    const isLow = (await machine.isSupplyLow()) && (await machine.isSupplyLow());
+    if (isLow) this.#lost();
+    else if (this.#isLow) {
+      this.#isLow = false;
+      this.#events.restored();
+    }
+  }
+
+  #lost(): void {
+    if (this.#isLow) return;
+    this.#isLow = true;
+    this.#events.lost();
+  }
+}
