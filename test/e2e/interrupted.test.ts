@@ -135,12 +135,12 @@ describe("a plot whose server was killed", () => {
 
   it("is shown there when it is resumed and held, after a reload too", { timeout: PATIENCE_MS }, async () => {
     const { id } = await theJob();
-    await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
+    await statusCard(page).getByRole("button", { name: "Go on from there" }).click();
     await expect.poll(async () => (await theJob()).state).toBe("paused");
     await expectPartlyDrawn("Paused");
     await page.reload();
     await expectPartlyDrawn("Paused");
-    await fetch(`${server.url}/api/v1/jobs/${id}/cancel`, { method: "POST" });
+    await page.request.post(`${server.url}/api/v1/jobs/${id}/cancel`);
     await expect.poll(async () => (await theJob()).state).toBe("cancelled");
   });
 });
@@ -159,7 +159,7 @@ describe("a plot that waits for a pen", { timeout: PATIENCE_MS }, () => {
 
   it("is shown there when it was cancelled and is opened again, after a reload too", async () => {
     const { id } = await theJob(TWO_PENS);
-    await fetch(`${server.url}/api/v1/jobs/${id}/cancel`, { method: "POST" });
+    await page.request.post(`${server.url}/api/v1/jobs/${id}/cancel`);
     await expect.poll(async () => (await theJob(TWO_PENS)).state).toBe("cancelled");
     await historyPanel(page)
       .getByRole("button", { name: `Go on from where it was cancelled: ${TWO_PENS}` })
