@@ -3,3 +3,5 @@ export declare function ensureDependencies(): void;
 export declare function ensureBuild(): void;
 /** A file of a package in node_modules. */
 export declare function nodeModule(...parts: string[]): string;
+/** Options of `serve` that npm took for itself, such as --port. */
+export declare function optionsTakenByNpm(env: NodeJS.ProcessEnv): string[];

@@ -22,10 +22,22 @@ const inRoot = (...parts) => path.join(ROOT, ...parts);
 const OLDEST_NODE = [20, 19];
 
 /** Prints advice and ends the process: for faults that only the user can fix. */
-export function giveUp(message) {
+export function giveUp(message, exitCode = 1) {
   console.error(`\nplotwright: ${message}`);
-  process.exit(1);
+  process.exit(exitCode);
 }
+
+/** Options of `serve` that npm does not have. (It has its own --cert and --key, which may be in its settings.) */
+const SERVE_OPTIONS = [
+  ...["device", "virtual-speed", "virtual-springs", "data", "port", "host", "lan", "mdns", "pair-always"],
+  ...["allow-host", "watch", "shared-queue", "max-upload-mb", "open"],
+];
+
+/** Without `--`, as in `npm start --port 9381`, npm takes an option and passes it only in the environment. */
+export const optionsTakenByNpm = (env) =>
+  SERVE_OPTIONS.filter((name) => env[`npm_config_${name.replaceAll("-", "_")}`] !== undefined).map(
+    (name) => `--${name}`,
+  );
 
 export function checkNode() {
   const [major = 0, minor = 0] = process.versions.node.split(".").map(Number);

@@ -1,7 +1,14 @@
 /** `npm start [-- options]`: install, build, serve. Options after -- go to `plotwright serve`. */
 import { spawn } from "node:child_process";
-import { ROOT, checkNode, ensureBuild, ensureDependencies } from "./setup.mjs";
+import { ROOT, checkNode, ensureBuild, ensureDependencies, giveUp, optionsTakenByNpm } from "./setup.mjs";
 
+const [taken] = optionsTakenByNpm(process.env);
+if (taken !== undefined) {
+  giveUp(
+    `npm took ${taken} for itself. Put -- before the options of plotwright: npm start -- --port 9381`,
+    2,
+  );
+}
 checkNode();
 ensureDependencies();
 ensureBuild();

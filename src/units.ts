@@ -48,7 +48,8 @@ const isUnit = (word: string): word is keyof typeof MM_PER_UNIT => Object.hasOwn
 
 /** "12", "12mm", "1.2 cm", "8.5in"; null for anything else. */
 export function parseLength(text: string): number | null {
-  const [, amount, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+))\s*([a-z"]*)$/.exec(text.trim().toLowerCase()) ?? [];
+  const [, amount, unit] =
+    /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*([a-z"]*)$/.exec(text.trim().toLowerCase()) ?? [];
   const word = unit === "" ? "mm" : unit;
   if (amount === undefined || word === undefined || !isUnit(word)) return null;
   const mm = mmFromLength(Number(amount), word);

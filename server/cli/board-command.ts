@@ -16,6 +16,6 @@ export const declareBoard: Declare = (command, { io }) => {
       ).argParser(springs),
     )
     .option("--machine <id>", "plotter model (default: axidraw-v3)")
-    .option("--svg <file>", "where what was drawn goes (default: drawn.svg)")
+    .option("--svg <file>", "where what was drawn goes, or - for stdout (default: drawn.svg)")
     .action((options: BoardCommandOptions) => runBoard(options, io));
 };

@@ -2,12 +2,13 @@
  * `plotwright board --pty PATH`: a virtual EiBotBoard behind a pseudo-terminal, for any program that drives one.
  * On exit it reports what was drawn, and saves it as SVG.
  */
-import { lstatSync, readlinkSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { lstatSync, readlinkSync, rmSync, symlinkSync } from "node:fs";
 import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { applyFault, faultHelp } from "./board-faults.js";
 import { fileFault } from "../storage/file-fault.js";
+import { writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 
 export interface BoardCommandOptions {
@@ -144,10 +145,11 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
     rmSync(options.pty, { force: true });
     await ptyBoard.close();
   }
-  io.out(summary(board));
   const svg = options.svg ?? "drawn.svg";
-  writeDrawing(svg, board, machine);
-  io.err(`What it drew is in ${svg}.\n`);
+  if (svg === "-") io.err(summary(board));
+  else io.out(summary(board));
+  writeOut(svg, drawnSvg(board, machine), io);
+  if (svg !== "-") io.err(`What it drew is in ${svg}.\n`);
 }
 
 /** Plugs in a board that dropped its connection again after a second. Rejects if that fails. */
@@ -209,16 +211,6 @@ function pathOf(xy: Float64Array): string {
     d += `${i === 0 ? "M" : "L"}${Number(xy[i].toFixed(4))} ${Number(xy[i + 1].toFixed(4))}`;
   }
   return xy.length === 2 ? `${d}h0` : d;
-}
-
-function writeDrawing(path: string, board: VirtualBoard, machine: MachineProfile): void {
-  try {
-    writeFileSync(path, drawnSvg(board, machine));
-  } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, {
-      cause,
-    });
-  }
 }
 
 /** Throws if `path` is anything but a link. */

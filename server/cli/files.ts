@@ -1,29 +1,57 @@
 /** Files of the command line, where "-" is stdin or stdout. */
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { accessSync, constants, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { basename, join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import { fileFault } from "../storage/file-fault.js";
 import type { CliIo } from "./io.js";
-import { readStdin } from "./stdin.js";
+import { readStdin, type StdinUse } from "./stdin.js";
 
-export const readText = (path: string): string =>
-  path === "-" ? Buffer.from(readStdin()).toString("utf8") : readFileSync(path, "utf8");
+/** Throws the system's error. */
+export const readText = (path: string, use: StdinUse): string =>
+  path === "-" ? Buffer.from(readStdin(use)).toString("utf8") : readFileSync(path, "utf8");
 
 /** The name for messages. */
 export const nameOf = (file: string): string => (file === "-" ? "stdin" : file);
 
-/** The drawing as a file, for threads that read it by its path. Stdin is written to a temporary file during `use`. */
-export async function withDrawingFile<T>(file: string, use: (path: string) => Promise<T>): Promise<T> {
-  if (file !== "-") return use(resolve(file));
-  const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));
-  try {
-    const path = join(folder, "stdin");
-    writeFileSync(path, readStdin());
-    return await use(path);
-  } finally {
-    rmSync(folder, { recursive: true, force: true });
+/** Checks all drawings before the first one is used; throws `bad-file` for one that can't be read. */
+export function mustBeReadable(files: readonly string[]): void {
+  for (const file of files.filter((one) => one !== "-")) {
+    try {
+      accessSync(file, constants.R_OK);
+    } catch (cause) {
+      throw new PlotwrightError("bad-file", `${file} can't be read: ${fileFault(cause)}.`, { cause });
+    }
   }
+}
+
+/**
+ * The drawing as a file, for threads that read it by its path. Stdin and pipes, which can be read only once, are
+ * written to a temporary file during `use`. Errors in the drawing name it.
+ */
+export async function withDrawingFile<T>(file: string, use: (path: string) => Promise<T>): Promise<T> {
+  try {
+    if (file !== "-" && !isPipe(file)) return await use(resolve(file));
+    const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));
+    try {
+      const path = join(folder, "stdin");
+      writeFileSync(path, file === "-" ? readStdin("the drawing") : readFileSync(file));
+      return await use(path);
+    } finally {
+      rmSync(folder, { recursive: true, force: true });
+    }
+  } catch (error) {
+    throw naming(nameOf(file), error);
+  }
+}
+
+const isPipe = (file: string): boolean => statSync(file, { throwIfNoEntry: false })?.isFIFO() === true;
+
+/** The error, with the drawing's name if the drawing is at fault. */
+function naming(name: string, error: unknown): unknown {
+  if (!(error instanceof PlotwrightError) || !["bad-file", "too-large"].includes(error.code)) return error;
+  if (error.message.includes(basename(name))) return error;
+  return new PlotwrightError(error.code, `${name}: ${error.message}`, { cause: error });
 }
 
 export function writeOut(path: string, text: string, io: Pick<CliIo, "out">): void {

@@ -13,6 +13,7 @@ function hint(word: string, commands: readonly string[]): string {
   }
   if (word === "recover" || word === "resume")
     return "To continue a drawing that was begun: plotwright plot --resume";
+  if (word === "version") return "To print the version: plotwright --version";
   const near = nearest(word, commands);
   if (near !== null) return `Did you mean ${near}?`;
   return `The commands are ${commands.join(", ")}.`;

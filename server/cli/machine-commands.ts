@@ -7,6 +7,7 @@ import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import type { DeviceOptions } from "./options.js";
+import { serverHint } from "./server-client.js";
 
 /** Up, down or a height in percent. */
 export type PenPlace = "up" | "down" | number;
@@ -86,7 +87,9 @@ export async function withPlotter<T>(
   settings: PlotSettings,
   use: (plotter: PlotterPort) => Promise<T> | T,
 ): Promise<T> {
-  const plotter = await openPlotter(options, settings);
+  const plotter = await openPlotter(options, settings).catch(async (error: unknown) => {
+    throw await serverHint(error);
+  });
   try {
     return await use(plotter);
   } finally {

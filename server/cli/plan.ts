@@ -1,4 +1,5 @@
 /** `plotwright plan FILE.svg`: time, distance and commands of a plot, without a board. Runs in a thread: see plan-thread.ts. */
+import { basename } from "node:path";
 import {
   PlotwrightError,
   importDrawing,
@@ -110,7 +111,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
 function planFile(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): Planned {
   const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
-  const drawing = importDrawing(file, readDrawing(file));
+  const drawing = importDrawing(basename(file), readDrawing(file));
   const importMs = clock();
   io.begin("prepare");
   const settings = withOnlyLayers(drawing, base, options.only);

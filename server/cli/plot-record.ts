@@ -17,8 +17,10 @@ const plotSchema = z.object({
   only: z.array(z.string()).optional(),
   pid: z.number(),
 });
+const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
 const entrySchema = z.object({
-  place: z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) }),
+  place: placeSchema,
+  sent: placeSchema.optional(),
   progress: z.number(),
 });
 
@@ -33,6 +35,7 @@ export interface Plotted {
 /** An interrupted plot. */
 export interface CutShort extends Plotted {
   readonly from: JournalEntry["place"];
+  readonly sent: JournalEntry["sent"];
   /** 0 … 1. */
   readonly progress: number;
 }
@@ -89,7 +92,8 @@ export class PlotRecord {
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
     if (plot.data.pid !== process.pid && isRunning(plot.data.pid)) return null;
     const { name, settings, only } = plot.data;
-    return { name, settings, only, from: entry.data.place, progress: entry.data.progress };
+    const { place, sent, progress } = entry.data;
+    return { name, settings, only, from: place, sent, progress };
   }
 
   /** Throws `not-found`. */

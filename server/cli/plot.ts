@@ -11,13 +11,12 @@ import { WorkerPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { JournalEntry, PlotStart } from "../../host/plotter/types.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
-import { nameOf, withDrawingFile } from "./files.js";
+import { mustBeReadable, nameOf, withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import { withPlotter } from "./machine-commands.js";
 import type { DeviceOptions } from "./options.js";
 import { PlotRecord, type CutShort } from "./plot-record.js";
 import { cancelled, waitForPaper, watch } from "./plot-watch.js";
-import { serverHint } from "./server-client.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
   readonly only?: readonly string[];
@@ -35,6 +34,7 @@ interface Plot {
   readonly settings: PlotSettings;
   readonly only: readonly string[] | undefined;
   readonly from: CutShort["from"] | null;
+  readonly sent: CutShort["sent"];
 }
 
 /** Returns the exit code: 0, or 5 when it was cancelled. Failures are thrown. */
@@ -54,10 +54,12 @@ export async function runPlot(
   }
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   mustHaveEnded(record, options);
+  mustBeReadable(files);
   for (const [index, file] of jobs.entries()) {
     if (index > 0 && !(await waitForPaper(nameOf(file), options.paperS, io))) return cancelled(io);
     const code = await withDrawingFile(file, (path) => {
-      const plot: Plot = { name: basename(nameOf(file)), path, settings, only: options.only, from: null };
+      const { only } = options;
+      const plot: Plot = { name: basename(nameOf(file)), path, settings, only, from: null, sent: undefined };
       return plotOne(plot, { begin: () => record.begin(path, plot), record }, options, io);
     });
     if (code !== 0) return code;
@@ -113,8 +115,6 @@ async function plotOne(
       return await withPlotter(options, settings, (plotter) => {
         forget();
         return onPlotter(plotter, planner, plot, keep, options, io);
-      }).catch(async (error: unknown) => {
-        throw await serverHint(error);
       });
     } finally {
       await planner.close();
@@ -132,7 +132,7 @@ async function plotOne(
 async function onPlotter(
   plotter: PlotterPort,
   planner: WorkerPlanner,
-  { name, settings, from }: Plot,
+  { name, settings, from, sent }: Plot,
   { begin, record }: { readonly begin: () => void; readonly record: PlotRecord },
   options: PlotCommandOptions,
   io: CliIo,
@@ -142,7 +142,7 @@ async function onPlotter(
   begin();
   const journal = { record: (entry: JournalEntry) => record.save(entry, progress) };
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
-  const start: PlotStart = { from, journal, held: from !== null && io.hasKeyboard };
+  const start: PlotStart = { from, sent, journal, held: from !== null && io.hasKeyboard };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : { isLost };

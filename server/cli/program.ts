@@ -3,6 +3,7 @@ import { Command, CommanderError } from "commander";
 import { COMMANDS, DEFAULT_COMMAND } from "./commands.js";
 import type { CliIo } from "./io.js";
 import type { CommandContext } from "./options.js";
+import { usageInWords } from "./usage-words.js";
 
 /** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
 const BAD_USAGE = 2;
@@ -13,7 +14,7 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
   let exitCode = 0;
   const context: CommandContext = { io, version, setExitCode: (code) => (exitCode = code) };
   try {
-    await mustBeCommand(args[0]);
+    await mustBeCommand(args[0] === "help" ? args[1] : args[0]);
     const program = await buildProgram(wantedOf(args), context);
     await program.parseAsync([...args], { from: "user" });
     return exitCode;
@@ -37,13 +38,14 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
   const { io, version } = context;
   const program = new Command("plotwright")
     .description("Pen-plotter control for AxiDraw, NextDraw, EggBot and other EiBotBoard machines")
-    .version(version, "--version", "print the version")
+    .version(version, "-v, --version", "print the version")
     .exitOverride()
     .showSuggestionAfterError()
     .configureOutput({
       writeOut: (text) => io.out(text),
       writeErr: (text) => io.err(text),
-      outputError: (text, write) => write(`plotwright: ${inWords(oneLine(text.replace(/^error: /, "")))}\n`),
+      outputError: (text, write) =>
+        write(`plotwright: ${usageInWords(oneLine(text.replace(/^error: /, "")), wanted[0])}\n`),
     });
   for (const { name, about, examples, load } of COMMANDS) {
     const command = program
@@ -58,7 +60,7 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
 }
 
 /** Options without a command belong to the default command, except these, which the program itself handles. */
-const OF_PROGRAM = ["--help", "-h", "--version"];
+const OF_PROGRAM = ["--help", "-h", "--version", "-v"];
 
 function wantedOf(args: readonly string[]): string[] {
   const [first, second] = args;
@@ -73,13 +75,5 @@ async function mustBeCommand(word: string | undefined): Promise<void> {
   const { notACommand } = await import("./first-word.js");
   throw notACommand(word, names);
 }
-
-/** An extra word is usually an option without its name. */
-const inWords = (text: string): string =>
-  text.replace(
-    /^too many arguments for '(.+)'\. Expected (\d+) arguments? but got (\d+)\.$/,
-    (_, name: string, expected: string, got: string) =>
-      `${name} takes ${expected === "0" ? "no arguments" : `at most ${expected} argument${expected === "1" ? "" : "s"}`}, got ${got}. Options begin with --, such as --port 9381; names with blanks need quotes. See plotwright ${name} --help.`,
-  );
 
 const oneLine = (text: string): string => text.trim().replace(/\s*\n\s*/g, " ");

@@ -1,15 +1,15 @@
 /** Commands to a running server's queue. */
-import { Option, type Command } from "commander";
+import { InvalidArgumentError, Option, type Command } from "commander";
 import { basename } from "node:path";
-import { importDrawing } from "../../src/index.js";
+import { importDrawing, PlotwrightError } from "../../src/index.js";
 import { textOfBytes } from "../../src/internal.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readBytes } from "../planning/read-drawing.js";
-import { nameOf, withDrawingFile } from "./files.js";
+import { mustBeReadable, nameOf, withDrawingFile } from "./files.js";
 import { addData, addJson, copies, type Declare } from "./options.js";
 import { minutes } from "./plan.js";
-import { addJob, DEFAULT_URL, serverState, type ServerOptions } from "./server-client.js";
+import { addJob, DEFAULT_URL, serverState, type ServerOptions, type ServerState } from "./server-client.js";
 import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
 
 interface AddOptions extends ServerOptions {
@@ -26,25 +26,27 @@ export const declareAdd: Declare = (command, { io }) => {
     .option("--plotter <id>", "which of the server's plotters (default: its first one)")
     .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: AddOptions & OptionValues) => {
-      const { plotters } = await serverState(options);
-      const plotter = plotters.find(({ id }) => id === (options.plotter ?? plotters[0]?.id));
+      const plotter = plotterOf(await serverState(options), options.plotter);
       // The plotter's own model, unless the user names one.
       const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
       const base = settingsFromOptions(machine ? { ...options, machine } : options);
+      mustBeReadable(files);
       for (const file of files) {
-        const drawing = await withDrawingFile(file, (path) => Promise.resolve(readBytes(path)));
-        const settings =
-          options.only === undefined
-            ? base
-            : withOnlyLayers(importDrawing(file, textOfBytes(drawing)), base, options.only);
-        const wanted = {
-          name: basename(nameOf(file)),
-          settings,
-          copies: options.copies,
-          ...(options.plotter === undefined ? {} : { plotterId: options.plotter }),
-        };
-        const job = await addJob(options, wanted, drawing);
-        if (options.quiet !== true) io.out(`${job.id}\t${job.name}\t${timeOf(job)}\n`);
+        await withDrawingFile(file, async (path) => {
+          const drawing = readBytes(path);
+          const settings =
+            options.only === undefined
+              ? base
+              : withOnlyLayers(importDrawing(file, textOfBytes(drawing)), base, options.only);
+          const wanted = {
+            name: basename(nameOf(file)),
+            settings,
+            copies: options.copies,
+            ...(options.plotter === undefined ? {} : { plotterId: options.plotter }),
+          };
+          const job = await addJob(options, wanted, drawing);
+          if (options.quiet !== true) io.out(`${job.id}\t${job.name}\t${timeOf(job)}\n`);
+        });
       }
     });
 };
@@ -61,8 +63,28 @@ export const declareQueue: Declare = (command, { io }) => {
 
 const addServer = (command: Command): Command =>
   command
-    .option("--url <url>", "where the server is", DEFAULT_URL)
+    .option("--url <url>", "where the server is", serverUrl, DEFAULT_URL)
     .addOption(new Option("--key <key>", "access key of a server on another computer").env("PLOTWRIGHT_KEY"));
+
+function serverUrl(text: string): string {
+  if (!/^https?:\/\//.test(text) || !URL.canParse(text)) {
+    throw new InvalidArgumentError(`It must be an address such as ${DEFAULT_URL}.`);
+  }
+  return text;
+}
+
+/** The server's first plotter, or the one with that id. */
+function plotterOf(
+  { plotters }: ServerState,
+  id: string | undefined,
+): ServerState["plotters"][number] | undefined {
+  const plotter = id === undefined ? plotters[0] : plotters.find((one) => one.id === id);
+  if (id === undefined || plotter !== undefined) return plotter;
+  throw new PlotwrightError(
+    "bad-setting",
+    `--plotter: the server has no plotter ${id}. It has ${plotters.map((one) => one.id).join(", ")}.`,
+  );
+}
 
 const line = (job: Job): string =>
   [job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name].join("\t");

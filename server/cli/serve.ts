@@ -1,10 +1,11 @@
 /** `plotwright serve`: runs until it is stopped. */
 import { spawn } from "node:child_process";
-import { readFileSync } from "node:fs";
 import { PlotwrightError } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { createServer, type PlotwrightServer, type ServerOptions } from "../composition/create-server.js";
 import { lanAddresses, pairingText } from "../security/network.js";
+import { fileFault } from "../storage/file-fault.js";
+import { readText } from "./files.js";
 import type { CliIo } from "./io.js";
 
 /** Time limit after everything has been closed. */
@@ -80,14 +81,15 @@ function tlsOf({ cert, key }: ServeCommandOptions): Pick<ServerOptions, "tls"> {
   if (cert === undefined || key === undefined) {
     throw new PlotwrightError("bad-setting", "--cert and --key go together.");
   }
-  return { tls: { cert: readPem(cert), key: readPem(key) } };
+  return { tls: { cert: readPem("--cert", cert), key: readPem("--key", key) } };
 }
 
-function readPem(path: string): string {
+function readPem(option: "--cert" | "--key", path: string): string {
   try {
-    return readFileSync(path, "utf8");
+    return readText(path, option);
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be read: ${(cause as Error).message}.`, {
+    if (cause instanceof PlotwrightError) throw cause;
+    throw new PlotwrightError("bad-setting", `${option} ${path} can't be read: ${fileFault(cause)}.`, {
       cause,
     });
   }

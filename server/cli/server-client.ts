@@ -1,7 +1,7 @@
 /** A client for a running server's HTTP interface (docs/api.md). */
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
-import { jobSchema, type Job, type NewJob } from "../../src/schema/index.js";
+import { apiErrorSchema, jobSchema, meSchema, type Job, type NewJob } from "../../src/schema/index.js";
 
 export const DEFAULT_URL = "http://127.0.0.1:9080";
 
@@ -19,10 +19,9 @@ const stateSchema = z.object({
 export type ServerState = z.infer<typeof stateSchema>;
 
 const uploadSchema = z.object({ id: z.string() });
-const faultSchema = z.object({ error: z.object({ message: z.string() }) });
 
 export async function serverState(options: ServerOptions): Promise<ServerState> {
-  return stateSchema.parse(await ask(options, "state"));
+  return ask(options, "state", stateSchema);
 }
 
 /** Uploads the drawing's file as it is, then adds the job. */
@@ -31,50 +30,69 @@ export async function addJob(
   job: Omit<NewJob, "drawing" | "drawingId">,
   drawing: Buffer<ArrayBuffer>,
 ): Promise<Job> {
-  const upload = await ask(options, "drawings", { method: "POST", body: drawing });
-  const { id: drawingId } = uploadSchema.parse(upload);
+  const { id: drawingId } = await ask(options, "drawings", uploadSchema, { method: "POST", body: drawing });
   const body = JSON.stringify({ ...job, drawingId } satisfies NewJob);
   const headers = { "Content-Type": "application/json" };
-  return jobSchema.parse(await ask(options, "jobs", { method: "POST", body, headers }));
+  return ask(options, "jobs", jobSchema, { method: "POST", body, headers });
 }
 
-async function ask({ url, key }: ServerOptions, path: string, init: RequestInit = {}): Promise<unknown> {
+async function ask<T>(
+  { url, key }: ServerOptions,
+  path: string,
+  schema: z.ZodType<T>,
+  init: RequestInit = {},
+): Promise<T> {
   const headers = { ...init.headers, ...(key === undefined ? {} : { Authorization: `Bearer ${key}` }) };
-  let response: Response;
-  try {
-    response = await fetch(new URL(`/api/v1/${path}`, url), { ...init, headers });
-  } catch (cause) {
+  const response = await fetch(new URL(`/api/v1/${path}`, url), { ...init, headers }).catch(
+    (cause: unknown) => {
+      throw new PlotwrightError("disconnected", noAnswer(url, cause), { cause });
+    },
+  );
+  const answer: unknown = await response.json().catch(() => null);
+  const result = schema.safeParse(answer);
+  if (response.ok && result.success) return result.data;
+  const fault = apiErrorSchema.safeParse(answer);
+  if (response.ok || !fault.success) {
     throw new PlotwrightError(
-      "disconnected",
-      `No plotwright server answers at ${url}. Start one with plotwright serve, or give its address with --url.`,
-      { cause },
+      "bad-setting",
+      `${url} is not a plotwright server, or one of another version: its answer (status ${response.status}) has another form. Check --url.`,
     );
   }
-  const answer: unknown = await response.json().catch(() => null);
-  if (response.ok) return answer;
-  const fault = faultSchema.safeParse(answer);
-  const why = fault.success ? fault.data.error.message : `it answered ${response.status}`;
-  throw new PlotwrightError(
-    response.status === 422 ? "bad-file" : response.status === 403 ? "not-allowed" : "bad-setting",
-    `The server at ${url} refused it: ${why}`,
-  );
+  const { code, message } = fault.data.error;
+  const hint =
+    response.status === 403 && key === undefined
+      ? " Or give an access key, with --key or in PLOTWRIGHT_KEY; it is made on the server's page, under Share."
+      : "";
+  throw new PlotwrightError(code, `The server at ${url} refused it: ${message}${hint}`);
+}
+
+/** `cause`: the error of fetch, whose own cause has a code. */
+function noAnswer(url: string, cause: unknown): string {
+  const code = String((cause as { cause?: { code?: unknown } }).cause?.code);
+  if (/CERT|SIGNATURE/.test(code)) {
+    return `The certificate of ${url} is not trusted (${code}). If it is your own, set the environment variable NODE_EXTRA_CA_CERTS to its file.`;
+  }
+  if (/SSL|SOCKET|EPROTO/.test(code)) {
+    const other = url.startsWith("https:") ? url.replace("https:", "http:") : url.replace("http:", "https:");
+    return `No plotwright server answers at ${url}. Does it answer at ${other}?`;
+  }
+  return `No plotwright server answers at ${url}. Start one with plotwright serve, or give its address with --url.`;
 }
 
 const PATIENCE_MS = 1_000;
 
-/** The error for a plotter that could not be opened, with advice if a server on this computer uses it. */
+/** The error for a plotter that could not be opened, with advice if a server on this computer may have it open. */
 export async function serverHint(error: unknown): Promise<unknown> {
   if (!(error instanceof PlotwrightError) || !["no-board", "busy"].includes(error.code)) return error;
-  const isThere = await fetch(new URL("/api/v1/me", DEFAULT_URL), {
-    signal: AbortSignal.timeout(PATIENCE_MS),
-  }).then(
-    (response) => response.ok,
-    () => false,
-  );
-  if (!isThere) return error;
+  const signal = AbortSignal.timeout(PATIENCE_MS);
+  const answer: unknown = await fetch(new URL("/api/v1/me", DEFAULT_URL), { signal })
+    .then((response) => response.json())
+    .catch(() => null);
+  // It may require a key, and refuse this request.
+  if (!meSchema.safeParse(answer).success && !apiErrorSchema.safeParse(answer).success) return error;
   return new PlotwrightError(
     error.code,
-    `${error.message} A plotwright server runs at ${DEFAULT_URL}, which may use the plotter: plotwright add FILE puts a drawing into its queue.`,
+    `${error.message} A plotwright server runs at ${DEFAULT_URL} and may use the plotter: move it there, or put a drawing into its queue with plotwright add FILE.`,
     { cause: error },
   );
 }

@@ -55,7 +55,8 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
   if (isOwnSize(size)) setPath(settings, ["prepare", "landscape"], size.widthMm > size.heightMm);
   const { machineFile, machine } = values;
   if (machine !== undefined) settings["machine"] = machine;
-  if (typeof machineFile === "string") setMachine(settings, readMachine(machineFile));
+  if (typeof machineFile === "string")
+    setMachine(settings, fromFile("--machine-file", machineFile, machineOfText));
   setSprings(settings, values);
   setQuality(settings, values);
   for (const option of SETTING_OPTIONS.filter(isStored)) {
@@ -141,11 +142,14 @@ function setMachine(settings: Record<string, unknown>, machine: MachineProfile):
   settings["customMachine"] = machine;
 }
 
-function readMachine(path: string): MachineProfile {
+/** Reads a JSON file; an error names the option and the file. */
+function fromFile<T>(option: "--config" | "--machine-file", path: string, read: (text: string) => T): T {
   try {
-    return machineOfText(readText(path));
+    return read(readText(path, option));
   } catch (cause) {
-    throw new PlotwrightError("bad-setting", `--machine-file ${path}: ${whyNotJson(cause)}.`, { cause });
+    if (cause instanceof PlotwrightError) throw cause;
+    const why = cause instanceof SyntaxError ? `it is not JSON (${cause.message})` : fileFault(cause);
+    throw new PlotwrightError("bad-setting", `${option} ${path}: ${why}.`, { cause });
   }
 }
 
@@ -155,19 +159,12 @@ const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSetti
 
 const dataDirOf = ({ data }: OptionValues): string => (typeof data === "string" ? data : defaultDataDir());
 
-function readConfig(path: string): Record<string, unknown> {
-  try {
-    const value: unknown = JSON.parse(readText(path));
+const readConfig = (path: string): Record<string, unknown> =>
+  fromFile("--config", path, (text) => {
+    const value: unknown = JSON.parse(text);
     if (isRecord(value)) return value;
     throw new Error("it is not a JSON object");
-  } catch (cause) {
-    throw new PlotwrightError("bad-setting", `--config ${path}: ${whyNotJson(cause)}.`, { cause });
-  }
-}
-
-/** Why a JSON file cannot be used. */
-const whyNotJson = (cause: unknown): string =>
-  cause instanceof SyntaxError ? `it is not JSON (${cause.message})` : fileFault(cause);
+  });
 
 /** Merges the file's values into the settings. An unknown name is an error. */
 function merge(

@@ -94,7 +94,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     closing.addUrgent("the port", () => stopListening(http, parts.hub));
     const { port } = http.address() as AddressInfo;
     for (const plugin of plugins) plugin.listening?.({ port, isTls });
-    log(`plotwright ${parts.version} listens on port ${port}, with ${registry.list().length} plotter(s)`);
+    log(`plotwright ${parts.version} listens on port ${port}, plotters: ${registry.list().length}`);
     return { url: urlOf(http, isTls), pairing: paths, close: () => closing.run() };
   } catch (error) {
     await closing.run();
@@ -115,7 +115,7 @@ async function openParts(
   const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
   const unclaimedCount = await files.sweep((drawing) => store.isUsed(drawing));
   if (unclaimedCount > 0)
-    log(`${unclaimedCount} drawing(s) that belong to no job were moved to ${files.unclaimedDir}`);
+    log(`Drawings that belong to no job were moved to ${files.unclaimedDir}: ${unclaimedCount}`);
   const uploads = new UploadedDrawings(files, log);
   closing.add("the uploaded drawings", () => uploads.close());
   const hub = new EventHub();

@@ -45,13 +45,15 @@ export function requireRole(
       return;
     }
     log(`refused ${request.method} ${request.path} from ${request.socket.remoteAddress ?? "?"}`);
-    throw new PlotwrightError(
-      "not-allowed",
-      role === null
-        ? "Pair this device first: open the link or scan the QR code that the server shows on its own computer."
-        : "This device may only watch. To operate, pair it with the link for operating.",
-    );
+    throw new PlotwrightError("not-allowed", whyNot(request, role));
   };
+}
+
+function whyNot({ headers }: Request, role: Role | null): string {
+  if (role !== null) return "This device may only watch. To operate, pair it with the link for operating.";
+  return headers.authorization === undefined
+    ? "Pair this device first: open the link or scan the QR code that the server shows on its own computer."
+    : "This access key is not valid: it may have been revoked. Make another one on the server's page, under Share.";
 }
 
 /** Whether a job is on a plotter now. */

@@ -99,8 +99,10 @@ function readerOf(name: string, text: string): Reader {
   // The SVG reader recognises PDF, PNG and others, and names them in its error.
   if (/^(%|\u0089|\ufffd|\u001f|GIF8|PK)/.test(text)) return READERS.svg;
   const names = DRAWING_FORMATS.map((one) => FORMATS[one].name);
+  const why =
+    text.trim() === "" ? "it is empty" : `it is neither ${names.slice(0, -1).join(", ")} nor ${names.at(-1)}`;
   throw new PlotwrightError(
     "bad-file",
-    `${name || "The file"} cannot be read as a drawing: it is neither ${names.slice(0, -1).join(", ")} nor ${names.at(-1)}. Export it as SVG.`,
+    `${name || "The file"} cannot be read as a drawing: ${why}. Export it as SVG.`,
   );
 }

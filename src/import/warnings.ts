@@ -84,7 +84,7 @@ const WORDS = {
   "not-supported": (n: number, details: string) =>
     `${many(n, "object is", "objects are")} of a type that is not drawn${details}. Convert to plain lines and curves.`,
   "empty-drawing": () =>
-    "There is nothing to draw in this file: no visible line or filled shape. See the other notes, or check that its layers are shown.",
+    "There is nothing to draw in this file: no visible line or filled shape. Check that its layers are shown, and that its shapes have a stroke or a fill.",
 } satisfies Record<string, (count: number, details: string) => string>;
 
 export type WarningCode = keyof typeof WORDS;

@@ -1,5 +1,8 @@
 /** `plotwright plot`, and what it leaves for a server's queue. */
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { execFileSync, spawn } from "node:child_process";
+import { createServer as createHttpServer } from "node:http";
+import type { AddressInfo } from "node:net";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
@@ -68,13 +71,15 @@ describe("plotwright plot", () => {
       const record = new PlotRecord(dir, "virtual");
       const cutShort = (): void => {
         record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
-        const entry = { place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 };
-        record.save(entry, 0.4);
+        const [place, sent] = [3, 4].map((alongMm) => ({ stroke: 0, alongMm }));
+        record.save({ place, sent, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
       };
       cutShort();
       const refused = await plot(new CaughtIo(), file);
       expect(refused.err).toMatch(/plot of b\.svg was interrupted at 40 %.*plot --resume/);
-      expect([refused.code, record.find()?.progress]).toEqual([5, 0.4]);
+      expect(refused.code).toBe(5);
+      const sent = { stroke: 0, alongMm: 4 };
+      expect(record.find()).toMatchObject({ from: { stroke: 0, alongMm: 3 }, sent, progress: 0.4 });
       const resumed = await plot(withoutKeyboard(), "--resume");
       expect(resumed.err).toMatch(/^Resuming b\.svg\.\nDone: b\.svg/);
       expect([resumed.code, record.find()]).toEqual([0, null]);
@@ -101,13 +106,51 @@ describe("plotwright plot", () => {
     LIMIT_MS,
   );
 
+  it(
+    "checks that all files can be read before the first plot, and names the one at fault",
+    async () => {
+      const missing = join(dir, "missing.svg");
+      const refused = await plot(withoutKeyboard(), file, missing, "--paper-s", "0");
+      expect(refused).toEqual({
+        code: 3,
+        out: "",
+        err: `plotwright: ${missing} can't be read: there is no such file or folder.\n`,
+      });
+      const image = join(dir, "image.svg");
+      writeFileSync(image, SVG.replace('<path d="M1 2h9"/>', ""));
+      const second = await plot(withoutKeyboard(), file, image, "--paper-s", "0");
+      expect([second.code, second.err]).toEqual([
+        3,
+        expect.stringMatching(/Done: a\.svg.*\nplotwright: \S*image\.svg: There is nothing to draw/s),
+      ]);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "plots what comes through a pipe",
+    async () => {
+      const pipe = join(dir, "pipe");
+      execFileSync("mkfifo", [pipe]);
+      spawn("sh", ["-c", `cat ${file} > ${pipe}`]);
+      expect(await plot(withoutKeyboard(), pipe)).toMatchObject({ code: 0 });
+    },
+    LIMIT_MS,
+  );
+
   it("names the server that may use the plotter", async () => {
     const taken = new PlotwrightError("busy", "Another program has it.");
-    vi.stubGlobal("fetch", () => Promise.resolve(new Response("{}")));
-    expect((await serverHint(taken)) as Error).toMatchObject({
-      code: "busy",
-      message: expect.stringMatching(/Another program has it\. .*plotwright add FILE/) as string,
-    });
+    const me = { role: "operate", id: null, name: null };
+    const refusal = { error: { code: "not-allowed", message: "Pair this device first." } };
+    for (const answer of [me, refusal]) {
+      vi.stubGlobal("fetch", () => Promise.resolve(new Response(JSON.stringify(answer))));
+      expect((await serverHint(taken)) as Error).toMatchObject({
+        code: "busy",
+        message: expect.stringMatching(/Another program has it\. .*plotwright add FILE/) as string,
+      });
+    }
+    vi.stubGlobal("fetch", () => Promise.resolve(new Response("<html>")));
+    expect(await serverHint(taken)).toBe(taken);
     vi.stubGlobal("fetch", () => Promise.reject(new TypeError("fetch failed")));
     expect(await serverHint(taken)).toBe(taken);
     vi.unstubAllGlobals();
@@ -136,14 +179,58 @@ describe("plotwright add and queue", () => {
         expect(jobs[0].settings.motion.draw.speedMmPerS).toBe(30);
         expect(jobs[0].settings.machine).toBe("axidraw-v3-a3");
         expect((await cli("queue", ...at)).out.trimEnd().split("\n").length).toBe(4);
+        const nowhere = await cli("add", file, "--plotter", "nope", ...at);
+        expect(nowhere).toMatchObject({
+          code: 2,
+          err: expect.stringMatching(/no plotter nope\. It has main\./),
+        });
+        const missing = await cli("add", file, join(dir, "none.svg"), ...at);
+        expect(missing).toMatchObject({ code: 3, out: "" });
         writeFileSync(file, "hello");
         const refused = await cli("add", file, ...at);
-        expect(refused).toMatchObject({ code: 3, out: "", err: expect.stringMatching(/refused it/) });
+        expect(refused).toMatchObject({
+          code: 3,
+          out: "",
+          err: expect.stringMatching(/a\.svg: .*refused it/),
+        });
       } finally {
         await server.close();
       }
       const gone = await cli("queue", "--url", server.url);
       expect(gone).toMatchObject({ code: 5, err: expect.stringMatching(/No plotwright server answers/) });
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "say whether a key, a certificate, the protocol or the server is at fault",
+    async () => {
+      const tlsFile = (name: string): string =>
+        readFileSync(new URL(`../fixtures/tls/${name}.pem`, import.meta.url), "utf8");
+      const options = { port: 0, device: "virtual", maxUploadBytes: 1e6, log: () => undefined };
+      const paired = await createServer({ ...options, dataDir: join(dir, "paired"), pairAlways: true });
+      const tls = { cert: tlsFile("cert"), key: tlsFile("key") };
+      const secure = await createServer({ ...options, dataDir: join(dir, "secure"), tls });
+      const other = createHttpServer((_, response) => void response.end("<html>"));
+      await new Promise<void>((resolve) => other.listen(0, "127.0.0.1", resolve));
+      try {
+        const port = (other.address() as AddressInfo).port;
+        const faults: readonly (readonly [string, readonly string[], number, RegExp])[] = [
+          [paired.url, [], 5, /Pair this device first.* Or give an access key, with --key/],
+          [paired.url, ["--key", "x"], 5, /This access key is not valid/],
+          [secure.url, [], 5, /The certificate of .* is not trusted .*NODE_EXTRA_CA_CERTS/],
+          [secure.url.replace("https", "http"), [], 5, /Does it answer at https:/],
+          [paired.url.replace("http", "https"), [], 5, /Does it answer at http:/],
+          [`http://127.0.0.1:${port}`, [], 2, /is not a plotwright server/],
+        ];
+        for (const [url, args, code, message] of faults) {
+          const run = await cli("queue", "--url", url, ...args);
+          expect([url, run]).toEqual([url, { code, out: "", err: expect.stringMatching(message) as string }]);
+        }
+      } finally {
+        other.close();
+        await Promise.all([paired.close(), secure.close()]);
+      }
     },
     LIMIT_MS,
   );

@@ -3,11 +3,13 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, describe, expect, it } from "vitest";
+import { optionsTakenByNpm } from "../../scripts/setup.mjs";
 import { parseSize } from "../../src/internal.js";
 import { length } from "../../server/cli/lengths.js";
+import { buildProgram } from "../../server/cli/program.js";
 import { settingsFromOptions } from "../../server/cli/settings-options.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
-import { cli } from "./support.js";
+import { CaughtIo, cli } from "./support.js";
 
 describe("a word that is not a command", () => {
   it.each([
@@ -20,6 +22,8 @@ describe("a word that is not a command", () => {
     ],
     ["frobnicate", "", /There is no command frobnicate\. The commands are serve, plan, plot, /],
     ["x.svg", "", /There is no command x\.svg\. To plot a drawing: plotwright plot x\.svg$/],
+    ["version", "", /There is no command version\. To print the version: plotwright --version$/],
+    ["help", "pln", /There is no command pln\. Did you mean plan\?$/],
     ["9381", "", /To choose the port: plotwright --port 9381, or npm start -- --port 9381/],
   ])("%s %s is named, with a suggestion", async (word, more, message) => {
     const { code, out, err } = await cli(...[word, more].filter((one) => one !== ""));
@@ -43,15 +47,44 @@ describe("a word that is not a command", () => {
     expect(err).toMatch(message);
   });
 
+  it.each([
+    ["--nonsense", "There is no option --nonsense. See plotwright serve --help."],
+    ["--prot 9381", "There is no option --prot. Did you mean --port? See plotwright serve --help."],
+    ["--port", "--port: its value <number> is missing. See plotwright serve --help."],
+    ["plan", "<file> is missing. See plotwright plan --help."],
+    ["board", "--pty <path> is missing. See plotwright board --help."],
+    [
+      "plan in.svg --margin abc",
+      '--margin: it must be a length in mm, or with a unit as in 2cm or 1in, not "abc". See plotwright plan --help.',
+    ],
+    ["plan in.svg --margin 1e9", "--margin: it must be 0 to 1000 mm."],
+    [
+      "plan in.svg --order x",
+      '--order: it must be one of none, fast, best, not "x". See plotwright plan --help.',
+    ],
+    [
+      "pen 101",
+      '<where>: it must be up, down, or a height of 0 to 100 percent, not "101". See plotwright pen --help.',
+    ],
+    ["service instal", "There is no command instal. Did you mean install? See plotwright service --help."],
+    [
+      "queue --url 9391",
+      '--url: it must be an address such as http://127.0.0.1:9080, not "9391". See plotwright queue --help.',
+    ],
+  ])("%s is explained in one line", async (line, message) => {
+    expect(await cli(...line.split(" "))).toEqual({ code: 2, out: "", err: `plotwright: ${message}\n` });
+  });
+
   it("leaves options and help unchanged", async () => {
     expect(await cli("--version")).toMatchObject({ code: 0, out: "0.0.0\n" });
     expect((await cli("help")).code).toBe(0);
-    expect((await cli("--nonsense")).err).toMatch(/unknown option/);
+    expect(await cli("-v")).toMatchObject({ code: 0, out: "0.0.0\n" });
   });
 });
 
 describe("a length", () => {
   it("is mm, or has a unit", () => {
+    expect(length("1e3")).toBe(1_000);
     const read = ["12", "12mm", "1.2cm", "1in", '1"', ".5in", "-3", "2 cm"].map(length);
     expect(read).toEqual([12, 12, 12, 25.4, 25.4, 12.7, -3, 20]);
     for (const wrong of ["", "x", "1ft", "1 2", "in", "1e999", "1,5"]) {
@@ -76,6 +109,21 @@ describe("a length", () => {
       paper: { widthMm: 215.9, heightMm: 279.4 },
       landscape: false,
     });
+  });
+});
+
+describe("npm start without --", () => {
+  it("does not lose an option of serve: npm passes it in the environment only", async () => {
+    const context = { io: new CaughtIo(), version: "0.0.0", setExitCode: () => undefined };
+    const program = await buildProgram(["serve"], context);
+    const serve = program.commands.find((command) => command.name() === "serve");
+    // npm has its own --cert and --key.
+    const names = serve?.options.map(({ long }) => long?.replace(/^--(no-)?/, "") ?? "") ?? [];
+    for (const name of names.filter((one) => one !== "cert" && one !== "key")) {
+      const env = { [`npm_config_${name.replaceAll("-", "_")}`]: "true", npm_config_key: "x" };
+      expect(optionsTakenByNpm(env)).toEqual([`--${name}`]);
+    }
+    expect(optionsTakenByNpm({ npm_config_registry: "x", PORT: "1" })).toEqual([]);
   });
 });
 
@@ -123,7 +171,11 @@ describe("a file that cannot be used", () => {
     const { code, err } = await cli("plan", empty);
     expect(code).toBe(3);
     expect(err.match(/nothing to draw|no lines to draw/gi)).toHaveLength(1);
-    expect(err).toContain("1 picture is not drawn");
+    expect(err).toMatch(/^plotwright: \S*empty\.svg: 1 picture is not drawn/);
+    expect(err).not.toContain("other notes");
+    expect((await cli("plan", file("nothing", " "))).err).toMatch(
+      /nothing cannot be read as a drawing: it is empty\./,
+    );
   });
 
   it.each([

@@ -113,7 +113,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
   });
   const notices = new Notices({ store, announce, nowIso });
   if (store.unreadableCount > 0) {
-    notices.add(`${store.unreadableCount} job(s) of another version of plotwright can't be read.`);
+    notices.add(`Jobs of another version of plotwright that can't be read: ${store.unreadableCount}.`);
   } else await removeUnused(db, store);
   return {
     api: hostApi({ queue, registry, notices, machines, drawings }),

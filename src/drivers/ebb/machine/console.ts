@@ -16,7 +16,7 @@ const PEN = new Set(["SP", "TP", "S2", "SC", "SE"]);
 /** Rejects with `bad-setting` for a line that is refused, with `board-timeout` if nothing is answered. */
 export async function sendLine(carriage: Carriage, line: string): Promise<ConsoleAnswer> {
   const why = whyRefused(line);
-  if (why !== null) throw new PlotwrightError("bad-setting", `${line} was not sent: ${why}.`);
+  if (why !== null) throw new PlotwrightError("bad-setting", `${JSON.stringify(line)} was not sent: ${why}.`);
   const name = commandName(line);
   const replies = await repliesTo(carriage, line);
   return { replies, note: await noteOn(carriage, name) };

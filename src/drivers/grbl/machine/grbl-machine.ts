@@ -195,7 +195,7 @@ export class GrblMachine implements Machine {
     if (!/^[\x20-\x7e]{1,79}$/.test(line) || /[?!~]/.test(line)) {
       throw new PlotwrightError(
         "bad-setting",
-        `${line} was not sent: a line has at most 79 plain characters, and ? ! ~ act at once instead of being read.`,
+        `${JSON.stringify(line)} was not sent: a line has at most 79 plain characters, and ? ! ~ act at once instead of being read.`,
       );
     }
     this.session.heard = [];
