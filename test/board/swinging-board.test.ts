@@ -1,4 +1,4 @@
-/** The virtual board with a body: its motors are exact to the step, and its pen swings as the simulation says. */
+/** The virtual board with a swinging pen: its motors are exact to the step, and its pen swings as simulated. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, planJob, VirtualBoard } from "../../src/index.js";
 import { swingPen } from "../../src/internal.js";
@@ -65,7 +65,7 @@ describe.each(["2.8.1", "3.0.3"])("a virtual board with springs, firmware %s", (
 });
 
 describe("the swinging pen", () => {
-  it("swings out where the motors stop, and is then at their place", () => {
+  it("stops swinging after the motors stop, and is then at their position", () => {
     const board = new VirtualBoard({
       clock: { nowS: () => 0, after: () => () => undefined },
       firmware: "2.8.1",

@@ -94,7 +94,7 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     await page.getByLabel("Model", { exact: true }).selectOption({ label: "AxiDraw V3/A3" });
     await openGroup(page, "Presets");
     await page.getByLabel("Name of this preset").fill("fine liner");
-    await page.getByRole("button", { name: "Keep", exact: true }).click();
+    await page.getByRole("button", { name: "Save", exact: true }).click();
     await page.getByText("fine liner").first().waitFor();
     // Changes of the plotter's settings are stored a moment later.
     await page.waitForTimeout(3_000);

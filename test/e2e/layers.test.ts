@@ -198,7 +198,7 @@ describe("pens on the page", () => {
     const { settings } = await test.queue();
     expect(settings.layerStops).toEqual({ sand: true });
     expect(settings.layerPens["sand"]).toBe(settings.layerPens["sea"]);
-    await test.page.getByRole("radio", { name: "By its pen" }).check();
+    await test.page.getByRole("radio", { name: "Automatic" }).check();
     await details("sand").click();
   });
 
@@ -206,7 +206,7 @@ describe("pens on the page", () => {
     const kept = (await test.queue()).settings;
     await test.group("Presets");
     await test.field("Name of this preset").fill("Beach");
-    await test.page.getByRole("button", { name: "Keep", exact: true }).click();
+    await test.page.getByRole("button", { name: "Save", exact: true }).click();
     await test.page.getByLabel("Pen for sea").selectOption({ label: "Any pen" });
     await test.page.getByRole("button", { name: "Order as in the file" }).click();
     await test.planned();

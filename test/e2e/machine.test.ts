@@ -82,10 +82,10 @@ describe("moving by hand", () => {
   it("moves to a position, and makes it home", async () => {
     await page.getByLabel("From home, right").fill("50");
     await page.getByLabel("From home, down").fill("30");
-    close(await move(() => button("Walk there").click()), 50, 30);
+    close(await move(() => button("Go there").click()), 50, 30);
     close(await move(() => button("Set home here").click()), 0, 0);
     close(await move(() => button("Right by 1 mm").click()), 1, 0);
-    close(await move(() => button("Walk home").click()), 0, 0);
+    close(await move(() => button("Go home").click()), 0, 0);
   });
 
   it("traces the frame of the drawing, cycles the pen, and draws a test patch", async () => {
@@ -107,10 +107,10 @@ describe("moving by hand", () => {
     await waitForPlan(page);
     await button("Plot", plotBar(page)).click();
     await queuePanel(page).getByRole("progressbar").waitFor();
-    await page.getByText("Moves by hand come back when it ends").waitFor();
+    await page.getByText("You can move by hand again when it ends").waitFor();
     expect(await button(/^Right by/).isDisabled()).toBe(true);
     await button("Console", machinePanel()).click();
-    await page.getByText("commands typed in between would spoil it").waitFor();
+    await page.getByText("Commands sent now would spoil it").waitFor();
     expect(await page.getByLabel("Command", { exact: true }).count()).toBe(0);
     await page.keyboard.press("Escape");
     await button("Cancel", statusCard(page)).click();
@@ -146,19 +146,19 @@ describe("setting a plotter up", () => {
     close(await move(() => press("Move 20 mm nearer"), "/jog"), 0, 20);
     await press("Left");
     close(await move(() => press("Right"), "/jog"), 20, 0);
-    await press("Yes, it goes there");
+    await press("Yes, both are right");
     await move(() => press("Draw the square"));
     await wizard().getByLabel("Measured width").fill("80");
     await wizard().getByLabel("Measured height").fill("80");
-    await wizard().getByText("100 steps are one millimetre").waitFor();
-    await press("Take this");
+    await wizard().getByText("100 steps per mm").waitFor();
+    await press("Use this");
     await wizard().getByRole("radio", { name: "B2 (brushless)" }).check();
     await move(() => wizard().getByLabel("Highest").fill("20000"));
     await move(() => wizard().getByLabel("Lowest").fill("12000"));
     await press("Next");
     await wizard().getByLabel("Name").fill("Old Friend");
     await wizard().getByLabel("Right", { exact: true }).fill("290");
-    await press("Save and use it");
+    await press("Save and use");
     await wizard().waitFor({ state: "detached" });
 
     const { machines } = machineListSchema.parse(await (await fetch(`${server.url}/api/v1/machines`)).json());
@@ -219,11 +219,11 @@ describe("machines as files", () => {
       mimeType: "application/json",
       buffer: Buffer.from(JSON.stringify(content)),
     });
-    const chooser = sheet.getByLabel("Read a machine from a file");
+    const chooser = sheet.getByLabel("Load a machine from a file");
     await chooser.setInputFiles(file({ ...profile, stepsPerMm: -1 }));
     await sheet.getByText(/stepsPerMm/).waitFor();
     await chooser.setInputFiles(file(profile));
-    await sheet.getByLabel("Steps for one mm").fill("120");
+    await sheet.getByLabel("Steps per mm").fill("120");
     await button("Save and use", sheet).click();
     await button("Edit A1 clone", sheet).waitFor();
     const download = page.waitForEvent("download");

@@ -58,7 +58,7 @@ describe("what the machine does not reach", () => {
     await test.planned();
     const why = plotBar(test.page).getByText(/AxiDraw V3 reaches 300 × 218/);
     await why.waitFor();
-    expect(await why.innerText()).toContain("1 line can’t be drawn as it lies.");
+    expect(await why.innerText()).toContain("1 line is out of reach.");
     expect(await plot().isDisabled()).toBe(true);
     await plotBar(test.page).getByRole("button", { name: "Turn for this machine" }).click();
     await test.planned();
@@ -109,7 +109,7 @@ describe("the form", () => {
     expect(await mirror.isVisible()).toBe(false);
     const fold = test.page.getByText("Separate margins, mirror, cutting");
     await fold.click();
-    expect(await test.page.getByText("Each margin by itself").isVisible()).toBe(true);
+    expect(await test.page.getByText("Separate margins", { exact: true }).isVisible()).toBe(true);
     await mirror.waitFor({ state: "attached" });
     await fold.click();
   });

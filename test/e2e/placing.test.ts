@@ -181,10 +181,10 @@ describe("placing the drawing", () => {
 
   it("fills four custom margins, is centred, and is mirrored", async () => {
     await test.page.getByText("Separate margins, mirror, cutting").click();
-    await test.page.getByText("Each margin by itself").click();
+    await test.page.getByText("Separate margins", { exact: true }).click();
     await type("Left", 40);
     await type("Top", 20);
-    await test.page.getByRole("button", { name: "Fill margins" }).click();
+    await test.page.getByRole("button", { name: "Fit into margins" }).click();
     await test.planned();
     const filled = await test.queuedBox();
     expect(filled.x0).toBeGreaterThanOrEqual(40 - 0.01);

@@ -119,7 +119,7 @@ describe("two browsers and a watcher", () => {
   });
 
   it("the watcher sees the plot and who operates, may stop it, and has nothing to change", async () => {
-    await watcher.getByText("this device watches").waitFor();
+    await watcher.getByText("this device can watch").waitFor();
     expect(await plotButton(watcher).count()).toBe(0);
     expect(await watcher.getByLabel("Choose a drawing").isVisible()).toBe(false);
     expect(await watcher.getByRole("button", { name: "Prepare" }).count()).toBe(0);
@@ -154,25 +154,28 @@ describe("two browsers and a watcher", () => {
     for (const page of [anna, ben]) await openView(page, "Prepare");
     await ben.getByText(/^\S+ on .* is operating\.$/).waitFor();
     // A button that only the operator may press asks, instead of failing.
-    const question = ben.getByRole("dialog", { name: "Another browser operates" });
-    await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
-    await question.getByRole("button", { name: "Leave it" }).click();
+    const question = ben.getByRole("dialog", { name: "Another browser is operating" });
+    await queuePanel(ben).getByRole("radio", { name: "Start the next" }).click();
+    await question.getByRole("button", { name: "Not now" }).click();
     expect(await ben.getByRole("alert").count()).toBe(0);
     await ben.getByText("is operating.").waitFor();
     const jobCount = await queuePanel(ben).getByRole("listitem").count();
     await plotButton(ben).click();
-    await question.getByRole("button", { name: "Leave it" }).click();
+    await question.getByRole("button", { name: "Not now" }).click();
     // A slider, too: what it was moved to does not stay beside what the plotter has.
     const height = (page: Page): Locator => page.getByLabel("Height up", { exact: true });
     const before = await height(ben).inputValue();
     await height(ben).fill("71");
-    await question.getByRole("button", { name: "Leave it" }).click();
+    await question.getByRole("button", { name: "Not now" }).click();
     await expect.poll(() => height(ben).inputValue()).toBe(before);
     expect(await ben.getByRole("alert").count()).toBe(0);
     expect(await queuePanel(ben).getByRole("listitem").count()).toBe(jobCount);
-    await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
+    await queuePanel(ben).getByRole("radio", { name: "Start the next" }).click();
     await question.getByRole("button", { name: "Take over" }).click();
-    await queuePanel(ben).getByRole("radio", { name: "Run on" }).and(ben.locator(":checked")).waitFor();
+    await queuePanel(ben)
+      .getByRole("radio", { name: "Start the next" })
+      .and(ben.locator(":checked"))
+      .waitFor();
     await anna.getByText(/^\S+ \d on .* is operating\.$/).waitFor();
     await queuePanel(ben).getByRole("radio", { name: "Wait for paper" }).click();
     await anna.getByRole("button", { name: "Take over" }).waitFor();
@@ -180,7 +183,7 @@ describe("two browsers and a watcher", () => {
     await height(anna).fill("72");
     await anna.getByRole("dialog").getByRole("button", { name: "Take over" }).click();
     await expect.poll(() => height(ben).inputValue()).toBe("72");
-    await queuePanel(ben).getByRole("radio", { name: "Run on" }).click();
+    await queuePanel(ben).getByRole("radio", { name: "Start the next" }).click();
     await question.getByRole("button", { name: "Take over" }).click();
     await anna.getByRole("button", { name: "Take over" }).waitFor();
     await queuePanel(ben).getByRole("radio", { name: "Wait for paper" }).click();

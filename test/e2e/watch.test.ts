@@ -85,7 +85,7 @@ describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
     expect(await page.getByRole("banner").isVisible()).toBe(false);
     expect(await queuePanel(page).isVisible()).toBe(false);
     await button("Pause").waitFor();
-    await page.getByRole("button", { name: "End full screen" }).click();
+    await page.getByRole("button", { name: "Exit full screen" }).click();
     await page.getByRole("banner").waitFor();
   });
 

@@ -110,7 +110,7 @@ describe("a damaged database", () => {
     expect(repairCount).toBeGreaterThan(0);
   }, 120_000);
 
-  it("is replaced by its backup and set aside, and the user is told; drawings missing from the backup are set aside", async () => {
+  it("is replaced by its backup and set aside, with a notice; drawings missing from the backup are set aside", async () => {
     const { ids, close } = await fill(2);
     close();
     const bytes = readFileSync(databasePath());

@@ -212,7 +212,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(line.closed).toBe(true);
   });
 
-  it("gives way to an EiBotBoard for a job of such a machine, and comes back", async () => {
+  it("is replaced by an EiBotBoard for a job of such a machine, and used again afterwards", async () => {
     const { world, driver } = await newPlotter();
     const run = await world.run(driver.plot(new LocalPlanner(TWO_LINES), DEFAULT_PLOT_SETTINGS));
     expect(await world.run(run.finished)).toEqual({ kind: "done" });

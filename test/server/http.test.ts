@@ -91,7 +91,7 @@ describe("the HTTP interface", () => {
     expect(app.drawingsOnDisk()).toHaveLength(1);
   });
 
-  it("wants either the drawing or its id, and one of its own uploads", async () => {
+  it("needs either the drawing or the id of an upload by the same client", async () => {
     const job = { name: "a", settings: DEFAULT_PLOT_SETTINGS };
     for (const [more, status, message] of [
       [{}, 400, /either drawing or drawingId/],
@@ -184,7 +184,7 @@ describe("the HTTP interface", () => {
     });
   });
 
-  it("lists the samples and gives only those", async () => {
+  it("lists the samples and returns only those", async () => {
     const { samples } = (await (await call("GET", "/samples")).json()) as { samples: { name: string }[] };
     expect(samples.length).toBeGreaterThan(3);
     const first = await (await call("GET", `/samples/${samples[0]?.name}`)).text();
@@ -284,7 +284,7 @@ describe("the guard", () => {
     }
   });
 
-  it("refuses what a page of another site sends", async () => {
+  it("refuses requests by pages of another site", async () => {
     const { host } = new URL(app.url);
     expect(await raw({ Host: host, Origin: app.url })).toBe(200);
     for (const origin of [

@@ -196,7 +196,7 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("done");
   });
 
-  it("starts where it was told to, held there until it is resumed", async () => {
+  it("starts at the requested place, paused there until it is resumed", async () => {
     const from = { strokeIndex: 1, alongMm: 0 };
     const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern"), from };
     const { id, place } = await queue.add(wanted);
@@ -214,7 +214,7 @@ describe("the queue", () => {
     expect(queue.requeue(id).place).toBe(null);
   });
 
-  it("keeps the layout that the number of its first stroke means, and has that stroke", async () => {
+  it("keeps the layout in which its first stroke was chosen, and begins with that stroke", async () => {
     const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern") };
     const { id } = await queue.add({ ...wanted, from: { strokeIndex: 1, alongMm: 0 } });
     const { prepare, pen } = DEFAULT_PLOT_SETTINGS;
@@ -226,7 +226,7 @@ describe("the queue", () => {
     await expect(queue.add(beyond)).rejects.toThrow("strokes, so it can't start at number");
   });
 
-  it("takes a cancelled job up from where it was cancelled, held", async () => {
+  it("recovers a cancelled job where it was cancelled, paused", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const first = await plotter.nextRun();
@@ -245,13 +245,13 @@ describe("the queue", () => {
     expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
   });
 
-  it("has nothing to take up of a cancelled job that was never begun", async () => {
+  it("can't recover a cancelled job that was never begun", async () => {
     const { id } = await add("fern");
     queue.cancel(id);
     expect(() => queue.recover(id)).toThrow("it can't be continued now");
   });
 
-  it("goes on when it is resumed before the plotter has taken it up", async () => {
+  it("continues when it is resumed before the plotter has recovered it", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const broken = await plotter.nextRun();
@@ -267,7 +267,7 @@ describe("the queue", () => {
     expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
   });
 
-  it("offers a plot whose board failed before anything was drawn, held at its beginning", async () => {
+  it("offers a plot whose board failed before anything was drawn, paused at its beginning", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const broken = await plotter.nextRun();
@@ -286,7 +286,7 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("paused");
   });
 
-  it("offers a plot that has begun to draw, whatever ended it", async () => {
+  it("offers a plot that has begun to draw, for every way in which it ended", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const broken = await plotter.nextRun();

@@ -63,7 +63,7 @@ async function plot(id: string, tookS: number): Promise<void> {
 }
 
 describe("a stop for a pen", () => {
-  it("holds the job with the pen that it waits for, on disk too, until somebody resumes it", async () => {
+  it("stores the waiting job with its pen, on disk too, until the user resumes it", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();

@@ -50,7 +50,7 @@ const operator = async (): Promise<Operator | null> =>
   snapshotSchema.parse(await (await fetch(`${app.url}/api/v1/state`)).json()).operator;
 
 describe("the operator lock", () => {
-  it("tells two browsers of one kind apart by name", async () => {
+  it("distinguishes two browsers of the same kind by name", async () => {
     const [first, second] = [await openBrowser(DESKTOP), await openBrowser(DESKTOP)];
     const nameOf = async (browser: Browser): Promise<string | null> =>
       meSchema.parse(await (await browser.call("GET", "/me")).json()).name;

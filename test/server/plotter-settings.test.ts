@@ -43,7 +43,7 @@ describe("the settings of a plotter", () => {
   const stored = async (id: string): Promise<unknown> =>
     (await call("GET", `/plotters/${id}/settings`)).json();
 
-  it("are null until somebody sets them, then the same for everybody", async () => {
+  it("are null until a client sets them, then the same for all clients", async () => {
     expect(await stored("virtual")).toBeNull();
     const events = await EventStream.open(app.url);
     const wanted = settingsWith(72);
@@ -68,7 +68,7 @@ describe("the settings of a plotter", () => {
     expect(Object.keys(app.store.plotterSettings())).toEqual(["virtual"]);
   });
 
-  it("are refused where they do not fit, and for a plotter that is missing", async () => {
+  it("are refused if they are invalid, and for a missing plotter", async () => {
     const wrong = { ...settingsWith(72), pen: { ...settingsWith(72).pen, upPct: 130 } };
     const refused = await call("PUT", "/plotters/virtual/settings", wrong);
     expect(refused.status).toBe(400);
@@ -78,7 +78,7 @@ describe("the settings of a plotter", () => {
     expect(app.store.plotterSettings()).toEqual({});
   });
 
-  it("that can't be read any more count as none", async () => {
+  it("that can't be read count as missing", async () => {
     app.store.savePlotterSettings("virtual", { pen: "tall" });
     expect(await stored("virtual")).toBeNull();
     expect((await call("PUT", "/plotters/virtual/settings", settingsWith(61))).status).toBe(200);

@@ -60,7 +60,7 @@ describe("a plotter", () => {
     },
   );
 
-  it("draws with a pen that swings where it is told how, and with one that does not elsewhere", async () => {
+  it("draws with a swinging pen if frequencies are given, and otherwise with one that does not swing", async () => {
     const beyond = async (springs?: Springs): Promise<number> => {
       const { world, board, begin } = await newPlotter("2.8.1", springs);
       const { run } = await begin(TWO_LINES, WAITING);
@@ -193,7 +193,7 @@ describe("moves by hand from place to place", () => {
 });
 
 describe("an interrupted plot", () => {
-  it("resumes from where the board stopped, held until the user continues, and draws nothing twice", async () => {
+  it("resumes where the board stopped, paused until the user continues, and draws nothing twice", async () => {
     const { world, driver, board } = await newPlotter();
     const journal: JournalEntry[] = [];
     const planner = new LocalPlanner(TWO_LINES);

@@ -52,7 +52,7 @@ describe("the progress of a plot", () => {
     }
   });
 
-  it("follows the place where a held plot resumes, backwards and forwards", async () => {
+  it("follows the place where a paused plot resumes, backwards and forwards", async () => {
     const { world, run, seen } = await begin();
     await world.run(run.pause());
     const held = seen.at(-1)!;

@@ -37,7 +37,7 @@ afterAll(async () => {
 });
 
 describe("a plotter without a known model", () => {
-  it("is not given jobs for any plotter of a model, says so, and is once it has one", async () => {
+  it("gets no jobs for any plotter of a model, says so, and gets them once its model is set", async () => {
     await expect
       .poll(() => logged)
       .toContainEqual(
@@ -54,7 +54,7 @@ describe("a plotter without a known model", () => {
 });
 
 describe("a claimed shared job that has not begun", () => {
-  it("does not begin while the database is away, and says why, but a copy of it does", async () => {
+  it("does not begin while the database can't be reached, and says why, but a copy of it does", async () => {
     await database.cut();
     expect(await start("fern")).toMatch(/^409 .*another server may have been given/);
     expect(await jobsOf(server)).toEqual(["fern queued"]);

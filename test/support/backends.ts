@@ -1,4 +1,4 @@
-/** The page with each of its backends, started alike, so that one test can run against both. */
+/** Starts the page with either backend in the same way, so that one test can run against both. */
 import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
 import { startServerProcess, temporaryFolder } from "./server-process.js";
@@ -78,7 +78,7 @@ export async function startPage(backend: BackendName, browser: Browser): Promise
 export async function crash(page: Page): Promise<void> {
   const session = await page.context().newCDPSession(page);
   const crashed = page.waitForEvent("crash");
-  // It is never answered.
+  // It gets no answer.
   session.send("Page.crash").catch(() => undefined);
   await crashed;
 }

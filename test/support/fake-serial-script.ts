@@ -4,7 +4,7 @@
  */
 export const FAKE_SERIAL_SCRIPT = `(() => {
   const call = (name, init) => fetch(new URL("/fake-serial/" + name, self.location.origin), { method: "POST", ...init });
-  // As a system's driver: takes 4 kB at once, and sends them in as few requests as it can.
+  // Like a system's driver: accepts 4 kB at once, and sends them in as few requests as possible.
   const buffered = () => {
     let waiting = [];
     let sending = null;

@@ -52,7 +52,7 @@ export class FakeSerial {
     return true;
   }
 
-  /** When the tab dies, the port is free. The board draws what it has: nothing closes the link. */
+  /** Frees the port after the tab has died. The board keeps its commands, because nothing has closed the link. */
   #read(response: ServerResponse): void {
     response.writeHead(200, { "content-type": "application/octet-stream", "cache-control": "no-store" });
     response.flushHeaders();

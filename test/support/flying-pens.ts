@@ -1,5 +1,5 @@
 /**
- * Plots whose pen moves while the carriage does, on a virtual board with a servo of its own. Marks are where its tip
+ * Plots whose pen moves while the carriage does, on a virtual board with a simulated servo. Marks are where its tip
  * touches the paper.
  */
 import { MachinePlot } from "../../host/plotter/plot-run.js";
@@ -29,7 +29,7 @@ export const HOPS: StrokeSet = strokesOf(
   }),
 );
 
-/** How a servo may differ from what the planner takes it for: the corners of the range. */
+/** How a servo may differ from the planner's assumptions: the corners of the range. */
 export const SERVOS = [
   { speed: 0.8, phaseMs: 1, contact: 0.55 },
   { speed: 1.2, phaseMs: 13, contact: 0.55 },
@@ -109,7 +109,7 @@ function penEndS({ runs }: Trajectory, { up, startS, moveS, beforeRun }: PenMove
 /** Rounding to steps. */
 const STEP_MM = 0.02;
 
-/** What is on the paper, a dot being a line of no length. */
+/** The lines on the paper. A dot is a line of length 0. */
 export function marksOn(drawn: readonly Pick<DrawnPolyline, "penDown" | "xy">[]): DrawnTruth {
   const marks = drawn.map(({ penDown, xy }) => ({ penDown, xy: xy.length === 2 ? [...xy, ...xy] : xy }));
   const { awayMm } = compareDrawn(HOPS, marks);

@@ -1,4 +1,4 @@
-/** Brings the page into its states (page-states.ts), at a size of screen, light and dark. */
+/** Brings the page into its states (page-states.ts) for a screen size, light and dark. */
 import type { Browser, BrowserContext, Page } from "playwright-core";
 import { chooseSample } from "./page-actions.js";
 import type { PageState } from "./page-states.js";

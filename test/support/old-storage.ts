@@ -1,4 +1,4 @@
-/** What a browser and a server's database held before the server kept a plotter's heights, pens and presets. */
+/** The contents of a browser and of a server's database from before the server stored heights, pens and presets. */
 import { join } from "node:path";
 import sqlite from "node-sqlite3-wasm";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
@@ -17,7 +17,7 @@ export function makeOldDatabase(dataDir: string): void {
   db.close();
 }
 
-/** The settings exactly as the page of that time wrote them, but for model and heights, which its user had set. */
+/** The settings exactly as the page of that version wrote them, except for model and heights, which its user had set. */
 const OLD_SETTINGS = `{"machine":"axidraw-se-a3","prepare":{"landscape":true,"marginMm":15,"fit":true,"rotateDeg":0,"mirror":"none","clipToMargins":true,"cropToPage":false,"outlineFills":true,"hideCovered":false,"joinMm":0.1,"dropShorterMm":0,"dropRepeatsMm":0,"simplifyMm":0,"flattenMm":0.02,"smoothRounds":0,"reloop":false,"order":"fast","orderS":9,"spread":"none","reinkMm":0,"layers":"group","paper":{"widthMm":210,"heightMm":297},"hiddenLayers":[],"shownLayers":[],"layerOrder":[],"layerRepeats":{},"margins":null,"place":null,"reach":null,"hatch":{"spacingMm":0,"angleDeg":45,"cross":false},"layerHatches":[]},"motion":{"mode":"blend","draw":{"speedMmPerS":50,"accelMmPerS2":500,"cornerMm":0.025,"jerkMmPerS3":10000},"travel":{"speedMmPerS":150,"accelMmPerS2":1000,"cornerMm":0.5,"jerkMmPerS3":20000},"fit":{"toleranceMm":0.02,"floorMs":15}},"pen":{"upPct":66,"downPct":41,"liftMs":250,"dropMs":300},"pens":[{"id":"pen-1","name":"Gold","color":"#c0a020","widthMm":0.7,"offsetXMm":0,"offsetYMm":0}],"layerPens":{},"penStops":"pens","layerStops":{},"sendAheadMs":300,"customMachine":null}`;
 
 /** localStorage of such a browser: its keys and their text. */

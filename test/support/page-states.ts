@@ -109,7 +109,7 @@ async function start(page: Page, name: string, text: string): Promise<void> {
   await queuePanel(page).getByRole("progressbar").waitFor();
 }
 
-/** Of a job: on the status card where it is watched, else in the queue, on a phone in the bar under the thumb. */
+/** A job's buttons: on the status card in Watch, otherwise in the queue, on a phone in the bar at the bottom. */
 const button = (page: Page, name: string | RegExp) =>
   statusCard(page).or(queuePanel(page)).or(plotBar(page)).getByRole("button", { name });
 
@@ -233,9 +233,7 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await openTab(page, "Plotter");
       await page.getByRole("button", { name: "Machines…" }).click();
-      await page
-        .getByRole("button", { name: "Make a machine of your own from AxiDraw V3", exact: true })
-        .click();
+      await page.getByRole("button", { name: "Copy AxiDraw V3 to a new machine", exact: true }).click();
       await page.getByText("Pen servo").waitFor();
     },
   },
@@ -305,7 +303,7 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await start(page, "lines", ruledSheet());
       await page.getByRole("button", { name: "Full screen" }).click();
-      await page.getByRole("button", { name: "End full screen" }).waitFor();
+      await page.getByRole("button", { name: "Exit full screen" }).waitFor();
     },
   },
   {
@@ -335,7 +333,7 @@ export const PAGE_STATES: readonly PageState[] = [
       }
       await openTab(page, "Queue");
       await queuePanel(page).getByRole("button", { name: "More for hello" }).click();
-      await page.getByText("Lay on the paper").waitFor();
+      await page.getByRole("button", { name: "Open hello" }).waitFor();
     },
   },
   {
@@ -353,11 +351,11 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page, openOther }) => {
       const other = await openOther();
       await openTab(other, "Queue");
-      await queuePanel(other).getByRole("radio", { name: "Run on" }).click();
+      await queuePanel(other).getByRole("radio", { name: "Start the next" }).click();
       await page.getByText("is operating.").waitFor();
       await openTab(page, "Queue");
       await queuePanel(page).getByRole("radio", { name: "Wait for paper" }).click();
-      await page.getByRole("dialog", { name: "Another browser operates" }).waitFor();
+      await page.getByRole("dialog", { name: "Another browser is operating" }).waitFor();
     },
   },
   {
@@ -403,7 +401,7 @@ export const PAGE_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await openTab(page, "Set up");
       const folded = page.locator(".column-setup button[aria-expanded=false]:visible");
-      // On a phone the sheet may lie over the one to be pressed.
+      // On a phone the sheet may cover the button.
       while ((await folded.count()) > 0) await folded.first().dispatchEvent("click");
       await page.locator("#group-motion summary").dispatchEvent("click");
       await page.getByLabel("Speed along x", { exact: true }).waitFor();

@@ -9,14 +9,14 @@ export type ToBoard =
   | { readonly type: "unplug" | "replug" | "reset" | "button" | "report" }
   /** It restarts with its counters at 0, but its USB connection stays. */
   | { readonly type: "restart" }
-  /** The line carries nothing in either direction and what is sent is lost; the board itself goes on. */
+  /** The line carries nothing in either direction, and sent data is lost. The board itself continues. */
   | { readonly type: "deaf"; readonly deaf: boolean; readonly afterBytes?: number }
   /** One letter of the next command is changed on its way, so the board refuses it (`!8`). */
   | { readonly type: "refuse" }
   /** From now on the device answers every line as some other machine would. */
   | { readonly type: "foreign"; readonly answer: string }
   | { readonly type: "mute"; readonly mute: boolean }
-  /** It answers, but what runs never ends. */
+  /** It answers, but a running command never ends. */
   | { readonly type: "frozen"; readonly frozen: boolean }
   /** It takes moves and spends their time, but its step counters stand still. */
   | { readonly type: "motionless"; readonly motionless: boolean }

@@ -1,6 +1,6 @@
 import { PlotwrightError, type Transport } from "../../src/index.js";
 
-/** The far end of a connection, played by a test: it records what was written and sends what the test wants. */
+/** The far end of a connection, simulated by a test: records what was written and sends what the test wants. */
 export class ScriptedLine implements Transport {
   /** Command lines written so far. */
   readonly written: string[] = [];

@@ -1,7 +1,7 @@
 /** A cell's number; there are enough columns and rows for a sheet of paper. */
 const keyOf = (column: number, row: number): number => (column + 0x8000) * 0x10000 + (row + 0x8000);
 
-/** A cell and its neighbours, the likeliest first. */
+/** A cell and its neighbours, the most likely first. */
 const AROUND = [
   [0, 0],
   [1, 0],

@@ -55,7 +55,7 @@ export async function startStaticApp(folder: string, boardSpeed = 1): Promise<St
     }
     response.writeHead(200, {
       "content-type": TYPES[path.extname(file)] ?? "application/octet-stream",
-      // As strict as a site would have it.
+      // As strict as on a real site.
       "content-security-policy":
         "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'",
     });

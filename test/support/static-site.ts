@@ -1,4 +1,4 @@
-/** Serves a folder as a web host does, below a path of its own, and 404.html for unknown addresses. */
+/** Serves a folder as a web host does, below a given path, with 404.html for unknown addresses. */
 import { once } from "node:events";
 import type { AddressInfo } from "node:net";
 import path from "node:path";

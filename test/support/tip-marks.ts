@@ -1,5 +1,5 @@
 /**
- * What a pen really draws, by a servo of its own: it does not know what the planner assumes, only which pen commands
+ * What a pen really draws, by a simulated servo: it does not know the planner's assumptions, only which pen commands
  * the board gets, and when. The tip touches below a height, wherever the carriage is.
  */
 import { commandLine } from "../../src/drivers/ebb/compile/compile.js";

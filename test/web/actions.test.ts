@@ -120,7 +120,7 @@ describe("a drawing that is opened", () => {
   const fault = { code: "bad-file", message: "The file ends too soon.", stage: "import" as const };
   const A4 = { widthMm: 297, heightMm: 210 };
 
-  it("leaves the one before it on the paper, with its settings, where it can't be read", () => {
+  it("leaves the previous one on the paper, with its settings, if it can't be read", () => {
     const { store, actions } = makePage();
     actions.openDrawing("hills", "<svg width='9'/>");
     actions.placeForPage(store.getState().drawing?.key ?? "", A4);
@@ -135,7 +135,7 @@ describe("a drawing that is opened", () => {
     ]);
   });
 
-  it("has nothing to go back to on an empty sheet, or once it has been read", () => {
+  it("has no previous one to return to on an empty sheet, or after it was read", () => {
     const { store, actions } = makePage();
     actions.openDrawing("torn", "<svg");
     expect(actions.wentBack(fault)).toBe(false);
@@ -143,7 +143,7 @@ describe("a drawing that is opened", () => {
     expect(actions.wentBack(fault)).toBe(false);
   });
 
-  it("is laid on the paper by its page, once, and undo takes that back", () => {
+  it("is placed by its page size, once, as an undo step", () => {
     const { store, actions } = makePage();
     actions.openDrawing("hills", "<svg width='9'/>");
     const key = store.getState().drawing?.key ?? "";

@@ -4,7 +4,7 @@ import { buildPickGrid } from "../../web/scene/pick.js";
 import { PIECE_BYTES, PIECE_FLOATS } from "../../web/scene/pieces.js";
 import { lineWidthPx, MIN_LINE_PX, type Frame } from "../../web/scene/renderer.js";
 
-/** Upright lines of 100 mm, `gapMm` apart, in pieces of 1 mm. */
+/** Vertical lines of 100 mm, `gapMm` apart, in pieces of 1 mm. */
 const hatch = (gapMm: number): { gapMm: number; of: number } => {
   const lines = Math.round(100 / gapMm);
   const bytes = new ArrayBuffer(lines * 100 * PIECE_BYTES);
@@ -32,13 +32,13 @@ const frame = (scale: number, gap: number | undefined): Frame => ({
 });
 
 describe("the gap between lines", () => {
-  it.each([0.5, 1, 4])("of a hatch %s mm apart is that", (gapMm) => {
+  it.each([0.5, 1, 4])("is %s mm for a hatch with that spacing", (gapMm) => {
     expect(hatch(gapMm).of / gapMm).toBeCloseTo(1, 0);
   });
 });
 
 describe("a line on the screen", () => {
-  it("is no thinner than can be seen well, where lines have room", () => {
+  it("has a minimum width if the lines have room", () => {
     expect(lineWidthPx(frame(3, 4), 0.1)).toBe(MIN_LINE_PX);
     expect(lineWidthPx(frame(3, undefined), 0.1)).toBe(MIN_LINE_PX);
   });

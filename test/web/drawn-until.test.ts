@@ -50,7 +50,7 @@ describe("how much of the drawing on the paper is drawn", () => {
     expect(drawnUntilS(pageWith(job, { live: { ...live, jobId: "b" } }))).toBe(trajectory.totalS / 4);
   });
 
-  it("is unknown for a job that waits or has ended, and for another drawing: all of it is shown", () => {
+  it("is unknown for a job that waits or has ended, and for another drawing, so all of it is shown", () => {
     expect(drawnUntilS(pageWith(makeJob("a")))).toBeNull();
     expect(drawnUntilS(pageWith(makeJob("a", { state: "done", progress: 1 })))).toBeNull();
     const job = makeJob("a", { state: "paused", progress: 0.5 });

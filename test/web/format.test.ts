@@ -14,7 +14,7 @@ import {
 const plain = (text: string): string => text.replace(/\u202f/g, " ");
 
 describe("durations", () => {
-  it("are read in the unit that suits them", () => {
+  it("are shown in suitable units", () => {
     expect(plain(formatDuration(0))).toBe("0 s");
     expect(plain(formatDuration(42.4))).toBe("42 s");
     expect(plain(formatDuration(185))).toBe("3 min 5 s");

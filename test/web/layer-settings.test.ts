@@ -43,7 +43,7 @@ describe("switching layers", () => {
     expect(shownIn(showOnly(all, rows, "guides"))).toEqual(["guides"]);
   });
 
-  it("leaves no trace once it is undone by hand", () => {
+  it("leaves no trace after it is switched back", () => {
     const there = showLayer(showLayer(DEFAULTS, sky, false), guides, true);
     expect(showLayer(showLayer(there, sky, true), guides, false)).toEqual(DEFAULTS);
   });
@@ -104,7 +104,7 @@ describe("pens", () => {
     expect(new Set(again.pens.map(({ id }) => id)).size).toBe(2);
   });
 
-  it("are changed by name, and leave their layers to any pen when they are removed", () => {
+  it("are changed by id, and leave their layers without a pen when they are removed", () => {
     const one = setLayerPen(addPen(DEFAULTS, { name: "a" }), "sky", "pen-1");
     expect(changePen(one, "pen-1", { offsetXMm: 2 }).pens[0]).toMatchObject({ name: "a", offsetXMm: 2 });
     expect(removePen(one, "pen-1")).toEqual(DEFAULTS);
@@ -141,7 +141,7 @@ describe("a preset", () => {
     expect(taken).toEqual({ ...kept, prepare: { ...kept.prepare, marginMm: 3 } });
   });
 
-  it("from before there were pens does not change them", () => {
+  it("of a version without pens does not change them", () => {
     const now = addPen(DEFAULTS, { name: "Brush" });
     const { name, motion, pen } = withPreset([], "Old", DEFAULTS)[0];
     expect(fromPreset(now, { name, motion, pen })).toEqual(now);

@@ -31,7 +31,7 @@ describe("the looks", () => {
     const [first, second] = layerLooks("ink", { planned: planned(), settings });
     expect([first.color, second.color]).toEqual([RED, "#0000e0"]);
     expect(first.widthMm).toBeCloseTo(1);
-    // The file names none: that of its pen.
+    // The file has no width for it, so the pen's is used.
     expect(second.widthMm).toBeCloseTo(0.1);
   });
 
@@ -48,7 +48,7 @@ describe("the looks", () => {
     }
   });
 
-  it("Layer keeps colours that tell the layers apart, and gives others to layers that share one", () => {
+  it("Layer keeps the layers' colours if they all differ, and uses others if two are the same", () => {
     const colorsOf = (colors?: readonly string[]) =>
       layerLooks("layer", { planned: planned(colors), settings }).map(({ color }) => color);
     expect(colorsOf()).toEqual([RED, "#0000e0"]);

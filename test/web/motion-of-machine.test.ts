@@ -1,4 +1,4 @@
-/** Speeds that follow the machine: a step of quality stays one when the machine's springs change. */
+/** Motion settings that depend on the machine: the quality stays the same when the machine's springs change. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, machineById } from "../../src/index.js";
 import { motionOfQuality, qualityOf } from "../../src/internal.js";
@@ -10,8 +10,8 @@ import { fromPreset, withPreset } from "../../web/state/presets.js";
 const SOFT = { xHz: 8, yHz: 12, damping: 0.05 };
 const STIFF = { xHz: 15, yHz: 25, damping: 0.05 };
 
-describe("a step of quality", () => {
-  it("becomes the same step of a machine that was measured, and Normal of one that was not", () => {
+describe("a quality", () => {
+  it("stays the same on a measured machine, and becomes Normal on one that was not measured", () => {
     const measured = motionForSprings(DEFAULT_MOTION, null, STIFF);
     expect(qualityOf(measured, STIFF)).toBe("normal");
     const fast = withQuality(measured, "fast", STIFF);
@@ -19,7 +19,7 @@ describe("a step of quality", () => {
     expect(motionForSprings(fast, STIFF, null)).toEqual({ ...fast, ...motionOfQuality("normal", null) });
   });
 
-  it("leaves custom numbers as they are, unshaped where the machine was not measured", () => {
+  it("does not change custom numbers, except for shaping on a machine that was not measured", () => {
     const fast = withQuality(DEFAULT_MOTION, "fast", STIFF);
     const custom = { ...fast, draw: { ...fast.draw, speedMmPerS: 33 } };
     expect(motionForSprings(custom, STIFF, SOFT)).toBe(custom);
@@ -27,7 +27,7 @@ describe("a step of quality", () => {
     expect(plannable(custom, STIFF)).toBe(custom);
   });
 
-  it("takes the place of softly changing speed, which is a filter of its own", () => {
+  it("replaces the scurve mode, which is a filter too", () => {
     const soft = { ...DEFAULT_MOTION, mode: "scurve" as const };
     expect(withQuality(soft, "fine", STIFF).mode).toBe("blend");
     expect(withQuality(soft, "normal", null).mode).toBe("scurve");
@@ -46,7 +46,7 @@ describe("the page's settings", () => {
     expect(back.motion).toEqual({ ...DEFAULT_PLOT_SETTINGS.motion, shaper: "none" });
   });
 
-  it("take a preset of a measured machine on one that was not, unshaped", () => {
+  it("accept a measured machine's preset on one that was not measured, without shaping", () => {
     const fast = { ...withMachine(DEFAULT_PLOT_SETTINGS, measured) };
     const preset = withPreset([], "quick", { ...fast, motion: withQuality(fast.motion, "fast", STIFF) })[0];
     expect(fromPreset(DEFAULT_PLOT_SETTINGS, preset).motion.shaper).toBe("none");

@@ -22,7 +22,7 @@ const sceneOf = (count: number): Picture => ({
 });
 
 class TurnClock implements PainterClock {
-  /** Called at each turn; the page's work in between. */
+  /** Called at each turn, for the page's work in between. */
   onTurn: (turn: number) => void = () => undefined;
   #turns = 0;
   #ms = 0;
@@ -125,7 +125,7 @@ describe("the painter", () => {
     ]);
   });
 
-  it("reaches drawing everything at once on a fast card", async () => {
+  it("soon draws everything at once on a fast card", async () => {
     const card = new Card(200_000);
     const { painter } = start(card, 1_000_000);
     painter.show(frame(1));
@@ -137,7 +137,7 @@ describe("the painter", () => {
     expect(card.parts).toEqual([1_000_000]);
   });
 
-  it("keeps the parts short on a card that turns out slow, and sends it one at a time", async () => {
+  it("keeps the parts short on a slow card, and sends one at a time", async () => {
     const card = new Card(20);
     const { painter } = start(card, 100_000);
     painter.show(frame(1));
@@ -148,7 +148,7 @@ describe("the painter", () => {
     expect(card.mostPartsAtOnce).toBe(1);
   });
 
-  it("always shows something of a view that keeps moving, and all of it where it stops", async () => {
+  it("always shows something while the view moves, and everything when it stops", async () => {
     const card = new Card(100);
     const { painter } = start(card, 1_000_000);
     card.clock.onTurn = (turn) => {
@@ -162,7 +162,7 @@ describe("the painter", () => {
     expect(card.shown.at(-1)).toEqual({ offsetX: 3_000, detail: "whole", pieces: 1_000_000 });
   });
 
-  it("never shows the begun picture of one drawing as another", async () => {
+  it("never shows the unfinished picture of one drawing as another's", async () => {
     const card = new Card(100);
     const { painter } = start(card, 1_000_000);
     card.clock.onTurn = (turn) => {

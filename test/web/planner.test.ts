@@ -84,7 +84,7 @@ describe("the planner", () => {
     expect(worker().asked.map(({ text }) => text)).toEqual(["<svg/>", null, "<svg></svg>"]);
   });
 
-  it("reports for which board", () => {
+  it("includes the board's firmware in a request", () => {
     const { planner, worker } = setUp();
     planner.request(taskOf({ key: "a", text: "a" }, "2.4.4"));
     planner.request(taskOf({ key: "a", text: "a" }));

@@ -1,4 +1,4 @@
-/** Pages that share a plotter: the same heights, pens and presets on each, with undo; and what browsers kept before. */
+/** Pages that share a plotter have the same heights, pens and presets, with undo. Also migrates those stored in browsers. */
 import { describe, expect, it } from "vitest";
 import {
   DEFAULT_PLOT_SETTINGS,
@@ -15,12 +15,12 @@ import { makeJob, makePlotter } from "./fixtures.js";
 
 const settle = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 5));
 
-/** What the server stores, told to each page that is open. */
+/** The server's stored values, sent to each open page. */
 class Plotters {
   readonly stored: Record<string, PlotterSettings> = {};
   machine: string | null = null;
   refuses = false;
-  /** Another browser operates. */
+  /** Another browser is the operator. */
   isOthers = false;
   putCount = 0;
   readonly #pages: { readonly store: PageStore; readonly follow: () => void }[] = [];
@@ -135,7 +135,7 @@ describe("two pages of one plotter", () => {
     expect(ben.store.getState().presets).toHaveLength(1);
   });
 
-  it("show the plotter's values again where a change is refused, and say why", async () => {
+  it("show the plotter's values again if a change is refused, and say why", async () => {
     const plotters = new Plotters();
     const anna = plotters.open();
     await anna.setUp(71);
@@ -216,13 +216,13 @@ describe("a job that is opened", () => {
     return { plotters, page };
   };
 
-  it("has the plotter's heights of now, not those of then", async () => {
+  it("has the plotter's current heights, not the job's", async () => {
     const { page } = await open("done");
     expect(page.pen()).toMatchObject({ upPct: 71, layers: { sky: { upPct: 90 } } });
     expect(page.store.getState().drawing).toMatchObject({ jobId: null, sourceId: "a" });
   });
 
-  it("while it is plotted, is as it is plotted; the next drawing has the plotter's again", async () => {
+  it("has its own settings while it is plotted; the next drawing has the plotter's again", async () => {
     const { plotters, page } = await open("paused");
     expect(page.pen().upPct).toBe(5);
     plotters.tell();
@@ -233,7 +233,7 @@ describe("a job that is opened", () => {
   });
 });
 
-describe("what a browser kept before the server did", () => {
+describe("settings stored in a browser by an earlier version", () => {
   /** Both entries as version 0.1 wrote them. */
   const STORED: Readonly<Record<string, string>> = {
     "plotwright.page.v1": JSON.stringify({
@@ -258,7 +258,7 @@ describe("what a browser kept before the server did", () => {
     return { getItem: (key) => texts.get(key) ?? null, setItem: (key, text) => void texts.set(key, text) };
   };
 
-  it("goes to plotters that have nothing, model and presets with it, once", async () => {
+  it("are copied once to plotters without any, including model and presets", async () => {
     const plotters = new Plotters();
     const page = plotters.open();
     const texts = browser();
@@ -281,7 +281,7 @@ describe("what a browser kept before the server did", () => {
     expect(texts.getItem("plotwright.presets.v1")).toBe(STORED["plotwright.presets.v1"]);
   });
 
-  it("changes nothing of a plotter that has its own", async () => {
+  it("do not change a plotter that has its own", async () => {
     const plotters = new Plotters();
     const page = plotters.open();
     await page.setUp(71);
@@ -290,7 +290,7 @@ describe("what a browser kept before the server did", () => {
     expect(plotters.stored["right"].pen.upPct).toBe(66);
   });
 
-  it("waits while another browser operates, and where this one only watches", async () => {
+  it("are not copied while another browser is the operator, or if this one only watches", async () => {
     const plotters = new Plotters();
     const kept = readKeptHere(browser())!;
     const busy = plotters.open({ operator: { id: "b", name: "B" } });
@@ -301,7 +301,7 @@ describe("what a browser kept before the server did", () => {
     expect(plotters.stored).toEqual({});
   });
 
-  it("is nothing in a browser that comes for the first time", () => {
+  it("are absent in a new browser", () => {
     expect(readKeptHere({ getItem: () => null, setItem: () => undefined })).toBeNull();
     expect(readKeptHere(null)).toBeNull();
   });

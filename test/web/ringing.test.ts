@@ -1,4 +1,4 @@
-/** The ringing sheets as jobs, the machine that keeps what was measured, and what that brings. */
+/** The jobs of the ringing sheets, storing the measured springs, and the gain. */
 import { describe, expect, it } from "vitest";
 import { importSvg, machineById, MACHINES, planJob, prepare } from "../../src/index.js";
 import { boxOfPoints, machineOf, penError, prepareSettingsOf, type Springs } from "../../src/internal.js";
@@ -19,7 +19,7 @@ const on = (machine: string, paper: PlotSettings["prepare"]["paper"]): PlotSetti
 const A4 = { widthMm: 297, heightMm: 210 };
 
 describe("the first sheet", () => {
-  it("is one job at true size in the middle of the paper, within every machine's reach that has room", () => {
+  it("is one job at true size, centred on the paper and within the reach of every machine with room for it", () => {
     let count = 0;
     for (const { id, widthMm, heightMm } of MACHINES) {
       const job = sheetJob(on(id, A4), "sheet");
@@ -37,7 +37,7 @@ describe("the first sheet", () => {
     expect(count).toBeGreaterThan(8);
   });
 
-  it("has no line on another one's", () => {
+  it("has no lines that overlap", () => {
     const { xy, offsets } = strokesOf(sheetJob(DEFAULT_PLOT_SETTINGS, "sheet")!).strokes;
     const seen = new Set<string>();
     for (let stroke = 0; stroke + 1 < offsets.length; stroke++) {
@@ -49,13 +49,13 @@ describe("the first sheet", () => {
     expect(seen.size).toBe(12);
   });
 
-  it("needs a paper that it fits on", () => {
+  it("needs paper of sufficient size", () => {
     expect(sheetJob(on("axidraw-v3", { widthMm: 90, heightMm: 140 }), "sheet")).toBeNull();
   });
 });
 
 describe("the second sheet", () => {
-  it("has six lines beside each other, shaped for other frequencies but of one drawing", () => {
+  it("has six lines of the same drawing side by side, shaped for different frequencies", () => {
     const jobs = checkJobs(DEFAULT_PLOT_SETTINGS, SPRINGS, ({ factor }) => `× ${factor}`);
     expect(jobs.map(({ settings }) => machineOf(settings).springs?.xHz ?? null)).toEqual([
       null,
@@ -68,7 +68,7 @@ describe("the second sheet", () => {
     });
   });
 
-  it("shows the right frequency: that line is the straightest on the simulated pen", () => {
+  it("shows the right frequency: with a simulated pen, that line is the straightest", () => {
     const jobs = checkJobs(DEFAULT_PLOT_SETTINGS, SPRINGS, () => "check");
     const errors = jobs.map((job) => {
       const { strokes } = strokesOf(job);
@@ -80,15 +80,15 @@ describe("the second sheet", () => {
   });
 });
 
-describe("what was read", () => {
-  it("is the same by a count over 10 mm and by a ripple's length", () => {
+describe("the result of counting", () => {
+  it("is the same from a count over 10 mm and from a ripple's length", () => {
     expect(frequencyOf({ measure: "count", value: 3 }, 50)).toBe(15);
     expect(frequencyOf({ measure: "length", value: 2 }, 50)).toBe(25);
     expect(frequencyOf({ measure: "count", value: null }, 50)).toBeNull();
     expect(() => frequencyOf({ measure: "length", value: 0.01 }, 50)).toThrow(/count again/);
   });
 
-  it("is stored with a copy of a machine that comes with plotwright, and in one's own", () => {
+  it("is stored in a copy of a built-in machine, and in a custom machine itself", () => {
     const copy = measuredMachine(
       machineById("axidraw-v3"),
       { ...SPRINGS, xHz: 15.04 },
@@ -100,7 +100,7 @@ describe("what was read", () => {
     expect(again).toEqual({ ...copy, springs: { ...SPRINGS, xHz: 16 } });
   });
 
-  it("brings less time, and in Fine a line that is closer to the drawing", () => {
+  it("saves time, and makes Fine more exact", () => {
     const [before, fine, normal, fast] = gainsOf(machineById("axidraw-v3"), SPRINGS);
     expect(before.quality).toBe("before");
     expect(fast.drawS).toBeLessThan(0.75 * before.drawS);

@@ -103,7 +103,7 @@ describe("the scene", () => {
     }
   });
 
-  it("keeps pen-down and pen-up apart and knows the layer of each stroke", () => {
+  it("separates strokes from moves with the pen up, and has the layer of each stroke", () => {
     expect(new Set(allOf(scene.draw).map(({ layer }) => layer))).toEqual(new Set([0, 1, 2]));
     const drawMm = allOf(scene.draw).reduce((sum, p) => sum + Math.hypot(p.x1 - p.x0, p.y1 - p.y0), 0);
     let expectedMm = 40 + 30 + 20 + 28;
@@ -121,7 +121,7 @@ describe("the scene", () => {
     expect(dots[0]).toMatchObject({ x0: 80, y0: 80, x1: 80, y1: 80 });
   });
 
-  it("cuts a curve so finely that its chords stay on it", () => {
+  it("splits a curve so finely that the chords stay on it", () => {
     const curve = parabola();
     const { draw } = buildScene(curve, Uint16Array.of(0));
     expect(draw.count).toBeGreaterThan(10);
@@ -179,7 +179,7 @@ describe("hovering", () => {
 describe("one stroke of a plan", () => {
   it("has its own line and no other's, its length and its time", () => {
     const { lengthMm, points, startS, durationS } = strokeFigures({ scene, trajectory }, 0)!;
-    // Its corners are rounded, by a little.
+    // Its corners are slightly rounded.
     expect(lengthMm).toBeGreaterThan(115);
     expect(lengthMm).toBeLessThanOrEqual(118.001);
     expect([...points.slice(0, 2), ...points.slice(-2)].map(Math.round)).toEqual([10, 10, 30, 12]);

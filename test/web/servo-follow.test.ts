@@ -9,7 +9,7 @@ describe("a pen that follows a slider", () => {
     const after = (delayMs: number, run: () => void): void =>
       void pending.push({ atMs: nowMs + delayMs, run });
     let goingCount = 0;
-    const follow = servoFollower(async ({ pct }) => {
+    const follow = servoFollower(async ({ pct }: { pct: number }) => {
       moves.push([nowMs, pct]);
       expect(++goingCount).toBe(1);
       await new Promise<void>((resolve) => after(pct === 50 ? 700 : 30, resolve));
@@ -17,7 +17,7 @@ describe("a pen that follows a slider", () => {
     }, after);
     for (; nowMs < 3_000; nowMs += 10) {
       // A drag of one second, from 30 to 80 %.
-      if (nowMs < 1_000 && nowMs % 20 === 0) follow({ isUp: true, pct: 30 + nowMs / 20 });
+      if (nowMs < 1_000 && nowMs % 20 === 0) follow({ pct: 30 + nowMs / 20 });
       const due = pending.filter(({ atMs }) => atMs <= nowMs);
       pending = pending.filter(({ atMs }) => atMs > nowMs);
       for (const { run } of due) run();
@@ -26,7 +26,7 @@ describe("a pen that follows a slider", () => {
     expect(moves.at(-1)?.[1]).toBe(79);
     const gapsMs = moves.slice(1).map(([atMs], k) => atMs - moves[k][0]);
     expect(Math.min(...gapsMs)).toBeGreaterThanOrEqual(200);
-    // A move that takes long holds the next one back.
+    // A slow move delays the next one.
     expect(Math.max(...gapsMs)).toBeGreaterThanOrEqual(700);
     expect(moves.length).toBeLessThanOrEqual(6);
   });

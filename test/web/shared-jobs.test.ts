@@ -6,7 +6,7 @@ import {
   type Plotter,
   type SharedJob,
 } from "../../src/schema/index.js";
-import { isServerGone, leftOut, machineWanted, wayOut } from "../../web/studio/shared-jobs.js";
+import { isServerGone, leftOut, machineWanted, possibleAction } from "../../web/studio/shared-jobs.js";
 
 const NOW_MS = Date.parse("2026-11-21T12:00:00Z");
 const ago = (ms: number): string => new Date(NOW_MS - ms).toISOString();
@@ -25,23 +25,23 @@ const TAKEN = { state: "stored", server: "Left" } as const;
 
 describe("a shared job", () => {
   it("can be withdrawn while it waits, and not when it was refused or withdrawn", () => {
-    expect(wayOut(job({}), NOW_MS)).toBe("withdraw");
-    expect(wayOut(job({ state: "refused" }), NOW_MS)).toBeNull();
-    expect(wayOut(job({ state: "withdrawn" }), NOW_MS)).toBeNull();
+    expect(possibleAction(job({}), NOW_MS)).toBe("withdraw");
+    expect(possibleAction(job({ state: "refused" }), NOW_MS)).toBeNull();
+    expect(possibleAction(job({ state: "withdrawn" }), NOW_MS)).toBeNull();
   });
 
   it("is left with a server that is running", () => {
     const there = job({ ...TAKEN, serverSeenAt: ago(SERVER_LOST_AFTER_MS - 1_000) });
     expect(isServerGone(there, NOW_MS)).toBe(false);
-    expect(wayOut(there, NOW_MS)).toBeNull();
+    expect(possibleAction(there, NOW_MS)).toBeNull();
   });
 
-  it("can be returned when its server has gone, unless its plot has begun", () => {
+  it("can be given to another server when its own does not answer, unless its plot has begun", () => {
     const lost = { ...TAKEN, serverSeenAt: ago(SERVER_LOST_AFTER_MS + 1_000) };
-    expect(wayOut(job(lost), NOW_MS)).toBe("give-back");
-    expect(wayOut(job({ ...TAKEN, serverSeenAt: null }), NOW_MS)).toBe("give-back");
+    expect(possibleAction(job(lost), NOW_MS)).toBe("give-back");
+    expect(possibleAction(job({ ...TAKEN, serverSeenAt: null }), NOW_MS)).toBe("give-back");
     expect(isServerGone(job({ ...lost, hasBegun: true }), NOW_MS)).toBe(true);
-    expect(wayOut(job({ ...lost, hasBegun: true }), NOW_MS)).toBeNull();
+    expect(possibleAction(job({ ...lost, hasBegun: true }), NOW_MS)).toBeNull();
   });
 
   it("names the plotters that are left out only because their model is not set", () => {

@@ -1,4 +1,4 @@
-/** The browser's model of jobs and plotters does what the server's database does. */
+/** The browser's model of jobs and plotters behaves like the server's database. */
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
@@ -56,7 +56,7 @@ function newJob(number: number): Job {
   return queuedJob({ ...from, settings: DEFAULT_PLOT_SETTINGS, stats: STATS }, "2026-01-01T00:00:00.000Z");
 }
 
-/** The same on both; both throw or neither does. */
+/** Does the same on both. Both must throw or neither. */
 function both<T>(act: (store: JobStore & PlotterStore) => T): T | undefined {
   const [a, b] = [server, browser].map((store) => {
     try {
@@ -104,7 +104,7 @@ describe("the browser's stored model", () => {
       expect(browser.order()).toEqual(server.order());
     }
     expect(browser.jobs()).toEqual(server.jobs());
-    // What was written is what is read again.
+    // Reading returns what was written.
     expect(new StoredModel(records, records).jobs()).toEqual(server.jobs());
   });
 

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Frame, Picture } from "../../web/scene/renderer.js";
 import { PIECE_BYTES } from "../../web/scene/pieces.js";
 import type { Scene } from "../../web/scene/scene.js";
-import { StrokesAway, type DrawWorkerLike, type Strokes } from "../../web/preview/strokes.js";
+import { StrokesInWorker, type DrawWorkerLike, type Strokes } from "../../web/preview/strokes.js";
 import type { DrawReply, DrawRequest } from "../../web/worker/draw-protocol.js";
 
 class WorkerByHand implements DrawWorkerLike {
@@ -64,7 +64,7 @@ const setUp = () => {
     show: (asked) => onPage.frames.push(asked),
     close: () => undefined,
   };
-  const strokes = new StrokesAway(
+  const strokes = new StrokesInWorker(
     worker,
     (bitmap) => put.push(bitmap),
     (of, isDone) => shown.push([of, isDone]),
@@ -84,7 +84,7 @@ describe("strokes drawn by a worker", () => {
     expect(own.draw.bytes.byteLength).toBe(2 * PIECE_BYTES);
   });
 
-  it("copy the page's own if the copy was given away before", () => {
+  it("copy the page's own if the copy was transferred before", () => {
     const copy = picture();
     setUp().strokes.setScene(scene(), copy);
     const { worker, strokes } = setUp();

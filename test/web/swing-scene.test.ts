@@ -1,4 +1,4 @@
-/** The simulated pen as pieces of a picture: true to the samples, small, and coloured by the error. */
+/** The simulated pen as pieces of a picture: exact, small, and coloured by the error. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, planJob } from "../../src/index.js";
 import { penError, swingPen, type PenPoint } from "../../src/internal.js";
@@ -33,7 +33,7 @@ describe("the picture of a swinging pen", () => {
     expect(pieces.bytes.byteLength).toBe(pieces.count * PIECE_BYTES);
   });
 
-  it("has the error as the share of its scale, and reports how far it is", () => {
+  it("has the error as the share of its scale, and reports its progress", () => {
     const strokes = FIGURES.squares;
     const trajectory = planned(strokes);
     const shares: number[] = [];
@@ -54,7 +54,7 @@ describe("the picture of a swinging pen", () => {
     expect(shares[shares.length - 1]).toBeLessThanOrEqual(1 + 1e-9);
   });
 
-  it("is in order of time, each layer's strokes where its pen draws them, dots too", () => {
+  it("is in order of time, with each layer's strokes and dots where its pen draws them", () => {
     const set = strokeSetOf(
       [
         [
@@ -89,7 +89,7 @@ describe("the picture of a swinging pen", () => {
     expect(piecesBefore(pieces, trajectory.totalS)).toBe(pieces.count);
   });
 
-  it("has a scale that ends at a round number, and never below what can be seen", () => {
+  it("has a scale that ends at a round number, with a minimum", () => {
     expect([0, 0.004, 0.05, 0.06, 0.13, 0.31, 0.5, 1.2].map(scaleTop)).toEqual([
       0.05, 0.05, 0.05, 0.07, 0.15, 0.5, 0.5, 1.5,
     ]);

@@ -1,4 +1,4 @@
-/** What Watch works out of the page's state. */
+/** What Watch computes from the page's state. */
 import { describe, expect, it, vi } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, type Trajectory } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
@@ -22,7 +22,7 @@ const makeStore = () => {
 };
 
 describe("Watch", () => {
-  it.each(["plotting", "paused", "interrupted"] as const)("opens when a job comes to be %s", (state) => {
+  it.each(["plotting", "paused", "interrupted"] as const)("opens when a job becomes %s", (state) => {
     const store = makeStore();
     openWatch(store);
     store.setState({ jobs: [makeJob("a")] });
@@ -50,15 +50,15 @@ describe("Watch", () => {
     expect(shownView(store.getState())).toBe("prepare");
   });
 
-  it("is all that a watcher has", () => {
+  it("is a watcher's only view", () => {
     const store = makeStore();
     store.setState({ me: { role: "watch", id: null, name: null } });
     expect(shownView(store.getState())).toBe("watch");
   });
 });
 
-describe("keys for what is laid out", () => {
-  it("are silent in Watch, where it is out of sight", () => {
+describe("keys for the laid-out drawing", () => {
+  it("are ignored in Watch, which does not show it", () => {
     const store = makeStore();
     const actions = { queueDrawing: vi.fn(), undo: vi.fn() } as unknown as Actions;
     const shortcuts = shortcutsFor({ store, actions, player: { toggle: vi.fn() } });
@@ -92,7 +92,7 @@ describe("how far a watched job is drawn", () => {
 describe("the queue's rows", () => {
   const ids = (jobs: readonly Job[]): string[][] => rowsOf(jobs).map((row) => row.map(({ id }) => id));
 
-  it("has copies that wait one after the other in one row, and nothing else", () => {
+  it("put consecutive copies into one row, and nothing else", () => {
     const [a, b, c] = ["a", "b", "c"].map((id) => makeJob(id, { name: "Fern" })) as [Job, Job, Job];
     const other = makeJob("d", { name: "Moss" });
     expect(ids([a, b, other, c])).toEqual([["a", "b"], ["d"], ["c"]]);
@@ -101,8 +101,8 @@ describe("the queue's rows", () => {
   });
 });
 
-describe("a small picture", () => {
-  it("is cut to what is neither clear nor white", () => {
+describe("a thumbnail", () => {
+  it("is cropped to the pixels that are neither transparent nor white", () => {
     const [width, height] = [6, 5];
     const data = new Uint8ClampedArray(4 * width * height);
     const set = (x: number, y: number, rgba: readonly number[]): void => data.set(rgba, 4 * (y * width + x));
@@ -114,7 +114,7 @@ describe("a small picture", () => {
   });
 });
 
-describe("what only the operator may do", () => {
+describe("an action that only the operator may do", () => {
   const makePage = () => {
     const store = makeStore();
     let isOperator = false;
@@ -141,7 +141,7 @@ describe("what only the operator may do", () => {
       return takeOverQuestion;
     });
 
-  it("asks whether to take over, and then does it", async () => {
+  it("asks whether to take over, and is then done", async () => {
     const { store, actions, backend } = makePage();
     const done = actions.duplicateJob("a");
     (await question(store)).answer(true);
@@ -150,7 +150,7 @@ describe("what only the operator may do", () => {
     expect(store.getState().takeOverQuestion).toBeNull();
   });
 
-  it("stays as it was, without a complaint, when it is not taken over", async () => {
+  it("is not done, without an error, if the user declines", async () => {
     const { store, actions } = makePage();
     const done = actions.duplicateJob("a");
     (await question(store)).answer(false);

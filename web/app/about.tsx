@@ -7,7 +7,7 @@ import "./sheets.css";
 
 const words = aboutText;
 
-/** Which version this is, and the licences of all that is built into the page. */
+/** Shows the version, and the licences of all software in the page. */
 export const AboutDialog = () => {
   const store = usePageStore();
   const version = usePageState((state) => state.version);
@@ -23,7 +23,7 @@ export const AboutDialog = () => {
   );
 };
 
-/** The build writes them beside the page; while it is developed there is no such file. */
+/** The build writes the licences beside the page. The development server has no such file. */
 function useLicences(): string {
   const [licences, setLicences] = useState<string>(words.loading);
   useEffect(() => {

@@ -32,7 +32,7 @@ const Adjust = lazyPart(async () => (await import("../watch/adjust.js")).Adjust)
 const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
 const Camera = lazyPart(async () => (await import("../studio/camera.js")).Camera);
 
-/** Where the skip link leads. */
+/** Targets of the skip link. */
 const PLOT_ID = "plot-bar";
 const WATCH_ID = "plot-status";
 const TABS = ["setup", "queue", "machine"] as const;
@@ -43,7 +43,7 @@ interface AppProps {
   readonly shortcuts: readonly Shortcut[];
 }
 
-/** Where the panels stand. On a narrow screen the side columns become tabs under the paper. */
+/** Arranges the panels. On a narrow screen the side columns become tabs under the paper. */
 export const App = ({ player, shortcuts }: AppProps) => {
   const [tab, setTab] = useState<Tab>("setup");
   const { openFile, openPasted } = useActions();
@@ -95,7 +95,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           <PlotBar />
           {isWatching && hasCamera && <Camera />}
           {isWatching && <Adjust />}
-          {/* What a plot begins with comes first, and the queue once something is plotted. */}
+          {/* Before a plot the plotter's panel comes first, during one the queue. */}
           {!hasJob && machine}
           <div className="tab-queue">
             <QueuePanel />
@@ -116,7 +116,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
   );
 };
 
-/** For the keyboard: past the header and the settings to what starts or stops a plot. */
+/** For keyboard users: jumps over the header and the settings to the buttons that start or stop a plot. */
 const SkipLink = () => {
   const isWatching = usePageState((state) => shownView(state) === "watch");
   const target = isWatching ? WATCH_ID : PLOT_ID;

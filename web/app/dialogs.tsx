@@ -11,7 +11,7 @@ const Console = lazyPart(async () => (await import("../plotter/console.js")).Con
 const RingingDialog = lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog);
 const StudioDialog = lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog);
 
-/** The sheet that lies over the page, if any. */
+/** The open dialog, if any. */
 export const Dialogs = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
   const dialog = usePageState((state) => state.openDialog);
   const question = usePageState((state) => state.takeOverQuestion);

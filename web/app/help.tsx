@@ -8,7 +8,7 @@ import "./sheets.css";
 
 const words = shortcutsText;
 
-/** The sheet with all keys. */
+/** The dialog that lists all keyboard shortcuts. */
 export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
   const store = usePageStore();
   return (

@@ -1,4 +1,4 @@
-/** Mounts the page: the only file that does something when it is imported. */
+/** Mounts the page. The only file with side effects on import. */
 import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { createPageBackend } from "../backend/page-backend.js";
@@ -36,8 +36,8 @@ const EXPORTED = {
   commands: { ending: "commands.txt", type: "text/plain" },
 };
 
-/** A new plan has other moments and other places. */
-const NOTHING_LOOKED_AT = { momentS: null, isPlaying: false, hover: null, noteBoxes: [] };
+/** Reset with each new plan, because its times and positions differ. */
+const NOTHING_SELECTED = { momentS: null, isPlaying: false, hover: null, noteBoxes: [] };
 
 const remembered = readRemembered(storage);
 const store = createPageStore(remembered);
@@ -51,7 +51,7 @@ const planner = new Planner(
   },
   {
     onImported: (drawingKey, page) => actions.placeForPage(drawingKey, page),
-    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_LOOKED_AT }),
+    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_SELECTED }),
     onExported: (format, exported) => {
       const name = store.getState().drawing?.name ?? appName;
       saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
@@ -59,7 +59,7 @@ const planner = new Planner(
     onExportFailed: (message) => actions.notify("error", message),
     onFault: (fault) => {
       if (actions.wentBack(fault)) return;
-      store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_LOOKED_AT });
+      store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_SELECTED });
     },
   },
 );
@@ -79,7 +79,7 @@ const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
 listenForShortcuts(shortcuts);
 watchJobs(store, (sentence, { state }) => {
-  // What waits, or was interrupted, stands on the page until it is answered.
+  // A waiting or interrupted job is shown on the page anyway, until the user answers.
   if (state === "done" || state === "failed") actions.notify(state === "done" ? "info" : "error", sentence);
   if (window.Notification?.permission === "granted") new Notification(appName, { body: sentence });
 });
@@ -109,9 +109,9 @@ createRoot(root).render(
   </StrictMode>,
 );
 
-/** Settings and view outlive the visit; the theme is on the root element, where the style sheet reads it. */
+/** Stores settings and view for the next visit. Sets the theme on the root element, where the style sheet reads it. */
 function keepRemembered(pageStore: PageStore): void {
-  let kept: ReturnType<typeof setTimeout> | null = null;
+  let timer: ReturnType<typeof setTimeout> | null = null;
   const showTheme = (): void => {
     document.documentElement.dataset.theme = pageStore.getState().view.theme;
   };
@@ -119,19 +119,22 @@ function keepRemembered(pageStore: PageStore): void {
   pageStore.subscribe((state, before) => {
     if (state.view.theme !== before.view.theme) showTheme();
     if (state.settings === before.settings && state.view === before.view) return;
-    if (kept !== null) clearTimeout(kept);
-    kept = setTimeout(write, 300);
+    if (timer !== null) clearTimeout(timer);
+    timer = setTimeout(write, 300);
   });
   const write = (): void => {
-    kept = null;
+    timer = null;
     writeRemembered(storage, pageStore.getState());
   };
   window.addEventListener("pagehide", () => {
-    if (kept !== null) write();
+    if (timer !== null) write();
   });
 }
 
-/** Model, heights, pens and presets are the plotter's; those that this browser has kept go to a plotter without any. */
+/**
+ * Model, heights, pens and presets belong to the plotter. Those that an earlier version stored in this browser are
+ * copied to plotters that have none.
+ */
 function followPlotter(pageStore: PageStore): void {
   let kept = readKeptHere(storage);
   if (kept === null) noteTakenOver(storage);
@@ -146,16 +149,16 @@ function followPlotter(pageStore: PageStore): void {
   pageStore.subscribe((state, before) => {
     const { plotters, plotterId, plotterSettings, machines, me, operator } = state;
     if (me !== before.me || operator !== before.operator) void takeOver();
-    const isNews =
+    const hasChanged =
       plotters !== before.plotters ||
       plotterId !== before.plotterId ||
       plotterSettings !== before.plotterSettings ||
       machines !== before.machines;
-    if (isNews) actions.followPlotter();
+    if (hasChanged) actions.followPlotter();
   });
 }
 
-/** The last drawing comes back. A browser without one has an empty sheet. */
+/** Restores the last drawing, if there is one, and loads the rest once the server has answered. */
 async function greet(pageStore: PageStore): Promise<void> {
   const kept = await readKeptDrawing(drawings);
   if (kept && pageStore.getState().drawing === null) actions.restoreDrawing(kept);
@@ -167,11 +170,11 @@ async function greet(pageStore: PageStore): Promise<void> {
 
 const connected = (pageStore: PageStore): Promise<void> =>
   new Promise((resolve) => {
-    const look = (): void => {
+    const check = (): void => {
       if (pageStore.getState().link !== "connected") return;
       stop();
       resolve();
     };
-    const stop = pageStore.subscribe(look);
-    look();
+    const stop = pageStore.subscribe(check);
+    check();
   });

@@ -5,7 +5,7 @@ import "./pairing.css";
 
 const words = pairingText;
 
-/** In place of the page on a device that the server does not know. */
+/** Shown instead of the page on a device that the server does not know. */
 export const Pairing = () => {
   const { meet } = useActions();
   return (

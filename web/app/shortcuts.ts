@@ -1,4 +1,4 @@
-/** Keys for the whole page. They stay silent while the user types into a field. */
+/** Keyboard shortcuts of the whole page. They are ignored while the user types into a field. */
 import type { Player } from "../preview/player.js";
 import { historyText, shortcutsText } from "./text.js";
 import { plotText } from "../queue/text.js";
@@ -6,7 +6,7 @@ import type { Actions } from "../state/actions.js";
 import { activeJob, shownView, type PageStore } from "../state/store.js";
 
 export interface Shortcut {
-  /** As shown in the help sheet. */
+  /** As shown in the help dialog. */
   readonly keys: string;
   readonly label: string;
   matches(event: KeyPress): boolean;
@@ -32,7 +32,7 @@ interface ShortcutDeps {
 
 const words = shortcutsText;
 
-/** Keys for what is laid out are silent in Watch, where it is out of sight. */
+/** Shortcuts that change the laid-out drawing are ignored in Watch, which does not show it. */
 export const shortcutsFor = (deps: ShortcutDeps): readonly Shortcut[] => [
   ...prepareShortcuts(deps).map((shortcut) => ({
     ...shortcut,
@@ -80,7 +80,7 @@ const pageShortcuts = ({ store, actions }: ShortcutDeps): readonly Shortcut[] =>
   },
 ];
 
-/** Listens on the document; returns a function that stops. */
+/** Listens on the document. Returns a function that stops listening. */
 export const listenForShortcuts = (shortcuts: readonly Shortcut[]): (() => void) => {
   const onKey = (event: KeyboardEvent): void => {
     if (event.defaultPrevented || isTyping(event.target)) return;
@@ -93,7 +93,7 @@ export const listenForShortcuts = (shortcuts: readonly Shortcut[]): (() => void)
   return () => document.removeEventListener("keydown", onKey);
 };
 
-/** Fields take their own keys, and a focused button takes Space. */
+/** Fields handle their own keys, and a focused button handles Space. */
 const isTyping = (target: EventTarget | null): boolean =>
   target instanceof HTMLElement &&
   (target.isContentEditable || ["INPUT", "TEXTAREA", "SELECT", "BUTTON"].includes(target.tagName));

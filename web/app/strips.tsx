@@ -7,7 +7,7 @@ import { lazyPart } from "../ui/lazy-part.js";
 const words = stripsText;
 const PenWait = lazyPart(async () => (await import("../queue/pen-wait.js")).PenWait);
 
-/** Over the paper, whatever panel is open: what the server, another person or the plot itself wants to be known. */
+/** Messages over the paper, visible with any panel: about the server, another operator, a pen change. */
 export const Strips = () => (
   <div className="strips">
     <LinkStrip />
@@ -19,7 +19,7 @@ export const Strips = () => (
   </div>
 );
 
-/** The server is away, or has a newer page. */
+/** The server can't be reached, or it has a newer page. */
 const LinkStrip = () => {
   const link = usePageState((state) => state.link);
   const isOutdated = usePageState((state) => state.isOutdated);
@@ -65,8 +65,7 @@ const OperatorStrip = () => {
 };
 
 /**
- * Errors without a request by this page, such as a file in the watched folder; shown until somebody closes
- * them.
+ * Server errors that no request of this page caused, such as a bad file in the watched folder. Shown until dismissed.
  */
 const ServerNotices = () => {
   const notices = usePageState((state) => state.serverNotices);

@@ -4,7 +4,7 @@ import { takeOverText } from "./text.js";
 
 const words = takeOverText;
 
-/** Before what only the operator may do, while another browser operates. */
+/** Asks before an action that only the operator may do, while another browser is the operator. */
 export const TakeOver = ({ question }: { question: NonNullable<PageState["takeOverQuestion"]> }) => (
   <Dialog title={words.title} onClose={() => question.answer(false)}>
     <p>{words.operating(question.operator)}</p>

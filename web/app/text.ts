@@ -1,4 +1,4 @@
-/** Words of the page's frame: header, tabs, strips over the paper, keys. */
+/** Texts of the page's frame: header, tabs, messages over the paper, keyboard shortcuts. */
 export const historyText = {
   undo: "Undo",
   redo: "Redo",
@@ -26,27 +26,27 @@ export const viewText = {
 
 export const pairingText = {
   title: "Pair this device",
-  why: "This device is new to this plotter’s computer. Let it in once, and it is let in from then on.",
+  why: "The plotter’s computer does not know this device yet. Pair it once, and it stays paired.",
   steps: [
     "On the computer that the plotter is plugged into, open plotwright and press “Sharing, plotters, camera”.",
-    "Scan the code there with this device’s camera, or open the link on it.",
+    "Scan the code there with this device’s camera, or open the link on this device.",
   ],
   terminal: "The link is also printed in the window in which plotwright was started.",
   retry: "Try again",
 };
 
 export const takeOverText = {
-  title: "Another browser operates",
+  title: "Another browser is operating",
   operating: (name: string | null) =>
-    name === null ? "Another browser has the plotter in hand." : `${name} has the plotter in hand.`,
-  hint: "Only one operates at a time. If you take over, the other one watches until it takes over again.",
+    name === null ? "Another browser is operating the plotter." : `${name} is operating the plotter.`,
+  hint: "Only one browser operates at a time. If you take over, the other one can only watch until it takes over again.",
   takeOver: "Take over",
-  keep: "Leave it",
+  keep: "Not now",
 };
 
 export const themeText = {
   label: "Appearance",
-  auto: "As the system",
+  auto: "Same as system",
   light: "Light",
   dark: "Dark",
 };
@@ -54,21 +54,21 @@ export const themeText = {
 export const stripsText = {
   watching: (operator: string | null) =>
     operator === null
-      ? "This device watches. It may stop a plot, nothing else."
-      : `${operator} is operating; this device watches. It may stop a plot, nothing else.`,
+      ? "This device can watch and stop a plot, nothing else."
+      : `${operator} is operating. This device can watch and stop a plot, nothing else.`,
   operating: (name: string) => `${name} is operating.`,
   takeOver: "Take over",
-  read: "I have read it",
-  outdated: "plotwright was brought up to date on the server.",
+  read: "Dismiss",
+  outdated: "plotwright was updated on the server.",
   offline:
-    "plotwright’s server can’t be reached: switched off, or this device has no network. Drawings can be laid out meanwhile.",
+    "plotwright’s server can’t be reached: it is switched off, or this device has no network. You can still lay out drawings.",
 };
 
 export const shortcutsText = {
-  title: "Keys",
-  play: "Play the plot, or stop",
+  title: "Keyboard shortcuts",
+  play: "Play the preview, or stop",
   travel: "Show pen-up moves",
   graph: "Show speed over time",
-  pause: "Pause the plotter, or resume",
-  fields: "In a number: arrow up and down step it, with Shift ten times as far.",
+  pause: "Pause the plot, or resume",
+  fields: "In a number field, the up and down arrows change the number; with Shift, ten times as much.",
 };

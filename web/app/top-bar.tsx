@@ -30,7 +30,7 @@ export const TopBar = () => {
   );
 };
 
-/** Lay out, or see to the plot under way; absent for a watcher, who has nothing to lay out. */
+/** Switches between Prepare and Watch. Not shown to a watcher, who has only Watch. */
 const ViewSwitch = () => {
   const view = usePageState((state) => state.pageView);
   const isMine = usePageState(mayOperate);
@@ -102,7 +102,7 @@ const StudioButton = () => {
   );
 };
 
-/** Which of the server's plotters the page shows and sends to; absent where there is one. */
+/** Chooses the plotter that the page shows and sends to. Not shown when there is only one. */
 const PlotterSwitch = () => {
   const plotters = usePageState((state) => state.plotters);
   const current = usePageState(currentPlotter);

@@ -1,6 +1,6 @@
 /**
- * Everything that the page asks of what keeps the jobs and drives the plotters. The page knows only this interface;
- * `server/` implements it by plotwright's server, `browser/` by a worker of the page. A failed request rejects with a BackendFault.
+ * The interface through which the page reaches jobs and plotters. `server/` implements it by plotwright's server,
+ * `browser/` by a worker of the page. A failed request rejects with a BackendFault.
  */
 import type { MachineProfile } from "../../src/index.js";
 import type {
@@ -52,7 +52,7 @@ export interface SampleInfo {
   readonly title: string;
 }
 
-/** A drawing that the backend has. */
+/** A drawing that the backend stores. */
 export interface DrawingSource {
   readonly of: "job" | "sample";
   readonly id: string;
@@ -60,30 +60,30 @@ export interface DrawingSource {
 
 export interface BackendListener {
   onEvent(event: ServerEvent): void;
-  /** Connected, or no longer. Each connection begins with an event "snapshot". */
+  /** Called when the connection is made or lost. Each connection begins with an event "snapshot". */
   onLink(isConnected: boolean): void;
 }
 
-/** What not every backend offers; the page shows it only where it is there. */
+/** Optional features. The page shows only those that the backend has. */
 export interface BackendFeatures {
-  /** Other devices, keys, webhooks, several plotters, a queue that servers share. */
+  /** Other devices, keys, webhooks, several plotters, a shared queue. */
   readonly sharing: boolean;
-  /** The user has to let the page use the plotter's port, by `connect`. */
+  /** The user has to allow the page to use the plotter's port, by `connect`. */
   readonly asksForPort: boolean;
 }
 
 export interface Backend {
   readonly features: BackendFeatures;
 
-  /** Reports everything once, then each change. Returns a function that stops. */
+  /** Reports the whole state once, then each change. Returns a function that stops. */
   listen(listener: BackendListener): () => void;
 
   addJob(job: Omit<NewJob, "drawing">, drawing: DrawingText): Promise<Job>;
   patchJob(id: string, patch: JobPatch): Promise<Job>;
   actOnJob(id: string, action: JobAction): Promise<Job>;
-  /** Of a job that is being plotted. */
+  /** Changes a job while it is plotted. */
   changeJob(id: string, change: JobChange): Promise<Job>;
-  movePlace(id: string, way: MovePlace): Promise<Job>;
+  movePlace(id: string, move: MovePlace): Promise<Job>;
   /** `beforeId` null: to the end. */
   moveJob(id: string, beforeId: string | null): Promise<void>;
   duplicateJob(id: string): Promise<Job>;
@@ -91,7 +91,7 @@ export interface Backend {
   jobDrawing(id: string): Promise<DrawingText>;
   setQueue(plotterId: string, settings: QueueSettings): Promise<QueueSettings>;
 
-  /** Who this browser is. */
+  /** This browser's identity and role. */
   me(): Promise<Me>;
   takeOver(): Promise<Operator | null>;
   dismissNotice(id: string): Promise<void>;
@@ -101,9 +101,9 @@ export interface Backend {
   movePen(id: string, request: PenRequest): Promise<Plotter>;
   motorsOff(id: string): Promise<Plotter>;
   home(id: string, settings: PlotSettings): Promise<Plotter>;
-  /** Lets the user choose a port, and connects to it. Only where `features.asksForPort`; call it from a click. */
+  /** Lets the user choose a port, and connects to it. Needs `features.asksForPort` and a click. */
   connect(id: string): Promise<Plotter>;
-  /** Commands and replies of the plotter's connection. */
+  /** The log of commands and replies of the plotter's connection. */
   log(plotterId: string): Promise<string>;
 
   machines(): Promise<readonly ListedMachine[]>;
@@ -112,10 +112,10 @@ export interface Backend {
 
   samples(): Promise<readonly SampleInfo[]>;
   sample(name: string): Promise<string>;
-  /** The SVG of a drawing, for a small picture of it; null where it is no SVG or larger than `maxBytes`. */
+  /** The SVG of a drawing, for a thumbnail; null if it is not SVG or is larger than `maxBytes`. */
   svgOf(source: DrawingSource, maxBytes: number): Promise<string | null>;
 
-  /** Parts that the first view does not need; they are loaded when they are first asked for. */
+  /** Parts that the first view does not need. They are loaded on the first call. */
   hand(): Promise<HandBackend>;
   studio(): Promise<StudioBackend>;
 }
@@ -135,7 +135,7 @@ export interface HandBackend {
   command(plotterId: string, line: string): Promise<CommandAnswer>;
 }
 
-/** Plotters, devices that are let in, programs that are told, and the queue that several servers share. */
+/** Plotters, access, webhooks, and the queue that several servers share. */
 export interface StudioBackend {
   devices(): Promise<readonly Device[]>;
   addPlotter(plotter: NewPlotter): Promise<Plotter>;
@@ -151,7 +151,7 @@ export interface StudioBackend {
   addWebhook(webhook: NewWebhook): Promise<{ readonly webhook: Webhook; readonly secret: string }>;
   removeWebhook(id: string): Promise<void>;
 
-  /** Null where no queue is shared. */
+  /** Null if there is no shared queue. */
   sharedJobs(): Promise<readonly SharedJob[] | null>;
   shareJob(job: Omit<NewSharedJob, "drawing">, drawing: DrawingText): Promise<void>;
   giveBackShared(id: string): Promise<void>;

@@ -1,10 +1,10 @@
-/** Small pictures show the drawing, not its page: a postcard's drawing in the middle of A3 would be a dot. */
+/** Crops thumbnails to the drawing: on its whole page, a small drawing in the middle of A3 would be a dot. */
 
-/** Of the longer side, px: enough to find the edges, and for a thumb on a fine screen. */
+/** Length of the longer side, px: enough to find the edges, and for a thumbnail on a high-resolution screen. */
 const PICTURE_PX = 240;
-/** Around the drawing, share of its longer side. */
+/** Space around the drawing, as a share of its longer side. */
 const PAD = 0.06;
-/** A pixel lighter than this is paper, as where a file has a white page of its own. */
+/** A lighter pixel counts as paper, because some files have a white background. */
 const PAPER_LIGHTNESS = 247;
 const PAPER_ALPHA = 12;
 const PASSES = 3;
@@ -16,7 +16,7 @@ interface Box {
   readonly height: number;
 }
 
-/** The box around all that is drawn, of RGBA pixels; null where there is nothing. */
+/** The box around everything drawn in RGBA pixels; null if there is nothing. */
 export const inkBox = (data: Uint8ClampedArray, width: number, height: number): Box | null => {
   let [x0, y0, x1, y1] = [width, height, -1, -1];
   for (let y = 0; y < height; y++) {
@@ -34,7 +34,7 @@ export const inkBox = (data: Uint8ClampedArray, width: number, height: number): 
   return x1 < 0 ? null : { x: x0, y: y0, width: x1 - x0 + 1, height: y1 - y0 + 1 };
 };
 
-/** The address of the picture cut to what is drawn; the picture's own where it can't be cut. */
+/** The URL of the cropped picture, or the picture's own URL if it can't be cropped. */
 export const croppedPicture = async (url: string): Promise<string> => {
   const image = new Image();
   image.src = url;
@@ -46,7 +46,7 @@ export const croppedPicture = async (url: string): Promise<string> => {
   ];
   const box = inkBox(pixelsOf(image, 0, 0, 1 / scale, width, height).data, width, height);
   if (!box) return url;
-  // Drawn once more, larger, so that a small drawing is sharp.
+  // Draws it again, larger, so that a small drawing is sharp.
   const pad = PAD * Math.max(box.width, box.height);
   const side = PICTURE_PX / (Math.max(box.width, box.height) + 2 * pad);
   const { canvas } = pixelsOf(
@@ -63,7 +63,7 @@ export const croppedPicture = async (url: string): Promise<string> => {
   return URL.createObjectURL(cut);
 };
 
-/** The part of an image at (left, top), drawn `width` × `height` px large, each of `step` px of the image. */
+/** The part of an image that begins at (left, top), as `width` × `height` pixels of `step` image pixels each. */
 const pixelsOf = (
   image: HTMLImageElement,
   left: number,
@@ -77,7 +77,7 @@ const pixelsOf = (
   canvas.height = height;
   const context = canvas.getContext("2d", { willReadFrequently: true });
   if (!context) throw new Error("no 2d context");
-  // More than once: lines much finer than a pixel are too faint to be seen.
+  // Several passes, because lines much finer than a pixel would be too faint.
   for (let pass = 0; pass < PASSES; pass++) {
     context.drawImage(
       image,

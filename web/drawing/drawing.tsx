@@ -83,7 +83,7 @@ const Samples = () => {
   );
 };
 
-/** What the plot will lack; a note with places is a button that shows them on the paper. */
+/** The warnings: what will not be drawn. A warning with places has a button that shows them on the paper. */
 const Report = () => {
   const planned = usePageState((state) => state.planned);
   const noteBoxes = usePageState((state) => state.noteBoxes);

@@ -6,7 +6,7 @@ import type { Planned } from "../worker/protocol.js";
 
 const words = drawnSizeText;
 
-/** How large the drawing will be on the paper, and the way to the size that its file has. */
+/** The drawing's size on the paper, and a button for the size in its file. */
 export const DrawnSize = () => {
   const planned = usePageState((state) => state.planned);
   const unit = usePageState((state) => state.view.lengthUnit);
@@ -20,7 +20,7 @@ export const DrawnSize = () => {
   );
 };
 
-/** In percent of the file; two where it is stretched. */
+/** In percent of the size in the file; two numbers if it is stretched. */
 const scaleInWords = ({ pageToPaper: { a, b, c, d } }: Planned): string => {
   const percents = [Math.hypot(a, b), Math.hypot(c, d)].map((factor) =>
     formatNumber(100 * factor, factor < 0.1 ? 1 : 0),

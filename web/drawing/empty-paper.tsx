@@ -6,7 +6,7 @@ import { Thumb } from "./thumb.js";
 
 const words = emptyPaperText;
 
-/** Stands on the paper while there is no drawing: how to begin, and the samples to try. */
+/** Shown on the paper while there is no drawing: how to begin, and samples to try. */
 export const EmptyPaper = () => (
   <div className="empty-paper">
     <strong>{words.title}</strong>

@@ -7,7 +7,7 @@ import { Select } from "../ui/choice.js";
 import { EXPORT_FORMATS, type ExportFormat } from "../worker/protocol.js";
 
 const words = saveText;
-/** One for each way in which boards understand motion, newest first. */
+/** One version for each set of motion commands that boards understand, newest first. */
 const FIRMWARES = ["3.0.3", "2.8.1", "2.7.0", "2.5.3"];
 
 const WORDS: Record<ExportFormat, { readonly title: string; readonly hint: string }> = {

@@ -5,7 +5,7 @@ import { SettingsGroup } from "../ui/settings-group.js";
 
 const ExportList = lazyPart(async () => (await import("./export-list.js")).ExportList);
 
-/** What will be plotted, as files. */
+/** Saves what will be plotted as files. */
 export const ExportPanel = () => {
   const canExport = usePageState((state) => (state.planned?.strokeCount ?? 0) > 0);
   const isOpen = usePageState(({ view }) => view.openGroups.includes("export"));

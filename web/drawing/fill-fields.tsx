@@ -8,7 +8,7 @@ import { usePrepareChange } from "./use-prepare-change.js";
 const words = fillText;
 const FIRST_SPACING_MM = 0.6;
 
-/** Filled shapes: shaded with lines, outlined, covering what lies under them. */
+/** Filled shapes: hatch them, outline them, hide what they cover. */
 export const FillFields = () => {
   const { hatch, hatchOutlines, outlineFills, hideCovered } = usePageState((state) => state.settings.prepare);
   const change = usePrepareChange();
@@ -60,7 +60,7 @@ export const FillFields = () => {
   );
 };
 
-/** For a drawing that has lines only. */
+/** Shown for a drawing that has only lines. */
 const NothingToFill = () => {
   const isEmpty = usePageState((state) => state.planned?.hasFills === false);
   const change = usePrepareChange();

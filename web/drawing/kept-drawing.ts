@@ -1,4 +1,4 @@
-/** The last drawing on the paper, kept in the browser: by IndexedDB, where large ones have room. */
+/** The last drawing, stored in the browser. In IndexedDB, which has room for large ones. */
 import { z } from "zod";
 import type { PageStore } from "../state/store.js";
 
@@ -10,13 +10,13 @@ const keptDrawingSchema = z.object({
 });
 export type KeptDrawing = z.infer<typeof keptDrawingSchema>;
 
-/** Where it is kept; tests give their own. */
+/** Where it is stored. Tests pass their own. */
 export interface DrawingStorage {
   read(): Promise<unknown>;
   write(drawing: KeptDrawing): Promise<void>;
 }
 
-/** Null where there is none, or the browser does not give it: then the visit begins without a drawing. */
+/** Null if there is none, or if the browser does not return it. */
 export const readKeptDrawing = async (storage: DrawingStorage): Promise<KeptDrawing | null> => {
   const parsed = keptDrawingSchema.safeParse(await storage.read().catch(() => null));
   return parsed.success ? parsed.data : null;
@@ -67,5 +67,5 @@ const openDatabase = (): Promise<IDBDatabase> => {
 const answerOf = <T>(request: IDBRequest<T>): Promise<T> =>
   new Promise((resolve, reject) => {
     request.onsuccess = () => resolve(request.result);
-    request.onerror = () => reject(request.error ?? new Error("The browser keeps no data."));
+    request.onerror = () => reject(request.error ?? new Error("The browser does not store data."));
   });

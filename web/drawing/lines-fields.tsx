@@ -11,7 +11,7 @@ type Key = keyof typeof PREPARE_TABLE;
 /** The numbers and switches that the settings table lists for this panel, in its order. */
 const ROWS = (Object.entries(PREPARE_TABLE) as [Key, Setting][]).filter(([, { panel }]) => panel === "lines");
 
-/** How strokes are ordered, joined and cleaned. */
+/** Settings for ordering, joining and cleaning strokes. */
 export const LinesFields = () => {
   const prepare = usePageState((state) => state.settings.prepare);
   const change = usePrepareChange();

@@ -15,7 +15,7 @@ import { reachText } from "./text.js";
 
 const words = reachText;
 
-/** Whether the pen would have to go where the machine does not. */
+/** Whether a part of the drawing is out of the machine's reach. */
 export const isOutOfReach = ({ planned, settings }: PageState): boolean => {
   const machine = findMachine(settings);
   return (
@@ -26,7 +26,7 @@ export const isOutOfReach = ({ planned, settings }: PageState): boolean => {
   );
 };
 
-/** What is turned: the paper, or at true size the page on its corner. */
+/** The height of what is turned: the paper, or at true size the file's page. */
 const turningHeightMm = ({ settings, pageToPaper, pageWidthMm, pageHeightMm }: Planned): number => {
   const { fit, place, paper, landscape } = settings.prepare;
   if (fit || place) return orientedPaper(paper, landscape).heightMm;
@@ -34,7 +34,7 @@ const turningHeightMm = ({ settings, pageToPaper, pageWidthMm, pageHeightMm }: P
   return page.yMm + page.heightMm;
 };
 
-/** Why the drawing can't be plotted, and the turn that helps, where it does. */
+/** Why the drawing can't be plotted, and a button that turns it if that helps. */
 export const OutOfReach = () => {
   const planned = usePageState((state) => state.planned);
   const machine = usePageState((state) => findMachine(state.settings));
@@ -42,7 +42,7 @@ export const OutOfReach = () => {
   const { changeSettings } = useActions();
   if (!planned || !machine) return null;
   const { drawnBox, frameMm, unreachedCount } = planned;
-  const isTurnOfHelp =
+  const doesTurnHelp =
     frameMm !== null && isReached(quarterTurnedBox(drawnBox, turningHeightMm(planned)), machine);
   const reach = formatSize(machine.widthMm, machine.heightMm, unit);
   return (
@@ -52,9 +52,9 @@ export const OutOfReach = () => {
           ? words.beforeHome(machine.name)
           : words.tooFar(machine.name, reach, formatSize(drawnBox.x1, drawnBox.y1, unit))}{" "}
         {words.lines(unreachedCount, formatCount(unreachedCount))}
-        {!isTurnOfHelp && ` ${words.whatToDo}`}
+        {!doesTurnHelp && ` ${words.whatToDo}`}
       </p>
-      {isTurnOfHelp && (
+      {doesTurnHelp && (
         <button
           type="button"
           className="button"

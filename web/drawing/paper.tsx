@@ -40,7 +40,7 @@ export const PaperPanel = () => {
     frame ?? { xMm: marginMm, yMm: marginMm, widthMm: 100, heightMm: 100, turnDeg: 0 },
   );
   const angleDeg = wholeTurn(rotateDeg + (prepare.place?.turnDeg ?? 0));
-  // A placed drawing turns about its own middle and keeps its size.
+  // A drawing placed by hand turns around its centre and keeps its size.
   const turnTo = (what: string, deg: number): void =>
     change(
       what,

@@ -11,7 +11,7 @@ import { usePrepareChange } from "./use-prepare-change.js";
 const words = placeText;
 type Place = NonNullable<PlotSettings["prepare"]["place"]>;
 
-/** Where the drawing stands and how large; its proportions stay, so one of the sizes decides. */
+/** Position and size of the drawing. Its proportions stay, so setting one size sets the other. */
 export const PlaceFields = ({ place }: { place: Place }) => {
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const change = usePrepareChange();
@@ -54,7 +54,7 @@ interface AligningProps {
   set(part: Partial<Place>): void;
 }
 
-/** To the middle of the paper, and into the margins. */
+/** Centres the drawing on the paper, or fits it into the margins. */
 const Aligning = ({ place, set }: AligningProps) => {
   const store = usePageStore();
   const align = (where: "across" | "down" | "fill"): void => {
@@ -89,5 +89,5 @@ const Aligning = ({ place, set }: AligningProps) => {
   );
 };
 
-/** Down to a hundredth, so that what fills the margins is not cut by them. */
+/** Rounded down to 0.01 mm, so that a drawing that fills the margins is not cut off by them. */
 const rounded = (mm: number): number => Math.floor(mm * 100 + 1e-6) / 100;

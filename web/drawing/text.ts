@@ -1,11 +1,11 @@
-/** Words of the drawing and its paper, of filling, lines and saving. */
+/** Texts of the drawing and its paper, of filling, lines and saving. */
 export const drawingText = {
   title: "Drawing",
   choose: "Choose a drawing",
   chooseHint: "SVG, DXF, HPGL or JSON. Drop it anywhere, paste it, or choose a file.",
   sample: "Samples",
   sampleHint: "Try a sample",
-  dropHere: "Drop the drawing to lay it on the paper",
+  dropHere: "Drop the drawing to open it",
   size: (size: string) => `${size} in the file`,
 };
 
@@ -18,15 +18,15 @@ export const reachText = {
   tooFar: (machine: string, reach: string, needed: string) =>
     `The ${machine} reaches ${reach} from home; this drawing needs ${needed}.`,
   beforeHome: (machine: string) =>
-    `This drawing goes beyond the paper’s left or upper edge, where the ${machine} can’t go.`,
+    `This drawing goes over the paper’s left or upper edge, which the ${machine} can’t reach.`,
   lines: (count: number, number: string) =>
-    count === 1 ? "1 line can’t be drawn as it lies." : `${number} lines can’t be drawn as they lie.`,
+    count === 1 ? "1 line is out of reach." : `${number} lines are out of reach.`,
   whatToDo: "Choose a smaller paper, or make the drawing smaller.",
   turn: "Turn for this machine",
 };
 
 export const reportText = {
-  title: "Won’t be drawn as on screen",
+  title: "Not drawn as on screen",
   show: "Show where",
 };
 
@@ -36,21 +36,21 @@ export const paperText = {
   unit: "Lengths in",
   units: { mm: "Millimetres", in: "Inches" },
   size: "Paper",
-  custom: "Own size",
+  custom: "Custom size",
   orientation: "Orientation",
   portrait: "Portrait",
   landscape: "Landscape",
   placement: "Size of the drawing",
   fit: "Fit paper",
   trueSize: "True size",
-  byNumbers: "Own place",
-  margins: "Each margin by itself",
+  byNumbers: "Custom",
+  margins: "Separate margins",
   top: "Top",
   right: "Right",
   bottom: "Bottom",
   left: "Left",
   mirrors: { none: "Off", leftRight: "Left–right", upDown: "Up–down" },
-  rotateQuarter: "Turn a quarter",
+  rotateQuarter: "Turn by 90°",
 };
 
 export const saveText = {
@@ -60,7 +60,7 @@ export const saveText = {
   json: "Polylines as JSON",
   jsonHint: "Plain numbers in mm, for other programs. Can be opened here again.",
   commands: "Commands for the board",
-  commandsHint: "The lines that a plot would send, from motors on to motors off.",
+  commandsHint: "All commands of the plot, from motors on to motors off.",
   firmware: "Firmware of the board",
   save: (what: string) => `Save: ${what}`,
   saveShort: "Save",
@@ -73,18 +73,19 @@ export const fillText = {
   switch: "Fill areas with lines",
   nothingToFill: "No shape of this drawing is filled, so there is nothing to fill with lines.",
   fillOutlines: "Fill closed outlines",
-  spacingHint: "The distance of the lines: as wide as the pen draws fills without gaps.",
+  spacingHint: "Distance between the lines. The width of the pen’s line fills areas without gaps.",
 };
 
 export const linesText = {
   title: "Lines",
-  spreads: { none: "Off", interleave: "Take turns", shuffle: "Shuffle" },
-  spreadHint: "Neighbouring strokes are drawn apart in time, so that ink dries and paper survives.",
+  spreads: { none: "Off", interleave: "Alternate", shuffle: "Shuffle" },
+  spreadHint:
+    "Does not draw neighbouring strokes one after the other, so that ink can dry and wet paper does not tear.",
   orderNone: "As in the file",
   orderFast: "Fast",
   orderBest: "Fastest",
   orderHint:
-    "“Fast” and “Fastest” change which stroke comes next, so that the pen travels less between strokes. “Fastest” searches longer.",
+    "“Fast” and “Fastest” change the order of the strokes, so that the pen travels less between them. “Fastest” searches longer.",
 };
 
 export const emptyPaperText = {
@@ -99,6 +100,6 @@ export const placeText = {
   y: "From the top",
   width: "Width",
   height: "Height",
-  hint: "Drag the drawing on the paper, its corners or its knob, or move it with the arrow keys. It is drawn to margins and middles; Alt keeps it free.",
-  align: { across: "Centre across", down: "Centre down", fill: "Fill margins" },
+  hint: "Drag the drawing on the paper, its corners or its knob, or move it with the arrow keys. It snaps to margins and centre lines; hold Alt to move it freely.",
+  align: { across: "Centre across", down: "Centre down", fill: "Fit into margins" },
 };

@@ -4,7 +4,7 @@ import { useBackend } from "../state/use-store.js";
 import { croppedPicture } from "./crop-picture.js";
 import "./thumb.css";
 
-/** Larger files are not fetched for a picture of a thumb's size. */
+/** Larger files are not fetched for a thumbnail. */
 const MAX_BYTES = 1_000_000;
 const pictures = new Map<string, string | null>();
 const MAX_PICTURES = 200;
@@ -12,8 +12,8 @@ const MAX_PICTURES = 200;
 const keyOf = ({ of, id }: DrawingSource): string => `${of} ${id}`;
 
 /**
- * A small picture of a drawing on the server, a job's or a sample, cut to what is drawn. As the source of an image an
- * SVG runs no scripts and fetches nothing, so the file can be shown as it is. Other formats, and large files, have no picture.
+ * A thumbnail of a drawing on the server (of a job or a sample), cropped to what is drawn. As the source of an image,
+ * an SVG runs no scripts and fetches nothing, so the file can be shown as it is. Other formats and large files have none.
  */
 export const Thumb = ({ of, id }: DrawingSource) => {
   const backend = useBackend();

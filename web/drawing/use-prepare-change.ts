@@ -1,7 +1,7 @@
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions } from "../state/use-store.js";
 
-/** A change of the prepare settings that undo knows by `what`. */
+/** Changes the prepare settings as an undo step called `what`. */
 export const usePrepareChange = () => {
   const { changeSettings } = useActions();
   return (what: string, change: Partial<PlotSettings["prepare"]>): void =>

@@ -75,21 +75,21 @@ export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) =>
 
 type RowProps = Pick<LayerDetailsProps, "row">;
 
-/** What the layer's name says about the plot, in words. */
+/** Explains the codes in the layer's name. */
 const CodesNote = ({ row }: RowProps) => {
   const { skip, pause, penDownPct, drawSpeedPct, delayMs } = parseLayerName(row.name);
-  const said = [
+  const codes = [
     skip ? words.code.skip : null,
     pause ? words.code.pause : null,
     penDownPct === null ? null : words.code.penDownPct(penDownPct),
     drawSpeedPct === null ? null : words.code.drawSpeedPct(speedOfCode(drawSpeedPct)),
     delayMs === null ? null : words.code.delayMs(delayMs),
   ].filter((one) => one !== null);
-  if (said.length === 0) return null;
-  return <p className="note">{words.codes(said.join(", "))}</p>;
+  if (codes.length === 0) return null;
+  return <p className="note">{words.codes(codes.join(", "))}</p>;
 };
 
-/** The settings as they would be for a layer without any of its own, its name's codes included. */
+/** The settings that apply to the layer without custom ones: the common settings and the codes in its name. */
 const useInherited = (row: PreparedLayer) => {
   const settings = usePageState((state) => state.settings);
   const bare = {

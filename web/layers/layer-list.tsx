@@ -13,7 +13,7 @@ import { useChange } from "../ui/use-change.js";
 const words = layersText;
 type PenStop = Planned["penStops"][number];
 
-/** The layers in the order of drawing, each with its switch and pen, and the stops between them. */
+/** The layers in drawing order, each with its switch and pen, and the stops between them. */
 export const LayerList = () => {
   const planned = usePageState((state) => state.planned);
   const change = useChange();
@@ -88,7 +88,7 @@ export const LayerList = () => {
   );
 };
 
-/** Where the plot waits before this layer, as it was planned. */
+/** The planned stop before this layer, if any. */
 const StopsBefore = ({ stops, layerId }: { stops: readonly PenStop[]; layerId: string }) => {
   const stop = stops.find((one) => one.layerId === layerId);
   if (!stop) return null;

@@ -19,7 +19,7 @@ interface LayerRowProps {
   readonly list: RefObject<HTMLUListElement | null>;
   readonly isOpen: boolean;
   onToggle(): void;
-  /** To a place among all layers. */
+  /** `place`: the new index. */
   onMove(place: number): void;
 }
 
@@ -80,10 +80,10 @@ const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readon
       aria-label={words.drag(name)}
       title={words.dragHint}
       onKeyDown={(event) => {
-        const way = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
-        if (way === 0) return;
+        const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
+        if (step === 0) return;
         event.preventDefault();
-        onMove(Math.max(0, index + way));
+        onMove(Math.max(0, index + step));
       }}
       {...drag}
     >
@@ -92,7 +92,7 @@ const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readon
   );
 };
 
-/** How much there is to draw, and what of it is out of the ordinary. */
+/** The number of strokes, and what differs from the other layers. */
 const Facts = ({ row, isShown }: { readonly row: PreparedLayer; readonly isShown: boolean }) => {
   const times = usePageState(({ settings }) => settings.prepare.layerRepeats[row.id] ?? 1);
   const hasOwn = usePageState(
@@ -116,7 +116,7 @@ const Facts = ({ row, isShown }: { readonly row: PreparedLayer; readonly isShown
   return <span className="layer-count">{facts.join(" · ")}</span>;
 };
 
-/** The colour that the layer is drawn in, its pen's or its own; where there are pens, a press chooses one. */
+/** The colour of the layer's pen, or the layer's own. If there are pens, a press chooses one. */
 const PenPicker = ({
   row,
   name,

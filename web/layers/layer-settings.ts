@@ -1,10 +1,10 @@
-/** What the layers' and pens' controls make of the settings: pure functions, one step of undo each. */
+/** Changes of the settings by the controls of layers and pens. Pure functions, one undo step each. */
 import { parseLayerName, type LayerMotion, type LayerPen, type PlotPen } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 
 type Prepare = PlotSettings["prepare"];
 
-/** As the page lists a layer. */
+/** A layer as the page lists it. */
 export interface LayerRow {
   readonly id: string;
   readonly name: string;
@@ -16,7 +16,7 @@ const withPrepare = (settings: PlotSettings, change: Partial<Prepare>): PlotSett
   prepare: { ...settings.prepare, ...change },
 });
 
-/** The entries of all layers but one. */
+/** The entries of all layers except one. */
 export const withoutLayer = <T>(
   byLayer: Readonly<Record<string, T>> | undefined,
   id: string,
@@ -27,7 +27,7 @@ const without = (ids: readonly string[], id: string): string[] => ids.filter((ot
 export const isLayerShown = ({ prepare }: PlotSettings, { id, name }: LayerRow): boolean =>
   !prepare.hiddenLayers.includes(id) && (prepare.shownLayers.includes(id) || !parseLayerName(name).skip);
 
-/** A layer whose name says "%" is switched on by being named, any other by not being named. */
+/** A layer whose name begins with "%" is off unless it is in `shownLayers`. Others are on unless in `hiddenLayers`. */
 export const showLayer = (settings: PlotSettings, { id, name }: LayerRow, isOn: boolean): PlotSettings => {
   const { hiddenLayers, shownLayers } = settings.prepare;
   const isCodedOff = parseLayerName(name).skip;
@@ -44,7 +44,7 @@ export const showOnly = (settings: PlotSettings, rows: readonly LayerRow[], id: 
 export const showAll = (settings: PlotSettings, rows: readonly LayerRow[]): PlotSettings =>
   rows.reduce((changed, row) => showLayer(changed, row, true), settings);
 
-/** The layer stands at `place` among all afterwards; the others keep their order. */
+/** Moves the layer to index `place`. The others keep their order. */
 export const moveLayer = (
   settings: PlotSettings,
   rows: readonly LayerRow[],
@@ -56,7 +56,7 @@ export const moveLayer = (
   return withPrepare(settings, { layerOrder: [...others.slice(0, at), id, ...others.slice(at)] });
 };
 
-/** The rows as the settings want them, which the plan may not have come to yet. */
+/** The rows in the order of the settings. The plan may still have the order before the last change. */
 export const inWantedOrder = <Row extends LayerRow>(
   { prepare: { layerOrder } }: PlotSettings,
   rows: readonly Row[],
@@ -72,7 +72,7 @@ export const repeatLayer = (settings: PlotSettings, id: string, times: number | 
   return withPrepare(settings, { layerRepeats: isOnce ? others : { ...others, [id]: times } });
 };
 
-/** The layer's own hatch; null: filled as all are. */
+/** Sets the layer's own hatch; null: the common one. */
 export const hatchLayer = (
   settings: PlotSettings,
   id: string,
@@ -84,7 +84,7 @@ export const hatchLayer = (
   });
 };
 
-/** Fields given as null are as for all again. */
+/** Null resets a field to the common setting. */
 export type Own<T> = { readonly [K in keyof T]?: NonNullable<T[K]> | null };
 
 export const setLayerMotion = (settings: PlotSettings, id: string, own: Own<LayerMotion>): PlotSettings => ({
@@ -109,7 +109,7 @@ const withOwn = <T extends object>(
   return fields.length === 0 ? others : { ...others, [id]: Object.fromEntries(fields) as T };
 };
 
-/** True: a stop before the layer, false: none, null: as its pen and name say. */
+/** True: a stop before the layer, false: no stop, null: depends on its pen and name. */
 export const stopBefore = (settings: PlotSettings, id: string, stop: boolean | null): PlotSettings => {
   const others = withoutLayer(settings.layerStops, id);
   return { ...settings, layerStops: stop === null ? others : { ...others, [id]: stop } };
@@ -120,7 +120,7 @@ export const setLayerPen = (settings: PlotSettings, id: string, penId: string | 
   return { ...settings, layerPens: penId === null ? others : { ...others, [id]: penId } };
 };
 
-/** One more pen of that name, or of that name with a number. */
+/** Adds a pen with a new id. */
 export const addPen = (settings: PlotSettings, pen: Partial<PlotPen> & { name: string }): PlotSettings => {
   const isTaken = (id: string): boolean => settings.pens.some((other) => other.id === id);
   let number = settings.pens.length + 1;
@@ -134,7 +134,7 @@ export const changePen = (settings: PlotSettings, id: string, change: Partial<Pl
   pens: settings.pens.map((pen) => (pen.id === id ? { ...pen, ...change } : pen)),
 });
 
-/** Its layers are drawn with whatever pen is in the holder then. */
+/** Its layers have no pen then: they are drawn with the pen that is in the holder. */
 export const removePen = (settings: PlotSettings, id: string): PlotSettings => ({
   ...settings,
   pens: settings.pens.filter((pen) => pen.id !== id),
@@ -142,8 +142,8 @@ export const removePen = (settings: PlotSettings, id: string): PlotSettings => (
 });
 
 /**
- * A pen for each colour, taken from the pens there are where one has that colour. Every layer gets one: without a
- * pen it would be drawn with whatever pen is in the holder.
+ * Gives each layer a pen of its colour. Adds a pen if none has that colour. Layers without a colour get one too:
+ * otherwise they would be drawn with the pen that is in the holder.
  */
 export const pensFromColors = (
   settings: PlotSettings,

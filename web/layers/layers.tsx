@@ -6,7 +6,7 @@ import { SettingsGroup } from "../ui/settings-group.js";
 
 const LayerList = lazyPart(async () => (await import("./layer-list.js")).LayerList);
 
-/** `children`: the pens, which have a folder of their own. */
+/** `children`: the pens, which are in another folder. */
 export const LayersPanel = ({ children }: { children: ReactNode }) => {
   const count = usePageState((state) => state.planned?.layers.length ?? 0);
   return (

@@ -1,4 +1,4 @@
-/** Words of the layers. */
+/** Texts of the layers. */
 export const layersText = {
   title: "Layers and pens",
   by: "Layers from",
@@ -9,7 +9,7 @@ export const layersText = {
   strokes: (count: string, isOne: boolean) => `${count} ${isOne ? "stroke" : "strokes"}`,
   colors: (count: string) => `${count} colours`,
   colorsHint:
-    "The lines of this layer have several colours. One pen draws them all. To draw each colour with a pen of its own, choose “Layers from: Colours”.",
+    "The lines of this layer have several colours, but one pen draws them all. To draw each colour with its own pen, choose “Layers from: Colours”.",
   show: (name: string) => `Draw ${name}`,
   drag: (name: string) => `Drag ${name} to its place, or press arrow up or down`,
   dragHint: "Drag to change the order, or arrow up and down",
@@ -22,14 +22,14 @@ export const layersText = {
   penOf: (name: string) => `Pen for ${name}`,
   anyPen: "Any pen",
   stop: (pen: string) => `Stop: put in ${pen}`,
-  stopNoPen: "Stop for the operator",
+  stopNoPen: "Stop before this layer",
   times: (count: number) => `${count} times`,
-  own: "own settings",
-  offByName: "off by its name",
+  own: "custom settings",
+  offByName: "off because of its name",
   hatch: "Fill areas every",
   hatchAngle: "Angle of the lines",
-  stopBefore: "Stop before it",
-  stops: { auto: "By its pen", yes: "Always", no: "Never" },
+  stopBefore: "Stop before this layer",
+  stops: { auto: "Automatic", yes: "Always", no: "Never" },
   reset: (label: string) => `${label} as for all`,
   codes: (codes: string) => `Its name asks for ${codes}. Your settings here override it.`,
   code: {
@@ -37,6 +37,6 @@ export const layersText = {
     pause: "a stop before",
     penDownPct: (n: number) => `pen down at ${n} %`,
     drawSpeedPct: (n: number) => `${n} mm/s`,
-    delayMs: (n: number) => `${n} ms of waiting`,
+    delayMs: (n: number) => `a wait of ${n} ms`,
   },
 };

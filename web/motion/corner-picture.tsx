@@ -1,11 +1,11 @@
 import type { MotionMode } from "../../src/internal.js";
 
 /**
- * What a mode does to a corner, drawn: the line, and dots at equal times, so that close dots mean slow.
+ * A picture of how a mode draws a corner: the line, and dots at equal times. Close dots mean slow.
  *
- *   junction   up to the corner, nearly to a stop, and away        dots crowd at a sharp corner
- *   blend      a curve of constant acceleration                    dots thin out evenly along it
- *   scurve     the same curve, speed changing softly               dots crowd and part without a jerk
+ *   junction   slows down at the corner, almost to a stop          dots close together at the corner
+ *   blend      a curve with constant acceleration                  dots evenly spaced along it
+ *   scurve     the same curve, and the acceleration ramps          the spacing of the dots changes smoothly
  */
 export const CornerPicture = ({ mode }: { mode: MotionMode }) => {
   const dots = dotsOf(mode);
@@ -28,7 +28,7 @@ const CURVE_TO_Y = 20;
 const EXACT_PATH = `M${START_X} ${CORNER[1]}H${CORNER[0]}V${END_Y}`;
 const ROUND_PATH = `M${START_X} ${CORNER[1]}H${CURVE_FROM_X}Q${CORNER[0]} ${CORNER[1]} ${CORNER[0]} ${CURVE_TO_Y}V${END_Y}`;
 
-/** Shares of the way from an end to the corner (or to the curve), and along the curve, at equal times. */
+/** Positions at equal times: on the straight from its end to the corner (or the curve), and along the curve, 0 … 1. */
 interface Shares {
   readonly straight: readonly number[];
   readonly curve: readonly number[];

@@ -1,4 +1,4 @@
-/** Words of the numbers behind a quality. */
+/** Texts of the numbers behind a quality. */
 export const detailsText = {
   drawing: "Pen down",
   travelling: "Pen up",

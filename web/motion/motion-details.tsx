@@ -27,7 +27,7 @@ import "./motion-details.css";
 const words = detailsText;
 type MotionSettings = PlotSettings["motion"];
 
-/** What slow-in starts with when it is switched on. */
+/** The first values when this is switched on. */
 const FIRST_EASE = { lengthMm: EASE_TABLE.lengthMm.default, speedMmPerS: EASE_TABLE.speedMmPerS.default };
 
 const useMotionChange = () => {
@@ -39,7 +39,7 @@ const useMotionChange = () => {
     }));
 };
 
-/** The numbers behind a step of quality, and all that a step leaves as it is. */
+/** The numbers that a quality sets, and those that it does not change. */
 export const MotionDetails = () => {
   const motion = usePageState((state) => state.settings.motion);
   return (
@@ -55,7 +55,7 @@ export const MotionDetails = () => {
   );
 };
 
-/** Only where the machine was measured: every other one is drawn without. */
+/** Only shown for a measured machine, because shaping needs its frequencies. */
 const ShaperSelect = ({ shaper }: { shaper: Shaper }) => {
   const springs = useSprings();
   const motion = usePageState((state) => state.settings.motion);
@@ -88,7 +88,7 @@ const ModeChoice = ({ mode }: { mode: MotionMode }) => {
               type="radio"
               name={name}
               checked={value === mode}
-              // Gentle is a filter of its own, and a motion has only one.
+              // The scurve mode is a filter too, and a motion has only one.
               onChange={() =>
                 change("mode", value === "scurve" ? { mode: value, shaper: "none" } : { mode: value })
               }

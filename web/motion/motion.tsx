@@ -10,10 +10,10 @@ import { useSprings } from "./use-springs.js";
 
 const words = motionText;
 const MotionDetails = lazyPart(async () => (await import("./motion-details.js")).MotionDetails);
-/** Remembered like the groups. */
+/** Remembered like the groups' ids. */
 const DETAILS_ID = "motion-details";
 
-/** Speed, acceleration and corners in three steps; the numbers behind them are folded. */
+/** Speed, acceleration and corners as three qualities. The numbers behind them are folded. */
 export const MotionPanel = () => {
   const motion = usePageState((state) => state.settings.motion);
   const springs = useSprings();

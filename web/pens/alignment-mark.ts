@@ -1,4 +1,4 @@
-/** A small cross as a job of its own, drawn with one pen: two pens' crosses show how far apart they draw. */
+/** A job that draws a small cross with one pen. The crosses of two pens show the offset between them. */
 import { orientedPaper, type PlotPen } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type NewJob, type PlotSettings } from "../../src/schema/index.js";
 
@@ -6,7 +6,7 @@ export const CORNERS = ["topLeft", "topRight", "bottomLeft", "bottomRight"] as c
 export type Corner = (typeof CORNERS)[number];
 
 const ARM_MM = 5;
-/** Of its middle, from the paper's edges: on the paper even of narrow margins, out of most drawings' way. */
+/** Distance of its centre from the paper's edges: usually outside the drawing, but on the paper. */
 const FROM_EDGE_MM = 10;
 
 export const markPlace = (settings: PlotSettings, corner: Corner): { xMm: number; yMm: number } => {
@@ -17,7 +17,7 @@ export const markPlace = (settings: PlotSettings, corner: Corner): { xMm: number
   };
 };
 
-/** The mark as an SVG of the paper's size, plotted at true size with the pen's own correction and nothing else. */
+/** The mark as an SVG of the paper's size. It is plotted at true size, with the pen's offset and no other changes. */
 export const alignmentJob = (
   settings: PlotSettings,
   pen: PlotPen,

@@ -1,22 +1,18 @@
 import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { usePageState } from "../state/use-store.js";
 import { heightsText } from "./text.js";
 import { Segments, Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
+import { usePenChange } from "../ui/use-change.js";
 
 const words = heightsText;
 type PenSettings = PlotSettings["pen"];
 
-/** Waits and refinements of the pen; its heights are in the plotter's panel. */
+/** Settings for lifting and lowering the pen. Its heights are in the plotter's panel. */
 export const PenFields = () => {
   const pen = usePageState((state) => state.settings.pen);
-  const { changeSettings } = useActions();
-  const change = (part: Partial<PenSettings>): void =>
-    changeSettings(`pen ${Object.keys(part).join()}`, (settings) => ({
-      ...settings,
-      pen: { ...settings.pen, ...part },
-    }));
+  const change = usePenChange();
   return (
     <>
       <div className="field-pair">

@@ -58,7 +58,7 @@ export const PenList = () => {
   );
 };
 
-/** Where the layers have colours: the colours as pens. */
+/** Adds a pen for each colour of the layers. */
 const FromColors = () => {
   const rows = usePageState((state) => state.planned?.layers);
   const settings = usePageState((state) => state.settings);
@@ -78,23 +78,17 @@ const FromColors = () => {
   );
 };
 
-/** A word for a colour, roughly; its own name where no word fits. */
+/** An approximate name of a colour. */
 const nameOfColor = (hex: string | null): string => {
   if (hex === null) return words.noColor;
   const [r = 0, g = 0, b = 0] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
-  const most = Math.max(r, g, b);
-  const least = Math.min(r, g, b);
-  if (most - least < 36)
-    return most < 70 ? words.tones.black : most > 215 ? words.tones.white : words.tones.grey;
-  const sixth =
-    most === r
-      ? (g - b) / (most - least)
-      : most === g
-        ? 2 + (b - r) / (most - least)
-        : 4 + (r - g) / (most - least);
+  const max = Math.max(r, g, b);
+  const range = max - Math.min(r, g, b);
+  if (range < 36) return max < 70 ? words.tones.black : max > 215 ? words.tones.white : words.tones.grey;
+  const sixth = max === r ? (g - b) / range : max === g ? 2 + (b - r) / range : 4 + (r - g) / range;
   const hueDeg = (sixth * 60 + 360) % 360;
   const tone = words.tones.hues.find(([upToDeg]) => hueDeg < upToDeg)?.[1] ?? hex;
-  return most < 110 ? words.tones.dark(tone) : tone;
+  return max < 110 ? words.tones.dark(tone) : tone;
 };
 
 const ShowInPens = () => {
@@ -208,7 +202,7 @@ const PenDetails = ({ pen }: { pen: PlotPen }) => {
   );
 };
 
-/** The cross that shows where this pen draws. */
+/** Plots the cross that shows where this pen draws. */
 const Mark = ({ pen }: { pen: PlotPen }) => {
   const [corner, setCorner] = useState<Corner>("topLeft");
   const isBusy = usePageState((state) => state.busyAction !== null || state.link !== "connected");

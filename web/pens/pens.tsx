@@ -5,7 +5,7 @@ import { SettingsGroup } from "../ui/settings-group.js";
 
 const PenList = lazyPart(async () => (await import("./pen-list.js")).PenList);
 
-/** The pens that layers are drawn with: part of the layers' panel. */
+/** The pens of the layers; part of the layers' panel. */
 export const PensPanel = () => {
   const pens = usePageState(({ settings }) => settings.pens);
   const isOpen = usePageState(({ view }) => view.openGroups.includes("pens"));

@@ -1,14 +1,15 @@
-/** Words of the pens and of how they are lifted. */
+/** Texts of the pens and of lifting them. */
 export const pensText = {
   title: "Pens",
-  hint: "Name your pens and give them to layers: the plot stops where another one is needed.",
+  hint: "Name your pens and choose one for each layer. The plot stops where another pen is needed.",
   fromColors: "A pen for each colour",
   add: "Add a pen",
   newName: (number: number) => `Pen ${number}`,
   noColor: "Pen without a colour",
   name: "Name",
   color: "Colour",
-  offsetHint: "Plot the mark with the first pen, then with this one. Type how far its mark lies off.",
+  offsetHint:
+    "Plot the mark with the first pen, then with this one. Enter how far its mark is from the first.",
   markCorner: "Corner of the mark",
   corners: {
     topLeft: "Top left",
@@ -21,13 +22,13 @@ export const pensText = {
   edit: (name: string) => `Settings of the pen ${name}`,
   remove: (name: string) => `Remove the pen ${name}`,
   stops: "Stop for pens",
-  stopModes: { pens: "Other pen", layers: "Each layer", never: "Never" },
+  stopModes: { pens: "Pen change", layers: "Each layer", never: "Never" },
   tones: {
     black: "Black",
     grey: "Grey",
     white: "White",
     dark: (tone: string) => `Dark ${tone.toLowerCase()}`,
-    /** Hues, each up to an angle. */
+    /** Hues, each up to an angle on the colour wheel. */
     hues: [
       [16, "Red"],
       [45, "Orange"],
@@ -40,7 +41,7 @@ export const pensText = {
       [361, "Red"],
     ] as readonly (readonly [upToDeg: number, tone: string])[],
   },
-  showInPens: "Show the drawing in its pens",
+  showInPens: "Show the drawing in pen colours",
 };
 
 export const heightsText = {
@@ -49,7 +50,7 @@ export const heightsText = {
   overlaps: {
     off: ["Off", "The carriage waits until the pen is all the way up or down."],
     safe: ["Safe", "The carriage moves while the tip is well clear of the paper, even if the pen is slow."],
-    fast: ["Fast", "The quickest, for a pen that keeps its times. If lines get tails, choose Safe."],
+    fast: ["Fast", "Fastest, for a pen with reliable lift times. If lines get tails, choose Safe."],
   },
-  whereTouches: "How low the tip may be is set in the plotter’s panel: Tip touches at.",
+  whereTouches: "Set the height at which the tip touches in the plotter’s panel: “Tip touches at”.",
 };

@@ -1,8 +1,8 @@
-/** A plan is for one board's firmware: for another board that moves differently, plans again. */
+/** Plans again when the current plotter's board moves differently, because a plan depends on the firmware. */
 import { findMachine, isPlannedAlike } from "../../src/internal.js";
 import { boardFirmware, type PageStore } from "../state/store.js";
 
-/** Watches the current plotter; returns a function that stops. */
+/** Returns a function that stops this. */
 export const replanForBoard = (store: PageStore, replan: () => void): (() => void) =>
   store.subscribe((state, before) => {
     if (state.plotters === before.plotters && state.plotterId === before.plotterId) return;

@@ -1,10 +1,10 @@
-/** Words of the console. */
+/** Texts of the console. */
 export const consoleText = {
   title: (plotter: string) => `Console of ${plotter}`,
   log: "Commands and replies",
   command: "Command",
   send: "Send",
   noReply: "(no reply)",
-  refused: "A plot has the plotter: commands typed in between would spoil it.",
-  hint: "For those who know the board’s commands (QS, QM, V …). Arrow up brings back earlier ones.",
+  refused: "A plot is running. Commands sent now would spoil it.",
+  hint: "For those who know the board’s commands (QS, QM, V …). Arrow up shows earlier ones.",
 };

@@ -7,7 +7,7 @@ import { useHand } from "./use-hand.js";
 import "./console.css";
 
 const words = consoleText;
-const KEPT_LINES = 500;
+const MAX_LINES = 500;
 
 interface Line {
   readonly id: number;
@@ -15,14 +15,14 @@ interface Line {
   readonly text: string;
 }
 
-/** One line to the board, its replies, and what was said before; refused while a job has the plotter. */
+/** Sends commands to the board and shows its replies. Disabled during a plot. */
 export const Console = () => {
   const hasJob = usePageState((state) => activeJob(state) !== null);
   const name = usePageState((state) => currentPlotter(state)?.name ?? "");
   const { lines, send } = useConversation();
   const end = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    // In braces: newer browsers answer with a promise, which is no clean-up.
+    // `void`, because newer browsers return a promise, which React would take for a clean-up function.
     void end.current?.scrollIntoView({ block: "end" });
   }, [lines]);
   return (
@@ -47,7 +47,7 @@ const useConversation = () => {
   const nextId = useRef(0);
   const add = (kind: Line["kind"], contents: readonly string[]): void => {
     const added = contents.map((content) => ({ id: nextId.current++, kind, text: content }));
-    setLines((before) => [...before, ...added].slice(-KEPT_LINES));
+    setLines((before) => [...before, ...added].slice(-MAX_LINES));
   };
   const send = async (line: string): Promise<void> => {
     add("sent", [line]);
@@ -65,7 +65,7 @@ const useConversation = () => {
 const CommandLine = ({ onSend }: { onSend(line: string): Promise<void> }) => {
   const [line, setLine] = useState("");
   const [past, setPast] = useState<readonly string[]>([]);
-  /** How far back in `past` the line shown comes from; 0: it is being typed. */
+  /** How far back in `past` the shown line is; 0: it is being typed. */
   const [backCount, setBackCount] = useState(0);
   const submit = (event: FormEvent): void => {
     event.preventDefault();
@@ -77,10 +77,10 @@ const CommandLine = ({ onSend }: { onSend(line: string): Promise<void> }) => {
     void onSend(wanted);
   };
   const onKeyDown = (event: KeyboardEvent): void => {
-    const way = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
-    if (way === 0) return;
+    const step = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
+    if (step === 0) return;
     event.preventDefault();
-    const next = Math.min(past.length, Math.max(0, backCount + way));
+    const next = Math.min(past.length, Math.max(0, backCount + step));
     setBackCount(next);
     setLine(next === 0 ? "" : (past[past.length - next] ?? ""));
   };

@@ -1,11 +1,11 @@
-/** The box of what will be drawn, mm from home: what "trace the frame" goes around. */
+/** The box of what will be drawn, mm from home, for "Trace the frame". */
 import type { Trajectory } from "../../src/index.js";
 import type { BoxMm } from "../../src/schema/index.js";
 import type { PageState } from "../state/store.js";
 
 const boxes = new WeakMap<Trajectory, BoxMm | null>();
 
-/** Null with nothing to draw. The same object for the same plan. */
+/** Null if there is nothing to draw. The same object for the same plan. */
 export const drawnBoxMm = ({ planned }: PageState): BoxMm | null => {
   if (!planned) return null;
   const { trajectory } = planned;
@@ -14,8 +14,8 @@ export const drawnBoxMm = ({ planned }: PageState): BoxMm | null => {
 };
 
 /**
- * Around the ends of all blocks with the pen down: exact for straight lines, and for curves within the tolerance
- * that they were flattened to. A run's last place is where the next run begins. Linear in blocks.
+ * The box around the ends of all blocks with the pen down. Exact for straight lines; for curves within the tolerance of
+ * their flattening. A run ends where the next one begins.
  */
 export const boxOfDrawn = ({ runs, x, y, blockCount, endX, endY }: Trajectory): BoxMm | null => {
   let [minX, minY, maxX, maxY] = [Infinity, Infinity, -Infinity, -Infinity];

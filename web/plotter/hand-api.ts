@@ -9,7 +9,7 @@ export type HandApi = ReturnType<typeof handApi>;
 
 type Move = (hand: HandBackend, plotterId: string, settings: PlotSettings) => Promise<Plotter>;
 
-/** Each answers null where it failed; the user has been told then. Speeds and machine are those set on the page. */
+/** Each returns null if it failed, and the user has seen why. Uses the page's speeds and machine. */
 export const handApi = (
   store: PageStore,
   backend: Backend,

@@ -10,9 +10,9 @@ import { useHand } from "./use-hand.js";
 import "./hand-moves.css";
 
 const words = movesText;
-const FARTHEST_MM = 5_000;
+const MAX_MM = 5_000;
 
-/** Jog pad, walk, and the small moves that a plot is got ready with. Held off while a job has the plotter. */
+/** Jog pad, moves to a position, and small moves that prepare a plot. Disabled during a plot. */
 export const HandMoves = () => {
   const hand = useHand();
   const { home } = useActions();
@@ -48,7 +48,7 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
           value={xMm}
           unit="mm"
           min={0}
-          max={FARTHEST_MM}
+          max={MAX_MM}
           step={1}
           onChange={setX}
         />
@@ -57,7 +57,7 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
           value={yMm}
           unit="mm"
           min={0}
-          max={FARTHEST_MM}
+          max={MAX_MM}
           step={1}
           onChange={setY}
         />

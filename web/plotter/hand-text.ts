@@ -1,11 +1,11 @@
-/** Words of the moves by hand. */
+/** Texts of the moves by hand. */
 export const jogText = {
   title: "Jog pad",
   step: "Step",
-  home: "Walk home",
-  hint: "With a button of the pad in focus, the arrow keys move too.",
-  way: (way: string, step: string) => `${way} by ${step} mm`,
-  ways: {
+  home: "Go home",
+  hint: "When a button of the pad has the focus, the arrow keys move too.",
+  by: (direction: string, step: string) => `${direction} by ${step} mm`,
+  directions: {
     upLeft: "Away and left",
     up: "Away",
     upRight: "Away and right",
@@ -19,18 +19,18 @@ export const jogText = {
 };
 
 export const movesText = {
-  heldOff: "A plot has the plotter. Moves by hand come back when it ends.",
+  heldOff: "A plot is running. You can move by hand again when it ends.",
   walkX: "From home, right",
   walkY: "From home, down",
-  walk: "Walk there",
+  walk: "Go there",
   setHome: "Set home here",
-  setHomeHint: "This place is 0, 0 from now on",
+  setHomeHint: "Makes this position 0, 0",
   cyclePen: "Cycle the pen",
-  cyclePenHint: "Pen down and up again, to see that it moves freely",
+  cyclePenHint: "Pen down and up again, to check that it moves freely",
   frame: "Trace the frame",
-  frameHint: "Around what will be drawn, with the pen up, to see that the paper lies right",
+  frameHint: "Goes around the drawing with the pen up, to check the position of the paper",
   testPatch: "Plot a test patch",
-  testPatchHint: "A few small lines and circles where the carriage stands, with the settings of now",
+  testPatchHint: "A few small lines and circles where the carriage is, with the current settings",
 };
 
 export const nudgeText = {

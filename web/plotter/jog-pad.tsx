@@ -9,7 +9,7 @@ const STEPS_MM = ["0.1", "1", "10", "50"] as const;
 type StepMm = (typeof STEPS_MM)[number];
 
 /** x to the right, y down the page, towards a person in front of the plotter. */
-const WAYS = [
+const DIRECTIONS = [
   ["upLeft", -1, -1],
   ["up", 0, -1],
   ["upRight", 1, -1],
@@ -21,13 +21,13 @@ const WAYS = [
   ["downRight", 1, 1],
 ] as const;
 
-const KEY_WAYS: Readonly<Record<string, readonly [number, number]>> = {
+const KEY_DIRECTIONS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
   ArrowUp: [0, -1],
   ArrowDown: [0, 1],
 };
-/** Moves asked for while one is on its way; more of them would run on after the finger is off the key. */
+/** Queued moves at most: more would continue after the key is released. */
 const MAX_WAITING = 2;
 
 interface JogPadProps {
@@ -39,26 +39,26 @@ interface JogPadProps {
 /** Eight directions and a step, by finger, mouse or the arrow keys. */
 export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
   const [step, setStep] = useState<StepMm>("10");
-  const move = useOneAfterTheOther();
+  const move = useTaskQueue();
   const go = (x: number, y: number): void => {
     const stepMm = Number(step);
     if (!isOff) move(() => (x === 0 && y === 0 ? home() : jog(x * stepMm, y * stepMm)));
   };
   const onKeyDown = (event: KeyboardEvent): void => {
-    const way = KEY_WAYS[event.key];
-    if (!way || event.ctrlKey || event.metaKey || event.altKey) return;
+    const direction = KEY_DIRECTIONS[event.key];
+    if (!direction || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    go(...way);
+    go(...direction);
   };
   return (
     <div className="jog">
       <div className="jog-pad" role="group" aria-label={words.title} onKeyDown={onKeyDown}>
-        {WAYS.map(([name, x, y]) => (
+        {DIRECTIONS.map(([name, x, y]) => (
           <button
             key={name}
             type="button"
             className="button jog-button"
-            aria-label={name === "home" ? words.home : words.way(words.ways[name], step)}
+            aria-label={name === "home" ? words.home : words.by(words.directions[name], step)}
             disabled={isOff}
             onClick={() => go(x, y)}
           >
@@ -77,8 +77,8 @@ export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
   );
 };
 
-/** Runs what it is given in turn, and drops what comes while enough is waiting. */
-const useOneAfterTheOther = () => {
+/** Runs tasks one after the other. Drops new ones while the queue is full. */
+const useTaskQueue = () => {
   const state = useRef<{ count: number; last: Promise<unknown> }>({ count: 0, last: Promise.resolve() });
   return (task: () => Promise<unknown>): void => {
     const now = state.current;

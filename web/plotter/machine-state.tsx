@@ -7,7 +7,7 @@ import { lampOf, plotterWords } from "./machine-words.js";
 
 const words = plotterText;
 
-/** The machine's state in one line, with a lamp: always in sight. */
+/** The plotter's state in one line with a lamp, always visible. */
 export const MachineState = () => {
   const link = usePageState((state) => state.link);
   const plotter = usePageState(currentPlotter);
@@ -20,7 +20,7 @@ export const MachineState = () => {
     >
       <span className="lamp" aria-hidden="true" />
       <span role="status">{stateWords(link, plotter, job)}</span>
-      {/* Changes several times a second, so it is not part of what is read out. */}
+      {/* Changes several times a second, so screen readers must not announce it. */}
       {isKnown && job && <span className="machine-share">{formatPercent(job.progress)}</span>}
     </p>
   );

@@ -1,13 +1,13 @@
-/** What a plotter is doing, in words: of its connection, and of the job that has it. */
+/** What a plotter is doing, in words, from its connection and its job. */
 import type { Job, Plotter } from "../../src/schema/index.js";
 import { plotterText } from "./text.js";
 
 const words = plotterText;
 
-/** What the lamp beside the words shows; the style sheet has its colours. */
+/** State of the lamp. The style sheet has its colours. */
 type Lamp = Plotter["connection"] | "held" | "waiting";
 
-/** "Waits for the pen …", "Held", "Plotting", or how it is connected. */
+/** "Waits for the pen …", "Paused", "Plotting" …, or the state of the connection. */
 export const plotterWords = ({ connection }: Plotter, job: Job | null): string => {
   if (connection === "fault" || connection === "absent") return words.connection[connection];
   if (job?.state === "paused" && job.wait) return waitWords(job.wait);
@@ -17,7 +17,7 @@ export const plotterWords = ({ connection }: Plotter, job: Job | null): string =
   return connection === "busy" ? words.moving : words.connection[connection];
 };
 
-/** "Up", "going down" …: a pen on its way is neither. */
+/** "up", "going down" … */
 export const penWords = ({ penUp, penMoving }: Plotter): string => {
   if (penUp === null) return words.unknown;
   if (penMoving) return penUp ? words.goingUp : words.goingDown;

@@ -134,7 +134,7 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
   return message ? <p className="note">{message}</p> : null;
 };
 
-/** The machines that plotwright knows, and those that were made here. */
+/** Chooses among the built-in and the custom machines. */
 const ModelSelect = () => {
   const settings = usePageState((state) => state.settings);
   const made = usePageState((state) => state.machines);
@@ -152,7 +152,7 @@ const ModelSelect = () => {
   );
 };
 
-/** Everything else that is done by hand; folded, so that the queue stays in sight. */
+/** The other moves by hand. Folded, so that the queue stays visible. */
 const MoreMoves = () => {
   const isOpen = usePageState((state) => state.view.openGroups.includes("moves"));
   return (

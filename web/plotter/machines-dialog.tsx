@@ -11,7 +11,7 @@ import "./machines.css";
 
 const words = machinesText;
 
-/** Machines that plotwright knows, and one's own: made from a copy, edited, saved as files and read from them. */
+/** Built-in and custom machines. A custom one is made from a copy or loaded from a file; it can be edited and saved. */
 export const MachinesDialog = () => {
   const [edited, setEdited] = useState<MachineProfile | null>(null);
   return (

@@ -87,7 +87,7 @@ const FirstPlot = () => {
   );
 };
 
-/** Nothing was ever plotted with this plotter. */
+/** This plotter has never plotted. */
 const isFirstPlot = (state: PageState): boolean => {
   const id = currentPlotter(state)?.id;
   const hasPlotted = state.jobs.some((job) => job.plotterId === id && job.startedAt !== null);
@@ -117,7 +117,10 @@ const HomeButtons = ({ onHome }: { onHome?(): void }) => {
   );
 };
 
-/** While the pen moves, the plotter is busy for a moment, and the slider goes on. */
+/**
+ * Whether the pen can follow the slider. While the pen moves, the plotter is briefly busy, and the slider still
+ * works.
+ */
 const mayFollow = (state: PageState): boolean => {
   const connection = currentPlotter(state)?.connection;
   return (
@@ -137,13 +140,13 @@ interface HeightsProps {
 const Heights = ({ hasContact, onTry }: HeightsProps) => {
   const pen = usePageState((state) => state.settings.pen);
   const isFollowing = usePageState(mayFollow);
-  // Its heights change when this browser has taken over, which storing them asks for.
+  // If another browser is the operator, storing the heights asks to take over first.
   const isOthers = usePageState((state) => otherOperator(state) !== null);
   const { changeSettings, movePen } = useActions();
   const follow = useMemo(
     () =>
       servoFollower(
-        ({ isUp, pct }) => movePen(isUp, pct),
+        ({ isUp, pct }: { isUp: boolean; pct: number }) => movePen(isUp, pct),
         (delayMs, callback) => void setTimeout(callback, delayMs),
       ),
     [movePen],

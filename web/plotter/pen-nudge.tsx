@@ -3,10 +3,11 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { nudgeText } from "./hand-text.js";
 import { formatNumber } from "../ui/format.js";
 import { IconButton } from "../ui/icon-button.js";
+import { usePenChange } from "../ui/use-change.js";
 import "./nudge.css";
 
 const words = nudgeText;
-/** Enough to be seen on the paper, little enough to be safe. */
+/** Enough to see a difference on the paper, and little enough to be safe. */
 const STEP_PCT = 1;
 type Heights = Pick<PlotSettings["pen"], "upPct" | "downPct">;
 
@@ -16,7 +17,7 @@ interface NudgeProps {
   onChange(which: keyof Heights, pct: number): void;
 }
 
-/** Both heights, a little higher or lower with each press. */
+/** Both heights; each press changes one a little. */
 const Nudge = ({ heights, isOff = false, onChange }: NudgeProps) => (
   <div className="nudge" role="group" aria-label={words.title}>
     {(["upPct", "downPct"] as const).map((which) => {
@@ -35,7 +36,7 @@ const Nudge = ({ heights, isOff = false, onChange }: NudgeProps) => (
   </div>
 );
 
-/** Of a plot under way: it takes the new height at once, and keeps it. */
+/** Changes the running plot's heights at once. */
 export const NudgeJob = ({ job }: { job: Job }) => {
   const { changeJob } = useActions();
   const { pen } = job.settings;
@@ -47,19 +48,17 @@ export const NudgeJob = ({ job }: { job: Job }) => {
   );
 };
 
-/** With nothing under way: the pen goes there, so that one sees it. */
+/** Changes the heights in the settings and moves the pen there to show it. */
 export const NudgeSettings = ({ isOff }: { isOff: boolean }) => {
-  const { changeSettings, movePen } = useActions();
+  const { movePen } = useActions();
+  const change = usePenChange();
   const pen = usePageState((state) => state.settings.pen);
   return (
     <Nudge
       heights={pen}
       isOff={isOff}
       onChange={(which, pct) => {
-        changeSettings(`pen ${which}`, (settings) => ({
-          ...settings,
-          pen: { ...settings.pen, [which]: pct },
-        }));
+        change({ [which]: pct });
         void movePen(which === "upPct", pct);
       }}
     />

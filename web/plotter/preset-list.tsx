@@ -6,7 +6,7 @@ import { TextField } from "../ui/text-field.js";
 
 const words = presetsText;
 
-/** Named pens: speeds and heights that belong together. */
+/** Presets: speeds, heights, pens and layers under a name. */
 export const PresetList = () => {
   const presets = usePageState((state) => state.presets);
   const { takePreset, removePreset } = useActions();

@@ -36,7 +36,7 @@ export const ProfileForm = ({ profile, onChange }: ProfileFormProps) => {
   );
 };
 
-/** How far the carriage can go from home. */
+/** The carriage's reach from home. */
 export const ReachFields = ({ profile, onChange }: ProfileFormProps) => (
   <fieldset className="subgroup">
     <legend>{words.reach}</legend>

@@ -1,11 +1,11 @@
-/** Machines of the user's own: new ones, their ids, and what the schema says of them. */
+/** Custom machines: new ones, their ids, and checking them by the schema. */
 import type { MachineProfile } from "../../src/index.js";
 import type { EbbController } from "../../src/internal.js";
 import { faultInWords, machineProfileSchema } from "../../src/schema/index.js";
 
 const MAX_ID = 60;
 
-/** An id that fits a file's name and that no other machine has: "My Plotter" -> "my-plotter", "my-plotter-2" … */
+/** A free id that is valid as a file name: "My Plotter" -> "my-plotter", "my-plotter-2" … */
 export const freeId = (name: string, taken: readonly string[]): string => {
   const plain = name
     .normalize("NFD")
@@ -26,19 +26,19 @@ export const copyOf = (profile: MachineProfile, name: string, taken: readonly st
   name,
 });
 
-/** What the form and the wizard can set up of a controller. */
+/** A machine whose controller the form and the wizard can set up. */
 export type EbbMachine = MachineProfile<EbbController>;
 
 export const isEbbMachine = (profile: MachineProfile): profile is EbbMachine =>
   profile.controller.kind === "ebb";
 
-/** The profile with parts of its controller changed. */
+/** The profile with some fields of its controller changed. */
 export const withController = (profile: EbbMachine, part: Partial<EbbController>): EbbMachine => ({
   ...profile,
   controller: { ...profile.controller, ...part },
 });
 
-/** What is wrong with a profile, "field: what"; empty where it can be saved. */
+/** The errors in a profile as "field: message"; empty if it can be saved. */
 export const problemsOf = (profile: unknown): readonly string[] => {
   const parsed = machineProfileSchema.safeParse(profile);
   if (parsed.success) return [];
@@ -47,7 +47,7 @@ export const problemsOf = (profile: unknown): readonly string[] => {
   );
 };
 
-/** A profile as it was saved to a file, here or elsewhere. Throws with words for the user. */
+/** Parses a profile saved to a file. Throws an error with a message for the user. */
 export const parseMachineFile = (content: string): MachineProfile => {
   const profile: unknown = JSON.parse(content);
   const problems = problemsOf(profile);
@@ -55,6 +55,6 @@ export const parseMachineFile = (content: string): MachineProfile => {
   return machineProfileSchema.parse(profile);
 };
 
-/** A profile as a file's text, without what only a list of machines has. */
+/** A profile as a file's text, without the fields of the machine list. */
 export const fileOf = (profile: MachineProfile): string =>
   `${JSON.stringify(machineProfileSchema.parse(profile), null, 2)}\n`;

@@ -1,29 +1,27 @@
-/** The pen follows a slider: one move at a time, at most five a second, and of those that came meanwhile only the last. */
+/**
+ * Lets the pen follow a slider: one move at a time, at most five a second. Of the positions in between only the last
+ * counts.
+ */
 
-const REST_MS = 200;
-
-interface Height {
-  readonly isUp: boolean;
-  readonly pct: number;
-}
+const INTERVAL_MS = 200;
 
 /** `move` never rejects. */
-export const servoFollower = (
-  move: (height: Height) => Promise<void>,
+export const servoFollower = <Position extends object>(
+  move: (position: Position) => Promise<unknown>,
   after: (delayMs: number, callback: () => void) => void,
-): ((height: Height) => void) => {
-  let wanted: Height | null = null;
+): ((position: Position) => void) => {
+  let wanted: Position | null = null;
   let isFollowing = false;
   const follow = async (): Promise<void> => {
     while (wanted) {
-      const next: Height = wanted;
+      const next: Position = wanted;
       wanted = null;
-      await Promise.all([move(next), new Promise<void>((resolve) => after(REST_MS, resolve))]);
+      await Promise.all([move(next), new Promise<void>((resolve) => after(INTERVAL_MS, resolve))]);
     }
     isFollowing = false;
   };
-  return (height) => {
-    wanted = height;
+  return (position) => {
+    wanted = position;
     if (isFollowing) return;
     isFollowing = true;
     void follow();

@@ -7,7 +7,7 @@ interface TakeOrSkipProps {
   onSkip(): void;
 }
 
-/** How a step of the wizard ends that a user may also leave out. */
+/** The buttons at the end of an optional step of the wizard. */
 export const TakeOrSkip = ({ label, isOff, onTake, onSkip }: TakeOrSkipProps) => (
   <div className="button-row">
     <button type="button" className="button button-primary" disabled={isOff} onClick={onTake}>

@@ -1,10 +1,10 @@
-/** Words of the plotter's panel and the presets. */
+/** Texts of the plotter's panel and the presets. */
 export const plotterText = {
   title: "Plotter",
   virtual: "Virtual board: no plotter plugged in",
-  virtualHint: "Plots run on a model of the board. Plug in a plotter and it is found by itself.",
+  virtualHint: "Plots run on a simulated board. Plug in a plotter: it is found automatically.",
   homeHint:
-    "Home is where the carriage stood when the motors came on: there are no end switches. Move it to the corner by hand with the motors off.",
+    "Home is where the carriage was when the motors were switched on, because there are no end switches. With the motors off, push it into the corner by hand.",
   position: "Pen at",
   unknown: "not known",
   pen: "Pen",
@@ -26,11 +26,11 @@ export const plotterText = {
   console: "Console",
   rest: "Plotter set-up",
   connect: "Connect a plotter…",
-  connectHint: "Plots run on a model of the board until you connect a plotter by USB.",
-  log: "Save the log of the connection",
+  connectHint: "Plots run on a simulated board until you connect a plotter by USB.",
+  log: "Save the connection log",
   held: "Paused",
   interrupted: "Interrupted",
-  notHeard: "No word from it",
+  notHeard: "No connection",
   moving: "Moving",
   waitsForPen: (pen: string) => `Waits for the pen “${pen}”`,
   waitsForLayer: (layer: string) => `Waits for the pen for “${layer}”`,
@@ -48,7 +48,7 @@ export const plotterText = {
   },
 };
 
-/** Words of the pen's heights, home and the first plot. */
+/** Texts of the pen's heights, home and the first plot. */
 export const penText = {
   up: "Pen up",
   down: "Pen down",
@@ -56,9 +56,9 @@ export const penText = {
   home: "Home",
   touch: "Try",
   touchHint:
-    "Put paper under the pen and lower this until the tip just marks. 100 % is Height up, 0 % Height down: find it again when you change them.",
+    "Put paper under the pen and lower this until the tip just marks it. 100 % is Height up, 0 % is Height down: set it again when you change them.",
   testLine: "Draw a test line",
-  testLineHint: "A line of 2 cm, half a centimetre from where the carriage is",
+  testLineHint: "A 2 cm line, half a centimetre from the carriage",
   firstPlot: "First plot with this plotter",
   steps: {
     home: "Motors off, push the carriage into its corner, then Home.",
@@ -74,8 +74,8 @@ export const penText = {
 
 export const presetsText = {
   title: "Presets",
-  hint: "Speeds, heights, pens and layers under a name, to come back to with one press.",
+  hint: "Save speeds, heights, pens and layers under a name, and apply them with one press.",
   name: "Name of this preset",
-  save: "Keep",
-  remove: (name: string) => `Forget ${name}`,
+  save: "Save",
+  remove: (name: string) => `Remove ${name}`,
 };

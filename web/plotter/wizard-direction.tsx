@@ -7,11 +7,11 @@ import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
-const WAY_MM = 20;
+const MOVE_MM = 20;
 
 type Asked = "middle" | "x" | "y" | "check";
 
-/** Two short moves; where the carriage really went says how the motors are wired. */
+/** Two short moves. Their real directions show how the motors are wired. */
 export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [asked, setAsked] = useState<Asked>("middle");
   const [draft, setDraft] = useState(profile);
@@ -20,7 +20,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const hand = useHand();
   const { motorsOff } = useActions();
   const [isMoving, setMoving] = useState(false);
-  // From a home of its own each time: the profile may not know yet on which side of home the carriage stands.
+  // Sets home before each move: with a wrong profile, the carriage may be on the wrong side of the last home.
   const jog = async (x: number, y: number): Promise<void> => {
     setMoving(true);
     if (await hand.setHome()) await hand.jog(x, y, settingsWith(draft));
@@ -70,10 +70,10 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
       <>
         <p>{words.checkHint}</p>
         <div className="button-row">
-          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(WAY_MM, 0)}>
+          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(MOVE_MM, 0)}>
             {words.moveRight}
           </button>
-          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(0, WAY_MM)}>
+          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(0, MOVE_MM)}>
             {words.moveNearer}
           </button>
         </div>
@@ -99,7 +99,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
         type="button"
         className="button button-primary"
         disabled={isMoving}
-        onClick={() => void (asked === "x" ? jog(WAY_MM, 0) : jog(0, WAY_MM))}
+        onClick={() => void (asked === "x" ? jog(MOVE_MM, 0) : jog(0, MOVE_MM))}
       >
         {asked === "x" ? words.moveFirst : words.moveSecond}
       </button>

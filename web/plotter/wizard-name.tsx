@@ -11,7 +11,7 @@ import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
 
-/** How far it reaches and what it is called; then it is kept, and chosen. */
+/** Asks for reach and name, then saves the machine and chooses it. */
 export const NameStep = ({ profile, onNext }: StepProps) => {
   const made = usePageState((state) => state.machines);
   const { chooseMachine } = useActions();

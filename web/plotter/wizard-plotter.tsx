@@ -10,7 +10,7 @@ import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
 
-/** Which plotter, where it is plugged in, and which known machine it is most like. */
+/** Asks for the plotter, its port, and the built-in machine that is most like it. */
 export const PlotterStep = ({ profile, onNext }: StepProps) => {
   const store = usePageStore();
   const plotters = usePageState((state) => state.plotters);

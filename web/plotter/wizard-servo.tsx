@@ -1,16 +1,18 @@
-import { useId, useRef, useState } from "react";
+import { useId, useMemo, useState } from "react";
+import type { PlotSettings } from "../../src/schema/index.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
 import { wizardText } from "./wizard-text.js";
 import { ServoPin } from "./profile-form.js";
 import { TakeOrSkip } from "./take-or-skip.js";
+import { servoFollower } from "./servo-follow.js";
 import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
-/** In 1/12 µs; a servo listens between about 0.4 and 2.6 ms. */
+/** In 1/12 µs: servos accept pulses of about 0.4 to 2.6 ms. */
 const RANGE = { min: 5_000, max: 31_000, step: 100 } as const;
 
-/** Only an EiBotBoard has its servo set up here. */
+/** Only an EiBotBoard's servo is set up here. */
 export const ServoStep = ({ profile, ...props }: StepProps) =>
   isEbbMachine(profile) ? (
     <EbbServoStep profile={profile} {...props} />
@@ -18,13 +20,21 @@ export const ServoStep = ({ profile, ...props }: StepProps) =>
     <TakeOrSkip label={words.next} isOff onTake={() => undefined} onSkip={() => props.onNext(profile)} />
   );
 
-/** The pen follows two sliders; where it has just the right height is the servo's range. */
+/** The pen follows two sliders, which set the ends of the servo's range. */
 const EbbServoStep = ({ profile, settingsWith, onNext }: StepProps & { readonly profile: EbbMachine }) => {
   const [draft, setDraft] = useState(profile);
-  const moveTo = useServo(() => settingsWith(draft));
+  const hand = useHand();
+  const follow = useMemo(
+    () =>
+      servoFollower(
+        ({ pos, settings }: { pos: number; settings: PlotSettings }) => hand.servo(pos, settings),
+        (delayMs, callback) => void setTimeout(callback, delayMs),
+      ),
+    [hand],
+  );
   const take = (which: "servoPosAt0Pct" | "servoPosAt100Pct", pos: number): void => {
     setDraft(withController(draft, { [which]: pos }));
-    moveTo(pos);
+    follow({ pos, settings: settingsWith(draft) });
   };
   return (
     <>
@@ -71,25 +81,4 @@ const ServoSlider = ({ label, value, onChange }: ServoSliderProps) => {
       <output htmlFor={id}>{value}</output>
     </div>
   );
-};
-
-/** Sends a position at a time: while one is on its way only the latest of the others is kept. */
-const useServo = (settings: () => ReturnType<StepProps["settingsWith"]>) => {
-  const hand = useHand();
-  const state = useRef<{ isSending: boolean; next: number | null }>({ isSending: false, next: null });
-  const send = async (): Promise<void> => {
-    const now = state.current;
-    if (now.isSending) return;
-    now.isSending = true;
-    while (now.next !== null) {
-      const pos = now.next;
-      now.next = null;
-      await hand.servo(pos, settings());
-    }
-    now.isSending = false;
-  };
-  return (pos: number): void => {
-    state.current.next = pos;
-    void send();
-  };
 };

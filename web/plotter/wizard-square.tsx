@@ -11,7 +11,7 @@ import type { StepProps } from "./wizard-step.js";
 const words = wizardText;
 const SQUARE_MM = 100;
 
-/** A square is drawn and measured with a ruler: what it lacks says how many steps one millimetre has. */
+/** A square is drawn and measured with a ruler. Its real size gives the steps per mm. */
 export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const hand = useHand();
   const sizeMm = Math.min(SQUARE_MM, Math.floor(Math.min(profile.widthMm, profile.heightMm) / 2));
@@ -67,7 +67,7 @@ export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
   );
 };
 
-/** Steps for one mm, or what is wrong with the measurement. */
+/** Steps per mm, or what is wrong with the measurement. */
 const measuredOr = (profile: MachineProfile, sizeMm: number, xMm: number, yMm: number): number | string => {
   try {
     return stepsPerMmMeasured(profile, sizeMm, xMm, yMm);

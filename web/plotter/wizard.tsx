@@ -16,7 +16,7 @@ const words = wizardText;
 
 const STEPS = [PlotterStep, DirectionStep, SquareStep, ServoStep, NameStep] as const;
 
-/** From an unknown plotter to a profile of its own, by looking at what it does. */
+/** Makes a profile for an unknown plotter from what the user sees it do. */
 export const Wizard = () => {
   const store = usePageStore();
   const made = usePageState((state) => state.machines);

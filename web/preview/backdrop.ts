@@ -1,4 +1,4 @@
-/** The desk under the strokes: paper with its shadow, a quiet grid, the margins, the machine's reach. */
+/** The desk under the strokes: paper with its shadow, a faint grid, the margins, the machine's reach. */
 import type { FourMargins } from "../../src/internal.js";
 import { rulerStep, type Size, type View } from "../scene/view.js";
 
@@ -18,9 +18,9 @@ export interface DeskColors {
 export interface Desk {
   readonly paperMm: Size;
   readonly margins: FourMargins;
-  /** How far the machine reaches from the paper's corner, and what is written at its edge; null where it is not known. */
+  /** The machine's reach from the paper's corner, and its label; null: unknown. */
   readonly reach: (Size & { readonly label: string }) | null;
-  /** What the grid and the rulers count in. */
+  /** The unit of the grid and the rulers. */
   readonly unitMm: number;
 }
 
@@ -42,7 +42,7 @@ export const deskColors = (element: Element): DeskColors => {
   };
 };
 
-/** Sizes a canvas to its box and gives it cleared, in CSS px. */
+/** Resizes a canvas to its box and returns its cleared context, in CSS px. */
 export const beginCanvas = (
   canvas: HTMLCanvasElement,
   size: Size,
@@ -72,7 +72,7 @@ export const drawBackdrop = (
   const height = desk.paperMm.height * view.scale;
   context.save();
   context.fillStyle = colors.paper;
-  // Two shadows, as a sheet on a desk has: a tight one where it lies, a wide one from the room's light.
+  // Two shadows: a narrow one at the edge of the sheet, and a wide one from the light of the room.
   for (const [blur, down] of [
     [3, 1],
     [34, 14],
@@ -135,7 +135,7 @@ const MIN_LABEL_PX = 340;
 /** From the line to the words above it. */
 const REACH_GAP_PX = 5;
 
-/** Quiet where the machine reaches all of the paper; what it does not reach is shaded. */
+/** Faint if the machine reaches all of the paper. Otherwise the part that it can't reach is shaded. */
 const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, colors: DeskColors): void => {
   const { reach, paperMm } = desk;
   if (!reach) return;
@@ -155,7 +155,7 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   if (!isShort && width < MIN_LABEL_PX) return context.restore();
   context.font = REACH_FONT;
   context.textAlign = "right";
-  // Under the lower edge, and no further right than the paper, which is in sight.
+  // Below the lower edge, and not beyond the paper's right edge, so that it is visible.
   context.fillText(
     reach.label,
     offsetX + Math.min(reach.width, paperMm.width) * scale,

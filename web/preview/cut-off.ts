@@ -1,8 +1,8 @@
-/** Shows pale what the margins cut off. */
+/** Draws the lines that the margins cut off, pale. */
 import type { View } from "../scene/view.js";
 import type { CutOffPicture } from "../worker/cut-off.js";
 
-/** Seen on paper and beside it, in both themes. */
+/** Visible on the paper and beside it, in both themes. */
 const COLOR = "rgb(150 140 130 / 55%)";
 const LINE_PX = 1;
 
@@ -11,7 +11,7 @@ export const paintCutOff = (context: CanvasRenderingContext2D, view: View, cutOf
   const x = (mm: number): number => view.offsetX + mm * view.scale;
   const y = (mm: number): number => view.offsetY + mm * view.scale;
   context.save();
-  // Only outside the limit: all of the canvas without that box.
+  // Clips to the canvas without the box.
   context.beginPath();
   context.rect(0, 0, context.canvas.width, context.canvas.height);
   context.rect(

@@ -1,4 +1,4 @@
-/** The drawing's frame on the paper: drawn with handles while it is placed by hand, dragged and nudged. */
+/** The drawing's frame on the paper, for placing it by hand: its handles, dragging it, and moving it by keys. */
 import type { Actions } from "../state/actions.js";
 import type { PageState, PageStore } from "../state/store.js";
 import { formatNumber, formatSize } from "../ui/format.js";
@@ -26,7 +26,7 @@ const KNOB_PX = 30;
 const SNAP_PX = 7;
 const BELOW_LABEL_PX = 88;
 
-/** Where the drawing is to stand: as last planned, or as the settings say since. */
+/** The drawing's frame by the current settings, which may be newer than the plan. Null: not placed by hand. */
 export const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm | null => {
   const frame = planned?.frameMm ?? null;
   const place = prepare.place;
@@ -44,7 +44,7 @@ const setFrame = (actions: Actions, what: string, frame: FrameMm): void =>
     prepare: { ...settings.prepare, place: placeOfFrame(frame) },
   }));
 
-/** Begins a drag of the frame, where one is placed by hand and lies under the pointer. */
+/** Begins a drag of the frame. Null: there is none, or it is not under the pointer. */
 export const grabFrame = (
   stage: Stage,
   store: PageStore,
@@ -70,7 +70,7 @@ export const grabFrame = (
   };
 };
 
-/** Moves a drawing that is placed by hand; false where none is. */
+/** Moves a drawing that is placed by hand. False: it is not. */
 export const nudgeFrame = (store: PageStore, actions: Actions, dxMm: number, dyMm: number): boolean => {
   const frame = frameNow(store.getState());
   if (!frame) return false;
@@ -80,7 +80,7 @@ export const nudgeFrame = (store: PageStore, actions: Actions, dxMm: number, dyM
 
 type Painter = (context: CanvasRenderingContext2D, view: View) => void;
 
-/** The frame with its handles, and the places that a note of the report is about. */
+/** Paints the frame with its handles, and the places of the shown warning. */
 export const painterOf = (state: PageState): Painter | null => {
   const frame = frameNow(state);
   const { noteBoxes, planned, snapLines } = state;
@@ -102,7 +102,7 @@ interface BoxMm {
   readonly heightMm: number;
 }
 
-/** The box around a page box that may have been turned on its way to the paper. */
+/** The box on the paper around a box of the page, which may be turned. */
 export const paperBoxOf = (
   [x0, y0, x1, y1]: readonly [number, number, number, number],
   map: PageMap,
@@ -164,16 +164,16 @@ const paintFrame = (
 
 type Px = [number, number];
 
-/** How large it is and how far it is turned, in a label under the frame. */
+/** Paints a label with size and angle below the frame. */
 const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm, unit: LengthUnit): void => {
   const { x0, x1, y1 } = boxAround(frame);
-  const words = `${formatSize(frame.widthMm, frame.heightMm, unit)}${
+  const label = `${formatSize(frame.widthMm, frame.heightMm, unit)}${
     frame.turnDeg === 0 ? "" : `, ${formatNumber(frame.turnDeg, 1)}°`
   }`;
   context.font = "12px Helvetica, Arial, sans-serif";
-  const width = context.measureText(words).width + 14;
+  const width = context.measureText(label).width + 14;
   const x = view.offsetX + ((x0 + x1) / 2) * view.scale;
-  // Within the picture, above the tools at its lower edge.
+  // Inside the canvas, above the tools at its lower edge.
   const heightPx = context.canvas.height / context.getTransform().d;
   const y = Math.min(view.offsetY + y1 * view.scale + 12, heightPx - BELOW_LABEL_PX);
   context.fillStyle = FRAME_COLOR;
@@ -182,7 +182,7 @@ const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm
   context.fill();
   context.fillStyle = "#ffffff";
   context.textAlign = "center";
-  context.fillText(words, x, y + 15);
+  context.fillText(label, x, y + 15);
 };
 
 const paintSnapLines = (context: CanvasRenderingContext2D, view: View, { xs, ys }: SnapLines): void => {

@@ -1,33 +1,33 @@
-/** Pointer, wheel and keyboard on the preview -> changes of the view. Mouse, pen and fingers alike. */
+/** Changes the preview's view by pointer (mouse, pen or fingers), wheel and keyboard. */
 import { panBy, zoomAt, type View } from "../scene/view.js";
 
 export interface GestureTarget {
   view(): View;
   setView(view: View): void;
   fit(): void;
-  /** The pointer rests at (x, y) CSS px of the element, or has left (null). */
+  /** The pointer is at (x, y) CSS px of the element, or has left (null). */
   hover(at: { x: number; y: number } | null): void;
-  /** Something under (x, y) that a drag moves. Null: the drag pans. */
+  /** Begins a drag of the object under (x, y). Null: there is none, and the drag pans. */
   grab(at: { x: number; y: number }): Drag | null;
-  /** Arrow keys: moves what is placed by hand, mm; false where nothing is, and the keys pan. */
+  /** An arrow key moves a drawing placed by hand, mm. False: there is none, and the key pans. */
   nudge(dxMm: number, dyMm: number): boolean;
   /** A press without a drag. */
   tap(at: { x: number; y: number }): void;
 }
 
 export interface Drag {
-  /** The way from where it began, px; free: asked not to be drawn to lines. */
+  /** The distance from the start of the drag, px; `isFree`: without snapping. */
   to(dxPx: number, dyPx: number, isFree: boolean): void;
   end(): void;
 }
 
 const KEY_PAN_PX = 60;
-/** By an arrow key; ten times as far with Shift, a tenth with Alt. */
+/** Moved by an arrow key; ten times as much with Shift, a tenth with Alt. */
 const NUDGE_MM = 1;
 const KEY_ZOOM = 1.25;
 const TAP_PX = 5;
 
-/** Listens on `element`; returns a function that stops. */
+/** Listens on `element`. Returns a function that stops listening. */
 export const listenForGestures = (element: HTMLElement, target: GestureTarget): (() => void) => {
   const pointers = new Map<number, { x: number; y: number }>();
   let travelled = 0;
@@ -80,7 +80,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     event.preventDefault();
     const { x, y } = placeOf(event);
     const px = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
-    // A trackpad's pinch arrives as a wheel with ctrl; its two-finger scroll has a sideways part: pan then.
+    // A trackpad's pinch is a wheel event with ctrl. A two-finger scroll usually has a horizontal part and pans.
     const isPan = !event.ctrlKey && event.deltaMode === WheelEvent.DOM_DELTA_PIXEL && event.deltaX !== 0;
     if (isPan || event.shiftKey) target.setView(panBy(target.view(), -event.deltaX * px, -event.deltaY * px));
     else {
@@ -90,10 +90,10 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   };
 
   const onKey = (event: KeyboardEvent): void => {
-    const way = ARROWS[event.key];
-    if (way && !event.ctrlKey && !event.metaKey) {
+    const arrow = ARROWS[event.key];
+    if (arrow && !event.ctrlKey && !event.metaKey) {
       const mm = NUDGE_MM * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
-      if (target.nudge(way[0] * mm, way[1] * mm)) return event.preventDefault();
+      if (target.nudge(arrow[0] * mm, arrow[1] * mm)) return event.preventDefault();
     }
     const change = keyChange(event, element);
     if (change === null) return;
@@ -128,7 +128,7 @@ interface Point {
   readonly y: number;
 }
 
-/** One finger moves from `before` to `now`, the other rests: the paper follows both. */
+/** The view after one finger has moved from `before` to `now` while the other rests: the paper follows both. */
 export const pinched = (view: View, before: Point, now: Point, other: Point): View => {
   const factor =
     Math.hypot(now.x - other.x, now.y - other.y) /

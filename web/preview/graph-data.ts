@@ -7,10 +7,10 @@ export interface GraphData {
   readonly accelMmPerS2: Float64Array;
 }
 
-/** Where a point of the graph stands for several instants, the highest of them is shown: peaks stay. */
-const LOOKS_A_POINT = 4;
+/** A point of the graph shows the maximum of this many samples, so that peaks are not lost. */
+const SAMPLES_PER_POINT = 4;
 
-/** `count` points from `fromS` to `toS`: O(count log blocks), whatever the plan's size. */
+/** `count` points from `fromS` to `toS`. O(count log blocks). */
 export const graphData = (trajectory: Trajectory, fromS: number, toS: number, count: number): GraphData => {
   const tS = new Float64Array(count);
   const speedMmPerS = new Float64Array(count);
@@ -19,8 +19,8 @@ export const graphData = (trajectory: Trajectory, fromS: number, toS: number, co
   const step = (toS - fromS) / Math.max(1, count - 1);
   for (let i = 0; i < count; i++) {
     tS[i] = fromS + i * step;
-    for (let k = 0; k < LOOKS_A_POINT; k++) {
-      stateAt(trajectory, Math.min(toS, tS[i] + (k / LOOKS_A_POINT) * step), state);
+    for (let k = 0; k < SAMPLES_PER_POINT; k++) {
+      stateAt(trajectory, Math.min(toS, tS[i] + (k / SAMPLES_PER_POINT) * step), state);
       speedMmPerS[i] = Math.max(speedMmPerS[i], Math.hypot(state.vx, state.vy));
       accelMmPerS2[i] = Math.max(accelMmPerS2[i], Math.hypot(state.ax, state.ay));
     }

@@ -10,7 +10,7 @@ import { graphData } from "./graph-data.js";
 const words = timeLineText;
 const HEIGHT_PX = 132;
 
-/** Speed and acceleration over the plot's time. A drag zooms, a double click shows all, a click goes there. */
+/** Speed and acceleration over time. A drag zooms, a double click shows everything, a click goes to that moment. */
 export const Graph = ({ onSeek }: { onSeek(tS: number): void }) => {
   const box = useRef<HTMLDivElement>(null);
   const store = usePageStore();

@@ -4,7 +4,7 @@ import { formatCount, formatMoment, formatNumber } from "../ui/format.js";
 
 const words = hoverText;
 
-/** The numbers of the stroke under the pointer, beside it. */
+/** A tooltip with the numbers of the stroke under the pointer. */
 export const HoverTip = () => {
   const hover = usePageState((state) => state.hover);
   const strokeCount = usePageState((state) => state.planned?.strokeCount ?? 0);

@@ -17,7 +17,7 @@ const SHOWN_ENTRIES = 6;
 
 const OPTIONS = COLOR_MODES.map((value) => ({ value, label: words.looks[value] }));
 
-/** The ways to look at the drawing, and what the colours of the chosen one mean. */
+/** The looks of the drawing, and the legend of the chosen one. */
 export const Looks = () => {
   const colorBy = usePageState((state) => state.view.colorBy);
   const planned = usePageState((state) => state.planned);
@@ -42,7 +42,7 @@ const Legend = ({ colorBy, planned }: { colorBy: ColorMode; planned: Planned }) 
   return <ListLegend colorBy={colorBy} planned={planned} />;
 };
 
-/** `data-stops` holds the scale as JSON, for programs that read the page. */
+/** `data-stops` is the scale as JSON, for programs that read the page. */
 const SpeedLegend = ({ topMmPerS }: { topMmPerS: number }) => {
   const stops = useMemo(() => legendStops(topMmPerS), [topMmPerS]);
   return (

@@ -1,4 +1,4 @@
-/** What lies over the strokes: rulers along the edges, and where the pen is. */
+/** Drawn over the strokes: rulers along the edges, and the pen's position. */
 import type { DeskColors } from "./backdrop.js";
 import { rulerStep, type Size, type View } from "../scene/view.js";
 
@@ -7,11 +7,11 @@ export const RULER_PX = 22;
 export interface Marker {
   readonly xMm: number;
   readonly yMm: number;
-  /** Drawing: neither up nor on its way. */
+  /** Completely down: neither up nor moving. */
   readonly penDown: boolean;
 }
 
-/** What part of the rulers is marked, mm. */
+/** The marked part of the rulers, mm. */
 export interface RulerSpan {
   readonly x0: number;
   readonly y0: number;
@@ -34,7 +34,7 @@ export const drawRulers = (
   if (span) markSpan(context, view, span);
   drawTicks(context, view.offsetX, unitPx, size.width, colors, false);
   context.save();
-  // The left ruler is the top one turned: its numbers read upwards.
+  // The left ruler is the top one, rotated. Its numbers read upwards.
   context.rotate(-Math.PI / 2);
   context.scale(-1, 1);
   drawTicks(context, view.offsetY, unitPx, size.height, colors, true);
@@ -113,7 +113,7 @@ const drawTicks = (
   }
 };
 
-/** A pen's nib on the paper: filled while it draws, hollow while it is up. */
+/** The pen on the paper: filled while it draws, hollow while it is up. */
 export const drawMarker = (
   context: CanvasRenderingContext2D,
   view: View,

@@ -1,4 +1,4 @@
-/** Plays the plan in the preview: moves the moment shown, by the screen's beat, at a multiple of real time. */
+/** Plays the plan in the preview: moves the shown moment at a multiple of real time, on every animation frame. */
 import type { PageStore } from "../state/store.js";
 
 export const PLAY_RATES = [1, 2, 5, 10, 20, 50, 100] as const;
@@ -33,14 +33,14 @@ export class Player {
     if (!planned) return;
     this.#store.setState({ isPlaying: true, momentS: momentS ?? 0 });
     this.#lastMs = performance.now();
-    this.#request = requestAnimationFrame(this.#beat);
+    this.#request = requestAnimationFrame(this.#onFrame);
   }
 
   #totalS(): number {
     return this.#store.getState().planned?.trajectory.totalS ?? 0;
   }
 
-  readonly #beat = (nowMs: number): void => {
+  readonly #onFrame = (nowMs: number): void => {
     const { momentS, playRate, isPlaying } = this.#store.getState();
     if (!isPlaying) return;
     const next = (momentS ?? 0) + (Math.max(0, nowMs - this.#lastMs) / 1_000) * playRate;
@@ -50,6 +50,6 @@ export class Player {
       return;
     }
     this.#store.setState({ momentS: next });
-    this.#request = requestAnimationFrame(this.#beat);
+    this.#request = requestAnimationFrame(this.#onFrame);
   };
 }

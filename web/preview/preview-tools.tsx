@@ -8,7 +8,7 @@ import type { Stage } from "./stage.js";
 const words = previewText;
 const ZOOM_STEP = 1.5;
 
-/** The few controls that lie on the desk beside the paper. */
+/** The controls on the desk beside the paper. */
 export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
   const showTravel = usePageState((state) => state.view.showTravel);
   const { changeView } = useActions();
@@ -32,7 +32,7 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
   );
 };
 
-/** Puts handles round the drawing; pressed again, it fits the paper. */
+/** Places the drawing by hand, with handles around it. Pressed again, the drawing fits the paper. */
 const PlaceTool = () => {
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);

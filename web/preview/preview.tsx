@@ -22,7 +22,7 @@ import type { Picture } from "../scene/renderer.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
 const words = previewText;
-/** The looks with their legend, and the tools, lie under the paper. */
+/** Height of the looks, the legend and the tools under the paper. */
 const BELOW_PX = 88;
 
 /** The paper with the drawing on it, as it will be plotted. */
@@ -96,7 +96,7 @@ const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: nu
 
 const deskOfState = ({ settings, view }: PageState) => deskOf(settings, view.lengthUnit);
 
-/** What the simulated pen draws, once that is known for the plan on the paper. */
+/** The simulated pen's strokes, if they were computed for the current plan. */
 const shownSwing = ({ view, swing, planned }: PageState): Picture | null =>
   view.colorBy === "swing" && swing !== null && swing.of === planned ? swing.picture : null;
 
@@ -105,14 +105,14 @@ const lookOf = (state: PageState): FrameLook => {
   const { colorBy, showTravel } = state.view;
   const looks = planned ? layerLooks(colorBy, { planned, settings }) : [];
   return {
-    // Until the pen is simulated, what was asked is drawn in one colour.
+    // Until the simulation is complete, the planned strokes are drawn in one colour.
     colorBy: colorBy === "swing" && shownSwing(state) === null ? "layer" : colorBy,
     showTravel,
     lineMm: Math.max(0, ...looks.map(({ widthMm }) => widthMm)),
     layerColors: looks.map(({ color }) => color),
     layerWidthsMm: looks.map(({ widthMm }) => widthMm),
     lineGapMm: planned && !isTrueToWidth(colorBy) ? planned.lineGapMm : undefined,
-    // While the drawing on the paper is the one being plotted, what is not drawn yet is shown pale.
+    // If this drawing is being plotted, the rest of it is shown pale.
     untilS: state.momentS ?? drawnUntilS(state),
   };
 };
@@ -122,7 +122,7 @@ const markerOf = (state: PageState): Marker | null => {
     const { x, y, penUp, penMoving } = stateAt(state.planned.trajectory, state.momentS);
     return { xMm: x, yMm: y, penDown: !penUp && !penMoving };
   }
-  // The pen of a plot is shown on that plot's drawing, not over another one.
+  // The pen of a plot is shown only on that plot's drawing.
   const job = activeJob(state);
   if (job && job.id !== state.drawing?.jobId) return null;
   const plotter = currentPlotter(state);
@@ -130,7 +130,7 @@ const markerOf = (state: PageState): Marker | null => {
   return { xMm: plotter.xMm, yMm: plotter.yMm, penDown: plotter.penUp === false && !plotter.penMoving };
 };
 
-/** The drawing that is laid out: it can be pointed at, selected and placed by hand. */
+/** The laid-out drawing: its strokes can be pointed at and selected, and it can be placed by hand. */
 const PREPARED: SheetKind = {
   desk: deskOfState,
   look: lookOf,
@@ -152,7 +152,7 @@ const PREPARED: SheetKind = {
   }),
 };
 
-/** What stands on the paper while the drawing does not: that it is being read, or what is wrong with it. */
+/** Shown on the paper while there are no strokes: the file is being read, or what is wrong with it. */
 const PaperMessage = () => {
   const drawing = usePageState((state) => state.drawing);
   const fault = usePageState((state) => state.fault);

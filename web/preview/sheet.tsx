@@ -7,11 +7,11 @@ import { listenForGestures, type GestureTarget } from "./gestures.js";
 import { Stage, type FrameLook } from "./stage.js";
 import { previewText } from "./text.js";
 
-/** What a sheet shows, and what a hand can do on it besides moving the view. The same object on every render. */
+/** What a sheet shows, and its gestures besides moving the view. Must be the same object on every render. */
 export interface SheetKind {
   desk(state: PageState): Desk;
   look(state: PageState): FrameLook;
-  /** Room under the paper for what lies over the sheet there, px. */
+  /** Free space under the paper for the controls there, px. */
   readonly belowPx: number;
   /** Shows each change of the state, until the returned function is called. */
   show(stage: Stage, store: PageStore): () => void;
@@ -21,13 +21,13 @@ export interface SheetKind {
 interface SheetProps {
   readonly kind: SheetKind;
   readonly label: string;
-  /** Name of the picture of the strokes. */
+  /** Accessible name of the strokes canvas. */
   readonly pictureLabel: string;
-  /** What lies over the sheet. */
+  /** Controls over the sheet. */
   children(stage: RefObject<Stage | null>): ReactNode;
 }
 
-/** Paper with strokes on it, which can be moved and zoomed: in Prepare and in Watch. */
+/** Paper with strokes, which can be moved and zoomed. Used in Prepare and in Watch. */
 export const Sheet = ({ kind, label, pictureLabel, children }: SheetProps) => {
   const box = useRef<HTMLDivElement>(null);
   const desk = useRef<HTMLCanvasElement>(null);

@@ -1,4 +1,4 @@
-/** Runs the worker that simulates the pen on the plan on the paper. One simulation at a time, ended by `stop`. */
+/** Runs the worker that simulates the pen on the current plan. */
 import { findMachine, type Springs } from "../../src/internal.js";
 import type { Actions } from "../state/actions.js";
 import type { PageStore, Swing } from "../state/store.js";
@@ -6,9 +6,10 @@ import type { Planned } from "../worker/protocol.js";
 import type { SwingReply, SwingRequest } from "../worker/swing-protocol.js";
 import { swingText } from "./swing-text.js";
 
-/** Of a machine that was not measured: what gantries with a long arm swing like. */
+/** For a machine that was not measured: typical values of plotters with a long arm. */
 const ASSUMED: Springs = { xHz: 15, yHz: 25, damping: 0.05 };
 
+/** Returns a function that stops the simulation. There must be only one at a time. */
 export const simulatePen = (
   store: PageStore,
   { askStrokes }: Pick<Actions, "askStrokes">,
@@ -43,7 +44,7 @@ export const simulatePen = (
       const { draw, travel, totalS } = planned.scene;
       show({ share: 1, picture: { draw: pieces, asked: draw, travel, totalS }, result: { error, topMm } });
     };
-    // What a shaped plan was made from is not needed here.
+    // The unshaped plan is not needed here.
     const request: SwingRequest = { strokes, trajectory: { ...planned.trajectory, planned: null }, springs };
     worker.postMessage(request, [strokes.xy.buffer, strokes.offsets.buffer, strokes.layer.buffer]);
   });

@@ -1,8 +1,8 @@
 /**
- * The preview's machine: three canvases in a stack (desk, strokes, rulers and pen) and one view.
+ * The preview's three stacked canvases (desk, strokes, rulers with the pen), and their view.
  *
- * The strokes are drawn elsewhere. Until they have been for a new view, the last picture is moved and scaled: the paper
- * stays under the finger whatever the drawing's size.
+ * The strokes are drawn elsewhere. Until they are drawn for a new view, the last picture is moved and scaled, so that
+ * the paper follows the finger even if the drawing is large.
  */
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
 import { markMoment } from "../worker/moments.js";
@@ -41,14 +41,14 @@ export class Stage {
   #view: View = { scale: 1, offsetX: 0, offsetY: 0 };
   /** The view that the strokes canvas shows. */
   #drawnView: View | null = null;
-  /** Until the user pans or zooms, the paper is kept whole in sight. */
+  /** Until the user pans or zooms, the whole paper stays visible. */
   #isFitted = true;
   #areStrokesStale = true;
-  /** Not to be seen yet. */
+  /** The scene is not visible yet. */
   #isSceneNew = true;
-  /** What each frame that was asked for shows. */
+  /** The scene of each requested frame. */
   readonly #scenes = new WeakMap<Frame, Picture | null>();
-  /** The 2D canvases are drawn again only when something on them has changed. */
+  /** The 2D canvases are drawn only when something on them has changed. */
   #areSheetsStale = true;
   #request = 0;
 
@@ -68,7 +68,7 @@ export class Stage {
     return this.#view;
   }
 
-  /** Of the preview, CSS px. */
+  /** The preview's size, CSS px. */
   get size(): Size {
     return this.#size;
   }
@@ -120,7 +120,7 @@ export class Stage {
     return this.#desk;
   }
 
-  /** A painter for what lies over the strokes (highlights, handles), called with every frame; and its box on the rulers. */
+  /** Sets what is painted over the strokes in every frame (highlights, handles), and the marked part of the rulers. */
   setPainter(
     paint: ((context: CanvasRenderingContext2D, view: View) => void) | null,
     rulerSpan: RulerSpan | null,
@@ -130,7 +130,7 @@ export class Stage {
     this.#refresh(false);
   }
 
-  /** The theme has changed: the colours are read again. */
+  /** Reads the colours again, after the theme has changed. */
   recolor(): void {
     this.#colors = deskColors(this.#canvases.box);
     this.#refresh(false);
@@ -147,7 +147,7 @@ export class Stage {
     this.#size = { width, height };
     if (this.#isFitted) this.#fitNow();
     this.#refresh(true);
-    // Before the browser shows the new size, not a frame after it.
+    // Draws now, so that the browser does not show the new size with an old picture for one frame.
     cancelAnimationFrame(this.#request);
     this.#frame();
   }
@@ -204,7 +204,7 @@ export class Stage {
 
   #onShown(frame: Frame, isDone: boolean): void {
     const { strokes } = this.#canvases;
-    // A picture keeps the size that it was drawn for until the next one: the box may have changed.
+    // The picture keeps the size that it was drawn for, because the box may have changed since.
     strokes.style.width = `${frame.width}px`;
     strokes.style.height = `${frame.height}px`;
     this.#drawnView = frame.view;
@@ -223,7 +223,7 @@ export class Stage {
   }
 }
 
-/** Shows a picture drawn for `from` as it would lie under `to`. */
+/** The CSS transform that shows a picture drawn for `from` in the view `to`. */
 const transformBetween = (from: View, to: View): string => {
   const f = to.scale / from.scale;
   return `translate(${to.offsetX - from.offsetX * f}px, ${to.offsetY - from.offsetY * f}px) scale(${f})`;

@@ -9,7 +9,7 @@ import { strokeText } from "./text.js";
 
 const words = strokeText;
 
-/** The stroke that was clicked: its figures, and plotting from its beginning on. */
+/** The clicked stroke: its numbers, and a button to plot from its beginning. */
 export const StrokeCard = () => {
   const selected = usePageState(selectedStroke);
   const settings = usePageState((state) => state.settings);

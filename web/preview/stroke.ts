@@ -1,4 +1,4 @@
-/** One stroke of a plan, as it is shown when it is selected. */
+/** The selected stroke of a plan: its numbers and its picture. */
 import type { Trajectory } from "../../src/index.js";
 import { PIECE_FLOATS } from "../scene/pieces.js";
 import { piecesBefore, type Scene } from "../scene/scene.js";
@@ -8,7 +8,7 @@ import { layerLooks } from "./looks.js";
 
 export interface StrokeFigures {
   readonly lengthMm: number;
-  /** When it begins, and how long it takes with the pen down. */
+  /** When it begins, and how long it takes. */
   readonly startS: number;
   readonly durationS: number;
   /** mm x, y, x, y … of its line. */
@@ -20,10 +20,10 @@ interface Drawn {
   readonly trajectory: Trajectory;
 }
 
-/** Times of the pieces are 32-bit floats. */
+/** Tolerance, because the times of the pieces are 32-bit floats. */
 const ROUNDING_S = 1e-4;
 
-/** Null where the plan has no such stroke. */
+/** Null if the plan has no such stroke. */
 export const strokeFigures = ({ scene, trajectory }: Drawn, strokeIndex: number): StrokeFigures | null => {
   const { runs, totalS } = trajectory;
   const first = runs.stroke.indexOf(strokeIndex);
@@ -58,11 +58,11 @@ type Painter = (context: CanvasRenderingContext2D, view: View) => void;
 
 const SELECTED_COLOR = "#1450ff";
 const CASING_COLOR = "#ffffff";
-/** To each side of the line, so that it stands out from its neighbours. */
+/** A border on each side, so that the line stands out. */
 const CASING_PX = 2.5;
-const LEAST_PX = 2;
+const MIN_PX = 2;
 
-/** Paints the selected stroke over the others, as wide as its pen draws. */
+/** Paints the selected stroke over the others, as wide as its pen's line. */
 export const selectionPainter = (state: PageState): Painter | null => {
   const selected = selectedStroke(state);
   if (!selected) return null;
@@ -72,7 +72,7 @@ export const selectionPainter = (state: PageState): Painter | null => {
   const widthMm = layerLooks("pen", { planned, settings: state.settings })[hover.layer]?.widthMm ?? 0;
   return (context, view) => {
     const { points } = stroke;
-    const linePx = Math.max(LEAST_PX, widthMm * view.scale);
+    const linePx = Math.max(MIN_PX, widthMm * view.scale);
     context.save();
     context.lineCap = "round";
     context.lineJoin = "round";

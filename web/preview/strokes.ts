@@ -1,8 +1,8 @@
 /**
- * The page's end of the strokes: drawn by a worker wherever a worker can draw, on the page's thread elsewhere.
+ * Draws the strokes in a worker, or on the page's thread if workers can't draw.
  *
- * The worker sends pictures, not a canvas of its own: a picture and the place that it belongs to are put on the page
- * in one step, so that strokes and paper never come apart while the view is moved.
+ * The worker sends pictures instead of drawing on the page's canvas. So the page can update picture and position in one
+ * step, and strokes and paper stay together while the view moves.
  */
 import type { DrawReply, DrawRequest } from "../worker/draw-protocol.js";
 import type { Painter } from "../scene/painter.js";
@@ -10,17 +10,17 @@ import type { Frame, Picture } from "../scene/renderer.js";
 import { PIECE_BYTES, type Pieces } from "../scene/pieces.js";
 
 export interface Strokes {
-  /** `copy` is given away, if it has not been yet. Drawn with the next frame. */
+  /** The scene is drawn with the next frame. `copy` is transferred, unless it was before. */
   setScene(scene: Picture | null, copy: Picture | null): void;
   /** Only the newest is drawn. */
   show(frame: Frame): void;
   close(): void;
 }
 
-/** A picture of `frame` is on the canvas. `isDone`: all of it, and nothing newer has been asked for. */
+/** A picture of `frame` is on the canvas. `isDone`: it is whole, and no newer frame was requested. */
 export type OnShown = (frame: Frame, isDone: boolean) => void;
 
-/** What this needs of a Worker; tests give their own. */
+/** The used part of a Worker. Tests pass their own. */
 export interface DrawWorkerLike {
   postMessage(message: DrawRequest, transfer: Transferable[]): void;
   terminate(): void;
@@ -36,21 +36,24 @@ export const openStrokes = (canvas: HTMLCanvasElement, onShown: OnShown): Stroke
   const worker = new Worker(new URL("../worker/draw.worker.ts", import.meta.url), { type: "module" });
   const put = (bitmap: ImageBitmap): void =>
     canvas.getContext("bitmaprenderer")?.transferFromImageBitmap(bitmap);
-  return new StrokesAway(worker, put, onShown, onPage);
+  return new StrokesInWorker(worker, put, onShown, onPage);
 };
 
-export class StrokesAway implements Strokes {
+export class StrokesInWorker implements Strokes {
   readonly #worker: DrawWorkerLike;
   readonly #onPage: () => Strokes;
-  /** Asked for, and neither shown nor passed over yet. */
+  /** Requested frames that are neither shown nor skipped yet. */
   readonly #frames = new Map<number, Frame>();
   #newestId = 0;
   #scene: Picture | null = null;
   #hasShown = false;
-  /** Draws where the worker turned out not to. */
+  /** Draws on the page, after the worker has failed. */
   #instead: Strokes | null = null;
 
-  /** `put` shows a picture; `onPage` is called when the worker can't be started, with the canvas still untouched. */
+  /**
+   * `put` shows a picture. `onPage` is called if the worker fails before its first picture: the canvas is unused
+   * then.
+   */
   constructor(
     worker: DrawWorkerLike,
     put: (bitmap: ImageBitmap) => void,
@@ -61,7 +64,7 @@ export class StrokesAway implements Strokes {
     this.#onPage = onPage;
     worker.onmessage = ({ data: { id, isWhole, bitmap } }) => {
       const frame = this.#frames.get(id);
-      for (const asked of this.#frames.keys()) if (asked < id) this.#frames.delete(asked);
+      for (const earlier of this.#frames.keys()) if (earlier < id) this.#frames.delete(earlier);
       if (!frame) return bitmap.close();
       this.#hasShown = true;
       put(bitmap);
@@ -76,12 +79,12 @@ export class StrokesAway implements Strokes {
     this.#scene = scene;
     if (this.#instead) return this.#instead.setScene(scene, copy);
     if (!scene) return this.#worker.postMessage({ type: "scene", scene: null }, []);
-    // Given away before, to a stage that is no more: then the page's own is copied.
-    const isOurs = copy !== null && isThere(copy.draw) && isThere(copy.travel);
-    const { draw, travel } = isOurs ? copy : scene;
+    // If the copy was transferred before, to an earlier stage, the page's own pieces are copied.
+    const canTransfer = copy !== null && isThere(copy.draw) && isThere(copy.travel);
+    const { draw, travel } = canTransfer ? copy : scene;
     const { totalS, asked } = scene;
     const message: DrawRequest = { type: "scene", scene: { draw, travel, totalS, asked } };
-    this.#worker.postMessage(message, isOurs ? [draw.bytes, travel.bytes] : []);
+    this.#worker.postMessage(message, canTransfer ? [draw.bytes, travel.bytes] : []);
   }
 
   show(frame: Frame): void {
@@ -106,7 +109,7 @@ export class StrokesAway implements Strokes {
 
 const isThere = ({ count, bytes }: Pieces): boolean => bytes.byteLength === count * PIECE_BYTES;
 
-/** Fetches what draws when it is needed, which is hardly anywhere. */
+/** Draws on the page's thread. Loads the code only here, because few browsers need it. */
 class StrokesOnPage implements Strokes {
   #painter: Painter | null = null;
   #scene: Picture | null = null;

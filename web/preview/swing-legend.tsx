@@ -11,7 +11,10 @@ import "./swing-legend.css";
 const words = swingText;
 const LABELS = 5;
 
-/** While it is shown, the pen is simulated: what the colours mean, the largest error, and whose springs. */
+/**
+ * The legend of the simulated pen: colours, largest error, and the springs used. The simulation runs while it is
+ * shown.
+ */
 export const SwingLegend = ({ planned, gradient }: { planned: Planned; gradient: string }) => {
   const store = usePageStore();
   const actions = useActions();

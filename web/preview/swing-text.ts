@@ -1,12 +1,12 @@
-/** Words of the simulated pen. */
+/** Texts of the simulated pen. */
 export const swingText = {
   legend: "Legend of the simulated pen",
-  title: "Pen beside the line",
+  title: "Distance from the line",
   unit: "mm",
   working: (percent: string) => `Simulating the pen… ${percent} %`,
-  atMost: (max: string, most: string) => `At most ${max} mm, 99 % below ${most} mm`,
+  atMost: (max: string, p99: string) => `At most ${max} mm, 99 % below ${p99} mm`,
   orMore: (mm: string) => `≥ ${mm}`,
-  asked: "What was asked",
+  asked: "Planned line",
   measured: (x: string, y: string) => `Your plotter’s swing: ${x} Hz along x, ${y} Hz along y`,
   assumed: (x: string, y: string) => `Assumed swing: ${x} Hz along x, ${y} Hz along y.`,
   measure: "Measure yours…",

@@ -1,4 +1,4 @@
-/** Words of the preview and the time line. */
+/** Texts of the preview and the time line. */
 export const previewText = {
   reach: (machine: string, size: string) => `Reach of the ${machine}: ${size}`,
   reading: (name: string) => `Reading ${name}…`,
@@ -7,7 +7,7 @@ export const previewText = {
   onlyPictures: "This file holds only a picture",
   onlyPicturesHint:
     "A pen draws lines. Trace the picture to paths in your drawing program, and save it again.",
-  emptyFileHint: "The file has no visible line and no filled shape.",
+  emptyFileHint: "The file has no visible lines and no filled shapes.",
   cannotRead: (name: string) => `${name} can’t be drawn`,
   title: "Preview",
   canvas: "Preview",
@@ -57,7 +57,7 @@ export const strokeText = {
   begins: "Begins at",
   speedHere: "Speed here",
   plotFrom: "Plot from here",
-  plotFromHint: "It waits above this stroke until you press Resume. What comes before is not drawn.",
+  plotFromHint: "The pen waits above this stroke until you press Resume. Earlier strokes are not drawn.",
 };
 
 export const timeLineText = {

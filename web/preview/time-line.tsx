@@ -10,7 +10,7 @@ const words = timeLineText;
 const Graph = lazy(async () => ({ default: (await import("./graph.js")).Graph }));
 const STEPS = 2_000;
 
-/** The plot as time: drag through it, play it, see speed and acceleration under it. */
+/** The time line of the plot: drag along it, play it, show speed and acceleration. */
 export const TimeLine = ({ player }: { player: Player }) => {
   const totalS = usePageState((state) => state.planned?.trajectory.totalS ?? 0);
   const isOpen = usePageState((state) => state.view.showGraph);
@@ -43,7 +43,7 @@ const PlayButton = ({ player }: { player: Player }) => {
   );
 };
 
-/** Where the plot is: the moment looked at, else how far the plotter is with this drawing, else the end. */
+/** The shown moment, else how far this drawing has been plotted; null: the end. */
 const useMoment = (): number | null => usePageState((state) => state.momentS ?? drawnUntilS(state));
 
 const Scrubber = ({ player, totalS }: { player: Player; totalS: number }) => {

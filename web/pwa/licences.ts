@@ -1,6 +1,6 @@
-/** The licences of what is built into the page: a file that the build writes beside it. */
+/** The licences of all software in the page: a file that the build writes beside it. */
 
-/** Null where there is no such file, as while the page is developed. */
+/** Null if there is no such file, as on the development server. */
 export const fetchLicences = async (signal: AbortSignal): Promise<string | null> => {
   const response = await fetch(`${import.meta.env.BASE_URL}licences.txt`, { signal });
   const isText = response.headers.get("Content-Type")?.startsWith("text/plain") === true;

@@ -1,17 +1,17 @@
 /**
- * Keeps the page's own files, so that the page opens without the server and can say that it is missing. Never keeps
- * anything of the API. A new version's files are fetched whole before it takes over.
+ * Caches the page's own files, so that the page opens without the server and can say that it can't be reached. Never
+ * caches anything of the API. A new version takes over only after all of its files are fetched.
  */
 import { cachesToDrop, ruleFor } from "./shell-rules.js";
 
-/** Put in by the build: paths of the page's files, relative to this one, and a name that changes with them. */
+/** Written by the build: paths of the page's files, relative to this one, and a version that changes with them. */
 const SHELL = JSON.parse("__SHELL__") as { readonly version: string; readonly files: readonly string[] };
 const PREFIX = "plotwright-";
 const CACHE = `${PREFIX}${SHELL.version}`;
-/** A server that is switched off may take a minute to be given up by the network. */
+/** After this the cached page is shown. For a server that is switched off the network may wait a minute. */
 const PATIENCE_MS = 4_000;
 
-/** What of a service worker's scope is used; the DOM's types have none. */
+/** The used part of a service worker's scope, which the DOM's types do not have. */
 interface Waiting extends Event {
   waitUntil(done: Promise<unknown>): void;
 }
@@ -40,7 +40,7 @@ scope.addEventListener("fetch", (event) => {
 
 async function fetchShell(): Promise<void> {
   const cache = await caches.open(CACHE);
-  // Past the browser's own cache: a file without a hash may be an old one there.
+  // Bypasses the browser's own cache, which may have an old version of a file without a hash.
   await cache.addAll(SHELL.files.map((file) => new Request(new URL(file, PAGE), { cache: "reload" })));
   await scope.skipWaiting();
 }
@@ -60,7 +60,7 @@ async function pageOrKept(request: Request): Promise<Response> {
     const first = await Promise.race([fetched, late]);
     if (first?.ok) return first;
   } catch {
-    // No server: what was kept is shown instead.
+    // No server: the cached page is shown instead.
   }
   const cache = await caches.open(CACHE);
   return (await cache.match(PAGE)) ?? fetched;

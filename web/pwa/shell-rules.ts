@@ -1,4 +1,4 @@
-/** Which requests the service worker answers, and how. Pure, for tests. */
+/** Which requests the service worker answers, and how. Pure functions, for tests. */
 
 export interface Asked {
   readonly method: string;
@@ -8,10 +8,9 @@ export interface Asked {
 }
 
 /**
- * "page": the page itself, from the server while it answers, else as it was last time.
- * "kept": a file whose name has a hash, or an icon: from the cache where it is.
- * null: everything else goes its way as without a service worker. The API above all: an old answer of it would be a
- * lie about what the plotter does.
+ * "page": the page itself: from the server, or from the cache if the server does not answer.
+ * "kept": a file whose name has a hash, or an icon: from the cache if it is there.
+ * null: not handled. Above all the API: an old answer would be wrong about what the plotter does.
  *
  * `page`: the page's address, which ends with "/".
  */
@@ -24,8 +23,10 @@ export const ruleFor = ({ method, url, mode }: Asked, page: string): "page" | "k
   return isKept ? "kept" : null;
 };
 
-/** Of the caches that there are, oldest first, those to be thrown away: all but the new one and the one before,
- *  which pages that are still open may take their parts from. */
+/**
+ * The caches to delete, given all of them, oldest first: all but the current one and the one before it, from which
+ * pages that are still open may load parts.
+ */
 export const cachesToDrop = (
   names: readonly string[],
   prefix: string,

@@ -1,23 +1,23 @@
-/** Copies of one drawing that wait one after the other share a row. */
+/** Waiting copies of one drawing that follow each other share a row. */
 import type { Job } from "../../src/schema/index.js";
 
-/** The first stands for all; never empty. */
+/** The jobs of a row, never empty. The first represents them all. */
 export type Copies = readonly [Job, ...Job[]];
 
-/** The waiting jobs in their order, by rows. */
+/** Groups the waiting jobs into rows, in their order. */
 export const rowsOf = (jobs: readonly Job[]): readonly Copies[] => {
   const rows: [Job, ...Job[]][] = [];
-  let before = "";
+  let lastKey = "";
   for (const job of jobs) {
-    const now = likenessOf(job);
+    const key = keyOf(job);
     const row = rows.at(-1);
-    if (row && now === before) row.push(job);
+    if (row && key === lastKey) row.push(job);
     else rows.push([job]);
-    before = now;
+    lastKey = key;
   }
   return rows;
 };
 
-/** What copies have in common. */
-const likenessOf = ({ name, plotterId, settings, stats, message, speedPct, place }: Job): string =>
+/** Everything that is the same for copies. */
+const keyOf = ({ name, plotterId, settings, stats, message, speedPct, place }: Job): string =>
   JSON.stringify([name, plotterId, settings, stats, message, speedPct, place]);

@@ -2,7 +2,7 @@ import { usePageState } from "../state/use-store.js";
 import { formatCount } from "../ui/format.js";
 import { plotText } from "./text.js";
 
-/** How many lines of the drawing are not drawn, or only in part, and why. */
+/** How many lines are not drawn, or only in part, and why. */
 export const CutOffNote = () => {
   const cutOff = usePageState((state) => state.planned?.cutOff ?? null);
   if (!cutOff) return null;

@@ -5,7 +5,7 @@ import { queueText } from "./text.js";
 
 const words = queueText;
 
-/** Of a job that waits or has ended: start it, resume it, or plot it once more. */
+/** Buttons of a waiting or ended job: start it, resume it, or plot it again. */
 export const EndedButtons = ({ job }: { job: Job }) => {
   const { actOnJob } = useActions();
   const isMine = usePageState(mayOperate);
@@ -51,6 +51,6 @@ export const EndedButtons = ({ job }: { job: Job }) => {
   );
 };
 
-/** Part of a cancelled job is drawn, and the server knows which. */
+/** Whether a cancelled job was partly drawn, and its place is known. */
 export const canGoOn = ({ state, place, progress }: Job): boolean =>
   state === "cancelled" && place !== null && progress > 0;

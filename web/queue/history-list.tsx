@@ -12,7 +12,7 @@ import { Thumb } from "../drawing/thumb.js";
 const words = queueText;
 const SHOWN_FIRST = 20;
 
-/** What has been plotted, newest first, each to be had again. */
+/** Ended jobs, newest first. Each can be plotted again. */
 export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
   const [shownCount, setShownCount] = useState(SHOWN_FIRST);
   const restCount = jobs.length - shownCount;

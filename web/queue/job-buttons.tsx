@@ -9,13 +9,13 @@ import "./jobs.css";
 const words = jobText;
 
 /**
- * Pause, resume, cancel, stop: what can be done with a running job in its state. Cancel asks once more, since hours
- * of ink may be on the paper. Watchers may stop a plot, and nothing else.
+ * Pause, resume, cancel, stop: the buttons for a job in its present state. Cancel asks for confirmation, because a
+ * plot may have taken hours. Watchers may only stop a plot.
  */
 export const JobButtons = ({ job }: { job: Job }) => {
   const [isAsking, setAsking] = useState(false);
   const isMine = usePageState(mayOperate);
-  // What the server does not hear of must not look as if it did.
+  // Without a connection the server would not receive the request, so the buttons are disabled.
   const isOff = usePageState((state) => state.link !== "connected");
   if (isAsking && !isOff) return <AskToCancel job={job} onKeep={() => setAsking(false)} />;
   return (
@@ -48,7 +48,7 @@ const MainButton = ({ job, isOff }: ButtonProps) => {
   const { actOnJob } = useActions();
   const busy = usePageState((state) => state.busyAction);
   const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
-  const isAnswer = job.wait !== null && job.state === "paused";
+  const isPenChange = job.wait !== null && job.state === "paused";
   return (
     <button
       type="button"
@@ -57,7 +57,7 @@ const MainButton = ({ job, isOff }: ButtonProps) => {
       onClick={() => void actOnJob(job.id, action)}
     >
       <Icon name={action === "pause" ? "pause" : "play"} />
-      {isAnswer ? words.continue : label}
+      {isPenChange ? words.continue : label}
     </button>
   );
 };
@@ -93,7 +93,7 @@ const AskToCancel = ({ job, onKeep }: { job: Job; onKeep(): void }) => {
         >
           {words.cancelPlot}
         </button>
-        {/* In focus, so that a key pressed twice costs no plot. */}
+        {/* Has the focus, so that a key pressed twice does not cancel the plot. */}
         <button type="button" className="button" autoFocus onClick={onKeep}>
           {words.keepPlotting}
         </button>

@@ -7,8 +7,8 @@ import "./jobs.css";
 const words = queueText;
 
 /**
- * A job's name. That of a plot under way shows it; that of another one lays it on the paper, where there is one for
- * this browser.
+ * A job's name as a button: opens Watch for a running job, and the drawing for another one. Watchers can't open
+ * drawings, so for them the latter is plain text.
  */
 export const JobName = ({ job }: { job: Job }) => {
   const { openJob, showView } = useActions();
@@ -33,7 +33,7 @@ export const StateBadge = ({ job }: { job: Job }) => (
   </span>
 );
 
-/** How much of a job is done. */
+/** The progress bar of a job. */
 export const Progress = ({ job }: { job: Job }) => (
   <div
     className="progress"

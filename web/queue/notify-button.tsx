@@ -4,7 +4,7 @@ import { notifyText } from "./text.js";
 
 const words = notifyText;
 
-/** Asks the browser for notifications; absent where there are none to be had. */
+/** Asks for permission to show notifications. Not shown if the browser has none. */
 export const NotifyButton = () => {
   const { notify } = useActions();
   const [permission, setPermission] = useState(() => window.Notification?.permission ?? "denied");

@@ -6,7 +6,7 @@ import type { PageStore } from "../state/store.js";
 
 const words = notifyText;
 
-/** The message for a job that has changed; null if the user need not come. */
+/** The message for a job that has changed; null if the user does not need to know. */
 export const noticeOfChange = (before: Job | null, now: Job): string | null => {
   if (before === null) return null;
   if (now.state === "paused" && now.wait !== null && before.wait === null) {
@@ -19,13 +19,13 @@ export const noticeOfChange = (before: Job | null, now: Job): string | null => {
   return null;
 };
 
-/** Watches the jobs and hands out sentences; returns a function that stops. */
-export const watchJobs = (store: PageStore, say: (sentence: string, job: Job) => void): (() => void) =>
+/** Calls `notify` with a message when a job changes. Returns a function that stops. */
+export const watchJobs = (store: PageStore, notify: (message: string, job: Job) => void): (() => void) =>
   store.subscribe((state, before) => {
     if (state.jobs === before.jobs || before.jobs.length === 0) return;
     const known = new Map(before.jobs.map((job) => [job.id, job]));
     for (const job of state.jobs) {
-      const sentence = noticeOfChange(known.get(job.id) ?? null, job);
-      if (sentence !== null) say(sentence, job);
+      const message = noticeOfChange(known.get(job.id) ?? null, job);
+      if (message !== null) notify(message, job);
     }
   });

@@ -5,7 +5,7 @@ import "./jobs.css";
 
 const words = penWaitText;
 
-/** A job that waits for another pen: which one, in its colour, and the two answers. */
+/** Shown when a job waits for another pen: which pen, in its colour, and the buttons. */
 export const PenWait = ({ job, wait }: { job: Job; wait: PlotWait }) => (
   <div className="pen-wait" role="group" aria-label={words.title}>
     <PenSwatch color={wait.color} />
@@ -18,7 +18,7 @@ export const PenWait = ({ job, wait }: { job: Job; wait: PlotWait }) => (
   </div>
 );
 
-/** A pen seen from the side, in the colour of its ink. */
+/** A picture of a pen in the colour of its ink. */
 const PenSwatch = ({ color }: { color: string | null }) => (
   <svg className="pen-swatch" viewBox="0 0 24 48" aria-hidden="true">
     <path d="M6 2h12v26l-4 8h-4l-4-8z" fill={color ?? "transparent"} />

@@ -13,7 +13,7 @@ const words = plotText;
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
 const MAX_COPIES = 100;
 
-/** What the plot will take, and the two buttons that matter; on a phone, the running plot's buttons instead. */
+/** The plot's time and the main buttons. On a phone, the running plot's buttons replace them. */
 export const PlotBar = () => {
   const planned = usePageState((state) => state.planned);
   const isPlanning = usePageState((state) => state.isPlanning);
@@ -109,19 +109,19 @@ const Buttons = () => {
       </div>
       <CutOffNote />
       {isUnreached && <OutOfReach />}
-      <Words isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
+      <PlotNote isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
     </div>
   );
 };
 
-interface WordsProps {
+interface PlotNoteProps {
   readonly isSending: boolean;
   readonly isBusy: boolean;
   readonly isAbsent: boolean;
 }
 
-/** Why "Plot" can't be pressed, or what becomes of the press. */
-const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
+/** Why "Plot" is off, or what happens after it was pressed. */
+const PlotNote = ({ isSending, isBusy, isAbsent }: PlotNoteProps) => {
   const link = usePageState((state) => state.link);
   const hasDrawing = usePageState((state) => state.drawing !== null);
   if (link === "lost") return <p className="note note-error">{stateText.needsServer}</p>;
@@ -137,7 +137,7 @@ const Words = ({ isSending, isBusy, isAbsent }: WordsProps) => {
   return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
 };
 
-/** For a queued job that lies on the paper and whose settings were changed here. */
+/** Shown when the drawing is a queued job's and its settings were changed here. */
 const SaveToJob = ({ isOff }: { isOff: boolean }) => {
   const job = usePageState(({ drawing, jobs }) =>
     drawing?.jobId === null ? (jobs.find(({ id }) => id === drawing.sourceId) ?? null) : null,
@@ -156,7 +156,7 @@ const SaveToJob = ({ isOff }: { isOff: boolean }) => {
   );
 };
 
-/** Stands in for all that while a job has the plotter, where the screen is too small for both. */
+/** On a small screen, replaces the rest of the bar while a job has the plotter. */
 const RunningJob = () => {
   const job = usePageState(activeJob);
   if (!job) return null;

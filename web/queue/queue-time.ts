@@ -1,9 +1,9 @@
-/** How much a plotter's queue has to do. */
+/** How long a plotter's queue will take. */
 import type { Job } from "../../src/schema/index.js";
 
 interface QueueTime {
   readonly totalS: number;
-  /** It gets to its end by itself from here. False while it is paused, or when it stops for paper on the way. */
+  /** Runs to its end without the user. False while it is paused, or if it stops between jobs for new paper. */
   readonly isRunning: boolean;
 }
 

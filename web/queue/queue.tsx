@@ -48,7 +48,7 @@ export const QueuePanel = () => {
   );
 };
 
-/** With nothing to do: what was done last, since the history may be out of sight. */
+/** Shown for an empty queue. Names the last plot too, because the history may not be visible. */
 const Empty = ({ ended }: { ended: readonly Job[] }) => {
   const last = ended.reduce<Job | null>(
     (latest, job) => ((job.endedAt ?? "") > (latest?.endedAt ?? "") ? job : latest),
@@ -62,7 +62,7 @@ const Empty = ({ ended }: { ended: readonly Job[] }) => {
   );
 };
 
-/** How much there is to do, and when it will be done while that is known. */
+/** The number of jobs, their time, and when they will be done, if that is known. */
 const Totals = ({ jobs }: { jobs: readonly Job[] }) => {
   const nowMs = useNow();
   const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
@@ -77,7 +77,7 @@ const Totals = ({ jobs }: { jobs: readonly Job[] }) => {
   );
 };
 
-/** Whether the queue stops for somebody to change the paper. */
+/** Chooses whether the queue stops between jobs, for new paper. */
 const BetweenJobs = () => {
   const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
   const queue = usePageState((state) => state.queues[plotterId]);

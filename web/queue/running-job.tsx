@@ -9,7 +9,7 @@ import { JobButtons } from "./job-buttons.js";
 import { JobName, Progress, StateBadge } from "./job-head.js";
 import { PenWait } from "./pen-wait.js";
 
-/** The job that has the plotter, first in the queue. In Watch its buttons stand on the status card. */
+/** The job that has the plotter, first in the queue. In Watch its buttons are on the status card. */
 export const RunningJob = ({ job }: { job: Job }) => {
   const isWatched = usePageState((state) => shownView(state) === "watch");
   const wait = job.state === "paused" ? job.wait : null;

@@ -1,4 +1,4 @@
-/** Words of the plot bar, the queue and the history. */
+/** Texts of the plot bar, the queue and the history. */
 export const plotText = {
   planning: "Planning…",
   time: "Time",
@@ -8,10 +8,10 @@ export const plotText = {
   strokes: "Strokes",
   plot: "Plot",
   addToQueue: "Add to queue",
-  queueBusy: "The plotter is busy: this drawing goes to the end of the queue.",
+  queueBusy: "The plotter is busy. You can add this drawing to the queue.",
   copies: "Copies",
   addCopies: (count: number) => `Add ${count} to queue`,
-  sending: "Sending it; the server works out every move. A large drawing takes a while.",
+  sending: "Sending… The server plans every move, which takes a while for a large drawing.",
   saveToJob: (name: string) => `Save the changes to ${name} in the queue`,
   outside: (count: number, number: string) =>
     count === 1
@@ -33,9 +33,9 @@ export const queueText = {
   cancel: "Cancel",
   between: "After a plot",
   wait: "Wait for paper",
-  runOn: "Run on",
+  runOn: "Start the next",
   removeNamed: (name: string) => `Remove ${name}`,
-  openNamed: (name: string) => `Lay on the paper: ${name}`,
+  openNamed: (name: string) => `Open ${name}`,
   watchNamed: (name: string) => `Watch ${name}`,
   lastSeen: (share: string) => `last seen ${share}`,
   more: (name: string) => `More for ${name}`,
@@ -64,11 +64,11 @@ export const queueText = {
   laterNamed: (name: string) => `Move later: ${name}`,
   drag: (name: string) => `Drag ${name} to its place, or press arrow up or down`,
   dragHint: "Drag, or arrow up and down",
-  duplicate: "Once more",
-  duplicateNamed: (name: string) => `Once more: ${name}`,
+  duplicate: "Duplicate",
+  duplicateNamed: (name: string) => `Duplicate ${name}`,
   remove: "Remove",
   removeAll: (count: number) => `Remove all ${count}`,
-  open: "Lay on the paper",
+  open: "Open",
   moveToPlotter: (name: string) => `Plotter for ${name}`,
   again: "Plot again",
   againNamed: (name: string) => `Plot again: ${name}`,
@@ -81,12 +81,12 @@ export const queueText = {
 
 export const notifyText = {
   waits: (name: string, what: string) => `${name}: ${what}.`,
-  ask: "Tell me when a plot ends",
-  asked: "You are told when a plot ends or fails",
-  denied: "The browser forbids notifications for this page. Allow them in its settings.",
+  ask: "Notify me when a plot ends",
+  asked: "You will be notified when a plot ends or fails",
+  denied: "The browser blocks notifications for this page. Allow them in its settings.",
   done: (name: string) => `${name} is plotted.`,
-  failed: (name: string) => `${name} failed. Have a look at the queue.`,
-  interrupted: (name: string) => `${name} was interrupted. It can go on from there.`,
+  failed: (name: string) => `${name} failed. The history says why.`,
+  interrupted: (name: string) => `${name} was interrupted. You can go on from there.`,
 };
 
 export const jobText = {
@@ -97,23 +97,23 @@ export const jobText = {
   continue: "Continue",
   recover: "Go on from there",
   recoverHint:
-    "It comes back paused: nothing is drawn until you press Resume. If the carriage was moved, set it home first.",
+    "The plot comes back paused: nothing is drawn until you press Resume. If the carriage was moved, set home first.",
   confirmCancel: (name: string) => `Stop “${name}”? The pen lifts and goes home. What is drawn stays drawn.`,
   cancelPlot: "Cancel the plot",
   keepPlotting: "Keep plotting",
   stopNow: "Emergency stop",
   stopNowHint: (ms: number | null) =>
-    `Stops where it is${ms === null ? "" : `: with this plotter’s firmware after ${(ms / 1_000).toFixed(2)} s at most`}. Only cutting the motors’ power is quicker.`,
+    `Stops where it is${ms === null ? "" : `, with this plotter’s firmware after at most ${(ms / 1_000).toFixed(2)} s`}. Only switching off the motors’ power is faster.`,
   speedPct: "Speed now",
-  speedPctHint: "Percent of the plot’s set speeds; takes effect within a second.",
-  applyHeights: "Apply pen and speed as they are set now",
+  speedPctHint: "Percent of the plot’s speed settings. Takes effect within a second.",
+  applyHeights: "Apply the current pen and speed settings",
   place: (stroke: string, mm: string) => `At stroke ${stroke}, ${mm} mm along it`,
-  placeMoves: "Move the place",
+  placeMoves: "Change where it resumes",
   strokeBack: "One stroke back",
-  strokeOn: "One stroke on",
+  strokeOn: "One stroke forward",
   mmBack: "10 mm back",
-  mmOn: "10 mm on",
-  checkPlace: "Walk there with the pen up",
+  mmOn: "10 mm forward",
+  checkPlace: "Go there with the pen up",
 };
 
 export const penWaitText = {
@@ -121,5 +121,5 @@ export const penWaitText = {
   put: (pen: string) => `Put in the pen “${pen}”`,
   putForLayer: (layer: string) => `Put in the pen for “${layer}”`,
   layer: (layer: string) => `for the layer “${layer}”`,
-  hint: "The pen is up and the carriage is home. Continue when the pen sits firmly.",
+  hint: "The pen is up and the carriage is home. Continue when the new pen is fixed.",
 };

@@ -16,12 +16,12 @@ const words = queueText;
 
 interface WaitingJobProps {
   readonly copies: Copies;
-  /** The waiting rows in their order, each by its first job. */
+  /** The waiting rows in their order, each identified by its first job. */
   readonly rowIds: readonly string[];
   readonly list: RefObject<HTMLUListElement | null>;
 }
 
-/** One line: what it is, how many, how long, and the buttons. */
+/** A waiting row: name, number of copies, duration, buttons. */
 export const WaitingJob = ({ copies, rowIds, list }: WaitingJobProps) => {
   const isMine = usePageState(mayOperate);
   const [job] = copies;
@@ -63,12 +63,12 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
     for (const { id } of copies) await moveJob(id, beforeId);
   };
   const removeAll = async (): Promise<void> => {
-    // The first stands for the row as long as there is one.
+    // Backwards, because the first job identifies the row.
     for (const { id } of [...copies].reverse()) await removeJob(id);
   };
   const drag = useRowDrag(list, job.id, (place) => void moveTo(place));
   const { name } = job;
-  // Of several copies the last is taken away: the first may be about to start.
+  // Of several copies the last is removed, because the first may be about to start.
   const last = copies.at(-1) ?? job;
   return (
     <>
@@ -121,10 +121,10 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
           title={words.dragHint}
           disabled={isOff}
           onKeyDown={(event) => {
-            const way = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
-            if (way === 0) return;
+            const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
+            if (step === 0) return;
             event.preventDefault();
-            void moveTo(index + way);
+            void moveTo(index + step);
           }}
           {...drag}
         >
@@ -135,7 +135,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
   );
 };
 
-/** Which plotter's queue it stands in; absent where there is one plotter. */
+/** Chooses the plotter of the job. Not shown when there is only one. */
 const PlotterChoice = ({ copies }: { copies: Copies }) => {
   const [job] = copies;
   const plotters = usePageState((state) => state.plotters);

@@ -13,7 +13,7 @@ const LENGTH: NumberLimits = { unit: "mm", min: 0, minExcluded: true, max: 100, 
 
 type Measure = "count" | "length";
 
-/** What was read off the sheet for one axis. */
+/** What the user has read off the sheet for one axis. */
 export interface Reading {
   readonly measure: Measure;
   /** Ripples in 10 mm, or the length of one, mm. Null: not read yet. */
@@ -22,7 +22,7 @@ export interface Reading {
 
 export const NO_READING: Reading = { measure: "count", value: null };
 
-/** The frequency, Hz; null: not read yet. Throws for what no machine does. */
+/** The frequency, Hz; null: not read yet. Throws if no machine swings like that. */
 export const frequencyOf = ({ measure, value }: Reading, speedMmPerS: number): number | null => {
   if (value === null) return null;
   return measure === "count"
@@ -38,7 +38,7 @@ interface CountAxisProps {
   onChange(reading: Reading): void;
 }
 
-/** One axis: where to look, a number, and the frequency that follows. */
+/** One axis: where to look on the sheet, a number, and the resulting frequency. */
 export const CountAxis = ({ axis, reading, line, onChange }: CountAxisProps) => {
   const { legend, hint } = words.axes[axis];
   const result = resultOf(reading, RINGING_SPEEDS[line]);

@@ -24,7 +24,7 @@ const words = ringingText;
 const SHEET_MM = STAIRS_MM + (RINGING_SPEEDS.length - 1) * NEXT_STAIRS_MM;
 const LABELS = RINGING_SPEEDS.map((speed) => words.speedLabel(formatNumber(speed, 0)));
 
-/** The first sheet: plot it, count, store. */
+/** The first sheet: plot it, count the ripples, store the result. */
 export const CountRipples = () => {
   const [line, setLine] = useState(1);
   const [x, setX] = useState<Reading>(NO_READING);
@@ -141,13 +141,13 @@ const Gains = ({ springs }: { springs: Springs }) => {
   );
 };
 
-/** "−38 %"; empty for none. */
+/** "−38 %"; empty for no change. */
 const changeOf = (share: number): string => {
   const percent = Math.round(100 * (share - 1));
   return percent === 0 ? "" : `${percent < 0 ? "−" : "+"}${Math.abs(percent)} %`;
 };
 
-/** Null until both are read and possible. */
+/** Null until both axes are read and have possible frequencies. */
 const springsOf = (x: Reading, y: Reading, speedMmPerS: number, damping: number): Springs | null => {
   const [xHz, yHz] = [x, y].map((reading) => {
     try {

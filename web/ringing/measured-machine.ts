@@ -1,9 +1,9 @@
-/** The plotter's machine with its measured springs: a machine of the user's own, which the server stores. */
+/** The plotter's machine with its measured springs: a custom machine, which the server stores. */
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { copyOf } from "../plotter/profile.js";
 
-/** The machines that come with plotwright cannot be changed: theirs is stored as a copy. */
+/** A built-in machine can't be changed, so the springs are stored with a copy of it. */
 export const measuredMachine = (
   machine: MachineProfile,
   springs: Springs,
@@ -17,5 +17,5 @@ export const measuredMachine = (
   return { ...copyOf(machine, nameOf(machine.name), taken), springs: rounded };
 };
 
-/** What a count of ripples can tell. */
+/** The precision of counting ripples. */
 const tenth = (hz: number): number => Math.round(10 * hz) / 10;

@@ -12,10 +12,10 @@ import { useStoreSprings } from "./use-store-springs.js";
 
 const words = ringingText;
 
-/** The second sheet: which of six lines is the straightest? */
+/** The second sheet: the user picks the straightest of six lines. */
 export const PickLine = () => {
   const springs = useSprings();
-  // A pick changes the machine's springs: the lines on the sheet stay those that were plotted.
+  // Picking a line changes the machine's springs, but the lines on the sheet stay as they were plotted.
   const [plotted, setPlotted] = useState(springs);
   const shown = plotted ?? springs;
   if (shown === null) return <p className="note">{words.pickNeeds}</p>;
@@ -26,7 +26,7 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
   const settings = usePageState((state) => state.settings);
   const known = useSprings();
   const store = useStoreSprings();
-  /** Clicked, whether or not it has been stored yet. */
+  /** The clicked line, even if it is not stored yet. */
   const [picked, setPicked] = useState<number | null>(null);
   const { run, at, hasStopped } = useSheetPlot();
   const checks = ringingChecks(springs);
@@ -99,7 +99,7 @@ const isStored = (springs: Springs | null, known: Springs | null): boolean =>
   Math.abs(springs.xHz - known.xHz) < 0.051 &&
   Math.abs(springs.yHz - known.yHz) < 0.051;
 
-/** Plots the sheet's jobs one after the other; `at` is the index of the one under way. */
+/** Plots the sheet's jobs one after the other; `at` is the index of the running one. */
 const useSheetPlot = () => {
   const store = usePageStore();
   const { plotJob } = useActions();
@@ -127,22 +127,22 @@ const useSheetPlot = () => {
   return { run, at, hasStopped };
 };
 
-const UNDER_WAY: readonly Job["state"][] = ["queued", "plotting", "paused"];
+const UNFINISHED: readonly Job["state"][] = ["queued", "plotting", "paused"];
 
-/** How the job has ended; null: it is gone. */
+/** The job's final state; null: it was removed. */
 const endOf = (store: PageStore, id: string): Promise<Job["state"] | null> =>
   new Promise((resolve) => {
     let isSeen = false;
-    const look = (): boolean => {
+    const check = (): boolean => {
       const job = store.getState().jobs.find((one) => one.id === id);
       isSeen ||= job !== undefined;
-      // Just added: the server's event may still be on its way.
-      if ((job === undefined && !isSeen) || (job && UNDER_WAY.includes(job.state))) return false;
+      // For a job that was just added, the server's event may not have arrived yet.
+      if ((job === undefined && !isSeen) || (job && UNFINISHED.includes(job.state))) return false;
       resolve(job?.state ?? null);
       return true;
     };
-    if (look()) return;
+    if (check()) return;
     const stop = store.subscribe(() => {
-      if (look()) stop();
+      if (check()) stop();
     });
   });

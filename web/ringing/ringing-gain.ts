@@ -1,4 +1,4 @@
-/** What knowing the springs is worth: a test figure planned as before and in each quality, with a simulated pen. */
+/** What measuring brings: a test figure, planned as before and in each quality, and drawn by a simulated pen. */
 import {
   DEFAULT_MOTION,
   DEFAULT_PEN,
@@ -12,7 +12,7 @@ export interface Gain {
   readonly quality: Quality | "before";
   /** Pen down, without waits. */
   readonly drawS: number;
-  /** How far the pen is beside the line at most. */
+  /** The pen's largest distance from the line. */
   readonly maxMm: number;
 }
 
@@ -36,7 +36,7 @@ export const gainsOf = (machine: MachineProfile, springs: Springs): readonly Gai
 const TIPS = 7;
 const CIRCLE_POINTS = 120;
 
-/** A star, two circles and a zigzag: what drawings have of sharp corners, curves and short lines. */
+/** A star, two circles and a zigzag, because drawings have sharp corners, curves and short lines. */
 const testFigure = (): StrokeSet => {
   const lines = [
     polar(2 * TIPS, (i) => (i % 2 === 0 ? 25 : 10), 30, 30),

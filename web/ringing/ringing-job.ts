@@ -1,4 +1,4 @@
-/** The jobs of the ringing sheets: their own motion and place, with the plotter's machine, pen and paper. */
+/** The jobs of the ringing sheets. They have their own motion and place, and the plotter's machine, pen and paper. */
 import {
   findMachine,
   NEXT_STAIRS_MM,
@@ -21,10 +21,12 @@ import {
 
 export type SheetJob = NewJob & { readonly drawing: string };
 
-/** The least distance between the lines of the second sheet that keeps their ripples apart, mm. */
-const LEAST_NEXT_MM = 4;
+/** Min. distance between the lines of the second sheet, mm: keeps their ripples apart. */
+const MIN_NEXT_MM = 4;
 
-/** Where the figures of a sheet are on the paper, mm: the first at the bottom left, each next one up and to the right. */
+/**
+ * Where a sheet's figures are on the paper, mm. The first is at the bottom left, each next one `nextMm` up and right.
+ */
 export interface SheetPlace {
   readonly xMm: number;
   readonly yMm: number;
@@ -32,20 +34,20 @@ export interface SheetPlace {
   readonly sizeMm: number;
 }
 
-/** In the middle of what both paper and machine reach. Null: there is no room. */
+/** Centred in the part of the paper that the machine reaches. Null: not enough room. */
 export const sheetPlace = (settings: PlotSettings, figures: number): SheetPlace | null => {
   const paper = orientedPaper(settings.prepare.paper, settings.prepare.landscape);
   const machine = findMachine(settings) ?? paper;
   const widthMm = Math.min(paper.widthMm, machine.widthMm);
   const heightMm = Math.min(paper.heightMm, machine.heightMm);
   const room = (Math.min(widthMm, heightMm) - STAIRS_MM) / (figures - 1);
-  if (room < LEAST_NEXT_MM) return null;
+  if (room < MIN_NEXT_MM) return null;
   const nextMm = Math.min(NEXT_STAIRS_MM, Math.floor(room));
   const sizeMm = STAIRS_MM + (figures - 1) * nextMm;
   return { xMm: (widthMm - sizeMm) / 2, yMm: (heightMm - sizeMm) / 2, nextMm, sizeMm };
 };
 
-/** The first sheet. Its lines have fixed distances. */
+/** The first sheet. The distances of its lines are fixed. Null: not enough room. */
 export const sheetJob = (settings: PlotSettings, name: string): SheetJob | null => {
   const place = sheetPlace(settings, RINGING_SPEEDS.length);
   if (place?.nextMm !== NEXT_STAIRS_MM) return null;
@@ -56,7 +58,7 @@ export const sheetJob = (settings: PlotSettings, name: string): SheetJob | null 
   };
 };
 
-/** The second sheet: one figure, unshaped and for each frequency. A job each, since each is shaped differently. */
+/** The second sheet: one figure, unshaped and shaped for each frequency. Each is a job, because the shaping differs. */
 export const checkJobs = (
   settings: PlotSettings,
   springs: Springs,

@@ -1,4 +1,4 @@
-/** Words of the ringing sheets. */
+/** Texts of the ringing sheets. */
 export const ringingText = {
   title: "Measure ringing",
   intro:
@@ -10,7 +10,7 @@ export const ringingText = {
   jobName: "Ringing sheet",
   plotTitle: "Plot the sheet",
   plotHint: (mm: number) =>
-    `Put in a fine pen, and paper with at least ${mm} × ${mm} mm free in the middle. Three lines of steps are drawn hard and fast, in under a minute. The drawing that you have open stays as it is.`,
+    `Put in a fine pen, and paper with at least ${mm} × ${mm} mm free in the middle. Three lines of steps are drawn with fast, sharp corners, in under a minute. Your open drawing stays as it is.`,
   plot: "Plot the ringing sheet",
   noRoom: (mm: number) => `The sheet needs ${mm} × ${mm} mm. Choose a larger paper first.`,
   plotting: "Plotting…",
@@ -18,18 +18,20 @@ export const ringingText = {
   speedLabel: (speed: string) => `${speed} mm/s`,
   countTitle: "Count the ripples",
   countHint:
-    "Choose a line whose ripples show best. Look at its straight parts, just after a corner, where the ripples are strongest.",
+    "Choose the line with the clearest ripples. Look at its straight parts just after a corner, where the ripples are strongest.",
   line: "Line drawn at",
   axes: {
-    x: { legend: "Sideways swing (x)", hint: "On the upright parts, after the corner at their top." },
-    y: { legend: "Swing to and fro (y)", hint: "On the level parts, after the corner at their left." },
+    x: { legend: "Sideways swing (x)", hint: "On the vertical parts, after the corner at their top." },
+    y: {
+      legend: "Swing to and fro (y)",
+      hint: "On the horizontal parts, after the corner at their left.",
+    },
   },
   measure: "Measure",
   measures: { count: "Ripples in 10 mm", length: "Length of a ripple" },
   ripples: "Ripples in 10 mm",
   length: "Length of one ripple",
   fieldFor: (label: string, axis: string) => `${label}, ${axis}`,
-  countUnit: "",
   result: (hz: string) => `${hz} Hz`,
   noResult: "not counted yet",
   gainTitle: "What it brings",
@@ -40,15 +42,15 @@ export const ringingText = {
     normal: "Normal",
     fast: "Fast",
   },
-  gainHeads: { quality: "Quality", time: "Pen down", off: "Beside the line, at most" },
+  gainHeads: { quality: "Quality", time: "Pen down", off: "Off the line, at most" },
   seconds: (s: string, change: string) => (change === "" ? `${s} s` : `${s} s (${change})`),
   save: "Store with this plotter",
   saved: (x: string, y: string) => `Stored: ${x} Hz along x, ${y} Hz along y.`,
   machineName: (name: string) => `${name}, measured`,
   pickTitle: "Plot the second sheet",
   pickHint:
-    "One line without shaping and five that are shaped for slightly different swings. Click the one that is straightest after its corners.",
-  pickNeeds: "Count the ripples first, then this sheet finds the best value near it.",
+    "One line is drawn without shaping, and five are shaped for slightly different swings. Click the line that is straightest after its corners.",
+  pickNeeds: "Count the ripples first. This sheet then finds the best value near that.",
   plotChecks: "Plot the six lines",
   plottingCheck: (number: number, count: number) => `Plotting line ${number} of ${count}…`,
   stopped: "The lines after this one were not plotted.",
@@ -56,6 +58,5 @@ export const ringingText = {
   unshaped: "Not shaped",
   shapedFor: (x: string, y: string) => `${x} / ${y} Hz`,
   picks: "The straightest line",
-  unshapedHint: "If this one is the straightest, count the ripples again: the frequencies are far off.",
-  close: "Close",
+  unshapedHint: "If this line is the straightest, count the ripples again: the frequencies are far off.",
 };

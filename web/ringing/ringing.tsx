@@ -11,7 +11,7 @@ import "./ringing.css";
 const words = ringingText;
 type Part = keyof typeof words.partNames;
 
-/** Measures how the plotter swings, by two sheets: ripples are counted on one, the best line is picked on the other. */
+/** Measures the plotter's swing by two sheets: the user counts ripples on the first and picks a line on the second. */
 export const RingingDialog = () => {
   const [part, setPart] = useState<Part>("count");
   const isVirtual = usePageState((state) => currentPlotter(state)?.kind === "virtual");

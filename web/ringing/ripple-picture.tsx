@@ -2,7 +2,7 @@ import { useId } from "react";
 
 export type Axis = "x" | "y";
 
-/** Units of the picture a mm; the line is drawn at 50 mm/s by a machine that swings at 15 Hz. */
+/** Units of the picture per mm. The line is drawn at 50 mm/s by a machine that swings at 15 Hz. */
 const MM = 6.6;
 const RIPPLE_MM = 50 / 15;
 const RIPPLES = 3;
@@ -11,7 +11,7 @@ const SWING = 11;
 const DECAY_MM = 14;
 const LENGTH_MM = 15;
 
-/** What to count: the ripples on a line after a corner, over 10 mm. Along y on a level line, along x on an upright one. */
+/** Shows what to count: the ripples after a corner, over 10 mm. On a horizontal line for y, on a vertical one for x. */
 export const RipplePicture = ({ axis }: { readonly axis: Axis }) => {
   const id = useId();
   const at = (along: number, across: number): string =>
@@ -43,7 +43,7 @@ export const RipplePicture = ({ axis }: { readonly axis: Axis }) => {
         d={`M${at(CORNER.along, 4)}L${at(CORNER.along, CORNER.across)}L${ripple.join("L")}`}
       />
       <path
-        className="ripple-way"
+        className="ripple-direction"
         d={`M${at(CORNER.along - 8, 6)}L${at(CORNER.along - 8, 22)}`}
         markerEnd={`url(#${id})`}
       />
@@ -74,6 +74,6 @@ export const RipplePicture = ({ axis }: { readonly axis: Axis }) => {
   );
 };
 
-/** How far the pen is beside the line, in units of the picture: it starts at the corner and overshoots first. */
+/** The pen's distance from the line, in units of the picture. It starts at the corner with an overshoot. */
 const swingAt = (mm: number): number =>
   SWING * Math.exp(-mm / DECAY_MM) * Math.sin((2 * Math.PI * mm) / RIPPLE_MM);

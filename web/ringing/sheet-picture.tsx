@@ -3,16 +3,16 @@ import { STAIRS_MM, stairsPath } from "../../src/internal.js";
 const ROOM_MM = 9;
 
 interface SheetPictureProps {
-  /** What each line of steps is called beside it, from the one at the bottom left on. */
+  /** The label beside each line of steps, beginning at the bottom left. */
   readonly labels: readonly string[];
   readonly nextMm: number;
-  /** Index of the line that is chosen; null: none. */
+  /** Index of the chosen line; null: none. */
   readonly chosen: number | null;
-  /** A line was clicked. Everything that it does can be done by the controls beside the picture, too. */
+  /** Called when a line is clicked. The controls beside the picture do the same. */
   onChoose(index: number): void;
 }
 
-/** The lines of steps as they lie on the sheet. */
+/** A picture of the sheet with its lines of steps. */
 export const SheetPicture = ({ labels, nextMm, chosen, onChoose }: SheetPictureProps) => {
   const last = labels.length - 1;
   const size = STAIRS_MM + last * nextMm;

@@ -4,7 +4,10 @@ import { useHand } from "../plotter/use-hand.js";
 import { measuredMachine } from "./measured-machine.js";
 import { ringingText } from "./ringing-text.js";
 
-/** Stores the springs with the plotter's machine on the server, and chooses that machine. False: it failed, which was said. */
+/**
+ * Stores the springs with the plotter's machine, and chooses that machine. False: it failed, and the user has seen
+ * why.
+ */
 export const useStoreSprings = (): ((springs: Springs) => Promise<boolean>) => {
   const machine = usePageState(({ settings }) => findMachine(settings));
   const machines = usePageState((state) => state.machines);

@@ -1,22 +1,23 @@
 /**
- * A large drawing in few pieces, for while it is moved and until the whole is drawn: pieces that follow each other are
- * made into one as long as that is straight enough; if that leaves too many, only every Nth remains.
+ * Reduces a large drawing to few pieces, to be shown while the view moves and until the whole is drawn. Pieces that
+ * follow each other are joined as long as the result is straight enough. If there are still too many, only every Nth
+ * one is kept.
  */
 import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "./pieces.js";
 
-/** What even a computer without a graphics card draws in little time. */
+/** Even a computer without a graphics card draws this many quickly. */
 const COARSE_PIECES = 40_000;
-/** A joined piece is at least this share of the way that it stands for: a turn by some 130 degrees. */
+/** Min. length of a joined piece, as a share of the path that it replaces. */
 const STRAIGHT = 0.8;
 const TOUCH_MM = 1e-3;
 
-/** At most `most` pieces, in order of time as they were; the same ones where there are no more. Linear. */
-export const coarsePieces = (pieces: Pieces, most = COARSE_PIECES): Pieces => {
-  if (pieces.count <= most) return pieces;
-  const longest = Math.ceil(pieces.count / most);
+/** At most `maxCount` pieces, in the same order of time. Returns `pieces` if there are no more. Linear. */
+export const coarsePieces = (pieces: Pieces, maxCount = COARSE_PIECES): Pieces => {
+  if (pieces.count <= maxCount) return pieces;
+  const longest = Math.ceil(pieces.count / maxCount);
   let joined = 0;
   forEachChain(pieces, longest, () => joined++);
-  const nth = Math.ceil(joined / most);
+  const nth = Math.ceil(joined / maxCount);
   const bytes = new ArrayBuffer(Math.floor(joined / nth) * PIECE_BYTES);
   const writer = { floats: new Float32Array(bytes), shorts: new Uint16Array(bytes) };
   const source = { floats: new Float32Array(pieces.bytes), shorts: new Uint16Array(pieces.bytes) };
@@ -33,7 +34,7 @@ interface Columns {
   readonly shorts: Uint16Array;
 }
 
-/** Cuts the pieces into chains of at most `longest` that touch, are of one layer and bend little. */
+/** Splits the pieces into chains of at most `longest` that touch, are in one layer and bend little. */
 const forEachChain = (
   { count, bytes }: Pieces,
   longest: number,
@@ -46,26 +47,26 @@ const forEachChain = (
     const a = first * PIECE_FLOATS;
     const layer = shorts[first * PIECE_SHORTS + LAYER_SHORT];
     let last = first;
-    let way = 0;
+    let pathLength = 0;
     for (; last < count && last - first < longest; last++) {
       const f = last * PIECE_FLOATS;
       if (last > first && !touches(floats, f)) break;
       if (shorts[last * PIECE_SHORTS + LAYER_SHORT] !== layer) break;
-      way += distance(floats[f + 2] - floats[f], floats[f + 3] - floats[f + 1]);
+      pathLength += distance(floats[f + 2] - floats[f], floats[f + 3] - floats[f + 1]);
       const chord = distance(floats[f + 2] - floats[a], floats[f + 3] - floats[a + 1]);
-      if (chord < STRAIGHT * way) break;
+      if (chord < STRAIGHT * pathLength) break;
     }
     visit(first, Math.max(first, last - 1));
     first = Math.max(first + 1, last);
   }
 };
 
-/** The piece whose floats begin at `f` goes on where the one before it ends. */
+/** Whether the piece whose floats begin at `f` starts where the one before it ends. */
 const touches = (floats: Float32Array, f: number): boolean =>
   Math.abs(floats[f] - floats[f - PIECE_FLOATS + 2]) < TOUCH_MM &&
   Math.abs(floats[f + 1] - floats[f - PIECE_FLOATS + 3]) < TOUCH_MM;
 
-/** From where and when `first` begins to where and when `last` ends. */
+/** Writes one piece from the start of `first` to the end of `last`. */
 const writeJoined = (source: Columns, first: number, last: number, target: Columns, at: number): void => {
   const { floats, shorts } = source;
   const a = first * PIECE_FLOATS;
@@ -80,5 +81,5 @@ const writeJoined = (source: Columns, first: number, last: number, target: Colum
   target.shorts[s + LAYER_SHORT] = shorts[first * PIECE_SHORTS + LAYER_SHORT]!;
 };
 
-/** Several times as quick as Math.hypot, which minds numbers that no paper has. */
+/** Several times faster than Math.hypot, which also handles overflow. */
 const distance = (dx: number, dy: number): number => Math.sqrt(dx * dx + dy * dy);

@@ -1,9 +1,9 @@
 /**
- * The colour ramp for speed and order: computed, not copied.
+ * The colour ramp for speed and order.
  *
- * A straight path through OKLCH (Björn Ottosson's OKLab in polar form): lightness and hue rise evenly, chroma stays.
- * So equal differences of speed look equally different, the order can be read in grey too, and even the
- * lightest colour is dark enough for a thin line on white paper. Screens can show all of these colours.
+ * A straight line through OKLCH (Björn Ottosson's OKLab in polar form): lightness and hue increase evenly, chroma is
+ * constant. So equal differences of speed look equally different, the order is visible in grey too, and even the
+ * lightest colour is dark enough for a thin line on white paper. All of these colours are in sRGB.
  *
  *   share 0  deep indigo (slow, first)  …  magenta  …  orange (fast, last)  share 1
  */
@@ -17,7 +17,7 @@ const CHROMA = 0.16;
 const FIRST_HUE_DEG = 268;
 const LAST_HUE_DEG = 425;
 
-/** sRGB 0 … 255 of a colour in OKLCH, cut to what a screen can show. */
+/** Converts OKLCH to sRGB 0 … 255, clamped. */
 export const rgbFromOklch = (lightness: number, chroma: number, hueDeg: number): Rgb => {
   const h = (hueDeg * Math.PI) / 180;
   const a = chroma * Math.cos(h);
@@ -76,6 +76,6 @@ export const legendStops = (topMmPerS: number, count = 17): LegendStop[] =>
     return { mmPerS: Number((share * topMmPerS).toFixed(3)), color: rampColor(share) };
   });
 
-/** Colours that can be told apart, for layers that name none. */
+/** Distinguishable colours for layers that have none. */
 export const layerColor = (index: number): string =>
   hexFromRgb(rgbFromOklch(0.55, 0.15, (255 + index * 137.508) % 360));

@@ -1,9 +1,9 @@
-/** How densely a drawing is drawn, so that its lines can be shown thin enough to stay apart. */
+/** How dense a drawing is, so that its lines can be shown thin enough to stay apart. */
 import type { PickGrid } from "./pick.js";
 
 /**
- * The mean distance between a line and the next, mm, where there are lines at all: the area of the grid's cells that
- * have a line in them, by the length drawn. Empty paper counts for nothing.
+ * The mean distance between neighbouring lines, mm: the area of all grid cells that contain a line, divided by the
+ * length drawn. Empty paper does not count.
  */
 export const lineGapMm = ({ cellMm, starts }: PickGrid, drawMm: number): number => {
   let filled = 0;

@@ -1,5 +1,5 @@
 /**
- * The shader that draws one piece an instance: a quad around it, with round ends, smooth edges and its colour.
+ * The shader. Each instance draws one piece: a quad around it, with round ends, smooth edges and its colour.
  *
  *   line              mm x0 y0 x1 y1           scale             device px a mm
  *   time              s                        offset, viewport  device px
@@ -93,7 +93,7 @@ export const linkProgram = (gl: WebGL2RenderingContext): WebGLProgram => {
     [gl.FRAGMENT_SHADER, FRAGMENT],
   ] as const) {
     const shader = gl.createShader(type);
-    if (!shader) throw new Error("the graphics card gave no shader");
+    if (!shader) throw new Error("WebGL could not create a shader");
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
     gl.attachShader(program, shader);

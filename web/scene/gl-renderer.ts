@@ -1,13 +1,13 @@
 /**
- * Strokes by WebGL2: one instanced quad a piece, coloured in the shader, so that panning, zooming,
- * another colouring or another moment of the plot cost no work per piece outside the card.
+ * Draws strokes by WebGL2: one instanced quad per piece, coloured in the shader. So panning, zooming, another colouring
+ * or another moment of the plot cost no work per piece on the processor.
  *
  *        r ┌────────────────────────┐      a quad around the piece from a to b, wider by r on every
  *          │  a ──────────────── b  │      side; the fragment's distance from the piece gives round
  *          └────────────────────────┘      ends and smooth edges
  *
- * The parts of a picture gather in a buffer out of sight, in order of time, so that what lies over what is the same
- * in however many parts it comes. A fence tells when the card is done with one.
+ * The parts of a picture are drawn into an off-screen buffer in order of time, so the result does not depend on the
+ * number of parts. A fence shows when the card has finished a part.
  */
 import { RAMP_SIZE, rampBytes } from "./color-map.js";
 import { webGlOf } from "./graphics-card.js";
@@ -41,7 +41,7 @@ import {
 } from "./tasks.js";
 
 const COLOR_CODE = { speed: 0, swing: 0, order: 1, layer: 2, pen: 2, ink: 2 } as const;
-/** The palette's alpha is a pen's width, in 255ths of this. */
+/** The palette's alpha is a pen's width: 255 means this. */
 const WIDEST_MM = 12.75;
 const PLAIN = 3;
 const MAX_LAYERS = 2_048;
@@ -53,11 +53,11 @@ const LOADING_MS = 6;
 
 interface Loaded extends Boxed {
   readonly buffer: WebGLBuffer;
-  /** Bytes that the card has. */
+  /** Bytes that were sent to the card. */
   loadedBytes: number;
 }
 
-/** Null where the browser has no WebGL2. */
+/** Null if the browser has no WebGL2. */
 export const createGlRenderer = (canvas: StrokesCanvas): SceneRenderer | null => {
   const gl = webGlOf(canvas);
   return gl && new GlRenderer(canvas, gl);
@@ -171,7 +171,7 @@ class GlRenderer implements SceneRenderer {
     this.#gl.deleteRenderbuffer(this.#pixels);
   }
 
-  /** The buffer out of sight, of the frame's size and empty. */
+  /** Resizes the off-screen buffer to the frame and clears it. */
   #clear(frame: Frame): void {
     const { view, ratio } = frame;
     const gl = this.#gl;
@@ -200,7 +200,7 @@ class GlRenderer implements SceneRenderer {
     return { ...boxed, buffer, loadedBytes: 0 };
   }
 
-  /** Brings a little more of a new scene to the card; true once all of it is there. */
+  /** Sends the next bytes of a new scene to the card. True when all are sent. */
   #isLoaded(loaded: Loaded): boolean {
     const gl = this.#gl;
     const { bytes } = loaded.pieces;

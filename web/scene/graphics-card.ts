@@ -1,22 +1,22 @@
-/** Whether there is a graphics card behind WebGL2, and the context that its renderer draws with. */
+/** Whether WebGL2 uses a graphics card, and creating its context. */
 import type { StrokesCanvas } from "./renderer.js";
 
-/** Programs that do a graphics card's work on the processor, by what they call themselves. */
-const IMITATIONS = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+/** Names of software renderers. */
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** There is WebGL2, and a graphics card behind it. Asked of a canvas that is then thrown away. */
+/** Whether there is WebGL2 with a graphics card. Uses up the canvas. */
 export const hasCard = (canvas: StrokesCanvas): boolean => {
   const gl = webGlOf(canvas);
   if (!gl) return false;
   const info = gl.getExtension("WEBGL_debug_renderer_info");
   const name = String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));
   gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return !IMITATIONS.test(name);
+  return !SOFTWARE.test(name);
 };
 
-/** Null where the browser has no WebGL2. */
+/** Null if the browser has no WebGL2. */
 export const webGlOf = (canvas: StrokesCanvas): WebGL2RenderingContext | null =>
-  // The two kinds of canvas have the same method with lists of kinds of contexts that differ.
+  // Both kinds of canvas have this method, but TypeScript declares it with different lists of contexts.
   (canvas as HTMLCanvasElement).getContext("webgl2", {
     alpha: true,
     antialias: false,

@@ -1,4 +1,4 @@
-/** What the pointer is on, as numbers of the plan at that instant. */
+/** The stroke under the pointer, and the plan's numbers at that point. */
 import { stateAt, type Trajectory } from "../../src/index.js";
 import type { StrokeLayer } from "../../src/internal.js";
 import { nearestPiece } from "./pick.js";
@@ -8,7 +8,7 @@ import type { Scene } from "./scene.js";
 export interface Hover {
   readonly xPx: number;
   readonly yPx: number;
-  /** The pointer is in the right or lower part of the preview: words about it go to the other side. */
+  /** The pointer is in the right or lower part of the preview: the tip is shown on the other side. */
   readonly isRight: boolean;
   readonly isLow: boolean;
   readonly xMm: number;
@@ -23,18 +23,18 @@ export interface Hover {
   readonly layer: number;
 }
 
-/** Of a plan, what is pointed at. */
-interface Pointed {
+/** The parts of a plan that are needed here. */
+interface PlanParts {
   readonly scene: Scene;
   readonly trajectory: Trajectory;
   readonly drawnLayers: readonly StrokeLayer[];
 }
 
-/** Pixels around the pointer in which a stroke counts as touched. */
+/** Max. distance of a stroke from the pointer, px. */
 const REACH_PX = 7;
 
 export const hoverAt = (
-  planned: Pointed,
+  planned: PlanParts,
   at: Pick<Hover, "xPx" | "yPx" | "isRight" | "isLow" | "xMm" | "yMm">,
   scale: number,
 ): Hover | null => {
@@ -51,7 +51,7 @@ export const hoverAt = (
     number,
     number,
   ];
-  // Times lie in the scene as 32-bit floats: a hair inside the piece keeps them off the waits at its ends.
+  // The scene's times are 32-bit floats. Staying slightly inside the piece avoids the waits at its ends.
   const tS = t0 + (t1 - t0) * Math.min(0.999, Math.max(0.001, picked.share));
   const state = stateAt(trajectory, tS);
   const layer = new Uint16Array(scene.draw.bytes)[picked.piece * PIECE_SHORTS + LAYER_SHORT] ?? 0;
@@ -68,8 +68,8 @@ export const hoverAt = (
   };
 };
 
-/** The stroke of the last draw run that has begun by `tS` (dots have no motion of their own). */
-const strokeAt = ({ trajectory: { runs } }: Pointed, tS: number): number => {
+/** The stroke of the last draw run that has begun by `tS`. Dots are draw runs without motion. */
+const strokeAt = ({ trajectory: { runs } }: PlanParts, tS: number): number => {
   let low = 0;
   let high = runs.count;
   while (low < high) {

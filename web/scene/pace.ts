@@ -1,21 +1,21 @@
 /**
- * How much the card draws in a given time, measured as it goes: what is quick enough for one part, and how large the
- * parts of a picture that is not may be. A card does not tell its speed, and without one it is a thousandth.
+ * Measures how many pieces are drawn in a given time. Decides whether a picture is drawn in one part, and how large its
+ * parts are otherwise. Has to be measured, because it varies by a factor of a thousand with the graphics card.
  */
 
-/** A part as long as this keeps neither the page nor a newer picture waiting. */
+/** Target time of a part: short enough not to delay the page or a newer picture. */
 const PART_MS = 30;
-/** A picture that takes no longer is drawn in one go. */
+/** A picture that takes no longer is drawn in one part. */
 const QUICK_MS = 45;
 const FIRST_GUESS = 400;
-const SLOWEST = 10;
-/** One measure changes the guess by no more than this factor: it may have been of something else. */
-const STEP = 4;
+const MIN_PIECES_PER_MS = 10;
+/** One measurement changes the estimate by at most this factor, because something else may have disturbed it. */
+const MAX_STEP = 4;
 
 export class Pace {
   #piecesPerMs = FIRST_GUESS;
 
-  /** Pieces for one part. */
+  /** The number of pieces for one part. */
   get part(): number {
     return Math.round(this.#piecesPerMs * PART_MS);
   }
@@ -24,11 +24,14 @@ export class Pace {
     return pieceCount <= this.#piecesPerMs * QUICK_MS;
   }
 
-  /** A part of so many pieces was done after `ms`. Few pieces done soon tell nothing: even one takes a turn. */
+  /**
+   * Reports that a part of so many pieces took `ms`. A short time that is slower than the estimate is ignored, because
+   * even one piece takes a turn of the event loop.
+   */
   took(pieceCount: number, ms: number): void {
     const measured = pieceCount / Math.max(ms, 0.1);
     if (pieceCount === 0 || (measured < this.#piecesPerMs && ms <= PART_MS)) return;
-    const bounded = Math.min(this.#piecesPerMs * STEP, Math.max(this.#piecesPerMs / STEP, measured));
-    this.#piecesPerMs = Math.max(SLOWEST, bounded);
+    const bounded = Math.min(this.#piecesPerMs * MAX_STEP, Math.max(this.#piecesPerMs / MAX_STEP, measured));
+    this.#piecesPerMs = Math.max(MIN_PIECES_PER_MS, bounded);
   }
 }

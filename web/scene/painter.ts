@@ -1,21 +1,22 @@
 /**
- * Draws the newest frame that was asked for, in parts small enough that neither the page nor a newer frame waits:
+ * Draws the newest requested frame, in parts so small that they do not delay the page or a newer frame:
  *
- *   quick enough            whole
- *   not quick enough        coarse ── rest ── whole, in parts       a newer frame ends the rest and the whole, not
- *                                                                   the coarse: under a moving hand it is always shown
+ *   quick drawing     whole
+ *   slow drawing      coarse ── rest ── whole, in parts
  *
- * At most one part is with the card at a time. Runs in the drawing worker, or on the page where there can be none.
+ * A newer frame ends the rest and the whole picture, but not the coarse one, which is always shown while the view
+ * moves. At most one part at a time is sent to the card. Runs in the drawing worker, or on the page if workers can't
+ * draw.
  */
 import { Pace } from "./pace.js";
 import type { Detail, Frame, Picture, SceneRenderer } from "./renderer.js";
 
-/** A view that has not been moved for so long rests. */
+/** The view rests when it has not moved for this time. */
 const REST_MS = 120;
 
 export interface PainterClock {
   nowMs(): number;
-  /** Lets messages in; resolves at the earliest after `ms`. */
+  /** Resolves after `ms` or later. Messages are handled meanwhile. */
   wait(ms: number): Promise<void>;
 }
 
@@ -25,19 +26,19 @@ export class Painter {
   readonly #pace = new Pace();
   #renderer: SceneRenderer | null = null;
   #scene: Picture | null = null;
-  /** Not handed to the renderer yet. */
+  /** The scene was not passed to the renderer yet. */
   #isSceneNew = false;
   #wanted: Frame | null = null;
   #newest: Frame | null = null;
   #isRunning = false;
 
-  /** `onPicture` is called when the renderer has put a picture on its canvas. */
+  /** `onPicture` is called when a picture is on the canvas. */
   constructor(clock: PainterClock, onPicture: (frame: Frame, isWhole: boolean) => void) {
     this.#clock = clock;
     this.#onPicture = onPicture;
   }
 
-  /** Drawn with the next frame. */
+  /** The scene is drawn with the next frame. */
   setScene(scene: Picture | null): void {
     this.#scene = scene;
     this.#isSceneNew = true;
@@ -48,7 +49,7 @@ export class Painter {
     if (!this.#isRunning) void this.#run();
   }
 
-  /** A renderer, or none for a while: what was asked for last is drawn with it. */
+  /** Sets the renderer, which draws the last requested frame; null: none for a while. */
   setRenderer(renderer: SceneRenderer | null): void {
     this.#renderer = renderer;
     this.#isSceneNew = true;
@@ -89,7 +90,7 @@ export class Painter {
     await this.#draw(renderer, frame, "whole", isOld);
   }
 
-  /** Draws what the renderer has begun, and shows it unless that is given up. */
+  /** Draws the picture that the renderer has begun, and shows it unless `isGivenUp`. */
   async #draw(
     renderer: SceneRenderer,
     frame: Frame,

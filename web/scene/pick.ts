@@ -1,10 +1,10 @@
 /**
- * Which piece is under the pointer: a grid over the pieces, built once in the worker, linear in their number.
+ * Finds the piece under the pointer by a grid over the pieces, which is built once in the worker, in linear time.
  *
  *   cell c holds items[starts[c]] … items[starts[c + 1] − 1]
  *
- * A piece stands in every cell that a walk along it in steps of half a cell touches; corners of cells that
- * such a walk skips are covered by looking one cell further than the search reaches.
+ * A piece is sampled in steps of half a cell, and is listed in every cell that has a sample. Cells whose corners lie
+ * between two samples are missed, so the search looks one cell further than its radius.
  */
 import { PIECE_FLOATS, type Pieces } from "./pieces.js";
 
@@ -52,7 +52,7 @@ export const buildPickGrid = ({ count, bytes }: Pieces): PickGrid => {
   return { ...shape, starts, items };
 };
 
-/** The piece nearest to (x, y) mm within `reachMm`; among equally near ones the one drawn last. */
+/** The piece nearest to (x, y) mm within `reachMm`. Of equally near ones, the one drawn last. */
 export const nearestPiece = (
   grid: PickGrid,
   { bytes }: Pieces,

@@ -1,21 +1,21 @@
 /**
- * Which pieces can be seen: boxes around every few hundred of them, in order, so that a view of a part of the paper
- * costs what is on it. What lies outside leaves no mark on the picture, drawn or not.
+ * Finds the pieces that are visible, by boxes around every few hundred pieces, in order. So the cost of a view depends
+ * on what is in it.
  */
 import { PIECE_FLOATS, type Pieces } from "./pieces.js";
 import type { Frame } from "./renderer.js";
 
 const PIECES_A_BOX = 512;
-/** More pieces make larger boxes: each may cost a call to the card. */
+/** Limits the number of boxes, because each may cost a draw call. More pieces make larger boxes. */
 const MAX_BOXES = 2_048;
 
 export interface PieceBoxes {
   readonly piecesABox: number;
-  /** mm x0 y0 x1 y1 of box after box. */
+  /** mm x0 y0 x1 y1 of each box. */
   readonly mm: Float32Array;
 }
 
-/** From the first to before the second of these indices. */
+/** Indices of pieces; `to` is not included. */
 export type PieceRange = readonly [from: number, to: number];
 
 /** Linear in the pieces. */
@@ -43,7 +43,7 @@ export const boxPieces = ({ count, bytes }: Pieces): PieceBoxes => {
   return { piecesABox, mm };
 };
 
-/** Of the pieces `from` … `to` − 1: those whose box, wider by `reachPx`, comes into the frame. Rising, none empty. */
+/** Of the pieces `from` … `to` − 1: those whose box, enlarged by `reachPx`, is in the frame. In order, none empty. */
 export const rangesInSight = (
   { piecesABox, mm }: PieceBoxes,
   [from, to]: PieceRange,

@@ -1,4 +1,4 @@
-/** The line pieces that the preview draws, as bytes that workers hand over and renderers read. */
+/** The line pieces that the preview draws, as bytes that workers transfer and renderers read. */
 
 /** f32 x0 y0 x1 y1 (mm), f32 t0 t1 (s), u16 speed0 speed1 (of the top speed), u16 layer, u16 spare. */
 export const PIECE_BYTES = 32;

@@ -1,17 +1,17 @@
 /**
- * Dragging the drawing about on the paper: which part of its frame is held, and where the drag leads. Pure.
+ * Placing the drawing on the paper by dragging its frame. Pure functions.
  *
  *             ○ turn
- *   nw ┌──────┴──────┐ ne     a corner scales about the opposite one, proportions kept; the inside moves;
- *      │    move     │        the knob turns about the middle. x and y are the corner nw as it would be
- *   sw └─────────────┘ se     without the turn, so that turning changes neither place nor size.
+ *   nw ┌──────┴──────┐ ne     A corner scales about the opposite one and keeps the proportions. The inside moves.
+ *      │    move     │        The knob turns about the centre. x and y are the nw corner before turning, so that
+ *   sw └─────────────┘ se     turning changes neither place nor size.
  */
 export interface FrameMm {
   readonly xMm: number;
   readonly yMm: number;
   readonly widthMm: number;
   readonly heightMm: number;
-  /** Clockwise, about the middle. */
+  /** Clockwise, about the centre. */
   readonly turnDeg: number;
 }
 
@@ -24,7 +24,7 @@ interface Point {
   readonly y: number;
 }
 
-const SMALLEST_MM = 2;
+const MIN_SIZE_MM = 2;
 const SNAP_DEG = 15;
 const SNAP_WITHIN_DEG = 3;
 
@@ -36,7 +36,7 @@ export const middleOf = ({ xMm, yMm, widthMm, heightMm }: FrameMm): Point => ({
   y: yMm + heightMm / 2,
 });
 
-/** A point of the frame, −1 … 1 from its middle along its own axes, on the paper. */
+/** A point of the frame on the paper; `along` and `down` are −1 … 1 from the centre on the frame's own axes. */
 const pointOf = (frame: FrameMm, along: number, down: number): Point => {
   const middle = middleOf(frame);
   const { x, y } = turned((along * frame.widthMm) / 2, (down * frame.heightMm) / 2, frame.turnDeg);
@@ -52,13 +52,13 @@ const turned = (x: number, y: number, deg: number): Point => {
 export const cornerOf = (frame: FrameMm, part: CornerPart): Point =>
   pointOf(frame, isWest(part) ? -1 : 1, isNorth(part) ? -1 : 1);
 
-/** Where the knob for turning stands: `reachMm` above the top edge's middle. */
+/** The position of the knob for turning: `reachMm` above the middle of the top edge. */
 export const knobOf = (frame: FrameMm, reachMm: number): Point => {
   const down = frame.heightMm > 0 ? -1 - (2 * reachMm) / frame.heightMm : 0;
   return pointOf(frame, 0, down);
 };
 
-/** The part of the frame at (x, y) mm; knob and corners count within `reachMm`. Null outside. */
+/** The part of the frame at (x, y) mm. Knob and corners extend to `reachMm`. Null: outside. */
 export const framePartAt = (
   frame: FrameMm,
   xMm: number,
@@ -75,7 +75,7 @@ export const framePartAt = (
   return Math.abs(x) < frame.widthMm / 2 && Math.abs(y) < frame.heightMm / 2 ? "move" : null;
 };
 
-/** The frame after its part has been dragged by (dx, dy) mm from `from`, where it was taken hold of. */
+/** The frame after dragging `part` by (dx, dy) mm; the drag began at `from`. */
 export const draggedFrame = (
   frame: FrameMm,
   part: FramePart,
@@ -86,7 +86,7 @@ export const draggedFrame = (
   if (part === "move") return { ...frame, xMm: frame.xMm + dxMm, yMm: frame.yMm + dyMm };
   if (part === "turn") return turnedBy(frame, from, { x: from.x + dxMm, y: from.y + dyMm });
   const { x, y } = turned(dxMm, dyMm, -frame.turnDeg);
-  // The drag's part along the diagonal decides: both sides have their say, and no side wins by jumping.
+  // Only the component along the diagonal counts, so that the frame follows the pointer without jumps.
   const wantedX = frame.widthMm + (isWest(part) ? -x : x);
   const wantedY = frame.heightMm + (isNorth(part) ? -y : y);
   const diagonal2 = frame.widthMm ** 2 + frame.heightMm ** 2;
@@ -97,19 +97,19 @@ export const draggedFrame = (
   );
 };
 
-/** Scaled so that the corner opposite to `part` stays where it is on the paper. */
+/** Scales the frame. The corner opposite to `part` keeps its place on the paper. */
 const scaledFrame = (frame: FrameMm, part: CornerPart, wanted: number): FrameMm => {
-  const factor = Math.max(SMALLEST_MM / Math.max(frame.widthMm, frame.heightMm, 1e-9), wanted);
+  const factor = Math.max(MIN_SIZE_MM / Math.max(frame.widthMm, frame.heightMm, 1e-9), wanted);
   const along = isWest(part) ? 1 : -1;
   const down = isNorth(part) ? 1 : -1;
-  const kept = pointOf(frame, along, down);
+  const fixed = pointOf(frame, along, down);
   const widthMm = frame.widthMm * factor;
   const heightMm = frame.heightMm * factor;
   const arm = turned((along * widthMm) / 2, (down * heightMm) / 2, frame.turnDeg);
   return {
     ...frame,
-    xMm: kept.x - arm.x - widthMm / 2,
-    yMm: kept.y - arm.y - heightMm / 2,
+    xMm: fixed.x - arm.x - widthMm / 2,
+    yMm: fixed.y - arm.y - heightMm / 2,
     widthMm,
     heightMm,
   };
@@ -123,10 +123,10 @@ const turnedBy = (frame: FrameMm, from: Point, to: Point): FrameMm => {
   return { ...frame, turnDeg: wholeTurn(frame.turnDeg + angleDeg(middle, to) - angleDeg(middle, from)) };
 };
 
-/** Above −180 and up to 180. */
+/** The angle in −180 < deg ≤ 180. */
 export const wholeTurn = (deg: number): number => deg - 360 * Math.ceil((deg - 180) / 360) + 0;
 
-/** The box around the frame as it is turned. */
+/** The box around the turned frame. */
 export const boxAround = (frame: FrameMm): { x0: number; y0: number; x1: number; y1: number } => {
   const corners = CORNER_PARTS.map((part) => cornerOf(frame, part));
   const xs = corners.map(({ x }) => x);
@@ -134,29 +134,29 @@ export const boxAround = (frame: FrameMm): { x0: number; y0: number; x1: number;
   return { x0: Math.min(...xs), y0: Math.min(...ys), x1: Math.max(...xs), y1: Math.max(...ys) };
 };
 
-/** Lines that the frame's edges and middle are drawn to: mm along x and y. */
+/** Lines that the frame's edges and centre snap to: mm along x and y. */
 export interface SnapLines {
   readonly xs: readonly number[];
   readonly ys: readonly number[];
 }
 
-/** A frame that has come to lie on lines, and on which. */
+/** A snapped frame, and the lines that it snapped to. */
 export interface Snapped {
   readonly frame: FrameMm;
   readonly lines: SnapLines;
 }
 
-const NOWHERE: SnapLines = { xs: [], ys: [] };
+const NO_LINES: SnapLines = { xs: [], ys: [] };
 
-/** Draws a dragged frame to lines within `reachMm`, or a turn to steps of 15°. */
+/** Snaps a dragged frame to lines within `reachMm`, or a turn to steps of 15°. */
 export const snapFrame = (frame: FrameMm, part: FramePart, lines: SnapLines, reachMm: number): Snapped => {
   if (part === "turn") {
     const step = SNAP_DEG * Math.round(frame.turnDeg / SNAP_DEG);
     const isNear = Math.abs(frame.turnDeg - step) <= SNAP_WITHIN_DEG;
-    return { frame: isNear ? { ...frame, turnDeg: wholeTurn(step) } : frame, lines: NOWHERE };
+    return { frame: isNear ? { ...frame, turnDeg: wholeTurn(step) } : frame, lines: NO_LINES };
   }
   if (part === "move") return snapMove(frame, lines, reachMm);
-  return frame.turnDeg === 0 ? snapCorner(frame, part, lines, reachMm) : { frame, lines: NOWHERE };
+  return frame.turnDeg === 0 ? snapCorner(frame, part, lines, reachMm) : { frame, lines: NO_LINES };
 };
 
 const snapMove = (frame: FrameMm, lines: SnapLines, reachMm: number): Snapped => {
@@ -177,7 +177,7 @@ const snapCorner = (frame: FrameMm, part: CornerPart, lines: SnapLines, reachMm:
     const widthMm = frame.widthMm + (isWest(part) ? -x.by : x.by);
     return { frame: scaledFrame(frame, part, widthMm / frame.widthMm), lines: { xs: [x.line], ys: [] } };
   }
-  if (!y) return { frame, lines: NOWHERE };
+  if (!y) return { frame, lines: NO_LINES };
   const heightMm = frame.heightMm + (isNorth(part) ? -y.by : y.by);
   return { frame: scaledFrame(frame, part, heightMm / frame.heightMm), lines: { xs: [], ys: [y.line] } };
 };
@@ -197,7 +197,7 @@ const nearestLine = (
   return best;
 };
 
-/** Paper's edges and middle, and the margins. */
+/** The paper's edges and centre lines, and the margins. */
 export const snapLinesOf = (
   paperMm: { readonly width: number; readonly height: number },
   margins: {
@@ -214,8 +214,8 @@ export const snapLinesOf = (
 const round = (mm: number): number => Math.round(mm * 100) / 100;
 
 /**
- * As the prepare settings want it, to a hundredth of a millimetre and a tenth of a degree: finer than any pen,
- * and readable in the fields. The width decides, the proportions stay.
+ * The frame as prepare settings, rounded to 0.01 mm and 0.1°, which is finer than any pen and readable in the fields.
+ * The width is set, and the height follows from the proportions.
  */
 export const placeOfFrame = ({
   xMm,

@@ -1,4 +1,4 @@
-/** What draws the strokes, on whichever thread: WebGL2 where there is a graphics card, our own code elsewhere. */
+/** The interface of the stroke renderers: WebGL2 if there is a graphics card, else our own code on the processor. */
 import type { ColorMode } from "./color-mode.js";
 import type { Pieces } from "./pieces.js";
 import type { Scene } from "./scene.js";
@@ -9,58 +9,57 @@ export interface Frame {
   /** CSS px. */
   readonly width: number;
   readonly height: number;
-  /** Device px a CSS px. */
+  /** Device px per CSS px. */
   readonly ratio: number;
   readonly colorBy: ColorMode;
   readonly showTravel: boolean;
   readonly lineMm: number;
   /** "#rrggbb" by layer index. */
   readonly layerColors: readonly string[];
-  /** mm by layer index: how wide its pen draws; null: all lines are `lineMm` wide. */
+  /** Line width of each layer, mm, by layer index; null: all lines are `lineMm` wide. */
   readonly layerWidthsMm: readonly number[] | null;
   /**
-   * The mean distance between a line and the next, mm. From afar, lines that would run into each other are then
-   * drawn thinner than usual; left out: never.
+   * The mean distance between neighbouring lines, mm. If given, lines that would merge when zoomed out are drawn
+   * thinner than usual.
    */
   readonly lineGapMm?: number | undefined;
-  /** What lies later than this many seconds is shown pale; null shows the whole plot as drawn. */
+  /** Strokes after this time are shown pale, s; null: the whole plot is shown as drawn. */
   readonly untilS: number | null;
 }
 
-/** What of a scene is drawn. */
+/** The parts of a scene that are drawn. */
 export interface Picture extends Pick<Scene, "draw" | "travel" | "totalS"> {
-  /** What a simulated pen should have drawn: a thin line under what it draws. */
+  /** The planned strokes, drawn as thin lines under those of a simulated pen. */
   readonly asked?: Pieces | undefined;
 }
 
-/** "whole": every piece; "coarse": few enough of them to be quick, much like the whole from afar. */
+/** "whole": every piece; "coarse": few pieces that are drawn quickly and look similar when zoomed out. */
 export type Detail = "coarse" | "whole";
 
 /**
- * Draws a picture in parts, out of sight; `present` shows it. A picture is the same to the pixel in however many parts
- * it was drawn.
+ * Draws a picture off-screen in parts; `present` shows it. The pixels do not depend on the number of parts.
  */
 export interface SceneRenderer {
   setScene(scene: Picture | null): void;
-  /** Begins a picture in place of the one it was at; returns how many pieces that takes. */
+  /** Begins a new picture and drops the current one. Returns the number of its pieces. */
   begin(frame: Frame, detail: Detail): number;
-  /** Draws about so many more of its pieces, and returns how many; none while the scene is on its way to the card. */
+  /** Draws about `pieceCount` more pieces. Returns how many; 0 while the scene is being sent to the card. */
   advance(pieceCount: number): number;
-  /** All of the picture has been handed to the card. */
+  /** All of the picture was sent to the card. */
   readonly isFinished: boolean;
-  /** The card has done all that it was handed. */
+  /** The card has finished everything that was sent to it. */
   isIdle(): boolean;
   /** Puts the finished picture on the canvas. */
   present(): void;
   close(): void;
 }
 
-/** Of this thread or of the page's: the renderers use what both have. */
+/** A canvas of a worker or of the page. The renderers use only what both have. */
 export type StrokesCanvas = HTMLCanvasElement | OffscreenCanvas;
 
-/** Narrowest line, CSS px: thinner ones flicker when zoomed out. */
+/** Min. line width, CSS px: thinner lines flicker when zoomed out. */
 export const MIN_LINE_PX = 1.15;
-/** Narrowest line of a dense drawing, CSS px: half of what can be seen of it is still paper. */
+/** Min. line width in a dense drawing, CSS px: leaves half of the visible paper empty. */
 const HAIR_LINE_PX = 0.5;
 export const GHOST_COLOR = "#dcdad4";
 export const ASKED_COLOR = "#a8a498";

@@ -1,9 +1,9 @@
 /**
  * Trajectory -> the line pieces that the preview draws, with true speed along ramps and corner curves.
  *
- * A block is cut into pieces so that a straight piece stays within CHORD_MM of the curve, and its speed
- * changes by at most SPEED_STEP of the top speed (the ramp between is interpolated by the screen).
- * Pieces stand in order of time, so "what is drawn so far" is a count of pieces.
+ * A block is split into pieces so that a straight piece stays within CHORD_MM of the curve, and its speed changes by at
+ * most SPEED_STEP of the top speed (the renderer interpolates the colour in between). Pieces are in order of time, so
+ * the part drawn so far is a number of pieces.
  */
 import type { Trajectory } from "../../src/index.js";
 import type { StrokeLayer } from "../../src/internal.js";
@@ -12,31 +12,31 @@ import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type
 
 const CHORD_MM = 0.008;
 const SPEED_STEP = 0.05;
-/** Ramps shorter than this need no steps: they are invisible. */
+/** Shorter ramps are not split, because the difference is not visible. */
 const MIN_PIECE_MM = 0.25;
 const MAX_PIECES = 256;
 
 export interface Scene {
   readonly draw: Pieces;
   readonly travel: Pieces;
-  /** Highest speed with the pen down, and with it up. */
+  /** Top speed with the pen down, and with the pen up. */
   readonly topDrawMmPerS: number;
   readonly topTravelMmPerS: number;
   readonly totalS: number;
-  /** For finding the piece under the pointer among `draw`. */
+  /** Finds the piece of `draw` under the pointer. */
   readonly grid: PickGrid;
 }
 
-/** By how much each layer's strokes are moved for its pen; null where all pens sit straight. */
+/** How far each layer's strokes are shifted for its pen; null: no pen has an offset. */
 export const shiftsOf = (layers: readonly StrokeLayer[]): Shifts | null =>
-  layers.some(({ shiftMm }) => shiftMm) ? layers.map(({ shiftMm }) => shiftMm ?? STRAIGHT) : null;
+  layers.some(({ shiftMm }) => shiftMm) ? layers.map(({ shiftMm }) => shiftMm ?? NO_SHIFT) : null;
 
 type Shifts = readonly { readonly x: number; readonly y: number }[];
-const STRAIGHT = { x: 0, y: 0 };
+const NO_SHIFT = { x: 0, y: 0 };
 
 /**
- * `strokeLayer` is StrokeSet.layer of the strokes that were planned. Linear in blocks. What is drawn is shown where
- * it lands on paper, what the carriage travels where the carriage goes.
+ * `strokeLayer` is StrokeSet.layer of the planned strokes. Linear in blocks. Strokes are shown where the pen draws them
+ * on paper; moves with the pen up are shown where the carriage goes.
  */
 export const buildScene = (
   trajectory: Trajectory,
@@ -61,7 +61,7 @@ export const buildScene = (
     const stroke = runs.stroke[r];
     const writer = stroke >= 0 ? draw : travel;
     const layer = stroke >= 0 ? strokeLayer[stroke] : 0;
-    writer.shift = (stroke >= 0 && shifts?.[layer]) || STRAIGHT;
+    writer.shift = (stroke >= 0 && shifts?.[layer]) || NO_SHIFT;
     if (stroke >= 0 && isDot(trajectory, r)) writer.addDot(trajectory, r, layer);
     for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
       writer.addBlock(trajectory, b, pieceCount(trajectory, b, writer.topMmPerS), layer);
@@ -81,7 +81,7 @@ export const buildScene = (
 /** A dot is a draw run without blocks: the pen goes down and up on the spot. */
 const isDot = ({ runs }: Trajectory, r: number): boolean => runs.firstBlock[r] === runs.firstBlock[r + 1];
 
-/** How many pieces lie wholly or partly before `tS`. */
+/** The number of pieces that begin before `tS`. */
 export const piecesBefore = (pieces: Pieces, tS: number): number => {
   const floats = new Float32Array(pieces.bytes);
   let low = 0;
@@ -108,7 +108,7 @@ const topSpeeds = (trajectory: Trajectory): { draw: number; travel: number } => 
   return { draw: tops[0], travel: tops[1] };
 };
 
-/** Pieces that block `b` needs; 0 for one that does not move. */
+/** The number of pieces for block `b`; 0 if it does not move. */
 const pieceCount = (trajectory: Trajectory, b: number, topMmPerS: number): number => {
   const t = trajectory.durationS[b];
   if (!(t > 0)) return 0;
@@ -124,7 +124,7 @@ const pieceCount = (trajectory: Trajectory, b: number, topMmPerS: number): numbe
   const dy = (vy + dvy * 0.5) * t;
   const length = Math.hypot(dx, dy);
   if (length === 0 && dvx === 0 && dvy === 0) return 0;
-  // Sagitta of the motion across its chord: |d × a| t² / 8 per unit chord (jerk counted with its mean).
+  // Sagitta of the motion over its chord: |d × a| t² / 8 per unit of chord, with the mean acceleration.
   const across = length > 0 ? Math.abs(dx * dvy - dy * dvx) / length : 0;
   const forCurve = Math.sqrt((across * t) / 8 / CHORD_MM);
   const change = Math.abs(Math.hypot(vx + dvx, vy + dvy) - Math.hypot(vx, vy));
@@ -135,8 +135,8 @@ const pieceCount = (trajectory: Trajectory, b: number, topMmPerS: number): numbe
 class PieceWriter {
   readonly bytes: ArrayBuffer;
   readonly topMmPerS: number;
-  /** Taken off the carriage's place, mm. */
-  shift: Shifts[number] = STRAIGHT;
+  /** Subtracted from the carriage's position, mm. */
+  shift: Shifts[number] = NO_SHIFT;
   readonly #floats: Float32Array;
   readonly #shorts: Uint16Array;
   #at = 0;

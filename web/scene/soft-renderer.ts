@@ -1,12 +1,12 @@
 /**
- * Strokes without a graphics card, by the processor: what the shader does for a fragment, done for each pixel near a
- * piece. Where WebGL2 is only imitated, this is some fifty times as quick, and leaves the browser's own drawing alone.
+ * Draws strokes on the processor if there is no graphics card. Computes for each pixel near a piece what the shader
+ * computes for a fragment. About fifty times faster than WebGL2 in software.
  *
- *   d      distance of the pixel's middle from the piece, device px
+ *   d      distance of the pixel's centre from the piece, device px
  *   reach  half the line's width, device px
- *   alpha  reach + 1/2 − d, between 0 and 1: how much of the pixel the line covers
+ *   alpha  reach + 1/2 − d, clamped to 0 … 1: how much of the pixel the line covers
  *
- * Pixels are premultiplied RGBA, and pieces come in order of time, so a picture is the same in however many parts.
+ * Pixels are premultiplied RGBA. Pieces are in order of time, so the result does not depend on the number of parts.
  */
 import { RAMP_SIZE, rampBytes } from "./color-map.js";
 import {
@@ -41,21 +41,21 @@ import {
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
 export const createSoftRenderer = (canvas: StrokesCanvas): SceneRenderer | null => {
-  // The two kinds of canvas have the same method with lists of kinds of contexts that differ.
+  // Both kinds of canvas have this method, but TypeScript declares it with different lists of contexts.
   const context: Context | null = (canvas as HTMLCanvasElement).getContext("2d", {
     willReadFrequently: true,
   });
   return context && new SoftRenderer(context);
 };
 
-/** How the pieces of one style look. */
+/** Colours and widths of the pieces of one style. */
 interface Look {
-  /** Where along the ramp a piece's colour is found; null: each layer has one. */
+  /** What a piece's place on the colour ramp depends on; null: each layer has one colour. */
   readonly by: "speed" | "time" | null;
-  /** RGB by layer; of all of them where there is only one. */
+  /** RGB by layer; a single entry applies to all layers. */
   readonly colors: readonly (readonly [number, number, number])[];
   readonly alpha: number;
-  /** Device px by layer; of all of them where there is only one. */
+  /** Device px by layer; a single entry applies to all layers. */
   readonly reaches: readonly number[];
 }
 
@@ -182,7 +182,10 @@ const lookOf = (frame: Frame, style: Style): Look => {
   }
 };
 
-/** Draws one piece after another; an object, so that a million of them need no arguments packed and unpacked. */
+/**
+ * Draws single pieces. Its fields are parameters that would otherwise be passed in an object per piece, a million
+ * times.
+ */
 class Brush {
   reach = 1;
   alpha = 1;
@@ -209,7 +212,7 @@ class Brush {
     this.#b = b;
   }
 
-  /** From one place of the ramp to another along the piece; between places that look alike it is one colour. */
+  /** Colours the piece by the ramp from `share0` to `share1`, or by one colour if they are close. */
   setRamp(ramp: Uint8Array, share0: number, share1: number): void {
     if (Math.abs(share1 - share0) * RAMP_SIZE > 1) {
       this.#ramp = ramp;
@@ -236,7 +239,7 @@ class Brush {
     const far2 = far * far;
     const near = reach - 0.5;
     const near2 = near > 0 ? near * near : -1;
-    // In a row the line takes up no more than this to each side of its middle.
+    // Max. half width of the line within a row of pixels.
     const half = Math.abs(uy) > 0.05 ? far / Math.abs(uy) : Infinity;
     for (let y = top; y <= bottom; y++) {
       const dy = y + 0.5 - ay;
@@ -282,7 +285,7 @@ class Brush {
   }
 }
 
-/** Premultiplied to plain, which is what a canvas takes. */
+/** Converts premultiplied pixels to plain ones, which a canvas needs. */
 const unmultiply = (data: Uint8ClampedArray): void => {
   for (let at = 0; at < data.length; at += 4) {
     const a = data[at + 3];

@@ -1,4 +1,4 @@
-/** A painter with its canvas, on either thread: by the graphics card or without one, and when the card is taken away. */
+/** Creates a painter on a canvas, in a worker or on the page. Handles the loss of the WebGL context. */
 import { hasCard } from "./graphics-card.js";
 import { Painter } from "./painter.js";
 import type { Frame, SceneRenderer, StrokesCanvas } from "./renderer.js";
@@ -18,19 +18,19 @@ export const paintOn = (
     event.preventDefault();
     painter.setRenderer(null);
   });
-  // Told as an error of its thread: a page whose worker can't draw then draws by itself.
-  const tryIt = (): void => void begin().catch((error: unknown) => reportError(error));
-  canvas.addEventListener("webglcontextrestored", tryIt);
-  tryIt();
+  // Reported as an error of this thread: if the worker can't draw, the page then draws itself.
+  const start = (): void => void begin().catch((error: unknown) => reportError(error));
+  canvas.addEventListener("webglcontextrestored", start);
+  start();
   return painter;
 };
 
-/** Only the one that is needed is fetched. */
+/** Loads only the renderer that is used. */
 const rendererOn = async (canvas: StrokesCanvas): Promise<SceneRenderer | null> => {
   if (hasCard(spareCanvas())) {
     const { createGlRenderer } = await import("./gl-renderer.js");
     const renderer = createGlRenderer(canvas);
-    // The card may refuse one context more: this canvas has none then, and can still be drawn on without it.
+    // The card may refuse another context. The canvas then has no context, so the soft renderer can use it.
     if (renderer) return renderer;
   }
   const { createSoftRenderer } = await import("./soft-renderer.js");

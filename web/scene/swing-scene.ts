@@ -1,7 +1,7 @@
 /**
- * What a swinging pen would draw, as pieces coloured by how far they are beside the line: the second speed of a piece
- * is its error. Samples come about every ms; those that lie within CHORD_MM of a straight piece are left out, so that a
- * long drawing takes little memory. One pass, linear in samples.
+ * The line that a swinging pen would draw, as pieces coloured by their distance from the planned line: a piece's two
+ * speeds are its errors. Samples are about 1 ms apart. Samples within CHORD_MM of a straight piece are left out, so
+ * that a long drawing takes little memory. One pass, linear in samples.
  */
 import type { StrokeSet, Trajectory } from "../../src/index.js";
 import { penError, type PenError, type PenPoint, type Springs } from "../../src/internal.js";
@@ -9,21 +9,24 @@ import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type
 import { shiftsOf } from "./scene.js";
 
 const CHORD_MM = 0.003;
-/** A piece has one colour at each end: the error between changes by no more than this. */
+/** Max. change of the error within a piece, which has one colour at each end. */
 const ERROR_STEP_MM = 0.01;
-/** Room for so many at first. */
+/** Initial capacity. */
 const FIRST_PIECES = 4_096;
-/** The scale is never finer: errors below a pen's tip cannot be seen. */
-const LEAST_TOP_MM = 0.05;
+/** Min. end of the scale: errors smaller than a pen's tip are not visible. */
+const MIN_TOP_MM = 0.05;
 
 export interface SwingPicture {
   readonly pieces: Pieces;
   readonly error: PenError;
-  /** The error at the end of the colour scale: 99 % of the time it is smaller, so that one bad corner does not dull all. */
+  /**
+   * The error at the end of the colour scale. It is smaller for 99 % of the time, so one bad corner does not set the
+   * scale.
+   */
   readonly topMm: number;
 }
 
-/** `progress` is called with the share of the plot that is done, after each sample. */
+/** `progress` is called after each sample with the finished share of the plot. */
 export const swingPicture = (
   strokes: StrokeSet,
   trajectory: Trajectory,
@@ -43,9 +46,9 @@ export const swingPicture = (
   return { pieces: writer.pieces(topMm), error, topMm };
 };
 
-/** The next of 1, 1.5, 2, 3, 5, 7, 10 … hundredths. */
+/** Rounds up to the next of 1, 1.5, 2, 3, 5, 7, 10 times a power of ten. */
 export const scaleTop = (mm: number): number => {
-  if (!(mm > LEAST_TOP_MM)) return LEAST_TOP_MM;
+  if (!(mm > MIN_TOP_MM)) return MIN_TOP_MM;
   const unit = 10 ** Math.floor(Math.log10(mm));
   const digit = [1, 1.5, 2, 3, 5, 7, 10].find((one) => mm <= one * unit * (1 + 1e-9)) ?? 10;
   return Number((digit * unit).toPrecision(3));
@@ -56,7 +59,7 @@ interface Dot {
   readonly stroke: number;
 }
 
-/** Strokes without motion, the last one first: the pen comes down on the spot. */
+/** Strokes without motion, where the pen only goes down and up, last first. */
 const dotsOf = ({ runs }: Trajectory): Dot[] => {
   const dots: Dot[] = [];
   for (let run = runs.count - 1; run >= 0; run--) {
@@ -74,7 +77,7 @@ class SwingWriter {
   #shorts = new Uint16Array(this.#bytes);
   #errors = new Float32Array(2 * FIRST_PIECES);
   #count = 0;
-  /** The piece that grows: where and when it begins, and where its directions may lie. */
+  /** The open piece: where and when it begins, and the range of angles that it may have. */
   #isOpen = false;
   #stroke = -1;
   #x0 = 0;
@@ -85,7 +88,7 @@ class SwingWriter {
   #lowAngle = -Infinity;
   #highAngle = Infinity;
   #furthest = 0;
-  /** The sample before. */
+  /** The last sample. */
   #x = 0;
   #y = 0;
   #t = 0;
@@ -96,7 +99,7 @@ class SwingWriter {
     this.#shifts = shiftsOf(strokes.layers);
   }
 
-  /** `mm`: how far it is beside the line. */
+  /** `mm`: the distance from the planned line. */
   add({ tS, x, y, stroke }: PenPoint, mm: number): void {
     if (stroke !== this.#stroke) {
       this.endPiece();
@@ -154,7 +157,7 @@ class SwingWriter {
     this.#furthest = 0;
   }
 
-  /** Whether a straight piece to here stays close to all samples since its beginning. */
+  /** Whether a straight piece to (x, y) stays within CHORD_MM of all its samples. */
   #fits(x: number, y: number, mm: number): boolean {
     if (Math.abs(mm - this.#mm0) > ERROR_STEP_MM && this.#furthest > 0) return false;
     const dx = x - this.#x0;

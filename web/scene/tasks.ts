@@ -1,4 +1,4 @@
-/** What of a scene goes into a picture, in order from below to above; the same for every renderer. */
+/** Which pieces of a scene are drawn in a picture, from bottom to top. The same for both renderers. */
 import { coarsePieces } from "./coarse.js";
 import { boxPieces, rangesInSight, type PieceBoxes, type PieceRange } from "./piece-boxes.js";
 import { lineWidthPx, type Detail, type Frame, type Picture } from "./renderer.js";
@@ -10,17 +10,17 @@ export interface Boxed {
   readonly boxes: PieceBoxes;
 }
 
-/** What is drawn with the pen down, moves with the pen up, and what should have been drawn where that is shown. */
+/** Strokes, moves with the pen up, and the planned strokes if the pen is simulated. */
 export interface Sheet<B extends Boxed> {
   readonly draw: B;
   readonly travel: B;
   readonly asked: B | null;
 }
 
-/** "ghost": not drawn yet at the moment that is looked at. */
+/** "ghost": not drawn yet at the shown moment. */
 export type Style = "asked" | "ghost" | "drawn" | "travel";
 
-/** Pieces still to be drawn of a picture. */
+/** A range of pieces that are still to be drawn. */
 export interface Task<B extends Boxed> {
   readonly of: B;
   readonly style: Style;
@@ -28,10 +28,10 @@ export interface Task<B extends Boxed> {
   from: number;
 }
 
-/** Beyond the line, for its smooth edge. */
+/** Added to the line's width for its smooth edge. */
 const EDGE_PX = 2;
 
-/** A scene in both details; `load` may add what a renderer keeps of each list of pieces. */
+/** A scene in both details. `load` may add a renderer's data for each list of pieces. */
 export const sheetsOf = <B extends Boxed>(
   { draw, travel, asked }: Picture,
   load: (boxed: Boxed) => B,
@@ -47,7 +47,7 @@ export const sheetsOf = <B extends Boxed>(
   };
 };
 
-/** What is in sight: what is not drawn yet, what is, the moves of the pen that is up. */
+/** The visible pieces: strokes that are not drawn yet, strokes that are, and moves with the pen up. */
 export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: Sheet<B>): Task<B>[] => {
   const until = ({ pieces }: Boxed): number =>
     frame.untilS === null ? pieces.count : piecesBefore(pieces, frame.untilS);
@@ -88,6 +88,6 @@ export const drawSome = <B extends Boxed>(
   return drawn;
 };
 
-/** How many pieces that is. */
+/** The number of pieces in the tasks. */
 export const piecesOf = (tasks: readonly Task<Boxed>[]): number =>
   tasks.reduce((sum, { from, to }) => sum + to - from, 0);

@@ -1,8 +1,8 @@
 /**
- * What part of the paper is seen: screen px = mm × scale + offset. Pure; the preview holds one.
+ * The visible part of the paper: screen px = mm × scale + offset. Pure functions.
  */
 export interface View {
-  /** CSS px a mm. */
+  /** CSS px per mm. */
   readonly scale: number;
   /** CSS px of the paper's top left corner. */
   readonly offsetX: number;
@@ -17,7 +17,7 @@ export interface Size {
 const MIN_SCALE = 0.05;
 const MAX_SCALE = 400;
 
-/** Room around the paper, CSS px: rulers above and left. */
+/** Free space around the paper, CSS px; the rulers are at the top and left. */
 export interface Insets {
   readonly top: number;
   readonly right: number;

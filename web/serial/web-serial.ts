@@ -1,11 +1,11 @@
 /**
- * Entry "plotwright/web-serial": a board driven straight from a page, by the browser's Web Serial
- * (Chromium browsers; a secure context, which http://localhost is too).
+ * Entry "plotwright/web-serial": drives a board directly from a page by Web Serial (Chromium browsers, in a secure
+ * context, which includes http://localhost).
  */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
 import { usbIds } from "../../src/internal.js";
 
-/** What is needed of the browser's `SerialPort`. */
+/** The used part of the browser's `SerialPort`. */
 export interface WebSerialPort {
   readonly readable: ReadableStream<Uint8Array> | null;
   readonly writable: WritableStream<Uint8Array> | null;
@@ -13,22 +13,22 @@ export interface WebSerialPort {
   close(): Promise<void>;
 }
 
-/** What is needed of `navigator.serial`. */
+/** The used part of `navigator.serial`. */
 export interface WebSerial {
   requestPort(options: { filters: { usbVendorId: number; usbProductId: number }[] }): Promise<WebSerialPort>;
 }
 
-/** What the browser's dialogue lists: the boards that plotwright knows. */
+/** The boards that the browser's dialog lists: those that plotwright knows. */
 const FILTERS = usbIds().map(({ vendorId, productId }) => ({
   usbVendorId: Number.parseInt(vendorId, 16),
   usbProductId: Number.parseInt(productId, 16),
 }));
-/** The board is a USB device that ignores the rate; it has to be some legal number. */
+/** The board is a USB device that ignores the rate, but the browser requires a valid one. */
 const BAUD_RATE = 115_200;
 
 /**
- * Lets the user choose a board in the browser's own dialogue, and opens it. Call it from a click: browsers
- * refuse otherwise. Rejects with `no-board` (nothing chosen), `not-allowed` (no Web Serial here), `busy`.
+ * Lets the user choose a board in the browser's own dialog, and opens it. Browsers allow this only in a click handler.
+ * Rejects with `no-board` (nothing chosen), `not-allowed` (no Web Serial here), `busy`.
  */
 export async function requestBoard(serial: WebSerial | undefined = browserSerial()): Promise<Transport> {
   if (serial === undefined) {
@@ -92,7 +92,7 @@ class WebSerialTransport implements Transport {
     this.#port = port;
     this.#reader = reader;
     this.#writer = writer;
-    // A write that fails says so itself; without this the loss would also be an unhandled rejection.
+    // `write` reports a failure itself. Without this the loss would also be an unhandled rejection.
     writer.closed.catch(() => undefined);
     this.#ended = this.#read();
   }
@@ -112,7 +112,7 @@ class WebSerialTransport implements Transport {
 
   onClose(listener: (error?: Error) => void): void {
     this.#onClose = listener;
-    if (this.#end !== null) this.#tellEnd();
+    if (this.#end !== null) this.#reportEnd();
   }
 
   async close(): Promise<void> {
@@ -123,7 +123,7 @@ class WebSerialTransport implements Transport {
     await this.#ended;
   }
 
-  /** Until the port is closed or lost; then gives the streams and the port back. */
+  /** Reads until the port is closed or lost, then releases the streams and the port. */
   async #read(): Promise<void> {
     let failure: unknown;
     try {
@@ -140,10 +140,10 @@ class WebSerialTransport implements Transport {
     this.#writer.releaseLock();
     await this.#port.close().catch(() => undefined);
     this.#end = { error: this.#isClosing ? undefined : lost(failure) };
-    this.#tellEnd();
+    this.#reportEnd();
   }
 
-  #tellEnd(): void {
+  #reportEnd(): void {
     const listener = this.#onClose;
     if (listener === null || this.#end === null) return;
     this.#onClose = null;

@@ -1,31 +1,20 @@
-/** What the user can do, as functions over the store: settings, drawings, jobs, the machine. */
+/** The user's actions as functions on the store. Those for jobs and the plotter are in job-actions.ts. */
 import type { MachineProfile, StrokeSet } from "../../src/index.js";
 import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
-import { BackendFault, type Backend, type JobAction } from "../backend/backend.js";
-import type {
-  Job,
-  JobChange,
-  JobPlace,
-  JobPatch,
-  MovePlace,
-  NewJob,
-  PlotSettings,
-  Preset,
-  QueueSettings,
-} from "../../src/schema/index.js";
+import { BackendFault, type Backend } from "../backend/backend.js";
+import type { Job, PlotSettings, Preset } from "../../src/schema/index.js";
 import { stateText } from "./text.js";
 import type { Planner } from "../worker/planner.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { ExportFormat, PlanFault } from "../worker/protocol.js";
+import { createJobActions } from "./job-actions.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { createAsOperator } from "./take-over.js";
 import { createPlotterSync, openedSettings, withMachine } from "./plotter-sync.js";
 import { fromPreset, withPreset } from "./presets.js";
 import type { ViewSettings } from "./persist.js";
 import {
-  activeJob,
   boardFirmware,
-  currentPlotter,
   type Notice,
   type OpenDrawing,
   type PageState,
@@ -37,7 +26,7 @@ import {
 export type Actions = ReturnType<typeof createActions>;
 
 const UNDO_DEPTH = 100;
-/** Changes of the same thing within this time are one step of undo: a slider's way is one change. */
+/** Changes of the same thing within this time are one undo step, so that dragging a slider is one step. */
 const COALESCE_MS = 800;
 const INFO_MS = 5_000;
 const HEAD_LENGTH = 4_096;
@@ -59,29 +48,29 @@ export const createActions = (deps: ActionDeps) => {
   const { store, backend, planner } = deps;
   let nextNotice = 1;
   let nextDrawing = 1;
-  /** What lay on the paper, until the file opened over it has been read. */
+  /** The drawing before the one being opened, to return to if the new file can't be read. */
   let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
-  /** A drawing that has just been opened, until its page is known. */
+  /** A drawing that has just been opened, until its page size is known. */
   let unplacedKey: string | null = null;
   let lastChange = { what: "", atMs: -Infinity };
 
-  const notify = (kind: Notice["kind"], words: string): void => {
-    const notice = { id: nextNotice++, kind, text: words };
+  const notify = (kind: Notice["kind"], text: string): void => {
+    const notice = { id: nextNotice++, kind, text };
     store.setState(({ notices }) => ({
-      notices: [...notices.filter((n) => n.text !== words), notice].slice(-4),
+      notices: [...notices.filter((n) => n.text !== text), notice].slice(-4),
     }));
     if (kind === "info") deps.after(INFO_MS, () => dismiss(notice.id));
   };
   const dismiss = (id: number): void =>
     store.setState(({ notices }) => ({ notices: notices.filter((notice) => notice.id !== id) }));
 
-  /** What went wrong is over as soon as something goes right. */
+  /** A successful action makes earlier error messages obsolete. */
   const clearErrors = (): void =>
     store.setState(({ notices }) => ({ notices: notices.filter(({ kind }) => kind !== "error") }));
 
   const asOperator = createAsOperator(store, backend);
 
-  /** Runs a request to the server; a failure becomes a notice. `name` disables its button meanwhile. */
+  /** Sends a request to the server. A failure becomes a notice. The button called `name` is disabled meanwhile. */
   const attempt = async <T>(name: string, request: () => Promise<T>): Promise<T | null> => {
     store.setState({ busyAction: name });
     try {
@@ -109,7 +98,7 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** `what` names the thing that is about to change, for undo. */
+  /** Stores the state for undo. `what` names the thing that is about to change. */
   const noteStep = (what: string): UndoStep => {
     const { settings, presets, undoStack } = store.getState();
     const before = { settings, presets };
@@ -173,7 +162,7 @@ export const createActions = (deps: ActionDeps) => {
     unplacedKey = isOther ? key : null;
     store.setState({
       drawing: { key, name, text: svg, jobId, sourceId: jobId },
-      // A file that was changed and opened again keeps what was said about its layers and its place.
+      // A file that was edited and opened again keeps its layer settings and its place.
       settings: isOther ? forOtherDrawing(settings) : settings,
       planned: null,
       fault: null,
@@ -184,7 +173,7 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** The page of the drawing is known: one that was just opened is laid on the paper by it, as one step of undo. */
+  /** Called when the drawing's page size is known. Places a drawing that was just opened, as one undo step. */
   const placeForPage = (drawingKey: string, page: PaperSize): void => {
     lastGood = null;
     if (drawingKey !== unplacedKey) return;
@@ -194,7 +183,7 @@ export const createActions = (deps: ActionDeps) => {
     if (prepare !== settings.prepare) changeSettings("place for page", (now) => ({ ...now, prepare }));
   };
 
-  /** Whether a drawing lay on the paper that came back, because the one opened over it can't be read. */
+  /** Returns to the previous drawing if the one just opened can't be read. False: there is none to return to. */
   const wentBack = ({ stage, message }: PlanFault): boolean => {
     const { drawing: unread } = store.getState();
     if (stage !== "import" || !lastGood || !unread) return false;
@@ -205,7 +194,7 @@ export const createActions = (deps: ActionDeps) => {
     return true;
   };
 
-  /** A drawing of the last visit, for which the settings are as they were left. */
+  /** Shows the drawing of the last visit. The settings were restored before. */
   const restoreDrawing = (kept: Omit<OpenDrawing, "key">): void => {
     store.setState({ drawing: { key: `drawing-${nextDrawing++}`, ...kept }, planned: null, fault: null });
     replan();
@@ -221,7 +210,9 @@ export const createActions = (deps: ActionDeps) => {
     replan();
   };
 
-  /** A drawing that came back as a job's has that job's settings, whatever another tab has kept meanwhile. */
+  /**
+   * If the restored drawing is a job's, its settings come from the job: another tab may have stored others meanwhile.
+   */
   const takeJobSettings = (): void => {
     const { drawing, jobs, settings } = store.getState();
     if (!drawing || drawing.jobId === null) return;
@@ -255,25 +246,6 @@ export const createActions = (deps: ActionDeps) => {
     showJobSettings(job);
   };
 
-  const addToQueue = async (copies = 1, from: JobPlace | null = null): Promise<Job | null> => {
-    const state = store.getState();
-    const { drawing, settings } = state;
-    if (!drawing) return null;
-    const plotterId = currentPlotter(state)?.id;
-    const newJob = {
-      name: drawing.name,
-      settings,
-      ...(plotterId ? { plotterId } : {}),
-      ...(copies > 1 ? { copies } : {}),
-      ...(from ? { from } : {}),
-    };
-    const job = await attempt("add", () => backend.addJob(newJob, drawing.text));
-    if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
-      store.setState({ drawing: { ...drawing, jobId: job.id } });
-    }
-    return job;
-  };
-
   return {
     notify,
     dismiss,
@@ -284,7 +256,7 @@ export const createActions = (deps: ActionDeps) => {
     redo: () => step("redoStack", "undoStack"),
     changeView: (change: Partial<ViewSettings>): void =>
       store.setState(({ view }) => ({ view: { ...view, ...change } })),
-    /** The job that has the plotter is watched; `jobId` names another one, which had it. */
+    /** Watch shows the running job; `jobId` names an ended job to show instead. */
     showView: (pageView: PageView, jobId?: string): void =>
       store.setState(({ watchedId }) => ({ pageView, watchedId: jobId ?? watchedId, isFullScreen: false })),
     openDrawing,
@@ -296,41 +268,9 @@ export const createActions = (deps: ActionDeps) => {
     openPasted,
     openSample,
     openJob,
-    queueDrawing: async (copies = 1): Promise<void> => {
-      const job = await addToQueue(copies);
-      if (job) notify("info", stateText.added(job.name));
-    },
-    /** From a place on, it waits there with the pen up until it is resumed. */
-    plotDrawing: async (from: JobPlace | null = null): Promise<void> => {
-      const job = await addToQueue(1, from);
-      if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
-    },
-    saveToJob: async (id: string): Promise<void> => {
-      const { settings } = store.getState();
-      const job = await attempt("save", () => backend.patchJob(id, { settings }));
-      if (!job) return;
-      notify("info", stateText.saved(job.name));
-      store.setState(({ drawing, settings: now }) =>
-        drawing?.sourceId === id && now === settings ? { drawing: { ...drawing, jobId: id } } : {},
-      );
-    },
-    actOnJob: (id: string, action: JobAction) =>
-      attempt(`${action} ${id}`, () => backend.actOnJob(id, action)),
-    changeJob: (id: string, change: JobChange) =>
-      attempt(`change ${id}`, () => backend.changeJob(id, change)),
-    movePlace: (id: string, way: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, way)),
-    moveJob: (id: string, beforeId: string | null) =>
-      attempt(`move ${id}`, () => backend.moveJob(id, beforeId)),
-    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.duplicateJob(id)),
-    setQueue: async (settings: QueueSettings): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("queue", () => backend.setQueue(id, settings));
-    },
+    ...createJobActions({ store, backend, attempt, notify }),
     takeOver: () => attempt("take-over", () => backend.takeOver()),
-    /**
-     * This browser's identity; requested again with each connection, because a restarted server may have
-     * forgotten it.
-     */
+    /** Gets this browser's identity. Called on each connection, because a restarted server may have forgotten it. */
     meet: async (): Promise<void> => {
       try {
         store.setState({ me: await backend.me(), isUnpaired: false });
@@ -340,28 +280,11 @@ export const createActions = (deps: ActionDeps) => {
       }
     },
     dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.dismissNotice(id)),
-    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
-    removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
-    movePen: async (up: boolean, heightPct?: number): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (!id) return notify("error", stateText.needsServer);
-      await attempt("pen", () => backend.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
-    },
-    motorsOff: async (): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("motors-off", () => backend.motorsOff(id));
-    },
-    /** Where the page itself opens the plotter's port: lets the user choose it. */
-    connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
-    home: async (): Promise<void> => {
-      const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("home", () => backend.home(id, store.getState().settings));
-    },
-    /** For this page's settings, and for the plotter, which takes it for moves by hand and keeps it. */
+    /** Sets the machine in this page's settings and on the plotter, which uses it for moves by hand. */
     chooseMachine: (profile: MachineProfile | null): void => {
       if (profile) changeSettings("machine", (settings) => withMachine(settings, profile));
     },
-    /** Looks at another plotter; its model, heights, pens and presets come with it. */
+    /** Shows another plotter with its model, heights, pens and presets. */
     choosePlotter: (id: string): void => {
       store.setState({ plotterId: id });
       sync.follow();
@@ -373,28 +296,12 @@ export const createActions = (deps: ActionDeps) => {
       if (machines) store.setState({ machines });
     },
     savePreset: (name: string): void =>
-      changePresets(`keep ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
+      changePresets(`save ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
     takePreset: (preset: Preset): void =>
       changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
-    /**
-     * Plots a job that is not the drawing on the paper: at once, or in its turn where a plot is under way. Null: it
-     * could not be added, and the user has been told.
-     */
-    plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<Job | null> => {
-      const plotterId = currentPlotter(store.getState())?.id;
-      const job = await attempt("add", () =>
-        backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
-      );
-      if (!job) return null;
-      store.setState(({ sideJobIds }) => ({ sideJobIds: [...sideJobIds, job.id] }));
-      if (activeJob(store.getState()) === null)
-        await attempt("plot", () => backend.actOnJob(job.id, "start"));
-      else notify("info", stateText.added(job.name));
-      return job;
-    },
     removePreset: (name: string): void =>
-      changePresets(`forget ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
-    /** The strokes of the plan on the paper, to simulate the pen on them; not while another plan is made. */
+      changePresets(`remove ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
+    /** Gets the strokes of the current plan, to simulate the pen on them. Not answered while another plan is made. */
     askStrokes: (take: (strokes: StrokeSet) => void): void => planner.strokes(take),
     exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
     loadSamples: async (): Promise<void> => {

@@ -1,6 +1,6 @@
 /**
- * Model, heights, pens and presets that an earlier version kept in this browser. They are taken over once, into
- * plotters that have none on the server. What was stored stays where it is.
+ * Model, heights, pens and presets that an earlier version stored in this browser. They are copied once, to plotters
+ * that have none on the server. The browser's copy is not deleted.
  */
 import { plotterPartOf } from "../../src/schema/index.js";
 import { PAGE_KEY, readRemembered, type TextStore } from "./persist.js";
@@ -9,7 +9,7 @@ import { PRESETS_KEY, readPresets } from "./presets.js";
 
 const DONE_KEY = "plotwright.taken-over.v1";
 
-/** Null where nothing was kept, or where it has been taken over. */
+/** Null if nothing was stored, or if it was copied before. */
 export const readKeptHere = (store: TextStore | null): KeptHere | null => {
   try {
     if (store === null || store.getItem(DONE_KEY) !== null) return null;
@@ -28,6 +28,6 @@ export const noteTakenOver = (store: TextStore | null): void => {
   try {
     store?.setItem(DONE_KEY, new Date().toISOString());
   } catch {
-    // A store that refuses this has refused the settings, too.
+    // If the browser refuses to store this, it has not stored the settings either.
   }
 };

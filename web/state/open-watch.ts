@@ -1,7 +1,7 @@
-/** Watch opens by itself when a plot starts, and when the page is opened while one is under way. */
+/** Opens Watch when a plot starts, and when the page is opened during one. */
 import { unfinishedJob, type PageStore } from "./store.js";
 
-/** Returns a function that stops. */
+/** Returns a function that stops this. */
 export const openWatch = (store: PageStore): (() => void) =>
   store.subscribe((state, before) => {
     if (state.jobs === before.jobs && state.plotterId === before.plotterId) return;

@@ -1,11 +1,11 @@
-/** What of the settings outlives a change of drawing. Beside layer-settings.ts, which is fetched later. */
+/** Which settings stay when another drawing is opened. Not in layer-settings.ts, because that is loaded later. */
 import { withoutFilesPage } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 
-/** Layers named by their colour mean the same in every drawing. */
+/** Layers identified by a colour mean the same in every drawing. */
 const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
 
-/** For another drawing: what is said about single layers of the last one is forgotten, but for colours' pens. */
+/** The settings for another drawing: without those of single layers, except layers identified by a colour. */
 export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
   const kept = <T>(byLayer: Readonly<Record<string, T>> | undefined): Record<string, T> =>
     Object.fromEntries(Object.entries(byLayer ?? {}).filter(([id]) => isColorId(id)));

@@ -1,6 +1,6 @@
 /**
- * What the page remembers between visits, parsed by the same schema as everything that crosses a wire:
- * a stored value that does not fit, from an older version for example, is replaced by its default. The rest stays.
+ * What the page remembers between visits. It is parsed by the schema: a stored value that does not fit, for example
+ * one of an older version, is replaced by its default. The rest stays.
  */
 import { z } from "zod";
 import { findMachine, LENGTH_UNITS, type LengthUnit } from "../../src/internal.js";
@@ -18,15 +18,15 @@ export interface ViewSettings {
   readonly colorBy: ColorMode;
   readonly showGraph: boolean;
   readonly theme: Theme;
-  /** What fields and rulers show lengths in. */
+  /** The unit of lengths in fields and on rulers. */
   readonly lengthUnit: LengthUnit;
-  /** Ids of the groups of settings that are folded open. */
+  /** Ids of the open groups of settings. */
   readonly openGroups: readonly string[];
-  /** Where the camera's picture comes from; empty: no camera. */
+  /** Address of the camera's picture; empty: no camera. */
   readonly cameraUrl: string;
-  /** Seconds between still pictures; 0: it is a stream. */
+  /** Seconds between still pictures; 0: a stream. */
   readonly cameraEveryS: number;
-  /** The steps of a first plot were put away. */
+  /** The user has closed the first-plot guide. */
   readonly hidesFirstPlot: boolean;
 }
 
@@ -59,19 +59,21 @@ export interface Remembered {
   readonly view: ViewSettings;
 }
 
-/** What of localStorage is used; a private window may refuse it. */
+/** The used part of localStorage. A private window may refuse it. */
 export interface TextStore {
   getItem(key: string): string | null;
   setItem(key: string, value: string): void;
 }
 
-/** Never throws: each part that does not parse is the default. */
+/** Never throws: a part that does not parse is replaced by its default. */
 export const parseRemembered = (stored: string | null): Remembered => {
   const root = recordOf(parseJson(stored));
   return { settings: settingsOr(recordOf(root.settings)), view: partOr(viewSchema, DEFAULT_VIEW, root.view) };
 };
 
-/** Each part (paper and fill, speeds, pen, machine …) by itself, so that each takes up the fields it lacks. */
+/**
+ * Parses each part (paper and fill, speeds, pen, machine …) separately, so that one bad part does not reset the rest.
+ */
 const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   const defaults: Record<string, unknown> = DEFAULT_PLOT_SETTINGS;
   const parts = Object.entries(plotSettingsSchema.shape).map(([name, schema]) => [
@@ -80,34 +82,34 @@ const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   ]);
   const result = plotSettingsSchema.safeParse(Object.fromEntries(parts));
   if (!result.success) return DEFAULT_PLOT_SETTINGS;
-  // A machine whose profile does not parse any more is no machine.
+  // A custom machine whose profile no longer parses is replaced by the default machine.
   const machine = findMachine(result.data);
   const motion = plannable(result.data.motion, machine?.springs ?? null);
   return { ...result.data, machine: machine?.id ?? DEFAULT_PLOT_SETTINGS.machine, motion };
 };
 
-/** How many values of a part are replaced one by one; a part with more faults than that is replaced as a whole. */
-const MOST_FAULTS = 100;
+/** A part with more bad values than this is replaced as a whole. */
+const MAX_FAULTS = 100;
 
-/** Fields that a newer version added come from the default, and so does each value that does not fit. */
+/** Missing fields, which a newer version added, and values that do not fit come from the default. */
 const partOr = <T>(schema: z.ZodType<T>, whole: T, stored: unknown): T => {
   let part: unknown = isRecord(whole) ? { ...whole, ...recordOf(stored) } : stored;
-  for (let faults = 0; faults < MOST_FAULTS; faults++) {
+  for (let faults = 0; faults < MAX_FAULTS; faults++) {
     const result = schema.safeParse(part);
     if (result.success) return result.data;
-    part = mended(part, whole, result.error.issues[0]?.path ?? []);
+    part = repaired(part, whole, result.error.issues[0]?.path ?? []);
   }
   return whole;
 };
 
-/** `value` with the default's at `path`; what the default does not have (a pen, a layer's entry) is left out. */
-const mended = (value: unknown, whole: unknown, path: readonly PropertyKey[]): unknown => {
+/** `value` with the default at `path`. An entry without a default (a pen, a layer's setting) is removed. */
+const repaired = (value: unknown, whole: unknown, path: readonly PropertyKey[]): unknown => {
   const [key, ...rest] = path;
   if (Array.isArray(value) && Array.isArray(whole) && key !== undefined) {
     return value.filter((_, index) => index !== key);
   }
   if (typeof key !== "string" || !isRecord(value) || !isRecord(whole)) return whole;
-  if (Object.hasOwn(whole, key)) return { ...value, [key]: mended(value[key], whole[key], rest) };
+  if (Object.hasOwn(whole, key)) return { ...value, [key]: repaired(value[key], whole[key], rest) };
   return Object.fromEntries(Object.entries(value).filter(([name]) => name !== key));
 };
 
@@ -133,11 +135,11 @@ export const readRemembered = (store: TextStore | null): Remembered => {
   }
 };
 
-/** Layer switches too: the drawing that they belong to comes back with them (see kept-drawing.ts). */
+/** Includes the layers' settings: the drawing that they belong to is restored as well (see kept-drawing.ts). */
 export const writeRemembered = (store: TextStore | null, { settings, view }: Remembered): void => {
   try {
     store?.setItem(PAGE_KEY, JSON.stringify({ settings, view }));
   } catch {
-    // A full or refused store only means that the next visit begins with the defaults.
+    // If the browser stores nothing, the next visit begins with the defaults.
   }
 };

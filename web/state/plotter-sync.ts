@@ -1,7 +1,7 @@
 /**
- * Keeps the page's model, heights, pens and presets the same as the plotter's, which are on the server: what the user
- * changes here is stored there, and what another screen changes there is shown here, as a step that can be undone.
- * Without the server the page plans with the values it has; when the server is back, the plotter's values apply.
+ * Keeps the page's model, heights, pens and presets in sync with the plotter's, which are on the server. The user's
+ * changes are stored there. Changes by another screen are shown here, as an undo step. While the server can't be
+ * reached, the page plans with the values it has; when the server is back, the plotter's values apply.
  */
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
@@ -26,7 +26,7 @@ import {
 } from "./store.js";
 import type { AsOperator } from "./take-over.js";
 
-/** A slider's way is stored a few times a second. */
+/** While a slider is dragged, its value is stored a few times a second. */
 const SAVE_MS = 250;
 
 type Shown = Pick<PageState, "settings" | "presets">;
@@ -36,18 +36,18 @@ interface SyncParts {
   readonly backend: Pick<Backend, "savePlotterSettings" | "setPlotterMachine">;
   readonly asOperator: AsOperator;
   after(delayMs: number, callback: () => void): void;
-  /** Tells the user what went wrong. */
+  /** Shows the user what went wrong. */
   failed(error: unknown): void;
-  /** Shows the plotter's values; `isStep`: as a step of undo, else undo forgets what was before. */
+  /** Shows the plotter's values; `isStep`: as an undo step, otherwise the undo history is cleared. */
   show(values: Shown, isStep: boolean): void;
 }
 
 export const createPlotterSync = ({ store, backend, asOperator, after, failed, show }: SyncParts) => {
-  /** What the user has changed here and the server does not have yet. */
+  /** Changes by the user that the server does not have yet. */
   let unsaved: { readonly id: string; readonly settings: PlotterSettings } | null = null;
-  /** As it was before the first change that the server does not have yet. */
+  /** The settings before the first change that the server does not have yet. */
   let lastSaved: PlotterSettings | null = null;
-  /** Rises when the user leaves another browser operating: changes of before that are dropped. */
+  /** Counts how often the user has declined to take over. Changes made before that are dropped. */
   let refusals = 0;
   let isWaiting = false;
   let sendingCount = 0;
@@ -55,7 +55,7 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
   /** The plotter whose values the page shows. */
   let shownId: string | null = null;
 
-  /** One after the other, so that the last change is the one that stays. */
+  /** Sends requests one after the other, so that the last change wins. */
   const send = (request: () => Promise<unknown>): void => {
     sendingCount++;
     turn = turn
@@ -65,7 +65,7 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
       .catch(failed)
       .then(() => {
         sendingCount--;
-        // After a failure, or where another browser goes on operating, the plotter's values are shown again.
+        // After a failure, or if the user has not taken over, the plotter's values are shown again.
         follow();
       });
   };
@@ -78,7 +78,7 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
     }));
   };
 
-  /** False where another browser goes on operating. */
+  /** False: another browser is the operator, and the user has not taken over. */
   const saveNow = async (id: string, settings: PlotterSettings): Promise<boolean> => {
     const saved = await asOperator(() => backend.savePlotterSettings(id, settings));
     if (saved === null) return false;
@@ -106,7 +106,7 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
     });
   };
 
-  /** The user has changed something: stores what of it belongs to the plotter. */
+  /** Called after a change by the user. Stores the part that belongs to the plotter. */
   const changed = (before: Shown): void => {
     const state = store.getState();
     const plotter = currentPlotter(state);
@@ -128,14 +128,14 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
     saveSoon();
   };
 
-  /** Shows what the plotter has, unless something of this page is on its way there. */
+  /** Shows the plotter's values, unless changes by this page are still being stored. */
   const follow = (isStep = true): void => {
     const state = store.getState();
     const plotter = currentPlotter(state);
     if (!plotter || state.link !== "connected" || unsaved || sendingCount > 0) return;
     const isOther = shownId !== null && shownId !== plotter.id;
     const isFirst = shownId !== plotter.id;
-    // A plot that is under way is shown with the settings that it is plotted with.
+    // A running plot is shown with the settings that it is plotted with.
     if (!isOther && showsActiveJob(state)) return;
     shownId = plotter.id;
     const own = state.plotterSettings[plotter.id] ?? (isOther ? NOTHING_SET : null);
@@ -148,7 +148,7 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
       show(values, isStep && !isFirst);
   };
 
-  /** Heights, pens and presets that this browser has kept go to each plotter that has none. True once that is settled. */
+  /** Copies the settings stored in this browser to each plotter that has none. True: done, do not try again. */
   const takeOver = async (kept: KeptHere): Promise<boolean> => {
     const state = store.getState();
     if (state.me === null || !mayOperate(state) || otherOperator(state) !== null) return false;
@@ -168,13 +168,16 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
   return { changed, follow, takeOver };
 };
 
-/** What a browser has kept by itself, before the server kept it. */
+/** Plotter settings that a browser stored before the server did. */
 export interface KeptHere {
   readonly machine: string;
   readonly settings: PlotterSettings;
 }
 
-/** A job's settings as the page opens them: those of a plot under way as they are, any other with the plotter's part. */
+/**
+ * A job's settings as the page opens them. A running job keeps its own; another one gets the plotter's heights and
+ * pens.
+ */
 export const openedSettings = (state: PageState, job: Job): PlotSettings => {
   const plotter = currentPlotter(state);
   const own = plotter && state.plotterSettings[plotter.id];
@@ -183,8 +186,8 @@ export const openedSettings = (state: PageState, job: Job): PlotSettings => {
 };
 
 /**
- * The settings for a machine: its whole profile goes with them where plotwright does not know it by itself. A step of
- * quality stays the same step, with this machine's numbers.
+ * The settings for a machine. The profile of a custom machine is included. The quality stays the same, with this
+ * machine's numbers.
  */
 export const withMachine = (settings: PlotSettings, profile: MachineProfile | null): PlotSettings => {
   if (profile === null) return settings;

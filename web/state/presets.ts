@@ -1,10 +1,12 @@
-/** Named settings for a pen or a paper: they belong to the plotter, and are stored with it on the server. */
+/**
+ * Presets: named settings, for example for a pen or a paper. They belong to the plotter and are stored on the server.
+ */
 import { findMachine } from "../../src/internal.js";
 import { MAX_PRESETS, presetSchema, type PlotSettings, type Preset } from "../../src/schema/index.js";
 import { plannable } from "./motion-of-machine.js";
 import type { TextStore } from "./persist.js";
 
-/** Where earlier versions kept them in the browser. */
+/** Where earlier versions stored presets in the browser. */
 export const PRESETS_KEY = "plotwright.presets.v1";
 
 export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }: Preset): PlotSettings => ({
@@ -15,7 +17,7 @@ export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }
   prepare: { ...settings.prepare, ...layers },
 });
 
-/** Those that an earlier version kept in this browser; what does not parse is left out. */
+/** The presets that an earlier version stored in this browser. One that does not parse is left out. */
 export const readPresets = (store: TextStore | null): Preset[] => {
   try {
     const list: unknown = JSON.parse(store?.getItem(PRESETS_KEY) ?? "[]");
@@ -29,7 +31,7 @@ export const readPresets = (store: TextStore | null): Preset[] => {
   }
 };
 
-/** The list with the preset in it: in the place of one of the same name, else at the end. */
+/** The list with the preset at the end, in place of one of the same name. */
 export const withPreset = (presets: readonly Preset[], name: string, settings: PlotSettings): Preset[] => {
   const { motion, pen, pens, layerPens, penStops, layerStops } = settings;
   const { layers, hiddenLayers, shownLayers, layerOrder, layerRepeats, layerHatches } = settings.prepare;

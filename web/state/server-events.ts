@@ -1,4 +1,4 @@
-/** What each event of the server changes in the page's state. Pure. */
+/** Applies the server's events to the page's state. Pure functions. */
 import { ENDED_STATES, type ServerEvent, type Snapshot } from "../../src/schema/index.js";
 import type { PageState } from "./store.js";
 
@@ -41,13 +41,13 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
   }
 };
 
-/** Everything at once, when the page has connected: what was live before is not known to go on. */
+/** The whole state, sent when the page has connected. The live report is dropped unless its job is still running. */
 const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
   const { version, plotters, plotterSettings, jobs, queues, operator, serverNotices, localName } = snapshot;
-  const isGoing = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
+  const isRunning = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
   return {
     ...withPlotters(state, plotters),
-    ...(isGoing ? {} : { live: null }),
+    ...(isRunning ? {} : { live: null }),
     version,
     isOutdated: state.isOutdated || (state.version !== null && state.version !== version),
     plotterSettings,
@@ -59,7 +59,7 @@ const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
   };
 };
 
-/** The plotter that is looked at stays, as long as it is there. */
+/** Keeps the chosen plotter as long as it exists. */
 const withPlotters = ({ plotterId }: PageState, plotters: PageState["plotters"]): Change => ({
   plotters,
   plotterId: plotters.some(({ id }) => id === plotterId) ? plotterId : (plotters[0]?.id ?? null),
@@ -75,7 +75,7 @@ const upserted = <T extends { readonly id: string }>(list: readonly T[], item: T
     ? list.map((other) => (other.id === item.id ? item : other))
     : [...list, item];
 
-/** In the given order; ids that the page has not heard of yet are skipped, jobs not named go last. */
+/** In the given order. Unknown ids are skipped, and jobs that are not named come last. */
 const ordered = ({ jobs }: PageState, ids: readonly string[]): PageState["jobs"] => {
   const place = new Map(ids.map((id, index) => [id, index]));
   const placeOf = (id: string): number => place.get(id) ?? ids.length;

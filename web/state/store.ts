@@ -1,4 +1,4 @@
-/** The page's whole state, without React: what is on the paper, what the server says, what is looked at. */
+/** The page's whole state, without React: the drawing, the server's state, the view. */
 import { createStore } from "zustand/vanilla";
 import { findMachine, firmwareFor, type Springs } from "../../src/internal.js";
 import type {
@@ -27,9 +27,9 @@ export interface OpenDrawing {
   readonly key: string;
   readonly name: string;
   readonly text: DrawingText;
-  /** The job that it was opened from or sent as, while the settings are still that job's. */
+  /** The job that it was opened from or sent as, as long as the settings are that job's. */
   readonly jobId: string | null;
-  /** The job that it was opened from, whatever has become of the settings since. */
+  /** The job that it was opened from, even after the settings were changed. */
   readonly sourceId: string | null;
 }
 
@@ -60,38 +60,38 @@ export interface Notice {
 /** The simulated pen on a plan. */
 export interface Swing {
   readonly of: Planned;
-  /** How it swings. */
+  /** The frequencies and damping used. */
   readonly springs: Springs;
   /** The machine was not measured. */
   readonly isAssumed: boolean;
   /** How much of the plot is simulated, 0 … 1. */
   readonly share: number;
-  /** Null until all of it is. */
+  /** Null until the simulation is complete. */
   readonly picture: Picture | null;
   readonly result: Pick<SwingPicture, "error" | "topMm"> | null;
   readonly fault: string | null;
 }
 
-/** "prepare": what is to be plotted is laid out; "watch": the plot under way. */
+/** "prepare": the drawing that is laid out for plotting; "watch": the running plot. */
 export type PageView = "prepare" | "watch";
 
-/** The plan of the job that Watch shows; not of the drawing that is laid out. */
+/** The plan of the job that Watch shows, not of the drawing in Prepare. */
 export interface WatchPlan {
   readonly key: string;
   readonly planned: Planned | null;
   readonly fault: string | null;
 }
 
-/** Asked where only the operator may do what was pressed. */
+/** Asked when the user presses something that only the operator may do. */
 interface TakeOverQuestion {
   readonly operator: string | null;
   answer(takesOver: boolean): void;
 }
 
-/** Sheets over the page, one at a time. */
+/** Dialogs, one at a time. */
 export type DialogName = "keys" | "about" | "machines" | "wizard" | "console" | "studio" | "ringing";
 
-/** What undo brings back. */
+/** What undo restores. */
 export type UndoStep = Pick<PageState, "settings" | "presets">;
 
 export interface PageState {
@@ -101,37 +101,37 @@ export interface PageState {
   readonly view: ViewSettings;
 
   readonly pageView: PageView;
-  /** Watch shows this job while none has the plotter: the last one that had it. */
+  /** The last job that had the plotter: Watch shows it while none is running. */
   readonly watchedId: string | null;
   readonly watchPlan: WatchPlan | null;
   /** Watch fills the screen. */
   readonly isFullScreen: boolean;
-  /** Small jobs that were started beside a drawing, such as marks: Watch does not open for them. */
+  /** Small jobs besides the drawing, such as alignment marks. Watch does not open for them. */
   readonly sideJobIds: readonly string[];
 
-  /** Until the browser has said what lay on the paper at the last visit. */
+  /** True until the browser has returned the drawing of the last visit. */
   readonly isStarting: boolean;
   readonly drawing: OpenDrawing | null;
   readonly planned: Planned | null;
   readonly isPlanning: boolean;
   readonly fault: PlanFault | null;
 
-  /** The moment of the plan that is looked at, s; null for the whole plot (or the live one). */
+  /** The shown moment of the plan, s; null for the whole plot (or the live one). */
   readonly momentS: number | null;
   readonly isPlaying: boolean;
   readonly playRate: number;
   readonly hover: Hover | null;
-  /** The stroke that was clicked, of this plan: another plan may number the strokes differently. */
+  /** The clicked stroke and its plan: another plan may number the strokes differently. */
   readonly selected: Selected | null;
-  /** While the simulated pen is looked at. */
+  /** Set while the simulated pen is shown. */
   readonly swing: Swing | null;
-  /** Places on the file's page that a note of the report is about, while it is shown; mm x0 y0 x1 y1. */
+  /** Places on the file's page that the user wants to see for a warning; mm x0 y0 x1 y1. */
   readonly noteBoxes: readonly (readonly [number, number, number, number])[];
-  /** The lines on which a dragged drawing has come to lie. */
+  /** The lines that a dragged drawing has snapped to. */
   readonly snapLines: SnapLines | null;
 
   readonly link: ServerLink;
-  /** The server lets this device in only once it is paired. */
+  /** The server refuses this device until it is paired. */
   readonly isUnpaired: boolean;
   readonly takeOverQuestion: TakeOverQuestion | null;
   readonly version: string | null;
@@ -139,29 +139,29 @@ export interface PageState {
   readonly isOutdated: boolean;
   readonly plotters: readonly Plotter[];
   readonly plotterId: string | null;
-  /** Heights, pens and presets as the server has them, by plotter id; a plotter for which nothing was set has none. */
+  /** Heights, pens and presets as the server has them, by plotter id. A plotter without settings has no entry. */
   readonly plotterSettings: Readonly<Record<string, PlotterSettings>>;
   readonly jobs: readonly Job[];
-  /** How each plotter's queue continues from job to job, by the plotter's id. */
+  /** Whether each plotter's queue starts the next job by itself, by plotter id. */
   readonly queues: Readonly<Record<string, QueueSettings>>;
-  /** Who this browser is to the server; null until it has said. */
+  /** This browser's identity and role; null until the server has answered. */
   readonly me: Me | null;
-  /** The browser that may change things now; null: none. */
+  /** The browser that holds the operator lock; null: none. */
   readonly operator: Operator | null;
-  /** Errors on the server without a request by this page. */
+  /** Server errors that no request of this page caused. */
   readonly serverNotices: readonly ServerNotice[];
   /** The server's name on the network; null while it has none. */
   readonly localName: string | null;
   readonly live: LivePlot | null;
   readonly samples: readonly SampleInfo[];
 
-  /** Those that come with plotwright, and those made by the users of this server. */
+  /** The built-in machines, and the custom ones of this server. */
   readonly machines: readonly ListedMachine[];
-  /** Of the current plotter. */
+  /** The current plotter's presets. */
   readonly presets: readonly Preset[];
   readonly openDialog: DialogName | null;
   readonly notices: readonly Notice[];
-  /** The button whose request is under way, by name: it is disabled meanwhile. */
+  /** The name of the request that is running: its button is disabled meanwhile. */
   readonly busyAction: string | null;
 }
 
@@ -214,7 +214,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
 
 export type PageStore = ReturnType<typeof createPageStore>;
 
-/** The selected stroke, if the plan on the paper is the one that it was selected in. */
+/** The selected stroke, if it belongs to the current plan. */
 export const selectedStroke = ({ selected, planned }: PageState): Selected | null =>
   selected !== null && selected.of === planned ? selected : null;
 
@@ -222,20 +222,20 @@ export const selectedStroke = ({ selected, planned }: PageState): Selected | nul
 export const currentPlotter = (state: PageState): Plotter | null =>
   state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
 
-/** Of the current plotter's board; null: not known, or of another controller than the machine's. */
+/** The firmware of the current plotter's board; null: unknown, or its controller is not the machine's. */
 export const boardFirmware = (state: PageState): string | null => {
   const machine = findMachine(state.settings);
   return machine && firmwareFor(machine, currentPlotter(state)?.firmware ?? null);
 };
 
-/** The current plotter would do something now: it is there, free, and heard of. */
+/** The current plotter is connected and idle. */
 export const isReady = (state: PageState): boolean =>
   state.link === "connected" && currentPlotter(state)?.connection === "idle";
 
-/** States in which a job has the plotter, or waits to have it back. */
+/** States in which a job has the plotter, or waits to get it back. */
 export const ACTIVE_STATES: readonly Job["state"][] = ["plotting", "paused", "interrupted"];
 
-/** The job that the current plotter is at, if any. */
+/** The current plotter's running or paused job, if any. */
 export const activeJob = (state: PageState): Job | null => {
   const plotterId = currentPlotter(state)?.id;
   return (
@@ -245,23 +245,23 @@ export const activeJob = (state: PageState): Job | null => {
   );
 };
 
-/** That job, else one of the current plotter that was interrupted and can go on. */
+/** The running job, else an interrupted job of the current plotter, which can be resumed. */
 export const unfinishedJob = (state: PageState): Job | null => {
   const plotterId = currentPlotter(state)?.id;
   const isBroken = (job: Job): boolean => job.state === "interrupted" && job.plotterId === plotterId;
   return activeJob(state) ?? state.jobs.find(isBroken) ?? null;
 };
 
-/** What Watch shows: the job that has the plotter or waits to have it back, else the last one that had it. */
+/** What Watch shows: the unfinished job, else the last one that had the plotter. */
 export const watchedJob = (state: PageState): Job | null =>
   unfinishedJob(state) ?? state.jobs.find(({ id }) => id === state.watchedId) ?? null;
 
-/** A watcher has nothing to lay out. */
+/** A watcher sees only Watch. */
 export const shownView = (state: PageState): PageView => (mayOperate(state) ? state.pageView : "watch");
 
-/** Watchers see everything and may stop a plot; they change nothing else. */
+/** A watcher sees everything and may stop a plot, nothing else. */
 export const mayOperate = ({ me }: PageState): boolean => me?.role !== "watch";
 
-/** Another browser that has the plotters in hand, if any. */
+/** The operator, if it is another browser. */
 export const otherOperator = ({ operator, me }: PageState): Operator | null =>
   operator !== null && operator.id !== me?.id ? operator : null;

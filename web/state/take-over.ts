@@ -1,13 +1,13 @@
-/** What only the operator may do, asked for in a browser that does not operate. */
+/** Requests that only the operator may make, in a browser that is not the operator. */
 import { BackendFault, type Backend } from "../backend/backend.js";
 import { otherOperator, type PageStore } from "./store.js";
 
-/** Runs a request that only the operator may make. Null: another browser operates, and the user left it so. */
+/** Runs a request that only the operator may make. Null: another browser is the operator, and the user declined. */
 export type AsOperator = <T>(request: () => Promise<T>) => Promise<T | null>;
 
-/** Where another browser operates, it asks whether to take over, and then does it. */
+/** If another browser is the operator, the user is asked to take over, and the request is sent again. */
 export const createAsOperator = (store: PageStore, backend: Pick<Backend, "takeOver">): AsOperator => {
-  /** One question for all requests that come while it is open. */
+  /** Requests made while the question is open share its answer. */
   let asking: Promise<boolean> | null = null;
 
   const ask = (): Promise<boolean> =>

@@ -1,4 +1,4 @@
-/** React's view of the page: one context with the store and the actions, made in main.tsx. */
+/** React's access to the page: one context with the store and the actions, created in main.tsx. */
 import { createContext, useContext } from "react";
 import { useStore } from "zustand";
 import type { Job } from "../../src/schema/index.js";
@@ -16,17 +16,17 @@ export const PageContext = createContext<Page | null>(null);
 
 const usePage = (): Page => {
   const page = useContext(PageContext);
-  if (!page) throw new Error("a panel stands outside of <App>");
+  if (!page) throw new Error("a panel is used outside of <PageContext>");
   return page;
 };
 
-/** Re-renders only when what `select` picks has changed (compared by identity). */
+/** Re-renders only when the result of `select` has changed (compared by identity). */
 export const usePageState = <T>(select: (state: PageState) => T): T => useStore(usePage().store, select);
 export const useActions = (): Actions => usePage().actions;
 export const useBackend = (): Backend => usePage().backend;
 export const usePageStore = (): PageStore => usePage().store;
 
-/** The jobs of the plotter that is looked at: queue order first, then history, newest first. */
+/** The current plotter's jobs: the queue in its order, then the history, newest first. */
 export const usePlotterJobs = (): readonly Job[] => {
   const jobs = usePageState((state) => state.jobs);
   const plotterId = usePageState((state) => currentPlotter(state)?.id);

@@ -8,7 +8,7 @@ import { useAsked, useStudio } from "./use-studio.js";
 
 const words = studioText;
 
-/** Who has been let in: browsers that were paired and keys for scripts, each to be sent away again. */
+/** Paired browsers, and keys for scripts. Each can be revoked. */
 export const AccessSection = () => {
   const studio = useStudio();
   const [answer, askAgain] = useAsked(studio.access);
@@ -56,7 +56,7 @@ const EntryRow = ({ entry, onRevoke }: { entry: AccessEntry; onRevoke(): void })
   </li>
 );
 
-/** Shown this once; the server keeps only what it needs to know it again. */
+/** Shown only once: the server stores no more than it needs to check the secret. */
 export const Secret = ({ label, value }: { label: string; value: string }) => (
   <p className="secret" role="status">
     <span>{label}</span>

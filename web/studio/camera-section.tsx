@@ -7,7 +7,7 @@ import { isCameraUrl } from "./camera-url.js";
 const words = studioText;
 const EVERY_S = [0, 1, 2, 5, 10, 30, 60] as const;
 
-/** Where the picture of the camera comes from; kept in this browser. */
+/** Settings of the camera's picture, stored in this browser. */
 export const CameraSection = () => {
   const { cameraUrl, cameraEveryS } = usePageState((state) => state.view);
   const { changeView } = useActions();

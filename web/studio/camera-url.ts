@@ -1,4 +1,4 @@
-/** Addresses that a camera's picture may come from. */
+/** Whether a camera's picture may come from this address. */
 export const isCameraUrl = (url: string): boolean => {
   try {
     return ["http:", "https:"].includes(new URL(url).protocol);
@@ -7,7 +7,7 @@ export const isCameraUrl = (url: string): boolean => {
   }
 };
 
-/** The address with something new in it, so that no cache answers with the last picture. */
+/** The address with a changing parameter, so that no cache answers with the last picture. */
 export const freshUrl = (url: string, turn: number): string => {
   const fresh = new URL(url);
   fresh.searchParams.set("plotwright", String(turn));

@@ -6,7 +6,7 @@ import "./studio.css";
 
 const words = studioText;
 
-/** What a camera sees of the plotter: a stream of pictures, or one that is fetched again and again. */
+/** The camera's picture: a stream, or a still picture that is fetched repeatedly. */
 export const Camera = () => {
   const { cameraUrl, cameraEveryS } = usePageState((state) => state.view);
   const [turn, setTurn] = useState(0);

@@ -8,7 +8,7 @@ import { useAsked, useStudio } from "./use-studio.js";
 
 const words = studioText;
 
-/** Addresses that are told when a plot is done, waits, or has failed. */
+/** Addresses that are notified when a plot is done, waits, or has failed. */
 export const HooksSection = () => {
   const studio = useStudio();
   const [answer, askAgain] = useAsked(studio.webhooks);

@@ -9,7 +9,7 @@ import { useAsked, useStudio } from "./use-studio.js";
 
 const words = studioText;
 
-/** The plotters of this server: their names and ports; new ones, and ones to be forgotten. */
+/** The server's plotters: their names and ports, adding and removing them. */
 export const PlottersSection = () => {
   const plotters = usePageState((state) => state.plotters);
   return (
@@ -45,7 +45,7 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
         onChange={(event) => setName(event.target.value)}
         onBlur={rename}
         onKeyDown={(event) => {
-          // Leaving the field is what renames it.
+          // Leaving the field renames the plotter.
           if (event.key === "Enter") event.currentTarget.blur();
         }}
       />

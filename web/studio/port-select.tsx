@@ -5,7 +5,7 @@ import { useAsked, useStudio } from "./use-studio.js";
 
 const words = studioText;
 
-/** Where a plotter is plugged in: found by itself, one of the boards that are there, or the virtual one. */
+/** Chooses a plotter's port: automatic, one of the connected boards, or the virtual board. */
 export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
   const studio = useStudio();
   const [answer] = useAsked(studio.devices);
@@ -21,7 +21,7 @@ export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
   );
 };
 
-/** Those of other plotters are left out; the plotter's own is there even while it is unplugged. */
+/** Without the ports of other plotters. Includes the plotter's own port even if it is unplugged. */
 export const portChoices = (
   devices: readonly Device[],
   plotter: Plotter | null,

@@ -5,7 +5,7 @@ import { useAsked, useStudio } from "./use-studio.js";
 
 const words = studioText;
 
-/** Links and QR codes that let another device in, to operate or to watch. */
+/** Links and QR codes for pairing another device, to operate or to watch. */
 export const ShareSection = () => {
   const studio = useStudio();
   const [pairing] = useAsked(studio.pairing);
@@ -25,7 +25,7 @@ export const ShareSection = () => {
   );
 };
 
-/** Where the page is by the server's name: with its port, which the name does not say. */
+/** The page's address with the server's name, and the port of `url`. */
 const namedOrigin = (url: string, name: string): string => {
   const { protocol, port } = new URL(url);
   return `${protocol}//${name}${port === "" ? "" : `:${port}`}`;

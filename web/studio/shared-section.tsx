@@ -7,18 +7,18 @@ import { studioText } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
-import { isServerGone, leftOut, machineWanted, wayOut } from "./shared-jobs.js";
+import { isServerGone, leftOut, machineWanted, possibleAction } from "./shared-jobs.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
 const words = studioText;
-const ASK_EVERY_MS = 3_000;
+const POLL_MS = 3_000;
 
-/** The queue that several servers have in common: what waits there, who took what, and the drawing on the paper put there. */
+/** The shared queue: its jobs, which server took them, and adding the current drawing. */
 export const SharedSection = () => {
   const studio = useStudio();
   const [answer, askAgain] = useAsked(studio.sharedJobs);
   useEffect(() => {
-    const timer = setInterval(askAgain, ASK_EVERY_MS);
+    const timer = setInterval(askAgain, POLL_MS);
     return () => clearInterval(timer);
   }, [askAgain]);
   if (answer?.jobs === null) {
@@ -45,7 +45,7 @@ export const SharedSection = () => {
 const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) => {
   const studio = useStudio();
   const nowMs = useNow();
-  const way = wayOut(job, nowMs);
+  const action = possibleAction(job, nowMs);
   const plotters = usePageState((state) => state.plotters);
   const machine = useMachine(machineWanted(job));
   const parts = [
@@ -56,8 +56,8 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
     ...(isServerGone(job, nowMs) ? [words.sharedGone] : []),
     formatWhen(job.createdAt, nowMs),
   ];
-  const leave = async (): Promise<void> => {
-    await (way === "withdraw" ? studio.withdrawShared(job.id) : studio.giveBackShared(job.id));
+  const runAction = async (): Promise<void> => {
+    await (action === "withdraw" ? studio.withdrawShared(job.id) : studio.giveBackShared(job.id));
     onChanged();
   };
   return (
@@ -66,26 +66,26 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
         <strong>{job.name}</strong>
         <span className="note">{parts.join(", ")}</span>
         {job.message !== null && <span className="note note-error">{job.message}</span>}
-        {way === "give-back" && <span className="note">{words.giveBackHint}</span>}
+        {action === "give-back" && <span className="note">{words.giveBackHint}</span>}
         {leftOut(job, plotters).map((plotter) => (
           <LeftOut key={plotter.id} plotter={plotter} machine={machine} />
         ))}
       </span>
-      {way !== null && (
+      {action !== null && (
         <button
           type="button"
           className="button button-small"
-          aria-label={(way === "withdraw" ? words.withdrawNamed : words.giveBackNamed)(job.name)}
-          onClick={() => void leave()}
+          aria-label={(action === "withdraw" ? words.withdrawNamed : words.giveBackNamed)(job.name)}
+          onClick={() => void runAction()}
         >
-          {way === "withdraw" ? words.withdraw : words.giveBack}
+          {action === "withdraw" ? words.withdraw : words.giveBack}
         </button>
       )}
     </li>
   );
 };
 
-/** A machine that this server knows, by its id. */
+/** The machine with this id, if this server knows it. */
 const useMachine = (id: string | null): { readonly id: string; readonly name: string } | null => {
   const made = usePageState((state) => state.machines);
   return [...MACHINES, ...made].find((machine) => machine.id === id) ?? null;
@@ -96,7 +96,7 @@ interface LeftOutProps {
   readonly machine: { readonly id: string; readonly name: string } | null;
 }
 
-/** A plotter of this server, and to say that it is what the job waits for. */
+/** A plotter without a model, and a button that sets the one that the job needs. */
 const LeftOut = ({ plotter, machine }: LeftOutProps) => {
   const studio = useStudio();
   return (

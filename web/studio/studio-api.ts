@@ -1,4 +1,4 @@
-/** What a server that is left alone is told: plotters, devices that may use it, whom it tells. */
+/** Requests about plotters, access, webhooks and the shared queue. */
 import type {
   NewKey,
   NewPlotter,
@@ -13,7 +13,7 @@ import type { DrawingText } from "../worker/drawing-text.js";
 
 export type StudioApi = ReturnType<typeof studioApi>;
 
-/** Each answers null where it failed; the user has been told then. */
+/** Each returns null if it failed, and the user has seen why. */
 export const studioApi = (backend: Backend, { attempt }: Pick<Actions, "attempt">) => {
   const ask = <T>(name: string, request: (studio: StudioBackend) => Promise<T>): Promise<T | null> =>
     attempt(name, async () => request(await backend.studio()));
@@ -29,7 +29,7 @@ export const studioApi = (backend: Backend, { attempt }: Pick<Actions, "attempt"
     revoke: (id: string) => ask("access", (studio) => done(studio.revoke(id))),
     webhooks: () => ask("webhooks", (studio) => studio.webhooks()),
     addWebhook: (webhook: NewWebhook) => ask("webhook", (studio) => studio.addWebhook(webhook)),
-    /** Asked again and again while it is looked at: a failure leaves what is shown. `jobs` is null where none is shared. */
+    /** Polled while it is shown, so a failure is ignored. `jobs` is null if there is no shared queue. */
     sharedJobs: async (): Promise<{ readonly jobs: readonly SharedJob[] | null } | null> => {
       try {
         return { jobs: await (await backend.studio()).sharedJobs() };
@@ -45,7 +45,7 @@ export const studioApi = (backend: Backend, { attempt }: Pick<Actions, "attempt"
   };
 };
 
-/** True where null means that it failed. */
+/** For requests without an answer, so that null still means failure. */
 const done = async (request: Promise<void>): Promise<true> => {
   await request;
   return true;

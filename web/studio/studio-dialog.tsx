@@ -22,7 +22,7 @@ const SECTIONS = {
 type SectionName = keyof typeof SECTIONS;
 const NAMES = Object.keys(SECTIONS) as readonly SectionName[];
 
-/** Everything around the plots: who else may use this server, its plotters, the queue it shares, whom it tells, the camera. */
+/** The dialog for sharing, access, plotters, the shared queue, webhooks and the camera. */
 export const StudioDialog = () => {
   const [name, setName] = useState<SectionName>("share");
   const Section = SECTIONS[name];

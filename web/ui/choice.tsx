@@ -5,7 +5,7 @@ export interface ChoiceOption<T extends string> {
   readonly value: T;
   readonly label: string;
   readonly icon?: ReactNode;
-  /** It cannot be chosen now. */
+  /** Can't be chosen now. */
   readonly isOff?: boolean;
 }
 
@@ -18,13 +18,13 @@ interface ChoiceProps<T extends string> {
 }
 
 interface SegmentsProps<T extends string> extends ChoiceProps<T> {
-  /** The label stands beside the choices, where there are two short ones. */
+  /** Puts the label beside the choices; for two short ones. */
   readonly isInline?: boolean;
   /** Help on demand. */
   readonly hint?: string;
 }
 
-/** One of a few, all in sight: a row of radio buttons that looks like one control. */
+/** One of a few choices, all visible: a row of radio buttons that looks like one control. */
 export const Segments = <T extends string>({
   label,
   value,
@@ -78,7 +78,7 @@ interface SelectProps<T extends string> extends ChoiceProps<T> {
   readonly hint?: string;
 }
 
-/** One of many: the system's own list. */
+/** One of many choices: the system's own list. */
 export const Select = <T extends string>({ label, value, options, hint, onChange }: SelectProps<T>) => {
   const id = useId();
   const help = useHint(label, `${id}-note`, hint !== undefined);

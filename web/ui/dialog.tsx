@@ -9,7 +9,7 @@ interface DialogProps {
   readonly children: ReactNode;
 }
 
-/** A sheet over the page; the browser's own dialog keeps the focus inside and closes on Escape. */
+/** A modal dialog. The browser's own element keeps the focus inside and closes on Escape. */
 export const Dialog = ({ title, onClose, children }: DialogProps) => {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => {
@@ -22,7 +22,7 @@ export const Dialog = ({ title, onClose, children }: DialogProps) => {
       ref={dialog}
       className="dialog"
       aria-label={title}
-      // The event comes late: React's strict mode has opened the sheet again by then.
+      // The event is asynchronous: React's strict mode may have opened the dialog again by then.
       onClose={() => {
         if (!dialog.current?.open) onClose();
       }}

@@ -7,11 +7,11 @@ interface DropZoneProps {
   readonly children: ReactNode;
 }
 
-/** Takes files dropped anywhere on the page, and text pasted anywhere but into a field. */
+/** Accepts files dropped anywhere on the page, and text pasted anywhere except into a field. */
 export const DropZone = ({ hint, onFile, onText, children }: DropZoneProps) => {
   const [isOver, setOver] = useState(false);
   useEffect(() => {
-    // Drag events come from every element on the way: entering counts up, leaving counts down.
+    // Each element that the pointer crosses sends both events: entering counts up, leaving counts down.
     let depth = 0;
     const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
     const enter = (event: DragEvent): void => {

@@ -5,7 +5,7 @@ interface State {
   readonly message: string | null;
 }
 
-/** A fault in drawing the page itself: said in words instead of an empty window. */
+/** Shows a message instead of an empty window when rendering the page fails. */
 export class ErrorBoundary extends Component<{ readonly children: ReactNode }, State> {
   override state: State = { message: null };
 

@@ -5,18 +5,18 @@ import { Icon } from "./icon.js";
 interface GroupProps {
   readonly id: string;
   readonly title: string;
-  /** The group in a few words, shown beside the title. */
+  /** The group's values in a few words, shown beside the title. */
   readonly summary?: string;
   /** Help on demand, while the group is open. */
   readonly help?: string;
-  /** Stands inside another group. */
+  /** Is inside another group. */
   readonly isPart?: boolean;
   readonly isOpen: boolean;
   onToggle(isOpen: boolean): void;
   readonly children: ReactNode;
 }
 
-/** A group of settings that folds. */
+/** A group of settings that can be folded. */
 export const Group = (props: GroupProps) => {
   const { id, title, summary, help, isPart, isOpen, onToggle, children } = props;
   const Heading = isPart ? "h3" : "h2";

@@ -2,12 +2,12 @@ import { useState, type ReactNode } from "react";
 import { hintText } from "./text.js";
 
 interface Hint {
-  /** The "?" that stands beside what it explains. */
+  /** The "?" button, to be put beside what it explains. */
   readonly button: ReactNode;
   readonly isShown: boolean;
 }
 
-/** Help on demand: a "?" that shows and hides the note with this id. Nothing where there is no help. */
+/** Help on demand: a "?" that shows and hides the note with this id. No button without help. */
 export const useHint = (about: string, noteId: string, hasHelp: boolean): Hint => {
   const [isShown, setShown] = useState(false);
   if (!hasHelp) return { button: null, isShown: false };

@@ -1,4 +1,4 @@
-/** Line icons on a 20 × 20 grid, drawn with the text's colour. Decoration: the button has the words. */
+/** Line icons on a 20 × 20 grid in the text's colour. Decorative: the button has the label. */
 const PATHS = {
   plus: "M10 4v12M4 10h12",
   minus: "M4 10h12",

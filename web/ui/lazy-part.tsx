@@ -2,8 +2,8 @@ import { Component, lazy, Suspense, type ComponentType, type ReactNode } from "r
 import { errorText } from "./text.js";
 
 /**
- * A part of the page that is fetched when it is first shown. One that can't be fetched (no connection, or the
- * server was brought up to date meanwhile) says so in its place; the rest of the page goes on.
+ * A part of the page that is loaded when it is first shown. If it can't be loaded (no connection, or the server was
+ * updated meanwhile), a message appears in its place. The rest of the page keeps working.
  */
 export const lazyPart = <Props extends object>(
   load: () => Promise<ComponentType<Props>>,

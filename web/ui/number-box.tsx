@@ -5,37 +5,37 @@ import { usePageState } from "../state/use-store.js";
 import { formatInUnit, formatNumber, parseNumber, parseTypedLength } from "./format.js";
 
 export interface NumberLimits {
-  /** "mm": a length, which is shown and typed in the user's unit. */
+  /** "mm": a length, shown and typed in the user's unit. */
   readonly unit: string;
   readonly min: number;
-  /** `min` itself is not allowed. */
+  /** `min` itself is excluded. */
   readonly minExcluded?: boolean | undefined;
   readonly max: number;
-  /** What an arrow key adds; ten times that with Shift. */
+  /** Added by an arrow key; ten times as much with Shift. */
   readonly step: number;
   readonly digits?: number;
 }
 
-/** A step in mm is that many times smaller in inches: 1 mm becomes 0.05 in. */
+/** In inches, the arrow keys use the step in mm divided by this: 1 mm becomes 0.05 in. */
 const STEPS_PER_INCH = 20;
 
 interface TypedNumber {
   readonly shown: string;
-  /** What the number is shown in. */
+  /** The unit in which the number is shown. */
   readonly unit: string;
-  /** Another number as this one is shown. */
-  words(value: number): string;
-  /** What is wrong with what was typed. */
+  /** Formats another number the same way. */
+  format(value: number): string;
+  /** Why the typed text is not accepted. */
   readonly problem: string | null;
-  type(words: string): void;
-  /** Shows the number itself again instead of what was typed. */
+  type(text: string): void;
+  /** Shows the number itself again instead of the typed text. */
   forget(): void;
   onKeyDown(event: KeyboardEvent): void;
 }
 
 /**
- * A number as it is typed and stepped by arrow keys; only numbers within the limits get out. `emptyAs`: what an empty
- * field means, where it means something: the number that is stepped from, and what to do.
+ * A number that is typed, or stepped by the arrow keys. Only numbers within the limits reach `onNumber`. `emptyAs` is
+ * for fields that may be empty: the number to step from, and what to call when the field is emptied.
  */
 export const useTypedNumber = (
   value: number | null,
@@ -46,39 +46,40 @@ export const useTypedNumber = (
   const [typed, setTyped] = useState<string | null>(null);
   const lengthUnit = usePageState((state) => state.view.lengthUnit);
   const inInches = unit === "mm" && lengthUnit === "in";
-  const parse = (words: string): number | null =>
-    unit === "mm" ? parseTypedLength(words, lengthUnit) : parseNumber(words);
-  const words = (number: number, most = digits): string =>
-    inInches ? formatInUnit(number, "in", most) : formatNumber(number, most);
+  const parse = (text: string): number | null =>
+    unit === "mm" ? parseTypedLength(text, lengthUnit) : parseNumber(text);
+  const format = (number: number, maxDigits = digits): string =>
+    inInches ? formatInUnit(number, "in", maxDigits) : formatNumber(number, maxDigits);
   const shownUnit = inInches ? "in" : unit;
   const stepBy = inInches ? mmFromLength(step / STEPS_PER_INCH, "in") : step;
-  const isRight = (number: number): boolean => (minExcluded ? number > min : number >= min) && number <= max;
-  const problemOf = (typedWords: string): string | null => {
-    const number = parse(typedWords);
-    if (number === null) return emptyAs && typedWords.trim() === "" ? null : fieldText.notANumber;
-    return isRight(number) ? null : fieldText.between(words(min, 3), words(max, 3), shownUnit);
+  const isInRange = (number: number): boolean =>
+    (minExcluded ? number > min : number >= min) && number <= max;
+  const problemOf = (text: string): string | null => {
+    const number = parse(text);
+    if (number === null) return emptyAs && text.trim() === "" ? null : fieldText.notANumber;
+    return isInRange(number) ? null : fieldText.between(format(min, 3), format(max, 3), shownUnit);
   };
   return {
-    shown: typed ?? (value === null ? "" : words(value)),
+    shown: typed ?? (value === null ? "" : format(value)),
     unit: shownUnit,
-    words,
+    format,
     problem: typed === null ? null : problemOf(typed),
-    type: (typedWords) => {
-      setTyped(typedWords);
-      const number = parse(typedWords);
-      if (typedWords.trim() === "") emptyAs?.take();
-      else if (number !== null && isRight(number)) onNumber(number);
+    type: (text) => {
+      setTyped(text);
+      const number = parse(text);
+      if (text.trim() === "") emptyAs?.take();
+      else if (number !== null && isInRange(number)) onNumber(number);
     },
     forget: () => setTyped(null),
     onKeyDown: (event) => {
-      const way = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
+      const direction = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
       if (event.key === "Enter") setTyped(null);
-      if (way === 0) return;
+      if (direction === 0) return;
       event.preventDefault();
       setTyped(null);
-      const next = (value ?? emptyAs?.from ?? 0) + way * stepBy * (event.shiftKey ? 10 : 1);
-      const inRange = Math.min(max, Math.max(min, Number(next.toFixed(6))));
-      if (isRight(inRange)) onNumber(inRange);
+      const next = (value ?? emptyAs?.from ?? 0) + direction * stepBy * (event.shiftKey ? 10 : 1);
+      const clamped = Math.min(max, Math.max(min, Number(next.toFixed(6))));
+      if (isInRange(clamped)) onNumber(clamped);
     },
   };
 };
@@ -87,12 +88,12 @@ interface NumberBoxProps {
   readonly id: string;
   readonly typed: TypedNumber;
   readonly placeholder?: string;
-  /** Id of the words under it. */
+  /** Id of the note under it. */
   readonly noteId?: string | undefined;
   readonly disabled?: boolean | undefined;
 }
 
-/** Where a number is typed, with its unit. */
+/** The input box of a number, with its unit. */
 export const NumberBox = ({ id, typed, placeholder, noteId, disabled }: NumberBoxProps) => (
   <span className="field-box" data-invalid={typed.problem !== null || undefined}>
     <input

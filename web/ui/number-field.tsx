@@ -7,15 +7,15 @@ interface NumberFieldProps extends NumberLimits {
   readonly value: number;
   /** Help on demand. */
   readonly hint?: string;
-  /** Ends of the slider, where the field has one: the range in everyday use, inside min … max. */
+  /** Range of the slider, if the field has one: the values in everyday use, within min … max. */
   readonly slider?: readonly [from: number, to: number];
   readonly disabled?: boolean;
   onChange(value: number): void;
-  /** Besides, while the slider is dragged. */
+  /** Called in addition while the slider is dragged. */
   onSlide?(value: number): void;
 }
 
-/** A number with its unit: typed, stepped by arrow keys, or dragged. */
+/** A number with its unit: typed, stepped by the arrow keys, or dragged. */
 export const NumberField = (props: NumberFieldProps) => {
   const { label, value, step, hint, slider, disabled, onChange, onSlide } = props;
   const id = useId();
@@ -32,7 +32,7 @@ export const NumberField = (props: NumberFieldProps) => {
       {slider && (
         <input
           type="range"
-          // The same value as the field beside it, for hands that drag: named and focused once only.
+          // Only for dragging. Keyboard and screen reader use the field beside it, which has the same value.
           aria-hidden="true"
           tabIndex={-1}
           min={slider[0]}

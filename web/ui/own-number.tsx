@@ -5,15 +5,15 @@ import "./own-number.css";
 
 interface OwnNumberProps extends NumberLimits {
   readonly label: string;
-  /** Null: none of its own. */
+  /** Null: no custom value. */
   readonly value: number | null;
-  /** What holds then, shown pale; null: shown as a dash. */
+  /** The value that applies then, shown pale; null: shown as a dash. */
   readonly inherited: number | null;
   readonly resetLabel: string;
   onChange(value: number | null): void;
 }
 
-/** A number that may be left to what holds for all: empty then, with that as its placeholder. */
+/** An optional custom number. When it is empty, the inherited number applies and is the placeholder. */
 export const OwnNumber = (props: OwnNumberProps) => {
   const { label, value, inherited, resetLabel, onChange } = props;
   const id = useId();
@@ -24,7 +24,7 @@ export const OwnNumber = (props: OwnNumberProps) => {
       <NumberBox
         id={id}
         typed={typed}
-        placeholder={inherited === null ? "–" : typed.words(inherited)}
+        placeholder={inherited === null ? "–" : typed.format(inherited)}
         noteId={typed.problem ? `${id}-note` : undefined}
       />
       <button

@@ -1,13 +1,13 @@
 /** Reordering a list by dragging one row's handle, with mouse, pen or finger. */
 import { useEffect, useRef, type PointerEvent, type RefObject } from "react";
 
-/** The place among the other rows, given their middles from the top down, of a row let go at `yPx`. */
+/** The new index of a row dropped at `yPx`, given the centres of the other rows from top to bottom. */
 export const placeOfDrop = (middlesPx: readonly number[], yPx: number): number =>
   middlesPx.filter((middlePx) => middlePx < yPx).length;
 
 /**
- * The row before which `id` has to go to stand at `place` among all; null for the end.
- * Undefined where it stands there already, or there is no such place.
+ * The row before which `id` has to be moved so that its index becomes `place`; null for the end.
+ * Undefined if it is there already, or if there is no such index.
  */
 export const placeAfterMove = (
   ids: readonly string[],
@@ -26,7 +26,7 @@ interface Drag {
   readonly middlesPx: readonly number[];
 }
 
-/** Handlers for the handle of the row `data-row={id}` of `list`; `onDrop` gets the place among all rows. */
+/** Handlers for the handle of the row `data-row={id}` of `list`. `onDrop` gets the new index. */
 export const useRowDrag = (
   list: RefObject<HTMLUListElement | null>,
   id: string,
@@ -64,7 +64,7 @@ export const useRowDrag = (
   };
 };
 
-/** The row follows the pointer, and a line shows where it would go; null: all as it was. */
+/** Moves the row with the pointer and marks where it would be dropped; null: resets both. */
 const showDrop = ({ fromPx, row, others, middlesPx }: Drag, yPx: number | null): void => {
   const place = yPx === null ? -1 : placeOfDrop(middlesPx, yPx);
   row.style.transform = yPx === null ? "" : `translateY(${yPx - fromPx}px)`;

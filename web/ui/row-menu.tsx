@@ -2,7 +2,7 @@ import { useEffect, useRef, useState, type ReactNode } from "react";
 import { Icon } from "./icon.js";
 import "./row-menu.css";
 
-/** A row's further buttons, behind one. Escape, a press elsewhere and a press on one of them close it. */
+/** A menu with a row's further buttons. Escape, a press outside or a press on a button closes it. */
 export const RowMenu = ({ label, children }: { label: string; children: ReactNode }) => {
   const [isOpen, setOpen] = useState(false);
   const box = useRef<HTMLDivElement>(null);
@@ -54,7 +54,7 @@ export const RowMenu = ({ label, children }: { label: string; children: ReactNod
 
 interface MenuItemProps {
   readonly words: string;
-  /** With the row's name, for who does not see the row. */
+  /** Includes the row's name, for screen readers. */
   readonly label: string;
   readonly isOff?: boolean;
   onClick(): void;

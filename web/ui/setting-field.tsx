@@ -5,14 +5,14 @@ interface SettingFieldProps {
   readonly setting: NumberSetting;
   readonly value: number;
   readonly hint?: string;
-  /** Where the range depends on other settings. */
+  /** For a range that depends on other settings. */
   readonly max?: number;
   onChange(value: number): void;
-  /** Besides, while the slider is dragged. */
+  /** Called in addition while the slider is dragged. */
   onSlide?(value: number): void;
 }
 
-/** A number of the settings tables: label, range, unit and step come from there. */
+/** A field for a number of the settings tables, which have its label, range, unit and step. */
 export const SettingField = ({ setting, max, value, hint, onChange, onSlide }: SettingFieldProps) => (
   <NumberField
     label={setting.label}

@@ -11,7 +11,7 @@ interface SettingsGroupProps {
   readonly children: ReactNode;
 }
 
-/** A folding group whose state is remembered. */
+/** A group that can be folded; its state is remembered. */
 export const SettingsGroup = ({ id, ...props }: SettingsGroupProps) => {
   const openGroups = usePageState((state) => state.view.openGroups);
   const { changeView } = useActions();

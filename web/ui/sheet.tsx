@@ -3,7 +3,7 @@ import { usePageStore } from "../state/use-store.js";
 import { Dialog } from "./dialog.js";
 import { Notices } from "./notices.js";
 
-/** A dialog of the page. What goes wrong meanwhile is said in it, since it lies over everything else. */
+/** One of the page's dialogs. It shows the notices itself, because it covers the page's. */
 export const Sheet = ({ title, children }: { title: string; children: ReactNode }) => {
   const store = usePageStore();
   return (

@@ -2,7 +2,7 @@ interface TextFieldProps {
   readonly label: string;
   readonly value: string;
   readonly maxLength?: number;
-  /** The label stands in the empty field instead of before it. */
+  /** The label is the field's placeholder. */
   readonly isLabelInside?: boolean;
   onChange(value: string): void;
 }

@@ -1,7 +1,7 @@
-/** Words of the controls and frames that every panel uses. */
+/** Texts of the controls and frames that all panels use. */
 export const appName = "plotwright";
 
-/** In which the names of days and months are written. */
+/** The language of the names of days and months. */
 export const language = "en-GB";
 
 export const hintText = {

@@ -1,12 +1,12 @@
 import { useEffect, useState } from "react";
 
-const BEAT_MS = 5_000;
+const INTERVAL_MS = 5_000;
 
-/** The time of day in ms, fresh enough for "done at 16:42". */
+/** The current time in ms, updated often enough for "done 16:42". */
 export const useNow = (): number => {
   const [nowMs, setNowMs] = useState(() => Date.now());
   useEffect(() => {
-    const timer = setInterval(() => setNowMs(Date.now()), BEAT_MS);
+    const timer = setInterval(() => setNowMs(Date.now()), INTERVAL_MS);
     return () => clearInterval(timer);
   }, []);
   return nowMs;

@@ -11,7 +11,7 @@ const words = jobText;
 const STEP_MM = 10;
 const SPEED_PERCENTS: readonly number[] = [25, 50, 75, 90, 100, 110, 125, 150, 200];
 
-/** What can be changed of a plot under way: pen heights, speed, and the place where a paused one goes on. */
+/** Changes of the running plot: pen heights, speed, and where a paused plot resumes. */
 export const Adjust = () => {
   const job = usePageState(activeJob);
   const canChange = usePageState((state) => mayOperate(state) && state.link === "connected");
@@ -27,7 +27,7 @@ export const Adjust = () => {
   );
 };
 
-/** Where a held plot goes on: it can be moved back and on, and looked at with the pen up. */
+/** Changes where a paused plot resumes: moves the place back and forward, and sends the raised pen there. */
 const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place"]> }) => {
   const { movePlace, actOnJob } = useActions();
   const moves = [
@@ -42,12 +42,12 @@ const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place
         {words.place(formatCount(place.strokeIndex + 1), formatNumber(place.alongMm, 1))}
       </p>
       <div className="button-grid">
-        {moves.map(([label, way]) => (
+        {moves.map(([label, move]) => (
           <button
             key={label}
             type="button"
             className="button button-small"
-            onClick={() => void movePlace(job.id, way)}
+            onClick={() => void movePlace(job.id, move)}
           >
             {label}
           </button>
@@ -64,7 +64,7 @@ const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place
   );
 };
 
-/** What can be changed while it plots or is held. */
+/** Changes that are possible while it plots or is paused. */
 const LiveChanges = ({ job }: { job: Job }) => {
   const percents = SPEED_PERCENTS.includes(job.speedPct) ? SPEED_PERCENTS : [job.speedPct, ...SPEED_PERCENTS];
   const { changeJob } = useActions();

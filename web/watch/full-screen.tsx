@@ -5,13 +5,13 @@ import { watchText } from "./text.js";
 
 const words = watchText;
 
-/** For a tablet beside the plotter: the status, the sheet and the camera, nothing else, and the screen stays on. */
+/** For a tablet beside the plotter: shows only the status, the sheet and the camera, and keeps the screen on. */
 export const FullScreenButton = () => {
   const store = usePageStore();
   const isFull = usePageState((state) => state.isFullScreen);
   useEffect(() => {
     if (!isFull) return;
-    // Where the browser has no full screen of its own (a phone), Watch still fills the page.
+    // If the browser has no full screen (on a phone), Watch still fills the page.
     void document.documentElement.requestFullscreen?.().catch(() => undefined);
     const lock = "wakeLock" in navigator ? navigator.wakeLock.request("screen").catch(() => null) : null;
     const onChange = (): void => {

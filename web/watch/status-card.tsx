@@ -13,7 +13,7 @@ import { watchText } from "./text.js";
 
 const words = watchText;
 
-/** How far the plot is, readable from across the room, and what can be done with it now. */
+/** The plot's progress, readable from across the room, and its buttons. */
 export const StatusCard = ({ job }: { job: Job }) => {
   const isActive = ACTIVE_STATES.includes(job.state);
   const wait = job.state === "paused" ? job.wait : null;
@@ -86,7 +86,7 @@ const Figures = ({ job }: { job: Job }) => {
   );
 };
 
-/** The layer and the pen that draw now. */
+/** The current layer and pen. */
 const LayerLine = ({ job }: { job: Job }) => {
   const planned = usePageState((state) => state.watchPlan?.planned ?? null);
   const live = usePageState((state) => state.live);

@@ -1,4 +1,4 @@
-/** Words of Watch: the plot under way. */
+/** Texts of Watch, which shows the running plot. */
 export const watchText = {
   status: "Plot under way",
   sheet: "Sheet",
@@ -16,6 +16,6 @@ export const watchText = {
   pen: (name: string) => `pen “${name}”`,
   adjust: "While it plots",
   fullScreen: "Full screen",
-  endFullScreen: "End full screen",
-  cannotShow: "The drawing can’t be shown here. The plot goes on.",
+  endFullScreen: "Exit full screen",
+  cannotShow: "The drawing can’t be shown here. The plot continues.",
 };

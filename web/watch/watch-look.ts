@@ -1,4 +1,4 @@
-/** How the plot under way looks: in its pens' colours and widths as far as it is drawn, and where the pen is. */
+/** The look of the running plot: the pens' colours and widths, how far it is drawn, and the pen's position. */
 import { penOf, shownLayerName, type StrokeLayer } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import { jobUntilS } from "../preview/drawn-until.js";
@@ -28,7 +28,7 @@ export const lookOfJob = (job: Job | null, planned: Planned | null, live: PageSt
 
 const penOfJob = (job: Job | null, layer: StrokeLayer) => (job ? penOf(job.settings, layer) : null);
 
-/** The pen, while it is known where it is. */
+/** The pen's position; null: unknown. */
 export const markerOfJob = (state: PageState, job: Job | null): Marker | null => {
   const plotter = currentPlotter(state);
   if (!job || state.link !== "connected" || !plotter) return null;
@@ -44,7 +44,7 @@ export interface LayerNow {
   readonly color: string | null;
 }
 
-/** The layer that the pen is at; of layers the plot has none of, none. */
+/** The layer that the pen is drawing; null: unknown. */
 export const layerNow = (job: Job, planned: Planned | null, live: PageState["live"]): LayerNow | null => {
   if (!planned || planned.scene.draw.count === 0) return null;
   const { draw } = planned.scene;

@@ -1,4 +1,4 @@
-/** The plan of the job that is watched: for its picture, and to know which layer the pen is at. */
+/** The plan of the job shown in Watch, for its picture and the current layer. */
 import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { boardFirmware, type PageState, type PageStore, type WatchPlan } from "../state/store.js";
@@ -12,10 +12,10 @@ interface WatchDeps {
 
 const planners = new WeakMap<PageStore, Planner>();
 
-/** A job that is started again may have other settings. */
+/** Includes the start time, because a job that is started again may have other settings. */
 const keyOf = ({ id, startedAt }: Job): string => `${id} ${startedAt ?? ""}`;
 
-/** Plans the job unless that is done or under way. */
+/** Plans the job, unless it is planned or being planned already. */
 export const planWatched = async ({ store, backend }: WatchDeps, job: Job): Promise<void> => {
   const key = keyOf(job);
   const state = store.getState();
@@ -29,12 +29,12 @@ export const planWatched = async ({ store, backend }: WatchDeps, job: Job): Prom
     const firmware = boardFirmware({ ...store.getState(), settings: job.settings });
     plannerOf(store).request({ drawing: { key, text }, settings: job.settings, firmware });
   } catch {
-    // Asked for again when the server is back.
+    // Tried again when the server is back.
     answer(store, key, null);
   }
 };
 
-/** The job's drawing lies on the paper and is planned already: a large one is not planned twice. */
+/** The plan of the drawing in Prepare, if that is this job's: a large drawing is not planned twice. */
 const planOnPaper = ({ drawing, planned, isPlanning }: PageState, job: Job): Planned | null =>
   drawing?.jobId === job.id && planned?.drawingKey === drawing.key && !isPlanning ? planned : null;
 
@@ -67,6 +67,6 @@ const plannerOf = (store: PageStore): Planner => {
   return made;
 };
 
-/** An answer about a job that is not watched any more is dropped. */
+/** Stores the plan, unless another job is watched by now. */
 const answer = (store: PageStore, key: string, watchPlan: WatchPlan | null): void =>
   store.setState((state) => (state.watchPlan?.key === key ? { watchPlan } : {}));

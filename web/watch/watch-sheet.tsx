@@ -12,10 +12,10 @@ import { watchText } from "./text.js";
 
 const words = watchText;
 const ZOOM_STEP = 1.5;
-/** The tools lie under the paper. */
+/** Height of the tools under the paper. */
 const BELOW_PX = 52;
 
-/** The sheet on the plotter: what is drawn in the pens' colours and widths, what is left pale, and the pen. */
+/** The sheet on the plotter: the drawn part in the pens' colours and widths, the rest pale, and the pen. */
 export const WatchSheet = () => (
   <Sheet kind={WATCHED} label={words.sheet} pictureLabel={words.canvas}>
     {(stage) => (
@@ -56,7 +56,7 @@ const plannedOf = (state: PageState) => (watchedJob(state) ? (state.watchPlan?.p
 
 const lookOf = (state: PageState) => lookOfJob(watchedJob(state), plannedOf(state), state.live);
 
-/** Without the reach: what is being plotted is within it. */
+/** Without the machine's reach, because a running plot is within it. */
 const watchedDesk = (state: PageState): Desk => ({
   ...deskOf(settingsOf(state), state.view.lengthUnit),
   reach: null,
@@ -78,7 +78,7 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
   return store.subscribe(show);
 };
 
-/** Nothing on this sheet can be moved or asked about. */
+/** Nothing on this sheet can be moved or selected. */
 const WATCHED: SheetKind = {
   desk: watchedDesk,
   look: lookOf,

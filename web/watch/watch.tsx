@@ -10,7 +10,7 @@ import "./watch.css";
 
 const words = watchText;
 
-/** The plot under way, or the last one: how far it is, and its sheet. */
+/** The running plot, or the last one: its progress and its sheet. */
 export const Watch = () => {
   const job = usePageState(watchedJob);
   usePlan();
@@ -25,7 +25,7 @@ export const Watch = () => {
   );
 };
 
-/** Plans the watched job; again when the server is back, since the drawing may not have come. */
+/** Plans the watched job. Again when the server is back, because the drawing may not have arrived before. */
 const usePlan = (): void => {
   const store = usePageStore();
   const backend = useBackend();

@@ -1,4 +1,4 @@
-/** What the page and its drawing worker say to each other. Scenes and pictures are transferred, never copied. */
+/** Messages between the page and its drawing worker. Scenes and pictures are transferred, never copied. */
 import type { Frame, Picture } from "../scene/renderer.js";
 
 export type DrawRequest =
@@ -8,9 +8,9 @@ export type DrawRequest =
 
 export interface DrawReply {
   readonly type: "picture";
-  /** Of the frame that it shows. */
+  /** Of the frame in this picture. */
   readonly id: number;
-  /** False for a first look that the whole follows, unless another frame is asked for. */
+  /** False for a coarse picture. The whole one follows, unless another frame is requested. */
   readonly isWhole: boolean;
   readonly bitmap: ImageBitmap;
 }

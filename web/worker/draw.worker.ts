@@ -1,4 +1,4 @@
-/** Draws the strokes away from the page's thread, where the card or the want of one may take its time. */
+/** Draws the strokes outside the page's thread: a slow graphics card, or none, must not block the page. */
 import { paintOn } from "../scene/strokes-canvas.js";
 import type { Frame } from "../scene/renderer.js";
 import type { DrawReply, DrawRequest } from "./draw-protocol.js";

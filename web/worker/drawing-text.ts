@@ -1,13 +1,13 @@
-/** The text of a drawing, as the page keeps it and hands it to the worker. */
+/** The text of a drawing, as the page stores it and passes it to the worker. */
 import { encodingOf, textOfBytes } from "../../src/internal.js";
 
-/** A large file's comes as it was read, in UTF-8: to make a string of it, and to copy that, would hold up the page. */
+/** A large file is stored as UTF-8 bytes: decoding and copying a string would block the page. */
 export type DrawingText = string | ArrayBuffer;
 
-/** Files as large as this are kept as they were read: only the worker makes text of them. */
+/** Files from this size on stay bytes. Only the worker decodes them. */
 export const LARGE_BYTES = 1_000_000;
 
-/** Text; the bytes of a large file as they are, if they are UTF-8: decoding them would hold up the page. */
+/** Decodes a file, except a large one in UTF-8. */
 export const contentOf = (buffer: ArrayBuffer): DrawingText => {
   const bytes = new Uint8Array(buffer);
   return bytes.length >= LARGE_BYTES && encodingOf(bytes) === "utf-8" ? buffer : textOfBytes(bytes);

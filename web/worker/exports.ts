@@ -1,4 +1,4 @@
-/** The prepared drawing as files. Fetched when the first one is saved, so the compiler is no part of the first load. */
+/** The prepared drawing as files. Loaded when the first one is saved, so the compiler is not part of the first load. */
 import { planJob, toSvg, type Prepared } from "../../src/index.js";
 import { machineOf, svgOptionsOf, toJson } from "../../src/internal.js";
 import type { ExportFormat, PlanSettings } from "./protocol.js";

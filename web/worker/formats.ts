@@ -1,2 +1,2 @@
-/** The readers of drawings: a file of their own, so that an empty page need not fetch them. */
+/** The readers of drawings. In a separate file, so that an empty page does not load them. */
 export { importDrawing } from "../../src/index.js";

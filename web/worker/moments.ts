@@ -1,4 +1,4 @@
-/** Marks the latest moment of a name on the browser's time line, for its developer tools and the benchmark of the page. */
+/** Sets a performance mark, and removes the last one of this name. For the developer tools and the page's benchmark. */
 export const markMoment = (name: string): void => {
   performance.clearMarks(name);
   performance.mark(name);

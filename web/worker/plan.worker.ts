@@ -1,9 +1,8 @@
 /**
- * Text -> drawing -> strokes -> trajectory -> scene, away from the page's thread.
+ * Text -> drawing -> strokes -> trajectory -> scene, outside the page's thread.
  *
- * Only the newest request counts: between two stages the worker lets messages in, and drops what it is
- * doing when a newer request is there. Each stage keeps its last result, so a change of speed does not
- * import the file again, and a change of margin does not either.
+ * Only the newest request counts. Between two stages the worker receives messages, and drops its work if there is a
+ * newer request. Each stage stores its last result, so that a change of speed or margin does not import the file again.
  */
 import {
   planJob,
@@ -53,7 +52,7 @@ const scope = self as unknown as WorkerScope;
 
 let newest: PlanRequest | null = null;
 let isRunning = false;
-/** The last text that came, until it has been read. */
+/** The last text received, until it has been imported. */
 let received: { key: string; text: DrawingText } | null = null;
 let imported: { key: string; drawing: Drawing } | null = null;
 let prepared: {
@@ -87,7 +86,7 @@ async function run(): Promise<void> {
   isRunning = false;
 }
 
-/** Null where a newer request has come in between. */
+/** Null if there is a newer request. */
 async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   const { id, drawingKey, settings, firmware } = request;
   let stage: PlanFault["stage"] = "import";
@@ -144,14 +143,14 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
 async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
   if (imported?.key !== drawingKey) {
     if (received?.key !== drawingKey)
-      throw new Error("the worker was asked for a drawing it was never given");
+      throw new Error("the worker was asked for a drawing whose text it does not have");
     imported = { key: drawingKey, drawing: await drawingIn(received.text) };
   }
   if (received?.key === drawingKey) received = null;
   return imported.drawing;
 }
 
-/** The readers are fetched when the first file is opened. */
+/** The readers are loaded when the first file is opened. */
 async function drawingIn(content: DrawingText): Promise<Drawing> {
   const text = typeof content === "string" ? content : textOfBytes(new Uint8Array(content));
   const { importDrawing } = await import("./formats.js");
@@ -183,7 +182,7 @@ const pictureOf = ({ draw, travel, totalS }: Scene): Picture => ({
   totalS,
 });
 
-/** For a plan that is not the last one there is no answer: a newer one is on its way. */
+/** Does not answer for a plan that is not the last one: a newer one is being made. */
 function sendStrokes({ id }: StrokesRequest): void {
   if (answered?.id !== id) return;
   const { xy, offsets, layer, layers } = answered.strokes;
@@ -207,7 +206,7 @@ async function exportAs({ format, firmware }: ExportRequest): Promise<void> {
   }
 }
 
-/** Lets waiting messages in, then tells whether one of them is a newer request. */
+/** Receives waiting messages. True if one of them was a newer request. */
 const isSuperseded = async (): Promise<boolean> => {
   await new Promise((resolve) => setTimeout(resolve, 0));
   return newest !== null;

@@ -1,10 +1,10 @@
 /**
  * The page's end of the planning worker: the latest request wins.
  *
- * A request that overtakes another one lets the worker finish the stage it is in; a worker that has not
- * turned to the new one PATIENCE_MS later is ended and started afresh, so that a huge drawing that was
- * dropped by mistake never stands in the way of the next one. One that reads a file for longer than READING_MS is
- * ended too: a damaged file may keep it busy without end.
+ * When a request follows another one, the worker first finishes its current stage. If it has not begun the new request
+ * after PATIENCE_MS, it is terminated and replaced, so that a huge drawing opened by mistake does not block the next
+ * one. A worker that reads a file for longer than READING_MS is terminated too: a damaged file may keep it busy
+ * endlessly.
  */
 import type { StrokeSet } from "../../src/index.js";
 import type { PaperSize } from "../../src/internal.js";
@@ -22,7 +22,7 @@ import { markMoment } from "./moments.js";
 const PATIENCE_MS = 1_500;
 const READING_MS = 120_000;
 
-/** What this needs of a Worker; tests give their own. */
+/** The used part of a Worker. Tests pass their own. */
 export interface WorkerLike {
   postMessage(message: WorkerRequest): void;
   terminate(): void;
@@ -35,7 +35,7 @@ export interface PlannerTimer {
 }
 
 export interface PlannerListener {
-  /** Before the first plan of a drawing, and of every other one. */
+  /** Called before each plan. */
   onImported(drawingKey: string, page: PaperSize): void;
   onPlanned(planned: Planned): void;
   onFault(fault: PlanFault): void;
@@ -44,7 +44,7 @@ export interface PlannerListener {
 }
 
 export interface PlannerDrawing {
-  /** Names the text: another text has another key. */
+  /** Identifies the text: another text has another key. */
   readonly key: string;
   readonly text: DrawingText;
 }
@@ -52,7 +52,7 @@ export interface PlannerDrawing {
 export interface PlannerTask {
   readonly drawing: PlannerDrawing;
   readonly settings: PlanSettings;
-  /** Of the board that is to plot it; null: not known. */
+  /** Of the board that will plot it; null: unknown. */
   readonly firmware: string | null;
 }
 
@@ -68,7 +68,7 @@ export class Planner {
   #isBusy = false;
   #takeStrokes: ((strokes: StrokeSet) => void) | null = null;
   #stopWaiting: (() => void) | null = null;
-  /** While the worker reads the file. */
+  /** Set while the worker reads the file. */
   #stopReading: (() => void) | null = null;
 
   constructor(start: () => WorkerLike, timer: PlannerTimer, listener: PlannerListener) {
@@ -77,7 +77,7 @@ export class Planner {
     this.#listener = listener;
   }
 
-  /** Asks for a plan; whatever was asked before and has not come yet will not come. */
+  /** Requests a plan. Earlier requests that are not answered yet are dropped. */
   request(task: PlannerTask): void {
     this.#latest = task;
     if (this.#isBusy) this.#stopWaiting ??= this.#timer.after(PATIENCE_MS, () => this.#restart());
@@ -85,18 +85,18 @@ export class Planner {
     this.#send(task);
   }
 
-  /** Asks for the prepared drawing as text; `onExported` brings it. */
+  /** Requests the prepared drawing as text, which `onExported` gets. */
   export(format: ExportFormat, firmware: string): void {
     this.#worker?.postMessage({ type: "export", format, firmware });
   }
 
-  /** Asks for a copy of the strokes of the plan that came last; none comes while a newer plan is made. */
+  /** Requests a copy of the last plan's strokes. Not answered while a newer plan is being made. */
   strokes(take: (strokes: StrokeSet) => void): void {
     this.#takeStrokes = take;
     if (!this.#isBusy) this.#worker?.postMessage({ type: "strokes", id: this.#newestId });
   }
 
-  /** Ends the worker. */
+  /** Terminates the worker. */
   close(): void {
     this.#stopWaiting?.();
     this.#stopWaiting = null;

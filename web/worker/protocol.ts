@@ -1,4 +1,4 @@
-/** What the page and its planning worker say to each other. Arrays are transferred, never copied. */
+/** Messages between the page and its planning worker. Arrays are transferred, never copied. */
 import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type {
   Box,
@@ -17,21 +17,21 @@ import type { Scene } from "../scene/scene.js";
 import type { CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 
-/** The machine's motors bound the plan, so it is part of what is planned with. */
+/** All settings, because the plan depends on the machine too. */
 export type PlanSettings = PlotSettings;
 
-/** `drawingKey` names the text; the worker keeps the last drawing, so the text is sent once. */
+/** `drawingKey` identifies the text. The worker stores the last drawing, so the text is sent once. */
 export interface PlanRequest {
   readonly type: "plan";
   readonly id: number;
   readonly drawingKey: string;
   readonly text: DrawingText | null;
   readonly settings: PlanSettings;
-  /** Of the board that is to plot it; null: not known. */
+  /** Of the board that will plot it; null: unknown. */
   readonly firmware: string | null;
 }
 
-/** The prepared drawing as text, for saving: of the plan that was answered last. */
+/** Requests the prepared drawing of the last plan as text, for saving. */
 export interface ExportRequest {
   readonly type: "export";
   readonly format: ExportFormat;
@@ -42,7 +42,7 @@ export interface ExportRequest {
 export const EXPORT_FORMATS = ["svg", "json", "commands"] as const;
 export type ExportFormat = (typeof EXPORT_FORMATS)[number];
 
-/** A copy of the strokes of a plan that was answered, to simulate the pen on them. */
+/** Requests a copy of a plan's strokes, to simulate the pen on them. */
 export interface StrokesRequest {
   readonly type: "strokes";
   /** Of the plan. */
@@ -51,44 +51,46 @@ export interface StrokesRequest {
 
 export type WorkerRequest = PlanRequest | ExportRequest | StrokesRequest;
 
-/** Everything the page shows of one drawing under one set of settings. */
+/** All that the page shows of one drawing with one set of settings. */
 export interface Planned {
   readonly drawingKey: string;
   readonly settings: PlanSettings;
   readonly pageWidthMm: number;
   readonly pageHeightMm: number;
-  /** From the file's page to the paper, both in mm: x′ = a x + c y + e, y′ = b x + d y + f. */
+  /** Maps the file's page to the paper, both in mm: x′ = a x + c y + e, y′ = b x + d y + f. */
   readonly pageToPaper: Placement["map"];
-  /** The drawing's own box on the paper, before anything is cut off; null for an empty drawing. */
+  /** The drawing's box on the paper, before anything is cut off; null for an empty drawing. */
   readonly frameMm: FrameMm | null;
-  /** The box of what the pen draws, with nothing that is cut off or hidden; empty if it draws nothing. */
+  /** The box of all lines that the pen draws, without lines that are cut off or hidden; empty if there are none. */
   readonly drawnBox: Box;
   /** Whether the file has filled shapes. */
   readonly hasFills: boolean;
-  /** All of the file's, switched-off ones too. */
+  /** All layers of the file, including those that are switched off. */
   readonly layers: readonly PreparedLayer[];
-  /** Where the plot waits for a pen. */
+  /** Where the plot stops for a pen change. */
   readonly penStops: readonly PenStop[];
-  /** Names and colours of the layers that piece and stroke indices mean. */
+  /** The layers that the indices of pieces and strokes refer to. */
   readonly drawnLayers: readonly StrokeLayer[];
-  /** What of the file can't be drawn, with places on its page. */
+  /** Parts of the file that can't be drawn, with their places on its page. */
   readonly fileWarnings: readonly DrawingWarning[];
-  /** What this paper and these settings leave out, and settings that the machine does not use. */
+  /** What paper and settings leave out, and settings that the machine does not use. */
   readonly layoutWarnings: readonly string[];
-  /** What the margins cut off. */
+  /** The lines that the margins cut off. */
   readonly cutOff: CutOffPicture | null;
-  /** Strokes that the machine does not reach, or only in part. */
+  /** The number of strokes that the machine can't reach, or only in part. */
   readonly unreachedCount: number;
   readonly strokeCount: number;
   readonly pointCount: number;
   readonly stats: TrajectoryStats;
   readonly trajectory: Trajectory;
   readonly scene: Scene;
-  /** The mean distance between a line and the next, where there are lines. */
+  /** The mean distance between neighbouring lines, where there are lines. */
   readonly lineGapMm: number;
-  /** The scene's pieces once more, to be given away to the thread that draws them: copied here, where time is. */
+  /**
+   * A copy of the scene's pieces, to be transferred to the drawing thread. Made in the worker, to save the page time.
+   */
   readonly picture: Picture;
-  /** How long the worker took, ms, by stage. */
+  /** The worker's time per stage, ms. */
   readonly tookMs: {
     readonly import: number;
     readonly prepare: number;
@@ -100,11 +102,11 @@ export interface Planned {
 export interface PlanFault {
   readonly code: string;
   readonly message: string;
-  /** What failed: reading the file, or laying it out and planning it. */
+  /** What failed: reading the file, or preparing and planning it. */
   readonly stage: "import" | "plan";
 }
 
-/** The file has been read: this is how large its page is. */
+/** The file has been read; `page` is the size of its page. */
 export interface ImportedReply {
   readonly type: "imported";
   readonly id: number;

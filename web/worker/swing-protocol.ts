@@ -1,4 +1,7 @@
-/** What the page and the worker that simulates the pen say to each other. A worker does one request, then it is ended. */
+/**
+ * Messages between the page and the worker that simulates the pen. A worker answers one request, then it is
+ * terminated.
+ */
 import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import type { SwingPicture } from "../scene/swing-scene.js";

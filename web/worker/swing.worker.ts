@@ -1,4 +1,4 @@
-/** Simulates the pen of a swinging machine, away from the page and from the planning, which go on meanwhile. */
+/** Simulates the pen of a swinging machine, in parallel with the page and the planning. */
 import { swingPicture } from "../scene/swing-scene.js";
 import type { SwingReply, SwingRequest } from "./swing-protocol.js";
 
@@ -8,7 +8,7 @@ interface WorkerScope {
 }
 const scope = self as unknown as WorkerScope;
 
-/** Share of the plot between two reports. */
+/** The share of the plot between two progress reports. */
 const REPORT_SHARE = 0.02;
 
 scope.onmessage = ({ data: { strokes, trajectory, springs } }) => {

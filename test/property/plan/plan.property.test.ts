@@ -79,7 +79,7 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
     );
   });
 
-  it("takes as long when space and all limits are scaled alike", () => {
+  it("takes as long if space and all limits are scaled by the same factor", () => {
     const clean = fc.array(fc.tuple(fc.integer({ min: 0, max: 300 }), fc.integer({ min: 0, max: 200 })), {
       minLength: 2,
       maxLength: 12,

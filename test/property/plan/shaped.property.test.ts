@@ -1,4 +1,4 @@
-/** What a shaped motion promises, beside what its planned motion does (docs/motion.md). */
+/** Guarantees of a shaped motion, besides those of its planned motion (docs/motion.md). */
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type Trajectory } from "../../../src/index.js";
@@ -119,7 +119,7 @@ describe("a shaped motion", () => {
           const motion = motionOf(shaper, accel);
           const t = plan(strokeSetOf(strokes), motion, DEFAULT_PEN, { machine: swinging(springs) });
           const { trajectory: planned, kernel } = t.planned!;
-          // Each axis keeps its own, so both together may leave it by √2 as much.
+          // The limit applies to each axis, so both together may deviate by √2 as much.
           const allowed = Math.SQRT2 * leavesLineMm(motion, springs) + SHORT_MM;
           let last = { run: -1, alongMm: 0 };
           walk(t, [new SpringAxis(20, 0), new SpringAxis(20, 0)], (run, tS, x, y) => {

@@ -68,7 +68,7 @@ describe("the soft line of a wavy one", () => {
     );
   });
 
-  it("is the line itself where V is so low that no bend slows the pen down", () => {
+  it("is the line itself if V is so low that no bend slows the pen down", () => {
     fc.assert(
       fc.property(wavy, (points) => {
         const path = pathOf(points);

@@ -49,7 +49,7 @@ function expectRing(ring: Int32Array): void {
 }
 
 describe("TourSearch", () => {
-  it("keeps a ring of whole strokes, knows its length, and never makes it longer", () => {
+  it("keeps a ring of whole strokes with its length, and never makes it longer", () => {
     fc.assert(
       fc.property(ends, fc.integer(), (xy, seed) => {
         const search = new TourSearch(xy, startRing(xy), randomFrom(seed));

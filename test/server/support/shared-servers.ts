@@ -116,7 +116,7 @@ export class SharedDatabase {
     this.#server = await PgliteServer.listen(this.#database, this.#port);
   }
 
-  /** As one more of its clients: never within another one's transaction. */
+  /** A separate client, never in another client's transaction. */
   async query(text: string): Promise<void> {
     const client = new pg.Client({ connectionString: this.url });
     await client.connect();
@@ -127,7 +127,7 @@ export class SharedDatabase {
     }
   }
 
-  /** As if the server that has this job, and is closed, had gone long ago. */
+  /** Makes the closed server that has this job look as if it had gone long ago. */
   async age(jobName: string): Promise<void> {
     await this.query(
       `UPDATE plotwright_servers SET seen_at = seen_at - interval '${2 * LOST_AFTER_MS} milliseconds'

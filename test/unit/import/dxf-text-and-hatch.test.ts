@@ -172,7 +172,7 @@ describe("HATCH of a DXF", () => {
     expect(shapesOf(drawDxf(hatch(`91 1\n${path.join("\n")}`)))[1]).toBe("M10 90L30 90L30 70L10 90Z");
   });
 
-  it("takes arcs either way, ellipses, splines and whole circles", () => {
+  it("reads arcs in both directions, ellipses, splines and whole circles", () => {
     const chord = "72 1\n10 60\n20 50\n11 40\n21 50";
     const arc = (ccw: number, start: number, end: number): string =>
       `72 2\n10 50\n20 50\n40 10\n50 ${start}\n51 ${end}\n73 ${ccw}`;

@@ -103,7 +103,7 @@ describe("path data", () => {
     }
   });
 
-  it("draws the large arc the long way round", () => {
+  it("draws the large arc in the long direction", () => {
     const points = pointsOf(draw('<path d="M60 50A10 10 0 1 1 50 40"/>'));
     for (const [x, y] of points) expect(Math.hypot(x - 50, y - 50)).toBeCloseTo(10, 4);
     expect(points.some(([x]) => x < 40.01)).toBe(true);

@@ -62,7 +62,7 @@ describe("a pen in flight", () => {
     }
   });
 
-  it("tells how far from a stroke it may begin to come down", () => {
+  it("returns how far from a stroke it may begin to come down", () => {
     for (const pen of [SAFE, FAST, { ...FAST, dropMs: 500 }]) {
       const t = planned(pen);
       const { accelMmPerS2 } = DEFAULT_MOTION.travel;
@@ -94,7 +94,7 @@ describe("a pen in flight", () => {
     expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(0.024 + 0.35 * 0.25, 9);
   });
 
-  it("lifts at once and goes on to the stroke's start, when it is stopped while it comes down", () => {
+  it("lifts at once and continues to the stroke's start, when it is stopped while it comes down", () => {
     for (const [t, pen] of [SAFE, FAST].flatMap((p) => [planned(p), shaped(p)].map((u) => [u, p] as const))) {
       const limits = { drawAccel: 500, travelAccel: 1_000 };
       for (const drop of penMovesOf(t).filter(({ up, beforeRun }) => !up && beforeRun > 0)) {
@@ -118,7 +118,7 @@ describe("a pen in flight", () => {
     }
   });
 
-  it("keeps the times of a pen that rises and sinks at a rate of its own", () => {
+  it("keeps the times of a pen with its own rates up and down", () => {
     const gentle = { liftPctPerS: 60, dropPctPerS: 20 };
     expect(planned({ ...FAST, ...gentle })).toEqual(planned({ ...DEFAULT_PEN, overlap: "off", ...gentle }));
   });

@@ -56,7 +56,7 @@ describe("the sequence of runs", () => {
     expect(trajectoryStats(t).travelMm).toBeCloseTo(100, 9);
   });
 
-  it("has no travel to where the carriage already is, and none home when told to stay", () => {
+  it("has no travel to where the carriage already is, and none home if it should stay", () => {
     const t = plan(strokeSetOf([square]), motion, DEFAULT_PEN, { startX: 10, startY: 10, returnHome: false });
     expect(Array.from(t.runs.stroke)).toEqual([0]);
     expect(penMovesOf(t).map((m) => m.up)).toEqual([false, true]);
@@ -94,7 +94,7 @@ describe("the state at a time", () => {
     expect(stateAt(t, t.totalS + 1)).toMatchObject({ x: 0, y: 0, vx: 0, ax: 0, stroke: -1, penUp: true });
   });
 
-  it("stands still while the pen drops and lifts", () => {
+  it("does not move while the pen drops and lifts", () => {
     const [drop, lift] = penMovesOf(t);
     for (const move of [drop, lift]) {
       const s = stateAt(t, move.startS + move.waitS / 2);
@@ -168,7 +168,7 @@ describe("corner speed in junction mode", () => {
   });
 });
 
-describe("what cannot be planned", () => {
+describe("invalid input to the planner", () => {
   it("is refused with the setting's name and advice", () => {
     const cases: [MotionSettings, typeof DEFAULT_PEN, RegExp][] = [
       [{ ...motion, draw: { ...motion.draw, speedMmPerS: 0 } }, DEFAULT_PEN, /draw speed is 0/],

@@ -57,7 +57,7 @@ describe("the impulses", () => {
 });
 
 describe("the simulated pen", () => {
-  it("moves as the differential equation says", () => {
+  it("moves by the differential equation", () => {
     const [hz, damping] = [15, 0.05];
     const omega = 2 * Math.PI * hz;
     const accelAt = (t: number): number => (t < 0.03 ? 900 : t < 0.05 ? 0 : t < 0.11 ? -500 : 0);
@@ -94,7 +94,7 @@ describe("a shaped plan", () => {
     ],
   ]);
 
-  it("keeps a straight line straight where the axes have different frequencies, but for the swing that it takes out", () => {
+  it("keeps a straight line straight for axes with different frequencies, except for the swing that it removes", () => {
     const motion = { ...DEFAULT_MOTION, shaper: "zv" as const };
     const { x, y, blockCount, runs } = plan(line, motion, DEFAULT_PEN, { machine });
     const allowed = leavesLineMm(motion, springs);

@@ -19,7 +19,7 @@ const cutOf = (drawing: ReturnType<typeof drawingOf>, settings: Partial<PrepareS
 /** Inside; across the margin; outside. */
 const LINES = ["M20 20L80 20", "M50 50L95 50", "M5 2L60 2"];
 
-describe("what the margins cut off", () => {
+describe("lines that the margins cut off", () => {
   it("is lines outside, and lines that leave", () => {
     const cut = cutOf(drawingOf(LINES))!;
     expect([...cut.lines.xy]).toEqual([50, 50, 95, 50, 5, 2, 60, 2]);
@@ -27,13 +27,13 @@ describe("what the margins cut off", () => {
     expect(cut.limit).toEqual({ x0: 10, y0: 10, x1: 90, y1: 90 });
   });
 
-  it("is nothing where all is inside, fitted, or not cut", () => {
+  it("are none if everything is inside, fitted, or not cut", () => {
     expect(cutOf(drawingOf(LINES.slice(0, 1)))).toBeNull();
     expect(cutOf(drawingOf(LINES), { fit: true })).toBeNull();
     expect(cutOf(drawingOf(LINES), { clipToMargins: false })).toBeNull();
   });
 
-  it("does not count what a hidden layer would lose, nor shapes that draw nothing", () => {
+  it("do not count hidden layers, nor shapes that draw nothing", () => {
     const shapes = [LINES[0], { d: LINES[1], group: 1 }, { d: "M50 50" }];
     const layered = drawingOf(shapes, { groups: ["kept", "off"] });
     expect(cutOf(layered, { hiddenLayers: ["g1"] })).toBeNull();

@@ -1,4 +1,4 @@
-/** How a file's page is laid on the paper unless the user has chosen a place, and turned to where the machine reaches. */
+/** How a file's page is placed on the paper unless the user has chosen a place, and turned into the machine's reach. */
 import { describe, expect, it } from "vitest";
 import {
   DEFAULT_PREPARE,
@@ -41,7 +41,7 @@ describe("a file whose page is the paper", () => {
     expect({ fit, paper, landscape }).toEqual({ fit: false, paper: PAPER_SIZES.Letter, landscape: true });
   });
 
-  it("lies upright where the machine reaches that, and is turned with its paper where it does not", () => {
+  it("is portrait if the machine reaches that, and is otherwise turned with its paper", () => {
     const svg = svgOf(210, 297, "M20 10V200");
     const upright = placedForPage(DEFAULT_PREPARE, page(210, 297), A3_PLOTTER);
     expect([upright.landscape, upright.rotateDeg]).toEqual([false, 0]);
@@ -51,13 +51,13 @@ describe("a file whose page is the paper", () => {
     expect([x0, x1, y0].map((mm) => Math.round(mm * 1e6) / 1e6)).toEqual([97, 287, 20]);
   });
 
-  it("is cut where its page ends", () => {
+  it("is cut at the edge of its page", () => {
     const settings = placedForPage(DEFAULT_PREPARE, page(297, 210), V3);
     expect(drawn(svgOf(297, 210, "M-20 100H400"), settings).x1).toBeCloseTo(297, 3);
   });
 });
 
-describe("what was chosen by hand", () => {
+describe("a place chosen by hand", () => {
   it.each([
     ["true size", { fit: false }],
     ["a place", { place: { xMm: 1, yMm: 1, widthMm: 50, heightMm: null } }],
@@ -76,7 +76,7 @@ describe("what was chosen by hand", () => {
 });
 
 describe("a drawing that is fitted", () => {
-  it("is on a paper that lies as the machine reaches it", () => {
+  it("is on paper that is turned into the machine's reach", () => {
     const portrait = { ...DEFAULT_PREPARE, landscape: false };
     expect(placedForPage(portrait, page(100, 100), V3).landscape).toBe(true);
     expect(placedForPage(portrait, page(100, 100), A3_PLOTTER).landscape).toBe(false);
@@ -86,7 +86,7 @@ describe("a drawing that is fitted", () => {
 });
 
 describe("the file's page as the paper", () => {
-  it("has the name of a paper where it is one, and its own size where it is none", () => {
+  it("has the name of a paper if it has that size, and otherwise a custom size", () => {
     expect(onFilesPage(DEFAULT_PREPARE, page(420, 297), A3_PLOTTER).paper).toEqual(PAPER_SIZES.A3);
     const own = onFilesPage(DEFAULT_PREPARE, page(200, 120), null);
     expect([own.paper, own.landscape]).toEqual([page(120, 200), true]);
@@ -107,7 +107,7 @@ describe("a quarter's turn of paper and drawing", () => {
     const settings = { ...DEFAULT_PREPARE, landscape: false, ...change };
     const { frame } = placeDrawing(importSvg(svg), settings);
     const after = drawn(svg, quarterTurned(settings, frame));
-    // At true size the page lies on the paper's corner before and after.
+    // At true size the page is at the paper's corner before and after.
     const heightMm = settings.fit || settings.place ? 297 : 40;
     const expected = quarterTurnedBox(drawn(svg, settings), heightMm);
     for (const side of ["x0", "y0", "x1", "y1"] as const) expect(after[side]).toBeCloseTo(expected[side], 3);

@@ -1,4 +1,4 @@
-/** Filling a drawing of lines only: it says that there is nothing to fill, or fills its closed outlines. */
+/** Filling a drawing that has only lines: warns that there is nothing to fill, or fills its closed outlines. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PREPARE, importSvg, prepare, type PrepareSettings } from "../../../src/index.js";
 
@@ -11,13 +11,13 @@ const LINES = svgOf(
 );
 
 describe("filling a drawing without filled shapes", () => {
-  it("says that there is nothing to fill, and what to do", () => {
+  it("warns that there is nothing to fill, and says what to do", () => {
     expect(prepare(importSvg(LINES), TRUE_SIZE).warnings).toEqual([
       expect.stringMatching(/nothing to fill.*closed outlines/) as string,
     ]);
   });
 
-  it("fills closed outlines where that is asked for, and open lines not", () => {
+  it("fills closed outlines on request, and no open lines", () => {
     const plain = prepare(importSvg(LINES), { ...TRUE_SIZE, hatch: DEFAULT_PREPARE.hatch });
     const filled = prepare(importSvg(LINES), { ...TRUE_SIZE, hatchOutlines: true, joinMm: 0 });
     expect(filled.warnings).toEqual([]);
@@ -25,7 +25,7 @@ describe("filling a drawing without filled shapes", () => {
     expect(Math.abs(filled.drawMm - plain.drawMm - 800)).toBeLessThanOrEqual(50);
   });
 
-  it("says so where there is no closed line either", () => {
+  it("warns too if there is no closed line", () => {
     const open = svgOf(`<path d="M20 20h40v40" fill="none" stroke="#000"/>`);
     const { warnings } = prepare(importSvg(open), { ...TRUE_SIZE, hatchOutlines: true });
     expect(warnings).toEqual([expect.stringMatching(/no filled shape and no closed line/) as string]);

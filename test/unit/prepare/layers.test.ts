@@ -75,7 +75,7 @@ describe("a layer drawn more than once", () => {
   it("travels no further than by drawing every pass in the same direction", () => {
     const once = preparedWith({ hiddenLayers: ["g1", "g2"] }).travelMm;
     const twice = preparedWith({ hiddenLayers: ["g1", "g2"], layerRepeats: { g0: 2 } });
-    // Out and back: it ends where it began, at home.
+    // There and back: it ends where it began, at home.
     expect([once, twice.travelMm, twice.travelMmUnordered]).toEqual([20, 0, 0]);
   });
 });
@@ -87,13 +87,13 @@ describe("codes in layer names", () => {
     { groups: GIVEN },
   );
 
-  it("leave a layer with % out, listed as such, until it is switched on", () => {
+  it("leave out a layer with %, listed as such, until it is switched on", () => {
     expect(strokesOf({}, coded)).toEqual(["1>"]);
     expect(preparedWith({}, coded).layers.map(({ visible }) => visible)).toEqual([false, true]);
     expect(strokesOf({ shownLayers: ["g0"] }, coded)).toEqual(["0>", "1>"]);
   });
 
-  it("do not override what was switched off by hand", () => {
+  it("do not switch on a layer that was switched off by hand", () => {
     expect(strokesOf({ shownLayers: ["g0"], hiddenLayers: ["g0"] }, coded)).toEqual(["1>"]);
   });
 });
@@ -105,7 +105,7 @@ describe("the colour of a layer", () => {
   const looksOf = (shapes: Parameters<typeof drawingOf>[0], settings: Partial<PrepareSettings> = {}) =>
     preparedWith(settings, drawingOf(shapes)).layers.map(({ color, colorCount }) => [color, colorCount]);
 
-  it("is that of most of its lines, and it is reported that there are others", () => {
+  it("is that of most of its lines, and other colours are reported", () => {
     const blue = Array.from({ length: 44 }, (_, k) => line(BLUE, k));
     expect(looksOf([line(PURPLE, 50), ...blue])).toEqual([[BLUE, 2]]);
     expect(looksOf([line(PURPLE, 50), ...blue], { layers: "all" })).toEqual([[BLUE, 2]]);
@@ -127,14 +127,14 @@ describe("the colour of a layer", () => {
     expect(looksOf([dot(PURPLE, 1), dot(BLUE, 2), dot(BLUE, 3)])).toEqual([[BLUE, 2]]);
   });
 
-  it("is the fill's where a shape has no stroke", () => {
+  it("is the fill's if a shape has no stroke", () => {
     const filled = { d: "M0 0L8 0L8 8Z", stroke: null, fill: PURPLE };
     expect(looksOf([filled])).toEqual([[PURPLE, 1]]);
   });
 });
 
 describe("the line width of a layer", () => {
-  it("is that of the file's lines, the mean by length; 0 where there is none", () => {
+  it("is the mean of the file's lines, weighted by length; 0 if there is none", () => {
     const layers = preparedWith(
       {},
       drawingOf(

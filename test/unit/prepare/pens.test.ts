@@ -58,7 +58,7 @@ describe("stops for pens", () => {
     ]);
   });
 
-  it("stand before the first pen where several are needed, since any of them may be in the holder", () => {
+  it("include the first pen if several are needed, because any of them may be in the holder", () => {
     expect(stopsOf(["a", "b"], { pens, layerPens: { g0: "red", g1: "black" } })[0]).toMatchObject({
       strokeIndex: 0,
       penName: "Pen red",

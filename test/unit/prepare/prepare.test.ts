@@ -56,7 +56,7 @@ describe("placing", () => {
     }
   });
 
-  it("turns clockwise as the eye sees it, and keeps the turned page on the paper's corner", () => {
+  it("turns clockwise on screen, and keeps the turned page at the paper's corner", () => {
     // The top edge of a 100 × 50 page becomes the right edge of a 50 × 100 one.
     const drawing = drawingOf(["M0 0L100 0"], { widthMm: 100, heightMm: 50 });
     expect(draw(drawing, { rotateDeg: 90 })).toEqual([[50, 0, 50, 100]]);
@@ -208,7 +208,7 @@ describe("cutting", () => {
     ]);
   });
 
-  it("unites the shapes of a clip region, whichever way they wind", () => {
+  it("unites the shapes of a clip region, in either direction", () => {
     const clip = clipOf("M0 0L50 0L50 90L0 90ZM40 0L40 90L80 90L80 0Z");
     const two = { ...clip, shape: Uint32Array.from([0, 1]) };
     expect(draw(drawingOf([{ d: "M0 50L100 50", clip: 0 }], { clips: [two] }))).toEqual([[0, 50, 80, 50]]);
@@ -223,7 +223,7 @@ describe("cutting", () => {
 });
 
 describe("joining and dropping", () => {
-  it("joins ends that are near, whichever way round, within a layer only", () => {
+  it("joins near ends in either direction, only within a layer", () => {
     const lines = ["M0 0L10 0", "M20 0L10.05 0"];
     expect(draw(drawingOf(lines))).toEqual([[0, 0, 10, 0, 10.05, 0, 20, 0]]);
     const twoLayers = drawingOf(
@@ -243,7 +243,7 @@ describe("joining and dropping", () => {
     expect(draw(square)).toEqual([[0, 0, 10, 0, 10, 10, 0, 10, 0, 0]]);
   });
 
-  it("runs straight on where lines cross", () => {
+  it("continues straight where lines cross", () => {
     const cross = drawingOf(["M0 5L5 5", "M5 0L5 5", "M5 5L10 5", "M5 5L5 10"]);
     expect(draw(cross)).toEqual([
       [0, 5, 5, 5, 10, 5],

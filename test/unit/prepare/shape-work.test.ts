@@ -42,7 +42,7 @@ describe("place by numbers", () => {
     expect(draw(drawing, { place, fit: true, rotateDeg: 90 })).toEqual([[10, 0, 0, 20]]);
   });
 
-  it("turns a placed box about its own middle, and keeps its size", () => {
+  it("turns a placed box about its centre, and keeps its size", () => {
     const place = { xMm: 5, yMm: 16, widthMm: 40, heightMm: null };
     expect(draw(drawing, { place: { ...place, turnDeg: 90 } })).toEqual([[35, 6, 15, 46]]);
     expect(draw(drawing, { place: { ...place, turnDeg: 0 } })).toEqual(draw(drawing, { place }));

@@ -1,4 +1,4 @@
-/** Whatever a schema refuses is told in plain words: none of the schema library's reach a user. */
+/** Errors of a schema are reported in plain words, never in those of the schema library. */
 import { describe, expect, it } from "vitest";
 import { z } from "zod";
 import {

@@ -13,7 +13,7 @@ describe("pen settings stored by an older version", () => {
     expect(penSettingsSchema.parse({ ...STORED, hop: null, clearPct: 100 })).toEqual(today);
   });
 
-  it("keep their lower lifts for short travels: what was clear of the paper then is so now", () => {
+  it("keep their lower lifts for short travels: the pen still clears the paper", () => {
     const hop = { longestMm: 3, upPct: 40 };
     const carried = { ...STORED, overlap: "fast", contactPct: 33, fullHeightMm: 3 };
     expect(penSettingsSchema.parse({ ...STORED, hop })).toEqual(carried);

@@ -14,7 +14,7 @@ const virtualSpeed = (): number => {
   return speed >= 1 && speed <= 1_000 ? speed : 1;
 };
 
-/** `sampleFiles`: what the build has of samples/. */
+/** `sampleFiles`: the files of samples/ in the build. */
 export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
   const client = new HostClient(virtualSpeed());
   const { remote, tab } = client;
@@ -76,7 +76,7 @@ const textUpTo = (drawing: DrawingText, maxBytes: number): string | null => {
   return typeof content === "string" ? content : new TextDecoder().decode(content);
 };
 
-/** The browser's own dialog. It opens only in answer to a click. */
+/** Opens the browser's own dialog, which works only in a click handler. */
 const askForPort = async ({ remote }: HostClient): Promise<void> => {
   const { serial } = navigator as { serial?: Serial };
   if (serial === undefined) throw new BackendFault("not-allowed", browserText.noSerial);
@@ -108,7 +108,7 @@ const handOf = ({ remote }: HostClient): HandBackend => {
   };
 };
 
-/** What the page does not show without a server still answers, with what to do. */
+/** Requests that need a server are refused with a message that says so. */
 const studioOf = ({ remote }: HostClient): StudioBackend => {
   const needsServer = (): Promise<never> =>
     Promise.reject(new BackendFault("not-allowed", browserText.needsServer));

@@ -1,12 +1,12 @@
 /**
- * IndexedDB, written behind: a change is queued at once, and all changes of one turn of the event loop go into
- * one transaction. `written` resolves when everything queued so far is stored.
+ * IndexedDB with delayed writes: a change is queued at once, and all changes of one turn of the event loop go into one
+ * transaction. `written` resolves when everything queued so far is stored.
  *
- * Strict durability, except where only journals change: as on the server, these survive a crash of the browser
- * but not of the computer, and the stream to the board never waits for the disk.
+ * Durability is strict, except for transactions that change only journals. As on the server, journals survive a crash
+ * of the browser but not of the computer, and the stream to the board never waits for the disk.
  */
 
-/** Where the keys of each kind of record are ids; their values are plain JSON, drawings are text or bytes. */
+/** One store for each kind of record. Keys are ids. Values are plain JSON, except drawings, which are text or bytes. */
 export const STORES = ["jobs", "plotters", "settings", "journals", "machines", "drawings"] as const;
 export type StoreName = (typeof STORES)[number];
 
@@ -26,7 +26,7 @@ export class Database {
   /** Changes that no transaction has taken yet, by store and key. */
   #queued = new Map<string, Change>();
   #running: Promise<void> = Promise.resolve();
-  /** The transaction after the running one; it takes all that is queued when it begins. */
+  /** The transaction after the running one. When it begins, it takes all queued changes. */
   #next: Promise<void> | null = null;
   #last: Promise<void> = Promise.resolve();
 
@@ -125,7 +125,7 @@ export class Database {
         if (value === undefined) records.delete(key);
         else records.put(value, key);
       }
-      // Without this, the commit would wait for the answers of all requests, and a tab that dies would lose it.
+      // Otherwise the commit waits for the results of all requests, and is lost if the tab dies meanwhile.
       transaction.commit();
     });
   }

@@ -1,4 +1,7 @@
-/** What pages ask of the host. Like the routes of the server: arguments are checked by the schemas of src/schema. */
+/**
+ * The methods that pages call on the host. As in the server's routes, arguments are checked by the schemas of
+ * src/schema.
+ */
 import { z } from "zod";
 import { PlotwrightError, type MachineProfile } from "../../../src/index.js";
 import { usbIds } from "../../../src/internal.js";
@@ -47,7 +50,7 @@ export interface HostParts {
   readonly notices: Notices;
   readonly machines: CustomMachines;
   readonly drawings: {
-    /** Stored when it resolves. Returns its id. */
+    /** Resolves with its id when it is stored. */
     add(drawing: DrawingText): Promise<string>;
     read(id: string): Promise<DrawingText>;
   };
@@ -56,7 +59,7 @@ export interface HostParts {
 export type HostApi = ReturnType<typeof hostApi>;
 export type HostMethod = keyof HostApi;
 
-/** A drawing's text is kept as it is, so its length is all that is known of its size. */
+/** The size of text is only estimated by its length, because it is not encoded. */
 const sizeOf = (drawing: DrawingText): number =>
   typeof drawing === "string" ? drawing.length : drawing.byteLength;
 
@@ -140,7 +143,7 @@ export const hostApi = ({ queue, registry, notices, machines, drawings }: HostPa
       registry.saveSettings(id, checked(plotterSettingsSchema, settings)),
     patchPlotter: (id: string, patch: PlotterPatch): Promise<Plotter> =>
       registry.patch(id, checked(plotterPatchSchema, patch), use),
-    /** The user has just let the page use a port: the plotter looks for its board again. */
+    /** Called after the user has allowed the page to use a port: the plotter searches for its board again. */
     reconnect: async (id: string): Promise<Plotter> => {
       if (registry.stored(id)?.device === "auto") await registry.reconnect(id, use);
       else await registry.patch(id, { device: "auto" }, use);
@@ -149,7 +152,7 @@ export const hostApi = ({ queue, registry, notices, machines, drawings }: HostPa
     },
     isRunning: (id: string): boolean => queue.isRunning(id),
     devices: () => registry.devices(),
-    /** For the browser's dialog of ports; asked of the host, so that the page need not load the drivers. */
+    /** For the browser's dialog of ports. The host has them, so that the page does not load the drivers. */
     usbIds: () => usbIds(),
     log: (id: string): string => plotterOf(id).log(),
 
@@ -178,7 +181,7 @@ export const hostApi = ({ queue, registry, notices, machines, drawings }: HostPa
       machines.save(checked(machineProfileSchema, profile)),
     removeMachine: (id: string): void => machines.remove(id),
 
-    /** The host's worker answers it itself: it ends, and the worker of the asking page becomes the host. */
+    /** After this the host's worker stops being the host, and the calling page's worker becomes the host. */
     handOver: (): void => {
       if (queue.list().some(({ state }) => state === "plotting" || state === "paused")) {
         throw new PlotwrightError(
@@ -190,7 +193,7 @@ export const hostApi = ({ queue, registry, notices, machines, drawings }: HostPa
   };
 };
 
-/** Methods that change nothing, and so are open to all pages. */
+/** Methods that change nothing: all pages may call them. */
 export const READING: readonly HostMethod[] = [
   "jobDrawing",
   "devices",
@@ -199,7 +202,7 @@ export const READING: readonly HostMethod[] = [
   "machines",
   "handOver",
 ];
-/** Actions that only stop, and so are open to all pages. */
+/** Actions that only stop a plot: all pages may call them. */
 export const STOPPING: readonly JobAction[] = ["pause", "cancel", "emergency-stop"];
 
 const plain = z.object({ kind: z.enum(["home", "set-home", "cycle-pen", "test-line", "test-patch"]) });

@@ -1,4 +1,4 @@
-/** A page's side of the channel: starts the worker, calls whichever worker is the host, and hears its events. */
+/** A page's side of the channel: starts the worker, calls the host, and receives its events. */
 import type { BackendListener } from "../backend.js";
 import { BackendFault } from "../backend.js";
 import type { HostMethod } from "./host-api.js";
@@ -12,7 +12,7 @@ import {
   type WorkerStart,
 } from "./protocol.js";
 
-/** How long a call waits for a host, which is missing for a moment after its page was closed. */
+/** How long a call waits for a host: after a host's page was closed, there is none for a moment. */
 const NO_HOST_MS = 15_000;
 
 interface Waiting {
@@ -53,14 +53,14 @@ export class HostClient {
     return this.#host === this.tab;
   }
 
-  /** Each host's first event is a snapshot; the one that is there now is asked for it. */
+  /** Each host's first event is a snapshot. A host that is running already is asked for one. */
   listen(listener: BackendListener): () => void {
     this.#listeners.add(listener);
     this.#send({ to: "host", type: "hello", tab: this.tab });
     return () => this.#listeners.delete(listener);
   }
 
-  /** Makes this page's worker the host. Rejects with `busy` while another one's is plotting. */
+  /** Makes this page's worker the host. Rejects with `busy` while another host is plotting. */
   async takeOver(): Promise<void> {
     if (this.isHost) return;
     await this.remote.handOver();
@@ -79,7 +79,7 @@ export class HostClient {
       case "event":
         if (message.tab !== undefined && message.tab !== this.tab) return;
         if (message.event.type === "snapshot") this.#hostIs(message.host);
-        // A host that has handed over still closes its plotters.
+        // A host that has handed over still sends events while it closes its plotters.
         if (message.host !== this.#host) return;
         for (const listener of this.#listeners) {
           if (message.event.type === "snapshot") listener.onLink(true);
@@ -103,7 +103,7 @@ export class HostClient {
     }
   }
 
-  /** Calls to a host that is gone are not answered any more. */
+  /** Sets the host. Calls to the previous one fail, because it no longer answers. */
   #hostIs(host: string | null): void {
     if (host === this.#host) return;
     this.#host = host;

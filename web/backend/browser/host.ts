@@ -1,4 +1,4 @@
-/** Opens the host of a browser: the queue and the plotters, stored in IndexedDB. */
+/** Opens a browser's host: the queue and the plotters, stored in IndexedDB. */
 import { PlotwrightError } from "../../../src/index.js";
 import { machineOf } from "../../../src/internal.js";
 import {
@@ -32,9 +32,9 @@ const PROGRESS_MS = 100;
 export interface Host {
   readonly api: HostApi;
   snapshot(): Snapshot;
-  /** Resolves when all changes so far are stored; rejects with what to do if they can't be. */
+  /** Resolves when all changes so far are stored. Rejects with a message for the user if that fails. */
   written(): Promise<void>;
-  /** Stops what is plotting, stores everything and gives the port back. */
+  /** Stops a running plot, stores everything and releases the port. */
   close(): Promise<void>;
 }
 
@@ -91,7 +91,7 @@ export async function openHost(start: WorkerStart, send: (event: ServerEvent) =>
       return id;
     },
     read: async (id: string): Promise<DrawingText> => {
-      // A plot begins by reading its drawing: by then its new state is stored.
+      // A plot begins by reading its drawing. Waiting here makes sure that its new state is stored before.
       await db.written();
       const drawing = await db.readDrawing(id);
       if (typeof drawing === "string" || drawing instanceof ArrayBuffer) return drawing;
@@ -149,7 +149,7 @@ function announcer(db: Database, send: (event: ServerEvent) => void): (event: Se
       if (performance.now() - progressAtMs < PROGRESS_MS) return;
       progressAtMs = performance.now();
     }
-    // What can't be stored is announced all the same, with a notice: a plot must not become invisible.
+    // A change that can't be stored is announced too, with a notice: a plot must not become invisible.
     const stored = db.written().catch(() => undefined);
     last = last.then(() => stored).then(() => send(event));
   };

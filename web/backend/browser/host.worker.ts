@@ -1,6 +1,6 @@
 /**
- * The worker that every page starts. The one that gets the Web Lock is the host; the others wait for it. When the
- * host's page is closed or dies, its lock is free, and the next worker takes over from what is stored.
+ * The worker that every page starts. The one that gets the Web Lock is the host; the others wait for the lock. When the
+ * host's page is closed or dies, its lock is released, and the next worker takes over from the stored state.
  */
 import { faultOf } from "../../../host/planning/messages.js";
 import { PlotwrightError } from "../../../src/index.js";
@@ -24,10 +24,10 @@ const channel = new BroadcastChannel(CHANNEL);
 let host: Host | null = null;
 /** Ends this worker's time as the host. */
 let release: () => void = () => undefined;
-/** The page to which another host has handed over. */
+/** The page that another host has handed over to. */
 let next: string | null = null;
 
-/** Without `to` and `host`, which every message has. */
+/** A message without `to` and `host`, which `post` adds. */
 type Sent = FromHost extends infer One ? (One extends FromHost ? Omit<One, "to" | "host"> : never) : never;
 const post = (message: Sent): void => channel.postMessage({ to: "pages", host: start.tab, ...message });
 
@@ -74,7 +74,7 @@ async function resultOf({ api, written }: Host, { tab, method, args }: Call): Pr
   }
 }
 
-/** A queued job may be cancelled by the operator only; one that is being plotted by all. */
+/** All pages may stop a running job, but only the operator may cancel a queued one. */
 function isOpenToAll(api: Host["api"], method: HostMethod, args: readonly unknown[]): boolean {
   if (READING.includes(method)) return true;
   const [id, action] = args;

@@ -1,4 +1,7 @@
-/** The host's planner: prepares one drawing, then plans it on request. Its own thread, so that the stream never waits. */
+/**
+ * The host's planner: prepares one drawing, then plans it on request. A separate thread, so that the stream never
+ * waits.
+ */
 import { importDrawing } from "../../../src/index.js";
 import { prepareJob, textOfBytes } from "../../../src/internal.js";
 import { faultOf, type FromWorker, type ToWorker } from "../../../host/planning/messages.js";

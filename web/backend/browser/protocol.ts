@@ -1,6 +1,6 @@
 /**
- * What the pages of one browser and the host say to each other over one BroadcastChannel. The host is a worker
- * of one of the pages; every page hears all its events, and calls it in the same way, its own page too.
+ * Messages between the pages of one browser and the host, over one BroadcastChannel. The host is a worker of one of the
+ * pages. Every page, including the host's own, receives all events and calls the host in the same way.
  */
 import type { ErrorCode } from "../../../src/index.js";
 import type { ServerEvent } from "../../../src/schema/index.js";
@@ -8,13 +8,13 @@ import type { HostApi, HostMethod } from "./host-api.js";
 
 /** Changes with the messages, so that pages of different versions do not misunderstand each other. */
 export const CHANNEL = "plotwright-1";
-/** The worker that has this Web Lock is the host. It is free once that worker is gone. */
+/** The worker that holds this Web Lock is the host. The browser releases it when that worker ends. */
 export const HOST_LOCK = "plotwright-host";
 export const DATABASE = "plotwright-host";
 
-/** Passed to the worker as its name, which it knows from its first line on. */
+/** Passed to the worker as its name, which is available before the first message. */
 export interface WorkerStart {
-  /** The page's id; the host has the id of its page. */
+  /** The page's id, also used as the id of its host. */
   readonly tab: string;
   readonly virtualSpeed: number;
 }
@@ -32,7 +32,7 @@ export type ToHost =
     };
 
 export type FromHost =
-  /** `tab`: the only page that is meant; default: all. */
+  /** `tab`: the only page that it is for; default: all. */
   | {
       readonly to: "pages";
       readonly type: "event";
@@ -48,7 +48,7 @@ export type FromHost =
       readonly id: number;
       readonly answer: Answer;
     }
-  /** The host ends, so that the worker of page `next` becomes the host. */
+  /** The host has ended, so that the worker of page `next` can become the host. */
   | { readonly to: "pages"; readonly type: "handed-over"; readonly host: string; readonly next: string }
   /** The host can't start. */
   | { readonly to: "pages"; readonly type: "failed"; readonly host: string; readonly message: string };
@@ -58,7 +58,7 @@ export type Answer =
   | { readonly ok: false; readonly code: ErrorCode; readonly message: string };
 
 export type Message = ToHost | FromHost;
-/** How a page calls the host: the same methods, each with a promise. */
+/** The host's methods as a page calls them: each returns a promise. */
 export type Remote = {
   readonly [Name in HostMethod]: (
     ...args: Parameters<HostApi[Name]>

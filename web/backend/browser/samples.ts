@@ -2,7 +2,7 @@
 import { BackendFault, type SampleInfo } from "../backend.js";
 import { browserText } from "./text.js";
 
-/** By the file's path: loads its address. */
+/** By the file's path: a function that loads its URL. */
 export type SampleFiles = Readonly<Record<string, () => Promise<string>>>;
 
 const nameOf = (path: string): string => path.replace(/^.*\//, "");

@@ -1,4 +1,6 @@
-/** The serial ports that the user has let this page use. A worker may open them; only the page may ask for more. */
+/**
+ * The serial ports that the user has allowed this page to use. A worker can open them; only a page can ask for more.
+ */
 import { PlotwrightError } from "../../../src/index.js";
 import { usbIds, type UsbId } from "../../../src/internal.js";
 import type { Devices, FoundBoard } from "../../../host/plotter/devices.js";
@@ -9,7 +11,7 @@ const hex = (id: number | undefined): string | undefined => id?.toString(16).pad
 export function serialDevices(
   serial: Serial | undefined,
 ): Devices & { readonly findAll: () => Promise<readonly FoundBoard[]> } {
-  /** Ports have no names, so they are numbered as they are first seen. */
+  /** Ports have no names, so they are numbered in the order in which they are found. */
   const names = new Map<SerialPort, string>();
   const ports = async (): Promise<SerialPort[]> => {
     const found = (await serial?.getPorts()) ?? [];

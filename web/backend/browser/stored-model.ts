@@ -1,6 +1,6 @@
 /**
- * Jobs, plotters, settings and journals in memory, each change of which is queued for IndexedDB. The changes
- * of `together` are made in one turn of the event loop, so they are stored in one transaction.
+ * Jobs, plotters, settings and journals in memory. Each change is queued for IndexedDB. The changes of `together` are
+ * made in one turn of the event loop, so they are stored in one transaction.
  */
 import { PlotwrightError } from "../../../src/index.js";
 import { ENDED_STATES, jobSchema, type Job } from "../../../src/schema/index.js";
@@ -20,7 +20,7 @@ interface StoredPlotter extends PlotterRow {
 
 type Changes = Pick<Database, "put" | "remove">;
 
-/** What was read from IndexedDB, by key. */
+/** The records read from IndexedDB, by key. */
 export interface StoredRecords {
   readonly jobs: ReadonlyMap<string, unknown>;
   readonly plotters: ReadonlyMap<string, unknown>;

@@ -1,4 +1,4 @@
-/** Words of the backend without a server. */
+/** Texts of the backend without a server. */
 export const browserText = {
   closed: "The tab that operated the plotter was closed. Try again.",
   noHost: "No tab of plotwright answers. Reload this page, and close other tabs of it.",

@@ -12,7 +12,7 @@ export const watchOverPlots = (client: HostClient): void => {
       void wakeLock?.then((sentinel) => sentinel?.release());
       wakeLock = null;
     } else if (wakeLock === null && "wakeLock" in navigator && document.visibilityState === "visible") {
-      // Where it is refused (a low battery), the computer's own settings apply.
+      // If it is refused (low battery), the computer's own settings apply.
       wakeLock = navigator.wakeLock.request("screen").catch(() => null);
     }
   };
@@ -30,7 +30,7 @@ export const watchOverPlots = (client: HostClient): void => {
   };
 
   client.listen({ onEvent, onLink: () => undefined });
-  // The browser takes the lock back when the page is hidden.
+  // The browser releases the lock when the page is hidden.
   document.addEventListener("visibilitychange", () => {
     if (document.visibilityState === "visible") {
       wakeLock = null;

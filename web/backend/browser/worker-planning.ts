@@ -1,4 +1,4 @@
-/** Planning for the queue, each drawing in a worker of its own. */
+/** Planning for the queue, each drawing in its own worker. */
 import { PlotwrightError, type StrokeSet } from "../../../src/index.js";
 import { machineOf } from "../../../src/internal.js";
 import type { PlotSettings } from "../../../src/schema/index.js";
@@ -12,7 +12,7 @@ import type { PlannerStart } from "./planner.worker.js";
 /** Drawings measured at the same time. The planner of a running plot does not wait for them. */
 const SLOTS = 2;
 
-/** `drawingOf` resolves only once all changes so far are stored: a plot begins by opening its planner. */
+/** `drawingOf` resolves only when all changes so far are stored, because a plot begins by opening its planner. */
 export function workerPlanning(drawingOf: (id: string) => Promise<DrawingText>): Planning {
   const turn = lane(SLOTS);
   const open = async (id: string, settings: PlotSettings, signal?: AbortSignal): Promise<WorkerPlanner> =>
@@ -38,7 +38,7 @@ interface Waiting {
 
 class WorkerPlanner implements PlotPlanner {
   readonly #worker = new Worker(new URL("./planner.worker.ts", import.meta.url), { type: "module" });
-  /** By the request's id; null: the first answer, when the drawing is prepared. */
+  /** By the request's id; null: the first answer, sent when the drawing is prepared. */
   readonly #waiting = new Map<number | null, Waiting>();
   #strokes: StrokeSet | null = null;
   #nextId = 1;
@@ -50,7 +50,7 @@ class WorkerPlanner implements PlotPlanner {
       this.#end(new PlotwrightError("internal", `Planning failed: ${event.message}`));
   }
 
-  /** Reads and prepares the drawing; throws the errors of import and prepare, or `cancelled`. */
+  /** Reads and prepares the drawing. Throws the errors of import and prepare, or `cancelled`. */
   static async open(start: PlannerStart, signal?: AbortSignal): Promise<WorkerPlanner> {
     const planner = new WorkerPlanner();
     const stop = (): void => planner.#end(cancelled());
@@ -98,7 +98,7 @@ class WorkerPlanner implements PlotPlanner {
     const waiting = this.#waiting.get(id);
     this.#waiting.delete(id);
     if (message.type === "failed") {
-      // A drawing that can't be prepared is not asked for anything else.
+      // If the drawing can't be prepared, the worker is not needed any more.
       if (id === null) this.#worker.terminate();
       waiting?.reject(new PlotwrightError(message.code, message.message));
     } else waiting?.resolve(message);

@@ -1,17 +1,17 @@
-/** The live event stream: connects, parses every event by the schema, and reconnects without limit. */
+/** The live event stream: connects, parses every event by the schema, and reconnects endlessly. */
 import { serverEventSchema, type ServerEvent } from "../../../src/schema/index.js";
 import type { BackendListener } from "../backend.js";
 
 const RETRY_MS = 1_500;
-/** A server that has been away for a while, or does not let this device in, is asked less often. */
+/** After this many failures (the server is off, or refuses this device) the retries are slower. */
 const QUICK_RETRIES = 10;
 const SLOW_RETRY_MS = 6_000;
-/** A page that was out of sight for so long (a phone in a pocket) may have a stream that is dead and does not know. */
+/** A page that was hidden for longer (a phone in a pocket) may have a dead stream without an error event. */
 const ASLEEP_MS = 15_000;
 
 /**
- * Returns a function that closes it. The browser's own retry stops for good after an HTTP error (a server
- * that is just starting), so a closed stream is opened again; so is one that has lost its network.
+ * Returns a function that closes it. The browser itself does not retry after an HTTP error (from a server that is just
+ * starting), so a closed stream is opened again here. So is one that has lost its network.
  */
 export const openEvents = (path: string, listener: BackendListener): (() => void) => {
   let source: EventSource | null = null;
@@ -53,7 +53,7 @@ export const openEvents = (path: string, listener: BackendListener): (() => void
   };
 };
 
-/** Calls back when the device has its network again, or wakes up, and when it has lost its network. */
+/** Calls `onBack` when the network is back or the device wakes up, and `onGone` when the network is lost. */
 const watchNetwork = (onBack: () => void, onGone: () => void): (() => void) => {
   let hiddenAtMs: number | null = null;
   const onSight = (): void => {
@@ -70,7 +70,7 @@ const watchNetwork = (onBack: () => void, onGone: () => void): (() => void) => {
   };
 };
 
-/** Null for an unknown event: a newer server may send kinds that this page does not know. */
+/** Null for an unknown event, which a newer server may send. */
 export const parseServerEvent = (data: string): ServerEvent | null => {
   try {
     const parsed = serverEventSchema.safeParse(JSON.parse(data));

@@ -1,4 +1,4 @@
-/** Requests to plotwright's server, and what their failures mean. */
+/** Requests to plotwright's server, and their errors. */
 import { z } from "zod";
 import { apiErrorSchema } from "../../../src/schema/index.js";
 import type { DrawingText } from "../../worker/drawing-text.js";
@@ -10,7 +10,7 @@ export const API = "/api/v1";
 export type Fetch = (path: string, init?: RequestInit) => Promise<Response>;
 export type Requests = ReturnType<typeof createRequests>;
 
-/** What the server answers where there is nothing to say. */
+/** The server's answer without data. */
 const okSchema = z.object({ ok: z.literal(true) });
 const uploadSchema = z.object({ id: z.string() });
 
@@ -34,8 +34,8 @@ export const createRequests = (fetchPath: Fetch) => {
   };
   const ask = async <T>(schema: z.ZodType<T>, method: string, path: string, body?: unknown): Promise<T> =>
     schema.parse(await (await send(method, path, body)).json());
-  /** For routes that have nothing to answer. */
-  const tell = async (method: string, path: string, body?: unknown): Promise<void> => {
+  /** For routes that answer without data. */
+  const command = async (method: string, path: string, body?: unknown): Promise<void> => {
     await ask(okSchema, method, path, body);
   };
   /** For routes that take a job with a drawing: uploads the drawing as a file first. */
@@ -48,16 +48,16 @@ export const createRequests = (fetchPath: Fetch) => {
     const { id: drawingId } = await ask(uploadSchema, "POST", "/drawings", new Blob([drawing]));
     return ask(schema, "POST", path, { ...job, drawingId });
   };
-  return { send, ask, tell, askWithDrawing, fetchPath };
+  return { send, ask, command, askWithDrawing, fetchPath };
 };
 
-/** The path of one thing: `/jobs/ID`. */
+/** The path of one item: `/jobs/ID`. */
 export const one = (what: string, id: string): string => `/${what}/${encodeURIComponent(id)}`;
 
 const faultOf = async (response: Response): Promise<BackendFault> => {
   const parsed = apiErrorSchema.safeParse(await response.json().catch(() => null));
   if (parsed.success) return new BackendFault(parsed.data.error.code, parsed.data.error.message);
-  // What stands between page and server (a development proxy, a sleeping machine) answers without a body.
+  // A proxy between page and server answers without a body.
   const isGone = response.status === 502 || response.status === 503 || response.status === 504;
   return new BackendFault("internal", isGone ? serverText.unreachable : serverText.server(response.status));
 };

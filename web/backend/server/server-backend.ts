@@ -23,7 +23,7 @@ const drawingPath = ({ of, id }: DrawingSource): string =>
 
 export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(path, init)): Backend => {
   const requests = createRequests(fetchPath);
-  const { ask, send, tell, askWithDrawing } = requests;
+  const { ask, send, command, askWithDrawing } = requests;
   return {
     features: { sharing: true, asksForPort: false },
     listen: (listener) => openEvents(`${API}/events`, listener),
@@ -32,10 +32,10 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     patchJob: (id, patch) => ask(jobSchema, "PATCH", one("jobs", id), patch),
     actOnJob: (id, action) => ask(jobSchema, "POST", `${one("jobs", id)}/${action}`),
     changeJob: (id, change) => ask(jobSchema, "POST", `${one("jobs", id)}/change`, change),
-    movePlace: (id, way) => ask(jobSchema, "POST", `${one("jobs", id)}/place`, way),
-    moveJob: (id, beforeId) => tell("POST", `${one("jobs", id)}/move`, { beforeId }),
+    movePlace: (id, move) => ask(jobSchema, "POST", `${one("jobs", id)}/place`, move),
+    moveJob: (id, beforeId) => command("POST", `${one("jobs", id)}/move`, { beforeId }),
     duplicateJob: (id) => ask(jobSchema, "POST", `${one("jobs", id)}/duplicate`),
-    removeJob: (id) => tell("DELETE", one("jobs", id)),
+    removeJob: (id) => command("DELETE", one("jobs", id)),
     jobDrawing: async (id) =>
       contentOf(await (await send("GET", drawingPath({ of: "job", id }))).arrayBuffer()),
     setQueue: (plotterId, settings) =>
@@ -43,7 +43,7 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
 
     me: () => ask(meSchema, "GET", "/me"),
     takeOver: async () => (await ask(operatorAnswerSchema, "POST", "/operator/take")).operator,
-    dismissNotice: (id) => tell("DELETE", one("notices", id)),
+    dismissNotice: (id) => command("DELETE", one("notices", id)),
 
     savePlotterSettings: (id, settings) =>
       ask(plotterSettingsSchema, "PUT", `${one("plotters", id)}/settings`, settings),
@@ -51,12 +51,12 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     movePen: (id, request) => ask(plotterSchema, "POST", `${one("plotters", id)}/pen`, request),
     motorsOff: (id) => ask(plotterSchema, "POST", `${one("plotters", id)}/motors-off`),
     home: (id, settings) => ask(plotterSchema, "POST", `${one("plotters", id)}/home`, { settings }),
-    connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters by itself.")),
+    connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
     log: async (id) => (await send("GET", `${one("plotters", id)}/log`)).text(),
 
     machines: async () => (await ask(machineListSchema, "GET", "/machines")).machines,
     saveMachine: (profile) => ask(machineProfileSchema, "PUT", one("machines", profile.id), profile),
-    removeMachine: (id) => tell("DELETE", one("machines", id)),
+    removeMachine: (id) => command("DELETE", one("machines", id)),
 
     samples: async () => (await ask(samplesSchema, "GET", "/samples")).samples,
     sample: async (name) => (await send("GET", drawingPath({ of: "sample", id: name }))).text(),

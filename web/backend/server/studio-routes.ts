@@ -19,20 +19,20 @@ const sharedJobsSchema = z.object({ jobs: z.array(sharedJobSchema) });
 const sentSchema = z.object({ id: z.string() });
 const newWebhookAnswerSchema = z.object({ webhook: webhookSchema, secret: z.string() });
 
-export const studioRoutes = ({ ask, tell, askWithDrawing }: Requests): StudioBackend => ({
+export const studioRoutes = ({ ask, command, askWithDrawing }: Requests): StudioBackend => ({
   devices: async () => (await ask(devicesSchema, "GET", "/devices")).devices,
   addPlotter: (plotter) => ask(plotterSchema, "POST", "/plotters", plotter),
   patchPlotter: (id, patch) => ask(plotterSchema, "PATCH", one("plotters", id), patch),
-  removePlotter: (id) => tell("DELETE", one("plotters", id)),
+  removePlotter: (id) => command("DELETE", one("plotters", id)),
 
   pairing: () => ask(pairingSchema, "POST", "/pairing"),
   access: async () => (await ask(entriesSchema, "GET", "/access")).entries,
   addKey: (key) => ask(newKeyAnswerSchema, "POST", "/access/keys", key),
-  revoke: (id) => tell("DELETE", one("access", id)),
+  revoke: (id) => command("DELETE", one("access", id)),
 
   webhooks: async () => (await ask(webhooksSchema, "GET", "/webhooks")).webhooks,
   addWebhook: (webhook) => ask(newWebhookAnswerSchema, "POST", "/webhooks", webhook),
-  removeWebhook: (id) => tell("DELETE", one("webhooks", id)),
+  removeWebhook: (id) => command("DELETE", one("webhooks", id)),
 
   sharedJobs: async () => {
     try {
@@ -45,6 +45,6 @@ export const studioRoutes = ({ ask, tell, askWithDrawing }: Requests): StudioBac
   shareJob: async (job, drawing) => {
     await askWithDrawing(sentSchema, "/shared-jobs", job, drawing);
   },
-  giveBackShared: (id) => tell("POST", `${one("shared-jobs", id)}/give-back`),
-  withdrawShared: (id) => tell("DELETE", one("shared-jobs", id)),
+  giveBackShared: (id) => command("POST", `${one("shared-jobs", id)}/give-back`),
+  withdrawShared: (id) => command("DELETE", one("shared-jobs", id)),
 });

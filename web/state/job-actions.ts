@@ -1,0 +1,108 @@
+/** Requests about jobs, the queue and the plotter, as functions on the store. */
+import type {
+  Job,
+  JobChange,
+  JobPatch,
+  JobPlace,
+  MovePlace,
+  NewJob,
+  QueueSettings,
+} from "../../src/schema/index.js";
+import type { Backend, JobAction } from "../backend/backend.js";
+import { activeJob, currentPlotter, type Notice, type PageStore } from "./store.js";
+import { stateText } from "./text.js";
+
+interface JobActionDeps {
+  readonly store: PageStore;
+  readonly backend: Backend;
+  /** Sends a request. A failure becomes a notice, and the result is null. `name` names the button to disable meanwhile. */
+  attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
+  notify(kind: Notice["kind"], text: string): void;
+}
+
+export const createJobActions = ({ store, backend, attempt, notify }: JobActionDeps) => {
+  const addToQueue = async (copies = 1, from: JobPlace | null = null): Promise<Job | null> => {
+    const state = store.getState();
+    const { drawing, settings } = state;
+    if (!drawing) return null;
+    const plotterId = currentPlotter(state)?.id;
+    const newJob = {
+      name: drawing.name,
+      settings,
+      ...(plotterId ? { plotterId } : {}),
+      ...(copies > 1 ? { copies } : {}),
+      ...(from ? { from } : {}),
+    };
+    const job = await attempt("add", () => backend.addJob(newJob, drawing.text));
+    if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
+      store.setState({ drawing: { ...drawing, jobId: job.id } });
+    }
+    return job;
+  };
+
+  return {
+    queueDrawing: async (copies = 1): Promise<void> => {
+      const job = await addToQueue(copies);
+      if (job) notify("info", stateText.added(job.name));
+    },
+    /** With `from`, the plot waits at that place with the pen up until it is resumed. */
+    plotDrawing: async (from: JobPlace | null = null): Promise<void> => {
+      const job = await addToQueue(1, from);
+      if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
+    },
+    saveToJob: async (id: string): Promise<void> => {
+      const { settings } = store.getState();
+      const job = await attempt("save", () => backend.patchJob(id, { settings }));
+      if (!job) return;
+      notify("info", stateText.saved(job.name));
+      store.setState(({ drawing, settings: now }) =>
+        drawing?.sourceId === id && now === settings ? { drawing: { ...drawing, jobId: id } } : {},
+      );
+    },
+    actOnJob: (id: string, action: JobAction) =>
+      attempt(`${action} ${id}`, () => backend.actOnJob(id, action)),
+    changeJob: (id: string, change: JobChange) =>
+      attempt(`change ${id}`, () => backend.changeJob(id, change)),
+    movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, move)),
+    moveJob: (id: string, beforeId: string | null) =>
+      attempt(`move ${id}`, () => backend.moveJob(id, beforeId)),
+    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.duplicateJob(id)),
+    setQueue: async (settings: QueueSettings): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (id) await attempt("queue", () => backend.setQueue(id, settings));
+    },
+    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
+    removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
+    movePen: async (up: boolean, heightPct?: number): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (!id) return notify("error", stateText.needsServer);
+      await attempt("pen", () => backend.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
+    },
+    motorsOff: async (): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (id) await attempt("motors-off", () => backend.motorsOff(id));
+    },
+    /** Lets the user choose the port, where the page itself opens it. */
+    connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
+    home: async (): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (id) await attempt("home", () => backend.home(id, store.getState().settings));
+    },
+    /**
+     * Plots a job that is not the drawing on the paper: at once, or after the running plot. Null: it could not be
+     * added, and the user has seen why.
+     */
+    plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<Job | null> => {
+      const plotterId = currentPlotter(store.getState())?.id;
+      const job = await attempt("add", () =>
+        backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
+      );
+      if (!job) return null;
+      store.setState(({ sideJobIds }) => ({ sideJobIds: [...sideJobIds, job.id] }));
+      if (activeJob(store.getState()) === null)
+        await attempt("plot", () => backend.actOnJob(job.id, "start"));
+      else notify("info", stateText.added(job.name));
+      return job;
+    },
+  };
+};
