@@ -1,7 +1,4 @@
-/**
- * A plot that stands half way (killed, held, waiting for a pen, resumed): Watch says how far it is, and shows
- * what is drawn and what is left apart.
- */
+/** A plot that was killed half way: Watch says how far it is, and shows what is drawn and what is left apart. */
 import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -11,8 +8,6 @@ import { GHOST_COLOR } from "../../web/scene/renderer.js";
 import {
   colorCounts,
   dropFile,
-  historyPanel,
-  openView,
   plotBar,
   queuePanel,
   statusCard,
@@ -29,16 +24,6 @@ const COMB = `<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="150m
   (_, i) => `<path d="M10 ${10 + 3 * i}h120"/>`,
 ).join("")}</svg>`;
 
-/** The same comb in two layers; the second one stops the plot for its pen. */
-const TWO_PENS = "two pens";
-const layerOf = (label: string, color: string, from: number): string =>
-  `<g inkscape:groupmode="layer" inkscape:label="${label}" stroke="${color}">${Array.from(
-    { length: 20 },
-    (_, i) => `<path d="M10 ${from + 3 * i}h120"/>`,
-  ).join("")}</g>`;
-const TWO_PENS_SVG = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
-  width="150mm" height="150mm" viewBox="0 0 150 150">${layerOf("Blue", PEN_COLOR, 10)}${layerOf("!Red", "#c01010", 70)}</svg>`;
-
 const data = temporaryFolder("interrupted");
 let browser: Browser;
 let server: ServerProcess;
@@ -51,31 +36,19 @@ async function openPage(): Promise<void> {
     colorScheme: "light",
   });
   page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE_MS);
   await page.goto(server.url);
 }
 
-async function theJob(name = NAME): Promise<Job> {
+async function theJob(): Promise<Job> {
   const answer: unknown = await (await fetch(`${server.url}/api/v1/state`)).json();
-  return snapshotSchema.parse(answer).jobs.find((job) => job.name === name)!;
-}
-
-/** Drops a drawing and starts its plot. */
-async function start(name: string, svg: string): Promise<void> {
-  await dropFile(page, `${name}.svg`, svg);
-  await page.getByText(name, { exact: true }).first().waitFor();
-  await waitForPlan(page);
-  await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
-  await queuePanel(page)
-    .getByRole("button", { name: /^Start / })
-    .click();
+  return snapshotSchema.parse(answer).jobs[0];
 }
 
 const colorOf = (hex: string): number => Number.parseInt(hex.slice(1), 16);
 
 /** Of what the sheet shows of the drawing, the share that is drawn: in the line's own colour, not pale. */
-async function drawnShare(name: string): Promise<number> {
-  await page.getByText(`Reading ${name}`).waitFor({ state: "detached" });
+async function drawnShare(): Promise<number> {
+  await page.getByText(`Reading ${NAME}`).waitFor({ state: "detached" });
   await waitForPicture(page);
   let [drawn, left] = [0, 0];
   const canvas = page.getByRole("img", { name: "The plot: what is drawn, and what is left" });
@@ -88,20 +61,20 @@ async function drawnShare(name: string): Promise<number> {
 }
 
 /** The page's text and picture match the job's progress. */
-async function expectPartlyDrawn(state: string, name = NAME): Promise<void> {
-  const job = await theJob(name);
+async function expectPartlyDrawn(state: string): Promise<void> {
+  const job = await theJob();
   const share = Math.round(job.progress * 100);
   expect(job.progress).toBeGreaterThan(0.2);
   expect(job.progress).toBeLessThan(0.8);
   expect(job.remainingS! / job.stats!.durationS).toBeCloseTo(1 - job.progress, 1);
   const pill = page.locator(".machine-state");
-  await expect.poll(() => pill.innerText()).toMatch(new RegExp(`^${state}: ${name}\\s+\\d+\\s*%$`));
+  await expect.poll(() => pill.innerText()).toMatch(new RegExp(`^${state}: ${NAME}\\s+\\d+\\s*%$`));
   const shown = Number(/(\d+)\s*%/.exec(await pill.innerText())![1]);
   expect(Math.abs(shown - share)).toBeLessThanOrEqual(1);
   const bar = statusCard(page).getByRole("progressbar");
   expect(Math.abs(Number(await bar.getAttribute("aria-valuenow")) - share)).toBeLessThanOrEqual(1);
   expect(await statusCard(page).innerText()).toContain("left");
-  expect(Math.abs((await drawnShare(name)) - job.progress)).toBeLessThan(0.15);
+  expect(Math.abs((await drawnShare()) - job.progress)).toBeLessThan(0.15);
 }
 
 beforeAll(async () => {
@@ -121,7 +94,13 @@ describe("a plot whose server was killed", () => {
     "is shown at its position at once, on a page that is opened then",
     { timeout: PATIENCE_MS },
     async () => {
-      await start(NAME, COMB);
+      await dropFile(page, `${NAME}.svg`, COMB);
+      await page.getByText(NAME, { exact: true }).first().waitFor();
+      await waitForPlan(page);
+      await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+      await queuePanel(page)
+        .getByRole("button", { name: /^Start / })
+        .click();
       await expect.poll(async () => (await theJob()).progress, { interval: 50 }).toBeGreaterThan(0.3);
       const ended = once(server.process, "exit");
       server.process.kill("SIGKILL");
@@ -135,38 +114,10 @@ describe("a plot whose server was killed", () => {
 
   it("is shown there when it is resumed and held, after a reload too", { timeout: PATIENCE_MS }, async () => {
     const { id } = await theJob();
-    await statusCard(page).getByRole("button", { name: "Go on from there" }).click();
+    await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
     await expect.poll(async () => (await theJob()).state).toBe("paused");
     await expectPartlyDrawn("Paused");
     await page.reload();
     await expectPartlyDrawn("Paused");
-    await page.request.post(`${server.url}/api/v1/jobs/${id}/cancel`);
-    await expect.poll(async () => (await theJob()).state).toBe("cancelled");
-  });
-});
-
-describe("a plot that waits for a pen", { timeout: PATIENCE_MS }, () => {
-  const WAITS = "Waits for the pen[^:]*";
-
-  it("is shown at its position, after a reload too", async () => {
-    await openView(page, "Prepare");
-    await start(TWO_PENS, TWO_PENS_SVG);
-    await expect.poll(async () => (await theJob(TWO_PENS)).wait?.layerName).toContain("Red");
-    await expectPartlyDrawn(WAITS, TWO_PENS);
-    await page.reload();
-    await expectPartlyDrawn(WAITS, TWO_PENS);
-  });
-
-  it("is shown there when it was cancelled and is opened again, after a reload too", async () => {
-    const { id } = await theJob(TWO_PENS);
-    await page.request.post(`${server.url}/api/v1/jobs/${id}/cancel`);
-    await expect.poll(async () => (await theJob(TWO_PENS)).state).toBe("cancelled");
-    await historyPanel(page)
-      .getByRole("button", { name: `Go on from where it was cancelled: ${TWO_PENS}` })
-      .click();
-    await expect.poll(async () => (await theJob(TWO_PENS)).state).toBe("paused");
-    await expectPartlyDrawn("(Paused|Waits for the pen[^:]*)", TWO_PENS);
-    await page.reload();
-    await expectPartlyDrawn("(Paused|Waits for the pen[^:]*)", TWO_PENS);
   });
 });
