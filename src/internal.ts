@@ -43,6 +43,7 @@ export {
   type MotionLimits,
   type MotionMode,
   DRAW_TABLE,
+  AXIS_TABLE,
   EASE_TABLE,
   FIT_TABLE,
   TRAVEL_TABLE,

@@ -69,6 +69,29 @@ describe("the looks", () => {
   });
 });
 
+describe("the looks on a phone", () => {
+  it("are a list with room for their whole names, and legends", async () => {
+    const { page } = test;
+    await page.setViewportSize({ width: 390, height: 844 });
+    const list = page.getByRole("combobox", { name: "Colour by" });
+    await list.waitFor();
+    expect(await page.getByRole("radio", { name: "Ink" }).isVisible()).toBe(false);
+    expect(await list.locator("option").allInnerTexts()).toEqual([
+      "Speed",
+      "Ink",
+      "Layer",
+      "Order",
+      "Pen",
+      "Pen (simulated)",
+    ]);
+    await list.selectOption("Order");
+    await page.locator(".legend").getByText("first", { exact: true }).waitFor();
+    expect((await list.boundingBox())!.width).toBeGreaterThan(150);
+    await list.selectOption("Speed");
+    await page.setViewportSize({ width: 1440, height: 900 });
+  });
+});
+
 describe("a stroke", () => {
   const card = () => test.page.getByRole("region", { name: "Selected stroke" });
 

@@ -49,7 +49,7 @@ describe("what a browser kept before the server did", () => {
       await openTab(phone, "Plotter");
       await expect.poll(() => height(phone, "up").inputValue()).toBe("66");
       expect(await height(phone, "down").inputValue()).toBe("41");
-      const model = panel(phone).getByLabel("Model", { exact: true });
+      const model = phone.getByLabel("Model", { exact: true });
       await expect.poll(() => model.inputValue()).toBe("axidraw-se-a3");
       // Only into a plotter that has none: another such browser that comes later gets the plotter's.
       await height(page, "up").fill("70");

@@ -88,6 +88,21 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     expect(limitsOf(await motionOfJob())).toEqual(motionOfQuality("fine", SPRINGS));
   });
 
+  it("has limits of one axis, none until they are set", async () => {
+    const speedX = section().getByLabel("Speed along x", { exact: true });
+    expect(await speedX.inputValue()).toBe("");
+    const time = () => test.page.locator(".plot-time-value").innerText();
+    const before = await time();
+    await speedX.fill("4");
+    await section().getByLabel("Acceleration along y", { exact: true }).fill("300");
+    await expect.poll(time).not.toBe(before);
+    expect(await motionOfJob()).toMatchObject({ speedXMmPerS: 4, accelYMmPerS2: 300 });
+    await section().getByRole("button", { name: "Speed along x: no limit" }).click();
+    await section().getByRole("button", { name: "Acceleration along y: no limit" }).click();
+    expect(await motionOfJob()).toMatchObject({ speedXMmPerS: null, accelYMmPerS2: null });
+    await expect.poll(time).toBe(before);
+  });
+
   it("shapes a motion or softens it, not both", async () => {
     await section().getByRole("radio", { name: "Gentle" }).check();
     expect(await motionOfJob()).toMatchObject({ mode: "scurve", shaper: "none" });

@@ -7,7 +7,7 @@ import type { Browser, Page } from "playwright-core";
 import { build } from "vite";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
-import { DEFAULT_MOTION, DEFAULT_PEN, plan, type StrokeSet } from "../../src/index.js";
+import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type StrokeSet } from "../../src/index.js";
 import type { Frame } from "../../web/scene/renderer.js";
 import { buildScene } from "../../web/scene/scene.js";
 import { launchBrowser } from "../support/browser.js";
@@ -36,6 +36,22 @@ const { draw, travel, totalS } = (() => {
 })();
 const base64 = (bytes: ArrayBuffer): string => Buffer.from(bytes).toString("base64");
 const scene: SentScene = { draw: base64(draw.bytes), travel: base64(travel.bytes), totalS };
+
+/** One straight line, of which most is a single piece, and where the pen is halfway. */
+const longLine = (() => {
+  const strokes: StrokeSet = {
+    xy: Float64Array.from([5, 10, 85, 10]),
+    offsets: Uint32Array.from([0, 2]),
+    layer: Uint16Array.of(0),
+    layers: [{ id: "a", name: "a", color: null }],
+  };
+  const trajectory = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN);
+  const built = buildScene(trajectory, strokes.layer);
+  const sent = { draw: base64(built.draw.bytes), travel: base64(built.travel.bytes), totalS: built.totalS };
+  const startS = trajectory.runs.startS[trajectory.runs.stroke.indexOf(0)];
+  const untilS = startS + 1;
+  return { sent, untilS, penX: stateAt(trajectory, untilS).x };
+})();
 
 const WHOLE: Frame = {
   view: { scale: 3, offsetX: 0.4, offsetY: -3.3 },
@@ -87,14 +103,14 @@ beforeAll(async () => {
 
 afterAll(async () => browser.close());
 
-const pixelsOf = async (name: RendererName, frame: Frame, part: number): Promise<Buffer> =>
+const pixelsOf = async (name: RendererName, frame: Frame, part: number, drawn = scene): Promise<Buffer> =>
   Buffer.from(
     await page.evaluate(
       async ([which, sent, of, size]) => {
         const { pixelsOf: draw } = (window as unknown as { renderers: typeof PageCode }).renderers;
         return draw(which, sent, of, size);
       },
-      [name, scene, frame, part] as const,
+      [name, drawn, frame, part] as const,
     ),
     "base64",
   );
@@ -106,6 +122,33 @@ describe.each(["gl", "soft"] as const)("the picture by the %s renderer", (name) 
     const atOnce = await pixelsOf(name, frame, 1e9);
     expect(inkCount(atOnce)).toBeGreaterThan(5_000);
     expect(Buffer.compare(await pixelsOf(name, frame, 97), atOnce)).toBe(0);
+  });
+
+  it("has a long line drawn up to the pen, and pale behind it", async () => {
+    const { sent, untilS, penX } = longLine;
+    expect(penX).toBeGreaterThan(20);
+    expect(penX).toBeLessThan(70);
+    const frame: Frame = {
+      ...WHOLE,
+      // The line runs through the middle of the pixels of row 30.
+      view: { scale: 3, offsetX: 0, offsetY: 0.5 },
+      height: 60,
+      colorBy: "pen",
+      untilS,
+    };
+    const pixels = await pixelsOf(name, frame, 1e9, sent);
+    /** Whether the pixels of that row have the first layer’s red. */
+    const isDrawn = Array.from({ length: 270 }, (_, x) => {
+      const at = (30 * 270 + x) * 4;
+      return pixels[at] > 150 && pixels[at + 1] < 100;
+    });
+    const lastDrawn = isDrawn.lastIndexOf(true);
+    expect(lastDrawn / 3).toBeGreaterThan(penX - 1);
+    expect(lastDrawn / 3).toBeLessThan(penX + 1);
+    expect(isDrawn.indexOf(true) / 3).toBeLessThan(6);
+    /** What is left is pale, not absent. */
+    const behind = (30 * 270 + Math.round(80 * 3)) * 4;
+    expect([...pixels.subarray(behind, behind + 3)].every((value) => value > 200 && value < 245)).toBe(true);
   });
 });
 

@@ -77,6 +77,13 @@ describe("the view of the simulated pen", { timeout: PATIENCE_MS }, () => {
     expect((await colors()).get(ASKED) ?? 0).toBe(0);
   });
 
+  it("is one press away from where the swing of the plotter is told", async () => {
+    await test.page.getByRole("button", { name: "Show what the pen draws" }).click();
+    await result().waitFor();
+    await test.look("Speed");
+    expect(await legend().count()).toBe(0);
+  });
+
   it("does not stand in the way of another drawing", async () => {
     await test.look("Pen (simulated)");
     await test.drop("lines", ruledSheet());

@@ -1,6 +1,6 @@
 /** On a desktop screen the page is as high as the window and does not scroll; its columns scroll separately. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { plotBar } from "../support/page-actions.js";
+import { plotBar, queuePanel } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 const SIZES = [
@@ -25,6 +25,25 @@ const documentPx = (): Promise<{ height: number; scrolled: number }> =>
     height: document.documentElement.scrollHeight,
     scrolled: document.scrollingElement?.scrollTop ?? 0,
   }));
+
+describe("before the first plot", () => {
+  it("the guide leaves room for the queue in a window of 1440 × 900", async () => {
+    const { page } = test;
+    const guide = page.getByRole("region", { name: "First plot with this plotter" });
+    await guide.waitFor();
+    const inSight = async (): Promise<void> => {
+      const queue = (await queuePanel(page).boundingBox())!;
+      expect(queue.y + queue.height).toBeLessThanOrEqual(900);
+    };
+    await inSight();
+    await guide.getByRole("button", { name: "Home", exact: true }).click();
+    // Done: one line, from which it can be opened again.
+    await guide.getByText("The carriage is home.").waitFor();
+    await inSight();
+    await guide.getByRole("button", { name: "Home again…" }).click();
+    await guide.getByRole("button", { name: "Motors off" }).waitFor();
+  });
+});
 
 describe.each(SIZES)("a window of $width × $height", (size) => {
   it("holds the whole page with all groups of settings open, also after scrolling past a column's end", async () => {

@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import path from "node:path";
 import type { Page } from "playwright-core";
 import { ROOT } from "../../scripts/setup.mjs";
+import { machineById } from "../../src/index.js";
 import { ruledSheet } from "./drawings.js";
 import {
   dropFile,
@@ -55,6 +56,8 @@ const TWO_PENS = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http:/
   <g inkscape:groupmode="layer" inkscape:label="Outline" stroke="#222"><path d="M20 20h20v20h-20z"/></g>
   <g inkscape:groupmode="layer" inkscape:label="!Red circle" stroke="#c8102e"><circle cx="90" cy="60" r="30"/></g>
   </g></svg>`;
+
+const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;
 
 const TALL = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="200mm" viewBox="0 0 100 200"><path d="M0 0L100 200M100 0L0 200" fill="none" stroke="#000"/></svg>`;
 
@@ -400,6 +403,57 @@ export const PAGE_STATES: readonly PageState[] = [
       const folded = page.locator(".column-setup button[aria-expanded=false]:visible");
       // On a phone the sheet may cover the button.
       while ((await folded.count()) > 0) await folded.first().dispatchEvent("click");
+      await page.locator("#group-motion summary").dispatchEvent("click");
+      await page.getByLabel("Speed along x", { exact: true }).waitFor();
+    },
+  },
+  {
+    name: "38-ringing",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await openTab(page, "Plotter");
+      const link = page
+        .getByRole("region", { name: "Plotter set-up" })
+        .getByRole("button", { name: "Measure ringing…" });
+      // On a phone the plot's bar lies over the end of a long panel.
+      await link.evaluate((element) => element.scrollIntoView({ block: "center" }));
+      await link.click();
+      const dialog = page.getByRole("dialog", { name: "Measure ringing" });
+      await dialog.getByLabel("Ripples in 10 mm, x").fill("5");
+      await dialog.getByLabel("Ripples in 10 mm, y").fill("8");
+      await dialog.getByRole("row", { name: /^Fast/ }).waitFor();
+    },
+  },
+  {
+    name: "39-ringing-pick",
+    reach: async ({ page, server }) => {
+      const springs = { xHz: 15, yHz: 25, damping: 0.05 };
+      const measured = { ...machineById("axidraw-v3"), id: "measured", name: "Measured plotter", springs };
+      await page.request.put(`${server.url}/api/v1/machines/measured`, { data: measured });
+      await page.reload();
+      await waitForPlan(page);
+      await openTab(page, "Plotter");
+      await page.getByRole("button", { name: "Machines…" }).click();
+      await page
+        .getByRole("dialog")
+        .getByRole("button", { name: /^Measured plotter/ })
+        .click();
+      await page.keyboard.press("Escape");
+      await page.getByRole("button", { name: "Measure ringing…" }).last().click();
+      const dialog = page.getByRole("dialog", { name: "Measure ringing" });
+      await dialog.getByRole("radio", { name: "Pick by eye" }).check();
+      await dialog.getByRole("radio", { name: "15 / 25 Hz" }).waitFor();
+    },
+  },
+  {
+    name: "40-simulated-pen",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "steps", STEPS);
+      const menu = page.getByRole("combobox", { name: "Colour by" });
+      if (await menu.isVisible()) await menu.selectOption("Pen (simulated)");
+      else await page.getByRole("radio", { name: "Pen (simulated)" }).check();
+      await page.locator("[data-max-mm]").waitFor();
     },
   },
 ];

@@ -32,6 +32,17 @@ describe("how much of the drawing on the paper is drawn", () => {
     expect(second).toBeLessThan(trajectory.totalS);
   });
 
+  it("is the job's place during a pen change, also when the job was opened again with no report yet", () => {
+    const place = { strokeIndex: 1, alongMm: 0 };
+    const wait = { kind: "pen" as const, layerName: "Red", penName: null, color: null };
+    const job = makeJob("a", { state: "paused", progress: 0, place, wait });
+    for (const report of [null, live]) {
+      const atS = drawnUntilS(pageWith(job, { live: report }))!;
+      expect(atS).toBeGreaterThan(halfS * 0.8);
+      expect(atS).toBeLessThan(trajectory.totalS);
+    }
+  });
+
   it("is the last report while it plots, or its progress before the first report", () => {
     const job = makeJob("a", { state: "plotting", progress: 0.25 });
     expect(drawnUntilS(pageWith(job, { live }))).toBe(1.5);

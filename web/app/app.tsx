@@ -4,7 +4,7 @@ import { DrawnSize } from "../drawing/drawn-size.js";
 import { Dialogs } from "./dialogs.js";
 import { LayersPanel } from "../layers/layers.js";
 import { LinesPanel } from "../drawing/lines.js";
-import { MachinePanel } from "../plotter/machine.js";
+import { MachinePanel, MachineSetUp } from "../plotter/machine.js";
 import { MotionPanel } from "../motion/motion.js";
 import { Notices } from "../ui/notices.js";
 import { PaperPanel } from "../drawing/paper.js";
@@ -59,9 +59,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
   const machine = (
     <div className="tab-machine">
       {!isWatching && hasCamera && <Camera />}
-      <MachinePanel>
-        <PenPanel />
-      </MachinePanel>
+      <MachinePanel />
     </div>
   );
   const onFile = useCallback((file: File) => void openFile(file), [openFile]);
@@ -103,6 +101,11 @@ export const App = ({ player, shortcuts }: AppProps) => {
             <QueuePanel />
           </div>
           {hasJob && machine}
+          <div className="tab-machine">
+            <MachineSetUp>
+              <PenPanel />
+            </MachineSetUp>
+          </div>
           <div className="tab-queue">
             <HistoryPanel />
           </div>

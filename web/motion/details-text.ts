@@ -5,6 +5,10 @@ export const detailsText = {
   cornerHint:
     "How far the line may leave the drawing at corners and in tight curves. More is faster and softer.",
   jerkHint: "How fast the acceleration may change. Less is softer and slower.",
+  axes: "Limits of one axis",
+  axesHint:
+    "For a plotter that is heavier along one axis, pen up and down. Empty: no limit besides those above.",
+  noLimit: (label: string) => `${label}: no limit`,
   mode: "Corners",
   shaper: "Against swinging",
   shapers: {

@@ -1,5 +1,6 @@
 import { useId } from "react";
 import {
+  AXIS_TABLE,
   CORNER_RULES,
   DRAW_TABLE,
   EASE_TABLE,
@@ -17,6 +18,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { detailsText } from "./details-text.js";
 import { Select, Switch } from "../ui/choice.js";
+import { OwnNumber } from "../ui/own-number.js";
 import { SettingField } from "../ui/setting-field.js";
 import { CornerPicture } from "./corner-picture.js";
 import { useSprings } from "./use-springs.js";
@@ -44,6 +46,7 @@ export const MotionDetails = () => {
     <>
       <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
+      <AxisLimits motion={motion} />
       <ShaperSelect shaper={motion.shaper ?? "none"} />
       <ModeChoice mode={motion.mode} />
       <Refinements motion={motion} />
@@ -143,6 +146,29 @@ const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
           onChange={(jerkMmPerS3) => change({ jerkMmPerS3 })}
         />
       )}
+    </fieldset>
+  );
+};
+
+const AXIS_KEYS = Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[];
+
+/** For a machine that is heavier along one axis; an empty field is no limit besides those above. */
+const AxisLimits = ({ motion }: { motion: MotionSettings }) => {
+  const change = useMotionChange();
+  return (
+    <fieldset className="subgroup">
+      <legend>{words.axes}</legend>
+      {AXIS_KEYS.map((key) => (
+        <OwnNumber
+          key={key}
+          {...AXIS_TABLE[key]}
+          value={motion[key] ?? null}
+          inherited={null}
+          resetLabel={words.noLimit(AXIS_TABLE[key].label)}
+          onChange={(value) => change(key, { [key]: value })}
+        />
+      ))}
+      <p className="note">{words.axesHint}</p>
     </fieldset>
   );
 };

@@ -65,10 +65,11 @@ const QualityChoice = ({ chosen }: { chosen: Quality | "custom" }) => {
   );
 };
 
-/** How the machine swings, or why to measure it. */
+/** How the machine swings and where to see it, or why to measure it. */
 const Swing = () => {
   const springs = useSprings();
   const store = usePageStore();
+  const { changeView } = useActions();
   const note =
     springs === null
       ? words.unmeasured
@@ -82,6 +83,9 @@ const Swing = () => {
         onClick={() => store.setState({ openDialog: "ringing" })}
       >
         {springs === null ? words.measure : words.measureAgain}
+      </button>
+      <button type="button" className="link" onClick={() => changeView({ colorBy: "swing" })}>
+        {words.showSwing}
       </button>
     </div>
   );

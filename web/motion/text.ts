@@ -17,5 +17,6 @@ export const motionText = {
   measured: (x: string, y: string) => `This plotter swings at ${x} Hz along x and ${y} Hz along y.`,
   measure: "Measure ringing…",
   measureAgain: "Measure again…",
+  showSwing: "Show what the pen draws",
   details: "Details",
 };

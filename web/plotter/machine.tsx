@@ -15,17 +15,13 @@ import { SettingsGroup } from "../ui/settings-group.js";
 const words = plotterText;
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
-/** `children`: how the pen is lifted, which the pens' folder has. */
-export const MachinePanel = ({ children }: { children: ReactNode }) => {
+/** What the plotter is doing, and the pen at hand. */
+export const MachinePanel = () => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
-  const { attempt, connectPlotter } = useActions();
+  const { connectPlotter } = useActions();
   const mayConnect = backend.features.asksForPort && backend.features.whyNoPort === null;
-  const saveLog = async (id: string): Promise<void> => {
-    const log = await attempt("log", () => backend.log(id));
-    if (log !== null) saveFile(`plotwright-${id}.log`, log, "text/plain");
-  };
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
@@ -36,6 +32,22 @@ export const MachinePanel = ({ children }: { children: ReactNode }) => {
         </button>
       )}
       {isMine && <PenAtHand />}
+    </section>
+  );
+};
+
+/** What a plotter needs more rarely. `children`: how the pen is lifted, which the pens' folder has. */
+export const MachineSetUp = ({ children }: { children: ReactNode }) => {
+  const backend = useBackend();
+  const plotter = usePageState(currentPlotter);
+  const isMine = usePageState(mayOperate);
+  const { attempt } = useActions();
+  const saveLog = async (id: string): Promise<void> => {
+    const log = await attempt("log", () => backend.log(id));
+    if (log !== null) saveFile(`plotwright-${id}.log`, log, "text/plain");
+  };
+  return (
+    <section className="card machine-set-up" aria-label={words.rest}>
       <div className="group-in-card">
         {isMine && <MoreMoves />}
         {isMine && children}

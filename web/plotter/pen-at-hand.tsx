@@ -10,41 +10,79 @@ import "./pen-at-hand.css";
 
 const words = penText;
 
-type Step = "home" | "heights" | "mark";
+const STEPS = ["home", "heights", "mark"] as const;
+type Step = (typeof STEPS)[number];
 
 /** Home, heights and a test line: what every plot begins with. Before the first plot they are numbered steps. */
 export const PenAtHand = () => {
   const isFirst = usePageState(isFirstPlot);
+  return isFirst ? (
+    <FirstPlot />
+  ) : (
+    <div className="pen-at-hand">
+      <HomeButtons />
+      <Heights hasContact />
+      <TestLine />
+    </div>
+  );
+};
+
+/** Only the step that comes next has its help, and home folds to a line once it is done, so that the queue stays in sight. */
+const FirstPlot = () => {
   const { changeView } = useActions();
-  const [done, setDone] = useState<ReadonlySet<Step>>(new Set());
-  const note = (step: Step): void => setDone(new Set([...done, step]));
-  const part = (step: Step, content: ReactNode): ReactNode =>
-    isFirst ? (
-      <li key={step} data-done={done.has(step) || undefined}>
-        <p className="note">{words.steps[step]}</p>
-        {content}
-      </li>
-    ) : (
-      <div key={step}>{content}</div>
-    );
-  const parts = [
-    part("home", <HomeButtons onHome={() => note("home")} />),
-    part("heights", <Heights onTry={() => note("heights")} />),
-    part("mark", <TestLine onDraw={() => note("mark")} />),
-  ];
-  if (!isFirst) return <div className="pen-at-hand">{parts}</div>;
+  const [done, setDone] = useState<readonly Step[]>([]);
+  const [isHomeAgain, setHomeAgain] = useState(false);
+  const note = (step: Step): void => setDone([...done.filter((other) => other !== step), step]);
+  const next = STEPS.find((step) => !done.includes(step)) ?? "plot";
+  // The test line tells how the heights are, so its help stays beside it.
+  const helped = done.at(-1) === "mark" ? "mark" : next;
+  const isHomeFolded = done.includes("home") && !isHomeAgain;
+  const step = (name: Step, content: ReactNode): ReactNode => (
+    <li data-done={done.includes(name) || undefined}>
+      {helped === name && <p className="note">{words.steps[name]}</p>}
+      {content}
+    </li>
+  );
   return (
     <section className="pen-at-hand first-plot" aria-label={words.firstPlot}>
-      <h3>{words.firstPlot}</h3>
+      <header>
+        <h3>{words.firstPlot}</h3>
+        <button
+          type="button"
+          className="link"
+          aria-label={words.hideHint}
+          title={words.hideHint}
+          onClick={() => changeView({ hidesFirstPlot: true })}
+        >
+          {words.hide}
+        </button>
+      </header>
       <ol>
-        {parts}
+        {step(
+          "home",
+          isHomeFolded ? (
+            <p className="step-line">
+              {words.homeDone}
+              {/* Takes the focus of the button that it stands for. */}
+              <button type="button" className="link" autoFocus onClick={() => setHomeAgain(true)}>
+                {words.homeAgain}
+              </button>
+            </p>
+          ) : (
+            <HomeButtons
+              onHome={() => {
+                note("home");
+                setHomeAgain(false);
+              }}
+            />
+          ),
+        )}
+        {step("heights", <Heights onTry={() => note("heights")} />)}
+        {step("mark", <TestLine onDraw={() => note("mark")} />)}
         <li>
-          <p className="note">{words.steps.plot}</p>
+          <p className="step-line">{words.plotStep}</p>
         </li>
       </ol>
-      <button type="button" className="link" onClick={() => changeView({ hidesFirstPlot: true })}>
-        {words.hide}
-      </button>
     </section>
   );
 };
@@ -56,7 +94,7 @@ const isFirstPlot = (state: PageState): boolean => {
   return !state.view.hidesFirstPlot && state.link === "connected" && !hasPlotted;
 };
 
-const HomeButtons = ({ onHome }: { onHome(): void }) => {
+const HomeButtons = ({ onHome }: { onHome?(): void }) => {
   const isOff = usePageState((state) => !isReady(state));
   const { home, motorsOff } = useActions();
   return (
@@ -66,7 +104,7 @@ const HomeButtons = ({ onHome }: { onHome(): void }) => {
         className="button"
         disabled={isOff}
         onClick={() => {
-          onHome();
+          onHome?.();
           void home();
         }}
       >
@@ -92,7 +130,14 @@ const mayFollow = (state: PageState): boolean => {
   );
 };
 
-const Heights = ({ onTry }: { onTry(): void }) => {
+interface HeightsProps {
+  /** The height at which the tip touches can be set, too. */
+  readonly hasContact?: boolean;
+  /** The pen was moved. */
+  onTry?(): void;
+}
+
+const Heights = ({ hasContact, onTry }: HeightsProps) => {
   const pen = usePageState((state) => state.settings.pen);
   const isFollowing = usePageState(mayFollow);
   // If another browser is the operator, storing the heights asks to take over first.
@@ -118,7 +163,7 @@ const Heights = ({ onTry }: { onTry(): void }) => {
           }))
         }
         onSlide={(pct) => {
-          onTry();
+          onTry?.();
           if (isFollowing && !isOthers) follow({ isUp: which === "upPct", pct });
         }}
       />
@@ -127,7 +172,7 @@ const Heights = ({ onTry }: { onTry(): void }) => {
         className="button"
         disabled={!isFollowing}
         onClick={() => {
-          onTry();
+          onTry?.();
           follow({ isUp: which === "upPct", pct: pen[which] });
         }}
       >
@@ -136,7 +181,7 @@ const Heights = ({ onTry }: { onTry(): void }) => {
     </div>
   );
   const touch = (contactPct: number): void => {
-    onTry();
+    onTry?.();
     const pct = pen.downPct + ((pen.upPct - pen.downPct) * contactPct) / 100;
     if (isFollowing) follow({ isUp: false, pct });
   };
@@ -144,7 +189,7 @@ const Heights = ({ onTry }: { onTry(): void }) => {
     <div className="pen-heights">
       {row("upPct")}
       {row("downPct")}
-      {pen.overlap !== "off" && (
+      {hasContact && pen.overlap !== "off" && (
         <>
           <div className="field-with-button">
             <SettingField
@@ -174,7 +219,7 @@ const Heights = ({ onTry }: { onTry(): void }) => {
   );
 };
 
-const TestLine = ({ onDraw }: { onDraw(): void }) => {
+const TestLine = ({ onDraw }: { onDraw?(): void }) => {
   const isOff = usePageState((state) => !isReady(state));
   const hand = useHand();
   return (
@@ -184,7 +229,7 @@ const TestLine = ({ onDraw }: { onDraw(): void }) => {
       title={words.testLineHint}
       disabled={isOff}
       onClick={() => {
-        onDraw();
+        onDraw?.();
         void hand.testLine();
       }}
     >

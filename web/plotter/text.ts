@@ -24,6 +24,7 @@ export const plotterText = {
   profiles: "Machines…",
   ringing: "Measure ringing…",
   console: "Console",
+  rest: "Plotter set-up",
   connect: "Connect a plotter…",
   connectHint: "Plots run on a simulated board until you connect a plotter by USB.",
   log: "Save the connection log",
@@ -63,9 +64,12 @@ export const penText = {
     home: "Motors off, push the carriage into its corner, then Home.",
     heights: "Move the sliders until the pen is well clear of the paper when up, and draws when down.",
     mark: "Put paper under the pen and draw a line. Too thin or broken: lower Height down.",
-    plot: "Press Plot.",
   },
-  hide: "Don’t show these steps",
+  homeDone: "The carriage is home.",
+  homeAgain: "Home again…",
+  plotStep: "Press Plot.",
+  hide: "Hide",
+  hideHint: "Hide these steps",
 };
 
 export const presetsText = {

@@ -130,6 +130,8 @@ const drawMargin = (context: CanvasRenderingContext2D, view: View, desk: Desk, c
 };
 
 const REACH_FONT = "11px Helvetica, Arial, sans-serif";
+/** A smaller sheet than this has no room for words that only confirm. */
+const MIN_LABEL_PX = 340;
 /** From the line to the words above it. */
 const REACH_GAP_PX = 5;
 
@@ -150,6 +152,7 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   context.strokeRect(offsetX, offsetY, width, height);
   context.setLineDash([]);
   context.globalAlpha = isShort ? 1 : 0.8;
+  if (!isShort && width < MIN_LABEL_PX) return context.restore();
   context.font = REACH_FONT;
   context.textAlign = "right";
   // Below the lower edge, and not beyond the paper's right edge, so that it is visible.

@@ -3,7 +3,7 @@ import { penOf } from "../../src/internal.js";
 import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 import { legendStops, rampColor } from "../scene/color-map.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { Segments } from "../ui/choice.js";
+import { Segments, Select } from "../ui/choice.js";
 import { formatDuration, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import type { Planned } from "../worker/protocol.js";
@@ -22,16 +22,15 @@ export const Looks = () => {
   const colorBy = usePageState((state) => state.view.colorBy);
   const planned = usePageState((state) => state.planned);
   const { changeView } = useActions();
+  const choose = (chosen: ColorMode): void => changeView({ colorBy: chosen });
   return (
     <div className="looks">
       {planned && planned.scene.draw.count > 0 && <Legend colorBy={colorBy} planned={planned} />}
-      <Segments
-        label={words.colorBy}
-        isLabelHidden
-        value={colorBy}
-        options={OPTIONS}
-        onChange={(chosen) => changeView({ colorBy: chosen })}
-      />
+      {/* Where six names have no room beside each other; the style shows one of the two. */}
+      <div className="looks-menu">
+        <Select label={words.colorBy} value={colorBy} options={OPTIONS} onChange={choose} />
+      </div>
+      <Segments label={words.colorBy} isLabelHidden value={colorBy} options={OPTIONS} onChange={choose} />
     </div>
   );
 };

@@ -22,7 +22,7 @@ export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
 const INSET_PX = 26;
 /** On a low screen, what lies under the paper may lie over it: the share of the height that is kept free for it. */
-const MOST_BELOW = 0.18;
+const MOST_BELOW = 0.24;
 const MAX_RATIO = 2;
 
 export class Stage {

@@ -3,6 +3,8 @@ export const ringingText = {
   title: "Measure ringing",
   intro:
     "After a hard corner the pen swings on for a moment: that is ringing. Once plotwright knows how fast your plotter swings, it moves so that the swings cancel, and can go faster.",
+  virtualHint:
+    "No plotter is plugged in, so there is no paper with ripples to count. Under the preview, “Pen (simulated)” shows what a pen with these swings would draw.",
   parts: "Sheets",
   partNames: { count: "Count ripples", pick: "Pick by eye" },
   jobName: "Ringing sheet",

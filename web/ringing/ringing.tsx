@@ -1,4 +1,6 @@
 import { useState } from "react";
+import { currentPlotter } from "../state/store.js";
+import { usePageState } from "../state/use-store.js";
 import { ringingText } from "./ringing-text.js";
 import { Segments } from "../ui/choice.js";
 import { Sheet } from "../ui/sheet.js";
@@ -12,10 +14,12 @@ type Part = keyof typeof words.partNames;
 /** Measures the plotter's swing by two sheets: the user counts ripples on the first and picks a line on the second. */
 export const RingingDialog = () => {
   const [part, setPart] = useState<Part>("count");
+  const isVirtual = usePageState((state) => currentPlotter(state)?.kind === "virtual");
   return (
     <Sheet title={words.title}>
       <div className="ringing">
         <p>{words.intro}</p>
+        {isVirtual && <p className="note">{words.virtualHint}</p>}
         <Segments<Part>
           label={words.parts}
           isLabelHidden

@@ -5,6 +5,7 @@
  *   time              s                        offset, viewport  device px
  *   speed             share of the top speed   radius            device px, of the narrowest line
  *   share             of speed, of time        widthMm           of a full alpha in the palette; 0: all are as narrow
+ *   cutOffS           s: the pen has come so far, and the piece that it is on ends there
  *   colorBy           0 speed, 1 order, 2 layer, 3 plain
  */
 
@@ -20,6 +21,7 @@ uniform float radius;
 uniform float widthMm;
 uniform sampler2D palette;
 uniform float totalS;
+uniform float cutOffS;
 out vec2 local;
 flat out float reach;
 flat out float len;
@@ -27,7 +29,8 @@ out vec2 share;
 flat out float layerIndex;
 void main() {
   vec2 a = line.xy * scale + offset;
-  vec2 b = line.zw * scale + offset;
+  float part = time.y > time.x ? clamp((cutOffS - time.x) / (time.y - time.x), 0.0, 1.0) : 1.0;
+  vec2 b = mix(line.xy, line.zw, part) * scale + offset;
   len = distance(a, b);
   vec2 u = len > 1e-4 ? (b - a) / len : vec2(1.0, 0.0);
   reach = radius;
@@ -39,7 +42,7 @@ void main() {
   float side = (gl_VertexID & 1) != 0 ? r : -r;
   vec2 p = a + u * along + vec2(-u.y, u.x) * side;
   local = vec2(along, side);
-  float f = len > 1e-4 ? along / len : 0.5;
+  float f = (len > 1e-4 ? along / len : 0.5) * part;
   share = vec2(mix(speed.x, speed.y, f), mix(time.x, time.y, f) / totalS);
   layerIndex = layer;
   gl_Position = vec4(p.x / viewport.x * 2.0 - 1.0, 1.0 - p.y / viewport.y * 2.0, 0.0, 1.0);
@@ -75,6 +78,7 @@ export const UNIFORMS = [
   "radius",
   "widthMm",
   "totalS",
+  "cutOffS",
   "colorBy",
   "plain",
   "ramp",

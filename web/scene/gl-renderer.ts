@@ -29,6 +29,7 @@ import {
 } from "./renderer.js";
 import { LAYER_SHORT, PIECE_BYTES, SPEED_SHORT } from "./pieces.js";
 import {
+  cutOffS,
   drawSome,
   piecesOf,
   sheetsOf,
@@ -44,6 +45,8 @@ const COLOR_CODE = { speed: 0, swing: 0, order: 1, layer: 2, pen: 2, ink: 2 } as
 const WIDEST_MM = 12.75;
 const PLAIN = 3;
 const MAX_LAYERS = 2_048;
+/** Later than any plot lasts: shaders need not know infinity. */
+const NEVER_S = 1e30;
 /** Bytes handed to the card at a time, and how long that may take of one part, ms. */
 const CHUNK_BYTES = 1 << 20;
 const LOADING_MS = 6;
@@ -238,6 +241,7 @@ class GlRenderer implements SceneRenderer {
     this.#style = style;
     const isThin = style === "travel" || style === "asked";
     const widthPx = isThin ? TRAVEL_PX : lineWidthPx(frame, frame.layerWidthsMm ? 0 : frame.lineMm);
+    gl.uniform1f(this.#uniforms.cutOffS, Math.min(NEVER_S, cutOffS(frame, style)));
     gl.uniform1f(this.#uniforms.radius, (widthPx * frame.ratio) / 2);
     gl.uniform1f(this.#uniforms.widthMm, frame.layerWidthsMm && !isThin ? WIDEST_MM : 0);
     if (style === "ghost") this.#setPlain(GHOST_COLOR, 1);

@@ -27,6 +27,7 @@ import {
 } from "./renderer.js";
 import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT } from "./pieces.js";
 import {
+  cutOffS,
   drawSome,
   piecesOf,
   sheetsOf,
@@ -126,24 +127,30 @@ class SoftRenderer implements SceneRenderer {
     const scale = frame.view.scale * frame.ratio;
     const offsetX = frame.view.offsetX * frame.ratio;
     const offsetY = frame.view.offsetY * frame.ratio;
+    const untilS = cutOffS(frame, style);
     for (let i = from; i < to; i++) {
       const f = i * PIECE_FLOATS;
       const s = i * PIECE_SHORTS;
       const layer = shorts[s + LAYER_SHORT];
+      const durationS = floats[f + 5] - floats[f + 4];
+      const part = durationS > 0 ? Math.min(1, (untilS - floats[f + 4]) / durationS) : 1;
       brush.reach = look.reaches[layer] ?? look.reaches[0];
       brush.alpha = look.alpha;
       if (look.by === "speed") {
-        brush.setRamp(this.#ramp, shorts[s + SPEED_SHORT] / 65_535, shorts[s + SPEED_SHORT + 1] / 65_535);
+        const speed0 = shorts[s + SPEED_SHORT] / 65_535;
+        const speed1 = shorts[s + SPEED_SHORT + 1] / 65_535;
+        brush.setRamp(this.#ramp, speed0, speed0 + part * (speed1 - speed0));
       } else if (look.by === "time") {
-        brush.setRamp(this.#ramp, floats[f + 4] / this.#totalS, floats[f + 5] / this.#totalS);
+        const beganS = floats[f + 4];
+        brush.setRamp(this.#ramp, beganS / this.#totalS, (beganS + part * durationS) / this.#totalS);
       } else {
         brush.setPlain(look.colors[layer] ?? look.colors[0]);
       }
       brush.draw(
         floats[f] * scale + offsetX,
         floats[f + 1] * scale + offsetY,
-        floats[f + 2] * scale + offsetX,
-        floats[f + 3] * scale + offsetY,
+        (floats[f] + part * (floats[f + 2] - floats[f])) * scale + offsetX,
+        (floats[f + 1] + part * (floats[f + 3] - floats[f + 1])) * scale + offsetY,
       );
     }
   }

@@ -54,15 +54,21 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: 
   const widestMm = Math.max(frame.lineMm, ...(frame.layerWidthsMm ?? []));
   const reachPx = lineWidthPx(frame, widestMm) / 2 + EDGE_PX;
   const done = until(draw);
+  // The piece that the pen is on is drawn up to the pen only, and pale behind it.
+  const pale = frame.untilS === null ? done : Math.max(0, done - 1);
   const inSight = (of: B, range: PieceRange, style: Style): Task<B>[] =>
     rangesInSight(of.boxes, range, frame, reachPx).map(([from, to]) => ({ of, style, from, to }));
   return [
     ...(asked ? inSight(asked, [0, asked.pieces.count], "asked") : []),
-    ...inSight(draw, [done, draw.pieces.count], "ghost"),
+    ...inSight(draw, [pale, draw.pieces.count], "ghost"),
     ...inSight(draw, [0, done], "drawn"),
     ...(frame.showTravel ? inSight(travel, [0, until(travel)], "travel") : []),
   ];
 };
+
+/** The moment, s, at which pieces of this style are cut off; Infinity: they are drawn to their ends. */
+export const cutOffS = ({ untilS }: Frame, style: Style): number =>
+  style === "drawn" || style === "travel" ? (untilS ?? Infinity) : Infinity;
 
 /** Draws about so many more of the pieces and takes off what is done; returns how many. `draw` says false while it can't. */
 export const drawSome = <B extends Boxed>(

@@ -1,6 +1,7 @@
 import { useId } from "react";
 import { Icon } from "./icon.js";
 import { NumberBox, useTypedNumber, type NumberLimits } from "./number-box.js";
+import "./own-number.css";
 
 interface OwnNumberProps extends NumberLimits {
   readonly label: string;
