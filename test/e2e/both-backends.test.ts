@@ -77,7 +77,7 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     await choose(page, "three", "Move earlier:");
     await expectWaiting(page, ["one", "three", "two"]);
     // A waiting job is changed on the paper, and saved at its place.
-    await choose(page, "three", "Lay on the paper:");
+    await choose(page, "three", "Open");
     await waitForPlan(page);
     await page.getByRole("radio", { name: "Portrait" }).check();
     await waitForPlan(page);
@@ -85,13 +85,13 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     await save.click();
     await save.waitFor({ state: "detached" });
     // Two more of it.
-    await choose(page, "three", "Once more:");
+    await choose(page, "three", "Duplicate");
     await queuePanel(page).getByLabel("2 copies").waitFor();
     await started.killAndReopen();
     ({ page } = started);
     await expectWaiting(page, ["one", "three", "two"]);
     await queuePanel(page).getByLabel("2 copies").waitFor();
-    await choose(page, "three", "Lay on the paper:");
+    await choose(page, "three", "Open");
     await expect.poll(() => page.getByRole("radio", { name: "Portrait" }).isChecked()).toBe(true);
     await openMenu(page, "three");
     await page.getByRole("button", { name: "Remove all 2" }).click();

@@ -23,7 +23,7 @@ describe("a drawing put in the shared queue for any plotter of a model", () => {
     const { page } = test;
     await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();
     await page.getByRole("radio", { name: "Servers" }).check();
-    await page.getByRole("button", { name: /^Put .* there$/ }).click();
+    await page.getByRole("button", { name: /^Add “/ }).click();
     const row = page.getByRole("listitem").filter({ hasText: "for any AxiDraw V3" });
     await row.getByText(/is left out: its model is not set/).waitFor();
     expect(await test.jobs()).toEqual([]);

@@ -173,7 +173,7 @@ describe("the board's console", () => {
     expect(await say("SM,100,80,80")).toMatchObject({ note: expect.stringContaining("read back") as string });
     const { xMm } = plotterSchema.parse(await (await call("GET", "/plotters/main")).json());
     expect(xMm).toBe(11);
-    expect(await say("CS")).toMatchObject({ note: expect.stringContaining("forgotten") as string });
+    expect(await say("CS")).toMatchObject({ note: expect.stringContaining("position is unknown") as string });
     expect(plotterSchema.parse(await (await call("GET", "/plotters/main")).json()).xMm).toBeNull();
   });
 

@@ -167,12 +167,12 @@ describe("npm start", () => {
 });
 
 describe("npm start without --", () => {
-  it.each([["--port", "9381"], ["--port=9381"], ["--lan"]])(
+  it.each([["--port", "9381"], ["--port=9381"]])(
     "%s %s says how to pass the option, and does not start",
     async (...args) => {
       const started = start("npm", ["start", ...args]);
       expect((await started.ended).code).toBe(2);
-      expect(started.said()).toMatch(/npm took --(port|lan) for itself\. .* npm start -- --port 9381/);
+      expect(started.said()).toMatch(/npm took --port for itself\. .* npm start -- --port 9381/);
       expect(started.said()).not.toMatch(/building|plotwright is at/);
     },
     LIMIT_MS,
