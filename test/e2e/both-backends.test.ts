@@ -130,7 +130,7 @@ describe.each(BACKENDS)("the page's backend %s", (backend) => {
     // Changes of the plotter's settings are stored a moment later.
     await expect
       .poll(() => started.storedPlotters(), { timeout: PATIENCE_MS })
-      .toMatch(/(?=.*fine liner)(?=.*axidraw-v3-a3)/s);
+      .toMatch(/(?=.*fine liner)(?=.*axidraw-v3-a3)(?=.*"upPct":60\b)(?=.*"downPct":22\b)/s);
     await started.killAndReopen();
     ({ page } = started);
     await openGroup(page, "Model and position");
