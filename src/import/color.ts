@@ -20,10 +20,18 @@ const toRgb = converter("rgb");
 export function parseColor(text: string): Color | null {
   const known = cache.get(text);
   if (known !== undefined) return known;
-  const parsed = parse(text.trim().toLowerCase());
-  const color =
-    parsed === undefined ? null : { hex: formatHex(clampRgb(toRgb(parsed))), alpha: parsed.alpha ?? 1 };
+  const color = parsed(text.trim().toLowerCase());
   if (cache.size >= CACHE_LIMIT) cache.clear();
   cache.set(text, color);
   return color;
+}
+
+function parsed(text: string): Color | null {
+  try {
+    const color = parse(text);
+    return color ? { hex: formatHex(clampRgb(toRgb(color))), alpha: color.alpha ?? 1 } : null;
+  } catch {
+    // culori throws for a function whose list ends early, such as "color(".
+    return null;
+  }
 }

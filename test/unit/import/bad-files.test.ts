@@ -146,6 +146,12 @@ describe("importSvg on bad files", () => {
     expect(drawing.warnings.map((warning) => warning.code)).toEqual(["xml-repaired"]);
   });
 
+  it.each(["color(", "url( 5s1 2 3 4z"])("draws the other shapes if a colour is %s", (color) => {
+    const shapes = `<path d="M0 0H5" stroke="${color}"/><path d="M0 3H5" stroke="red"/>`;
+    const text = `<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm">${shapes}</svg>`;
+    expect(importSvg(text).paths.count).toBeGreaterThan(0);
+  });
+
   it("reads a file of 50 MB", () => {
     const line = `<path fill="none" stroke="#000" d="M12.5 20.25${"L30.125 44.5 61 7.75".repeat(100)}"/>\n`;
     const count = Math.ceil(50_000_000 / line.length);
