@@ -36,7 +36,7 @@ function partsOf(command: Command): string[] {
 }
 
 function optionsOf(command: Command): string[] {
-  const own = command.options.filter((option) => !isSetting(option));
+  const own = command.options.filter((option) => !option.hidden && !isSetting(option));
   const settings = command.options.filter(isSetting);
   const table = own.length === 0 ? [] : [markdownTable([["option", "meaning"], ...own.map(row)])];
   if (settings.length === 0) return table;

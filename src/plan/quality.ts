@@ -12,7 +12,7 @@ import type { Springs } from "../machines/profile.js";
 
 /** mm/s, mm/s² from 10 Hz on, mm. */
 const STEPS = {
-  fine: { speed: 60, accel: 1_000, corner: 0.011, travelSpeed: 180, travelAccel: 2_000 },
+  fine: { speed: 60, accel: 1_000, corner: 0.007, travelSpeed: 180, travelAccel: 2_000 },
   normal: { speed: 70, accel: 1_300, corner: 0.016, travelSpeed: 200, travelAccel: 2_200 },
   fast: { speed: 85, accel: 1_750, corner: 0.022, travelSpeed: 220, travelAccel: 2_500 },
 } as const satisfies Record<Quality, object>;
