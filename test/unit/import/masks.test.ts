@@ -1,19 +1,9 @@
 /** Masks that are plain light shapes are clips; others are reported. Checked against Chromium's pictures. */
 import { describe, expect, it } from "vitest";
-import { codes, draw } from "./support/shapes.js";
+import { clipsOf, codes, draw } from "./support/shapes.js";
 
 const SHAPE = '<rect x="20" y="10" width="40" height="20" mask="url(#m)"/>';
 const WHITE = '<path d="M0 0H30V40z" fill="white" stroke="none"/>';
-
-/** The outlines that the shape is clipped to, from the outermost in, in mm. */
-function clipsOf(body: string): number[][] {
-  const { paths, clips } = draw(body);
-  const chain: number[][] = [];
-  for (let at = paths.clip[0]; at >= 0; at = clips[at].parent) {
-    chain.unshift(Array.from(clips[at].coords, (mm) => Math.round(mm * 1e4) / 1e4));
-  }
-  return chain;
-}
 
 describe("a mask of light shapes", () => {
   it("clips to them, inside its own rectangle", () => {

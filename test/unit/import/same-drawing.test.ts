@@ -4,19 +4,9 @@
  */
 import { describe, expect, it } from "vitest";
 import { importSvg } from "../../../src/import/svg/import-svg.js";
-import { draw, page, shapes, shapesOf } from "./support/shapes.js";
+import { clipsOf, draw, page, shapes, shapesOf } from "./support/shapes.js";
 
 const BOX = '<rect x="20" y="20" width="40" height="20"/>';
-
-/** The clips of the first shape, from the outermost in, as the numbers of their outlines. */
-function clipsOf(body: string): number[][] {
-  const { paths, clips } = draw(body);
-  const chain: number[][] = [];
-  for (let at = paths.clip[0]; at >= 0; at = clips[at].parent) {
-    chain.unshift(Array.from(clips[at].coords, (mm) => Math.round(mm * 1e4) / 1e4));
-  }
-  return chain;
-}
 
 describe("style", () => {
   it.each([

@@ -59,3 +59,13 @@ export function pointsOf({ paths }: Drawing, index = 0): [number, number][] {
   }
   return Array.from({ length: out.pointCount }, (_, i) => [out.data[2 * i], out.data[2 * i + 1]]);
 }
+
+/** The clips of the first shape, from the outermost in, as the numbers of their outlines. */
+export function clipsOf(body: string): number[][] {
+  const { paths, clips } = draw(body);
+  const chain: number[][] = [];
+  for (let at = paths.clip[0]; at >= 0; at = clips[at].parent) {
+    chain.unshift(Array.from(clips[at].coords, (mm) => Math.round(mm * 1e4) / 1e4));
+  }
+  return chain;
+}
