@@ -29,13 +29,9 @@ const CHECKS = [
 const CHECKS_PRIORITY = 5;
 const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
 
-/**
- * The projects of vitest.config.ts, one after the other. The checks run in parallel from the beginning: first
- * beside the tests at the speed of a real board, which mostly wait. The last one runs alone.
- */
-const RUNS = ["functions", "together", "commands", "processes"];
-if (HAS_PSEUDO_TERMINALS) RUNS.unshift("real-time");
-const LAST_RUN = HAS_PSEUDO_TERMINALS ? "load" : null;
+/** The projects of vitest.config.ts that may run in parallel with the checks, and those that run alone after them. */
+const SHARED_RUNS = ["functions", "together", "commands", "processes"];
+const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? ["real-time", "load"] : [];
 
 const failures = [];
 let passedCount = 0;
@@ -129,10 +125,10 @@ ensureBuild();
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-test-"));
 try {
   const checks = filters.length === 0 ? runChecks() : Promise.resolve();
-  for (const name of RUNS) await runTests(name, filters, folder);
+  for (const name of SHARED_RUNS) await runTests(name, filters, folder);
   await checks;
-  if (LAST_RUN !== null) await runTests(LAST_RUN, filters, folder);
-  else {
+  for (const name of UNDISTURBED_RUNS) await runTests(name, filters, folder);
+  if (!HAS_PSEUDO_TERMINALS) {
     console.log(
       "Left out on Windows, which has no pseudo-terminals and no signals: POSIX_ONLY in vitest.config.ts",
     );
