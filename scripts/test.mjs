@@ -30,9 +30,12 @@ const CHECKS = [
 const CHECKS_PRIORITY = 5;
 const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
 
-/** The projects of vitest.config.ts that may run in parallel with the checks, and those that run alone after them. */
-const SHARED_RUNS = ["functions", "together", "commands", "processes"];
-const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? ["real-time", "load"] : [];
+/**
+ * The projects of vitest.config.ts that may run in parallel with each other and with the checks, and those that run
+ * alone after them.
+ */
+const SHARED_RUN = ["functions", "together", "commands", "processes"];
+const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? [["real-time"], ["load"]] : [];
 
 /**
  * Only the tests in a real browser get a second attempt, which the end of the output shows. Their whole files run again,
@@ -80,20 +83,22 @@ async function runChecks() {
   }
 }
 
-/** Runs these files of a project of vitest.config.ts, or all of them. */
-async function runVitest(project, filters, resultFile) {
-  const args = ["run", "--project", project, "--passWithNoTests", "--reporter=default", "--reporter=json"];
-  const vitest = [nodeModule("vitest", "vitest.mjs"), ...args, `--outputFile.json=${resultFile}`];
+/** Runs these files of projects of vitest.config.ts, or all of them. */
+async function runVitest(projects, filters, resultFile) {
+  const args = ["run", ...projects.map((name) => `--project=${name}`), "--passWithNoTests"];
+  const reports = ["--reporter=default", "--reporter=json", `--outputFile.json=${resultFile}`];
+  const vitest = [nodeModule("vitest", "vitest.mjs"), ...args, ...reports];
   const code = await runNode([...vitest, ...filters], false);
   return { code, report: readReport(resultFile) };
 }
 
-async function runTests(project, filters, folder) {
-  let { code, report } = await runVitest(project, filters, path.join(folder, `${project}.json`));
+async function runTests(projects, filters, folder) {
+  const name = projects.join("-");
+  let { code, report } = await runVitest(projects, filters, path.join(folder, `${name}.json`));
   const again = report === null || filters.length > 0 ? [] : failedFiles(report).filter(mayRunAgain);
   if (again.length > 0 && again.length <= MAX_FILES_AGAIN) {
     console.log(`Second attempt: ${again.join(", ")}`);
-    const second = await runVitest(project, again, path.join(folder, `${project}-again.json`));
+    const second = await runVitest(projects, again, path.join(folder, `${name}-again.json`));
     if (second.report !== null) {
       const before = failuresIn(report);
       report = withSecondAttempt(report, second.report);
@@ -102,18 +107,18 @@ async function runTests(project, filters, folder) {
       if (failed.length === 0) code = second.code;
     }
   }
-  count(project, code, report);
+  count(name, code, report);
 }
 
-function count(project, code, report) {
+function count(name, code, report) {
   if (report === null) {
-    fail(`tests (${project}) ended with code ${code} and left no report`);
+    fail(`tests (${name}) ended with code ${code} and left no report`);
     return;
   }
   passedCount += passedCountIn(report);
   const failed = failuresIn(report);
   for (const what of failed) fail(what);
-  if (code !== 0 && failed.length === 0) fail(`tests (${project}): an error outside any test, see above`);
+  if (code !== 0 && failed.length === 0) fail(`tests (${name}): an error outside any test, see above`);
 }
 
 async function findOrInstallBrowser() {
@@ -139,9 +144,9 @@ ensureBuild();
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-test-"));
 try {
   const checks = filters.length === 0 ? runChecks() : Promise.resolve();
-  for (const name of SHARED_RUNS) await runTests(name, filters, folder);
+  await runTests(SHARED_RUN, filters, folder);
   await checks;
-  for (const name of UNDISTURBED_RUNS) await runTests(name, filters, folder);
+  for (const projects of UNDISTURBED_RUNS) await runTests(projects, filters, folder);
   if (!HAS_PSEUDO_TERMINALS) {
     console.log(
       "Left out on Windows, which has no pseudo-terminals and no signals: POSIX_ONLY in vitest.config.ts",

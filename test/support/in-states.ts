@@ -66,6 +66,8 @@ async function inGroup(
       viewport: { width, height },
       hasTouch: width < 760,
       reducedMotion,
+      // Storing the page for offline use costs time.
+      serviceWorkers: "block",
     });
     contexts.push(context);
     const other = await context.newPage();
