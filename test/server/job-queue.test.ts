@@ -245,30 +245,6 @@ describe("the queue", () => {
     expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
   });
 
-  it("keeps its place and the pen that it waits for, however often it is cancelled and recovered", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const first = await plotter.nextRun();
-    await settled();
-    const wait = { kind: "pen", layerName: "Red", penName: null, color: null } as const;
-    const place = { stroke: 7, alongMm: 0 };
-    first.holdPlace = place;
-    first.held(true, wait);
-    first.record({ place });
-    for (let run = first; ; run = await plotter.nextRun()) {
-      await settled();
-      queue.cancel(id);
-      // A plotter releases a held plot to send it home.
-      run.held(false);
-      await settled();
-      const kept = { wait, place: { strokeIndex: 7, alongMm: 0 } };
-      expect(queue.get(id)).toMatchObject({ state: "cancelled", ...kept });
-      if (run !== first) break;
-      expect(queue.recover(id)).toMatchObject({ state: "paused", ...kept });
-    }
-    expect(queue.requeue(id)).toMatchObject({ state: "queued", wait: null, place: null });
-  });
-
   it("can't recover a cancelled job that was never begun", async () => {
     const { id } = await add("fern");
     queue.cancel(id);
