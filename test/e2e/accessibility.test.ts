@@ -18,7 +18,8 @@ import {
   waitForSamples,
 } from "../support/page-actions.js";
 import { DESK, inStates, LOOKS, PHONE, type Look } from "../support/in-states.js";
-import { PAGE_STATES, type PageState } from "../support/page-states.js";
+import { PAGE_STATES } from "../support/page-states.js";
+import type { PageState } from "../support/page-states/page-state.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 import { IS_FULL } from "../support/full-run.js";
 
