@@ -90,7 +90,8 @@ function buildEntrances(): void {
   const home = readFileSync(inSources("home.html"), "utf8");
   writeFileSync(path.join(site, "index.html"), home);
   const html = `<h1 id="not-found">Page not found</h1>
-<p>There is no page at this address. The <a href="${values.base}docs/index.html">overview</a> lists all pages.</p>`;
+<p>There is no page at this address. The menu lists all pages; the <a href="${values.base}docs/index.html">overview</a> is a
+good place to begin.</p>`;
   const page = layout(null, { title: "Page not found", html, headings: [] }, `${values.base}docs/`);
   writeFileSync(path.join(site, "404.html"), page);
 }

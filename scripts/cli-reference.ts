@@ -54,7 +54,7 @@ function row({ flags, description, defaultValue, envVar }: Option): string[] {
     ...(defaultValue === undefined || typeof defaultValue === "boolean"
       ? []
       : [`default: ${String(defaultValue)}`]),
-    ...(envVar === undefined ? [] : [`environment: ${envVar}`]),
+    ...(envVar === undefined ? [] : [`environment: \`${envVar}\``]),
   ];
   return [
     `\`${flags.replaceAll("|", "\\|")}\``,

@@ -15,6 +15,7 @@ import { STATE_ROUTES } from "../server/http/state-routes.js";
 import { SHARED_ROUTES } from "../server/plugins/shared-queue/shared-routes.js";
 import { WEBHOOK_ROUTES } from "../server/plugins/webhooks/webhook-routes.js";
 import * as schemaEntry from "../src/schema/index.js";
+import { fieldDocs } from "./field-docs.js";
 
 const TITLE = `# HTTP reference
 
@@ -58,7 +59,11 @@ interface Schema {
   readonly exclusiveMinimum?: number;
   readonly maximum?: number;
   readonly maxLength?: number;
+  readonly description?: string;
 }
+
+/** By type and path: "Job.stats". */
+const DOCS = fieldDocs(path.join(import.meta.dirname, "..", "src", "schema"));
 
 export async function httpReference(): Promise<string> {
   const writer = new TypeWriter();
@@ -101,8 +106,15 @@ class TypeWriter {
 
   /** Also notes the named types in it, for the list at the end. */
   #use(type: ZodType): Schema {
-    const options = { io: "output", unrepresentable: "any", metadata: this.#names } as const;
-    const { $defs = {}, ...schema } = z.toJSONSchema(type, options) as Schema;
+    const { $defs = {}, ...schema } = z.toJSONSchema(type, {
+      io: "output",
+      unrepresentable: "any",
+      metadata: this.#names,
+      override: ({ zodSchema, jsonSchema }) => {
+        const about = z.globalRegistry.get(zodSchema)?.description;
+        if (about !== undefined) jsonSchema.description = `${about[0].toUpperCase()}${about.slice(1)}`;
+      },
+    }) as Schema;
     for (const [name, definition] of Object.entries($defs)) this.#used.set(name, definition);
     return schema;
   }
@@ -122,7 +134,7 @@ class TypeWriter {
   namedTypes(): string {
     const sorted = [...this.#used].sort(([one], [other]) => (one < other ? -1 : 1));
     return sorted
-      .map(([name, schema]) => `### ${name}\n\n${fence(`type ${name} = ${typeText(schema)};`)}`)
+      .map(([name, schema]) => `### ${name}\n\n${fence(`type ${name} = ${typeText(schema, "", name)};`)}`)
       .join("\n\n");
   }
 }
@@ -131,20 +143,20 @@ const nameIn = (reference: string): string => reference.replace("#/$defs/", "");
 
 const fence = (code: string): string => `\`\`\`ts\n${code}\n\`\`\``;
 
-/** A schema as a TypeScript type. */
-function typeText(schema: Schema, indent = ""): string {
+/** A schema as a TypeScript type. `at`: type and path of the schema, by which the docs of its fields are found. */
+function typeText(schema: Schema, indent = "", at = ""): string {
   if (schema.$ref !== undefined) return nameIn(schema.$ref);
   if ("const" in schema) return JSON.stringify(schema.const);
   if (schema.enum !== undefined) return schema.enum.map((one) => JSON.stringify(one)).join(" | ");
   const options = schema.anyOf ?? schema.oneOf;
-  if (options !== undefined) return [...new Set(options.map((one) => typeText(one, indent)))].join(" | ");
-  if (schema.allOf !== undefined) return schema.allOf.map((one) => typeText(one, indent)).join(" & ");
+  if (options !== undefined) return [...new Set(options.map((one) => typeText(one, indent, at)))].join(" | ");
+  if (schema.allOf !== undefined) return schema.allOf.map((one) => typeText(one, indent, at)).join(" & ");
   if (typeof schema.type === "object") return schema.type.join(" | ");
   switch (schema.type) {
     case "array":
-      return `${bracketed(typeText(schema.items ?? {}, indent))}[]`;
+      return `${bracketed(typeText(schema.items ?? {}, indent, at))}[]`;
     case "object":
-      return objectText(schema, indent);
+      return objectText(schema, indent, at);
     case "integer":
       return "number";
     case undefined:
@@ -159,19 +171,30 @@ const bracketed = (text: string): string => (/ [|&] /.test(text) && !text.endsWi
 function objectText(
   { properties = {}, required = [], additionalProperties }: Schema,
   indent: string,
+  at: string,
 ): string {
   const fields = Object.entries(properties);
   if (fields.length === 0) {
     const isRecord = typeof additionalProperties === "object" && Object.keys(additionalProperties).length > 0;
-    return isRecord ? `{ [key: string]: ${typeText(additionalProperties, indent)} }` : "object";
+    return isRecord ? `{ [key: string]: ${typeText(additionalProperties, indent, at)} }` : "object";
   }
   const lines = fields.map(([name, field]) => {
     const mark = required.includes(name) ? "" : "?";
     const note = limitsText(field);
-    return `${indent}  ${name}${mark}: ${typeText(field, `${indent}  `)};${note === "" ? "" : ` // ${note}`}`;
+    const doc = DOCS.get(`${at}.${name}`) ?? descriptionOf(field);
+    const type = typeText(field, `${indent}  `, `${at}.${name}`);
+    return `${commentLines(doc, indent)}${indent}  ${name}${mark}: ${type};${note === "" ? "" : ` // ${note}`}`;
   });
   return `{\n${lines.join("\n")}\n${indent}}`;
 }
+
+/** Also that of a type that may be null. */
+const descriptionOf = ({ description, anyOf = [] }: Schema): string =>
+  description ?? anyOf.find((one) => one.description !== undefined)?.description ?? "";
+
+/** Lines of at most 80 characters, for a phone too. */
+const commentLines = (doc: string, indent: string): string =>
+  (doc.match(/\S.{0,72}(?=\s|$)/g) ?? []).map((line) => `${indent}  // ${line}\n`).join("");
 
 /** zod gives these limits to every whole number. */
 const isLimit = (limit: number | undefined): limit is number =>

@@ -76,7 +76,7 @@ function swingChart(shaper: Shaper, label: string): Chart {
   const pen: Point[] = [];
   swingPen(t, springs, 0.0005, ({ x, y, stroke }) => stroke >= 0 && pen.push([x, y]));
   return {
-    title: `A = 1750 mm/s², springs of 15 and 25 Hz, ${label}`,
+    title: `A = 1750 mm/s², 15 and 25 Hz, ${label}`,
     xLabel: "mm",
     yLabel: "mm",
     square: true,
@@ -125,7 +125,7 @@ function resamplingChart(): Chart {
   });
   const bound = Math.sqrt(limits.accel * radius);
   return {
-    title: `A circle of ${radius} mm radius, sampled ever more finely (V 200 mm/s)`,
+    title: `A circle of ${radius} mm radius, V = ${limits.speed} mm/s`,
     xLabel: "log10 of the distance between samples, mm",
     yLabel: "mm/s",
     series: [
@@ -190,16 +190,17 @@ function circle(radius: number, step: number, turns: number): Point[] {
 }
 
 function save(name: string, charts: readonly Chart[]): void {
-  const [width, height] = [640, 300];
+  // Narrow, with the legend above: the words are readable on a phone too.
+  const [width, height] = [480, 320];
   const body = charts.map((chart, i) => `<g transform="translate(0 ${i * height})">${drawn(chart)}</g>`);
   const svg =
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height * charts.length}" ` +
-    `font-family="sans-serif" font-size="12">\n<rect width="100%" height="100%" fill="#fff"/>\n${body.join("\n")}\n</svg>\n`;
+    `font-family="sans-serif" font-size="14">\n<rect width="100%" height="100%" fill="#fff"/>\n${body.join("\n")}\n</svg>\n`;
   writeFileSync(path.join(FOLDER, `${name}.svg`), svg);
 }
 
 function drawn(chart: Chart): string {
-  const box = { left: 60, top: 30, width: 420, height: 225 };
+  const box = { left: 60, top: 52, width: 400, height: 220 };
   const all = chart.series.flatMap((s) => s.points);
   const [x0, x1] = [Math.min(...all.map((p) => p[0])), Math.max(...all.map((p) => p[0]))];
   const [low, y1] = [Math.min(...all.map((p) => p[1])), Math.max(...all.map((p) => p[1]))];
@@ -213,7 +214,7 @@ function drawn(chart: Chart): string {
     const [x, y] = [x0 + share * (x1 - x0), y0 + share * (y1 - y0)];
     const [px, py] = at([x, y]).split(" ");
     return [
-      `<text x="${px}" y="${box.top + box.height + 16}" text-anchor="middle">${short(x, x1 - x0)}</text>`,
+      `<text x="${px}" y="${box.top + box.height + 18}" text-anchor="middle">${short(x, x1 - x0)}</text>`,
       `<text x="${box.left - 6}" y="${py}" text-anchor="end" dominant-baseline="middle">${short(y, y1 - y0)}</text>`,
     ];
   });
@@ -222,17 +223,16 @@ function drawn(chart: Chart): string {
       ? points.map((p) => `<circle cx="${at(p).replace(" ", '" cy="')}" r="2" fill="${color}"/>`).join("")
       : `<path d="M${points.map(at).join("L")}" fill="none" stroke="${color}" stroke-width="1.4"/>`,
   );
-  const legend = chart.series.map(
-    (s, i) => `<text x="495" y="${box.top + 14 + 18 * i}" fill="${s.color}">${s.label}</text>`,
-  );
+  const names = chart.series.map(({ label, color }) => `<tspan fill="${color}" dx="12">${label}</tspan>`);
+  const legend = `<text x="${box.left - 12}" y="40">${names.join("")}</text>`;
   return [
     `<text x="${box.left}" y="18" font-weight="bold">${chart.title}</text>`,
     `<path d="M${box.left} ${box.top}V${box.top + box.height}H${box.left + box.width}" fill="none" stroke="#333"/>`,
     ...ticks,
-    `<text x="${box.left + box.width / 2}" y="${box.top + box.height + 34}" text-anchor="middle">${chart.xLabel}</text>`,
+    `<text x="${box.left + box.width / 2}" y="${box.top + box.height + 38}" text-anchor="middle">${chart.xLabel}</text>`,
     `<text x="8" y="18">${chart.yLabel}</text>`,
     ...lines,
-    ...legend,
+    legend,
   ].join("\n");
 }
 

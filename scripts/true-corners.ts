@@ -12,7 +12,7 @@ const SIDE = 1e6;
 const ms = (s: number): string => (1000 * s).toFixed(1).padStart(8);
 
 console.log(
-  "| turn | V mm/s | junction | blend    | least    |\n| ---: | -----: | -------: | -------: | -------: |",
+  "| turn | V mm/s | junction | blend    | min      |\n| ---: | -----: | -------: | -------: | -------: |",
 );
 for (const deg of [30, 45, 60, 90, 120, 150]) {
   for (const speed of [5, 10, 25, 50, 100]) {

@@ -326,7 +326,7 @@ export class JobQueue {
 
   #firstPlotter(): string {
     const first = [...this.#parts.plotters.keys()][0];
-    if (first === undefined) throw new PlotwrightError("no-board", "This server has no plotter.");
+    if (first === undefined) throw new PlotwrightError("no-board", "There is no plotter.");
     return first;
   }
 }

@@ -311,7 +311,7 @@ export class RunningPlots {
 
   /** The job's plotter; throws unless it is connected and has no other job. */
   #freePlotter(id: string): PlotterPort {
-    if (this.#closing) throw new PlotwrightError("conflict", "The server is stopping.");
+    if (this.#closing) throw new PlotwrightError("conflict", "plotwright is stopping.");
     const plotter = plotterOf(this.#parts, this.#jobs.get(id).plotterId);
     const other = this.#running.get(plotter.id);
     if (other !== undefined && other.jobId !== id) {

@@ -46,7 +46,19 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
       image({ href, text }: Tokens.Image) {
         const picture = inRepository(source, href);
         pictures.push(picture);
-        return `<img src="${escapeHtml(picture.replace(/^docs\//, ""))}" alt="${escapeHtml(text)}">`;
+        const file = escapeHtml(picture.replace(/^docs\//, ""));
+        // The link shows the picture in full size: on a phone its words are too small.
+        return `<a href="${file}"><img src="${file}" alt="${escapeHtml(text)}"></a>`;
+      },
+      text(token: Tokens.Text | Tokens.Escape) {
+        const { tokens = [] } = token as Partial<Tokens.Text>;
+        if (tokens.length > 0) return this.parser.parseInline(tokens);
+        return escapeHtml(keepNumbersTogether(token.text));
+      },
+      codespan({ text }: Tokens.Codespan) {
+        // A short option or name stays on one line; a path may break before a slash.
+        const mark = text.length <= 20 ? ' class="whole"' : "";
+        return `<code${mark}>${escapeHtml(text).replace(/(?<=\w)\/(?=[\w:])/g, "<wbr>/")}</code>`;
       },
       code({ text }: Tokens.Code) {
         // Long lines scroll, so the keyboard must be able to reach them.
@@ -74,6 +86,13 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
   const html = marked.parse(markdown, { async: false });
   return { html, headings, pictures };
 }
+
+/** No line break in "10 000", and between a number and its unit. */
+const keepNumbersTogether = (text: string): string =>
+  text.replace(
+    /(?<=\d) (?=\d{3}(?!\d)|%|(?:mm|s|ms|min|kB|MB|Hz|mm\/s|mm\/s²|mm\/s³|steps\/s)(?![\w/]))/g,
+    "\u00a0",
+  );
 
 /** Where a link of a Markdown file leads on the site. Throws if its target is not on the site. */
 function linkTo(source: string, href: string): string {

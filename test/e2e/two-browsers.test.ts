@@ -153,7 +153,7 @@ describe("two browsers and a watcher", () => {
     for (const page of [anna, ben]) await openView(page, "Prepare");
     await ben.getByText(/^\S+ on .* is operating\.$/).waitFor();
     // A button that only the operator may press asks, instead of failing.
-    const question = ben.getByRole("dialog", { name: "Another browser is operating" });
+    const question = ben.getByRole("dialog", { name: "Another page is operating" });
     await queuePanel(ben).getByRole("radio", { name: "Start the next" }).click();
     await question.getByRole("button", { name: "Not now" }).click();
     expect(await ben.getByRole("alert").count()).toBe(0);

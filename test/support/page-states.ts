@@ -355,7 +355,7 @@ export const PAGE_STATES: readonly PageState[] = [
       await page.getByText("is operating.").waitFor();
       await openTab(page, "Queue");
       await queuePanel(page).getByRole("radio", { name: "Wait for paper" }).click();
-      await page.getByRole("dialog", { name: "Another browser is operating" }).waitFor();
+      await page.getByRole("dialog", { name: "Another page is operating" }).waitFor();
     },
   },
   {

@@ -36,10 +36,10 @@ export const pairingText = {
 };
 
 export const takeOverText = {
-  title: "Another browser is operating",
+  title: "Another page is operating",
   operating: (name: string | null) =>
-    name === null ? "Another browser is operating the plotter." : `${name} is operating the plotter.`,
-  hint: "Only one browser operates at a time. If you take over, the other one can only watch until it takes over again.",
+    name === null ? "Another page is operating the plotter." : `${name} is operating the plotter.`,
+  hint: "Only one page operates at a time. If you take over, the other one can only watch until it takes over again.",
   takeOver: "Take over",
   keep: "Not now",
 };
@@ -59,7 +59,7 @@ export const stripsText = {
   operating: (name: string) => `${name} is operating.`,
   takeOver: "Take over",
   read: "Dismiss",
-  outdated: "plotwright was updated on the server.",
+  outdated: "plotwright was updated.",
   offline:
     "plotwright’s server can’t be reached: it is switched off, or this device has no network. You can still lay out drawings.",
 };

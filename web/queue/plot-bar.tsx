@@ -124,7 +124,7 @@ interface PlotNoteProps {
 const PlotNote = ({ isSending, isBusy, isAbsent }: PlotNoteProps) => {
   const link = usePageState((state) => state.link);
   const hasDrawing = usePageState((state) => state.drawing !== null);
-  if (link === "lost") return <p className="note note-error">{stateText.needsServer}</p>;
+  if (link === "lost") return <p className="note note-error">{stateText.notConnected}</p>;
   if (isSending) {
     return (
       <p className="note note-working" role="status">

@@ -11,7 +11,7 @@ export const plotText = {
   queueBusy: "The plotter is busy. You can add this drawing to the queue.",
   copies: "Copies",
   addCopies: (count: number) => `Add ${count} to queue`,
-  sending: "Sending… The server plans every move, which takes a while for a large drawing.",
+  sending: "Adding… Every move is planned first, which takes a while for a large drawing.",
   saveToJob: (name: string) => `Save the changes to ${name} in the queue`,
   outside: (count: number, number: string) =>
     count === 1

@@ -75,7 +75,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
     movePen: async (up: boolean, heightPct?: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (!id) return notify("error", stateText.needsServer);
+      if (!id) return notify("error", stateText.notConnected);
       await attempt("pen", () => backend.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
     },
     motorsOff: async (): Promise<void> => {

@@ -7,5 +7,5 @@ export const stateText = {
   pasteNothing: "The clipboard has no SVG. Copy the drawing as SVG, or drop the file.",
   saved: (name: string) => `${name} in the queue now has these settings.`,
   added: (name: string) => `${name} is in the queue.`,
-  needsServer: "Nothing can be plotted without the server.",
+  notConnected: "There is no connection to plotwright, so nothing can be plotted.",
 };
