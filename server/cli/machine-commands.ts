@@ -1,5 +1,6 @@
 /** Runs the single commands to the machine: pen, manual moves, a raw line, info. */
 import type { PlotSettings } from "../../src/schema/index.js";
+import { PlotwrightError } from "../../src/index.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { HandMove } from "../../host/plotter/hand-moves.js";
 import { openPlotter } from "../plotter/open-plotter.js";
@@ -23,7 +24,7 @@ export async function runPen(where: PenPlace, settings: PlotSettings, options: D
   await withPlotter(options, settings, (plotter) => plotter.pen(where === "up", heightPct));
 }
 
-/** Sends one line to the board and prints its answer. */
+/** Sends one line to the board and prints its answer. Rejects with `board-error` if the board refuses the line. */
 export async function runRaw(
   line: string,
   settings: PlotSettings,
@@ -31,7 +32,8 @@ export async function runRaw(
   io: CliIo,
 ): Promise<void> {
   await withPlotter(options, settings, async (plotter) => {
-    const { replies, note } = await plotter.command(line);
+    const { replies, refused, note } = await plotter.command(line);
+    if (refused) throw new PlotwrightError("board-error", `The board refused ${line}: ${replies.join(", ")}`);
     replies.forEach((reply) => io.out(`${reply}\n`));
     if (note !== null) io.err(`${note}\n`);
   });

@@ -90,6 +90,13 @@ export function openError(path: string, error: Error): PlotwrightError {
       { cause: error },
     );
   }
+  if (/inappropriate ioctl|ENOTTY|is a directory|EISDIR|invalid argument|EINVAL/i.test(words)) {
+    return new PlotwrightError(
+      "no-board",
+      `${path} is not a serial port: choose the plotter's with --device ("plotwright devices" lists them).`,
+      { cause: error },
+    );
+  }
   return new PlotwrightError("no-board", `${path} cannot be opened as a serial port (${words}).`, {
     cause: error,
   });

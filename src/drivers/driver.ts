@@ -144,6 +144,8 @@ export interface Machine {
 
 export interface ConsoleAnswer {
   readonly replies: string[];
+  /** The machine answered with an error, which is among the replies. */
+  readonly refused: boolean;
   /** Effect on the position or the pen, in words; null: none. */
   readonly note: string | null;
 }

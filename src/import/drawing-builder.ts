@@ -154,8 +154,9 @@ export class DrawingBuilder {
 
   /** Moves everything, for files that do not define where their page is. */
   translate(dx: number, dy: number): void {
-    const all = [this.coords.data.subarray(0, this.coords.length), ...this.clips.map((clip) => clip.coords)];
-    for (const coords of all) {
+    // Clips may share their coordinates.
+    const clipCoords = new Set(this.clips.map((clip) => clip.coords));
+    for (const coords of [this.coords.data.subarray(0, this.coords.length), ...clipCoords]) {
       for (let i = 0; i < coords.length; i += 2) {
         coords[i] += dx;
         coords[i + 1] += dy;

@@ -18,6 +18,8 @@ export class ShapeBuffer {
   startY = 0;
   /** Verbs that end between the pieces of an arc: these points are not vertices of the original path. */
   readonly innerVerbs: number[] = [];
+  /** Closes that were closed again: each repetition draws nothing, but is a vertex for markers. */
+  readonly closedAgain: number[] = [];
   /** The number of subpaths with a lone move, which draw nothing. */
   lonePoints = 0;
 
@@ -25,6 +27,7 @@ export class ShapeBuffer {
     this.verbs.length = 0;
     this.coords.length = 0;
     this.innerVerbs.length = 0;
+    this.closedAgain.length = 0;
     this.lonePoints = 0;
     this.x = this.y = this.startX = this.startY = 0;
   }
@@ -77,7 +80,10 @@ export class ShapeBuffer {
     const verbs = this.verbs;
     if (verbs.length === 0) return;
     const last = verbs.data[verbs.length - 1];
-    if (last === VERB_CLOSE) return;
+    if (last === VERB_CLOSE) {
+      this.closedAgain.push(verbs.length - 1);
+      return;
+    }
     if (last === VERB_MOVE) this.lineTo(this.startX, this.startY);
     verbs.push(VERB_CLOSE);
     this.x = this.startX;

@@ -49,6 +49,8 @@ const WORDS = {
     `${many(n, "path has", "paths have")} an error and ${n === 1 ? "is" : "are"} drawn only up to it${details}. Check ${n === 1 ? "it" : "them"} in your drawing program.`,
   "attribute-fault": (n: number, details: string) =>
     `${many(n, "attribute is", "attributes are")} malformed and ignored${details}.`,
+  "length-approximate": (n: number, details: string) =>
+    `${many(n, "length is", "lengths are")} in ex or ch${details}: taken as half the font size. Give ${n === 1 ? "it" : "them"} in px or mm to be exact.`,
   "speed-factor": (n: number, details: string) =>
     `${many(n, "speed is", "speeds are")} ignored${details}. Give a number from 0.01 to 1: 0.5 is half the usual speed.`,
   "coordinates-out-of-range": (n: number, details: string) =>

@@ -68,18 +68,11 @@ export const SHAPED_RULES: MergeRules = {
  * Two blocks of `halfS` seconds each, with velocity (wx, wy) between them. They replace the blocks before
  * `end`.
  */
-class Pair {
-  end = 0;
-  halfS = 0;
-  wx = 0;
-  wy = 0;
-
-  copy({ end, halfS, wx, wy }: Pair): void {
-    this.end = end;
-    this.halfS = halfS;
-    this.wx = wx;
-    this.wy = wy;
-  }
+interface Pair {
+  readonly end: number;
+  readonly halfS: number;
+  readonly wx: number;
+  readonly wy: number;
 }
 
 /** Merges the blocks of one run, from `first` to the last one, in place. The run ends at rest at `at`. */
@@ -94,19 +87,18 @@ export function mergeBlocks(
   // Add a row for the end state of the last block, so that every block has a successor.
   blocks.push(0, at.x, at.y, 0, 0, 0, 0, at.alongMm);
   blocks.count = first;
-  blocks.clockS = blocks.startS[first]!;
-  const pair = new Pair();
-  const trial = new Pair();
+  blocks.clockS = blocks.startS[first];
   let size = FIRST_GROUP;
   let i = first;
   while (i < last) {
-    if (findLongest(blocks, i, Math.min(i + size, last), last, limits, rules, pair, trial)) {
+    const pair = longestPair(blocks, i, Math.min(i + size, last), last, limits, rules);
+    if (pair) {
       writePair(blocks, i, pair);
       size = pair.end - i;
       i = pair.end;
     } else {
       blocks.pushFrom(blocks, i);
-      size = Math.max(MIN_GROUP, size >> 1);
+      size = Math.max(MIN_GROUP, Math.floor(size / 2));
       i += 1;
     }
   }
@@ -116,64 +108,61 @@ export function mergeBlocks(
 const MIN_GROUP = 3;
 
 /**
- * Grows or shrinks a group that begins at block i, and first ends at `guess`. Sets `pair` to the longest one found;
- * false if there is none. `trial` is a temporary.
+ * Grows or shrinks a group that begins at block i, and first ends at `guess`. Returns the pair of the longest group
+ * found; null if there is none.
  */
-function findLongest(
+function longestPair(
   blocks: BlockColumns,
   i: number,
   guess: number,
   last: number,
   limits: RunLimits,
   rules: MergeRules,
-  pair: Pair,
-  trial: Pair,
-): boolean {
+): Pair | null {
   let end = guess;
-  let isFound = isPair(blocks, i, end, limits, rules, pair);
-  while (!isFound && end > i + 2) {
+  let longest = pairFor(blocks, i, end, limits, rules);
+  while (!longest && end > i + 2) {
     end = i + Math.floor((end - i) / GROWTH);
-    isFound = isPair(blocks, i, end, limits, rules, pair);
+    longest = pairFor(blocks, i, end, limits, rules);
   }
-  if (end < guess) return isFound;
-  while (isFound && pair.end < last) {
-    end = Math.min(i + Math.ceil(GROWTH * (pair.end - i)), last);
-    if (!isPair(blocks, i, end, limits, rules, trial)) break;
-    pair.copy(trial);
+  if (end < guess) return longest;
+  while (longest && longest.end < last) {
+    end = Math.min(i + Math.ceil(GROWTH * (longest.end - i)), last);
+    const longer = pairFor(blocks, i, end, limits, rules);
+    if (!longer) break;
+    longest = longer;
   }
-  return isFound;
+  return longest;
 }
 
-/** Sets `pair` to the one that replaces blocks [i, m); false if it saves nothing or breaks a limit. */
-function isPair(
+/** The pair that replaces blocks [i, m); null if it saves nothing or breaks a limit. */
+function pairFor(
   blocks: BlockColumns,
   i: number,
   m: number,
   limits: RunLimits,
   rules: MergeRules,
-  pair: Pair,
-): boolean {
-  if (!isWorth(blocks, i, m, rules.floorS)) return false;
+): Pair | null {
+  if (!isWorth(blocks, i, m, rules.floorS)) return null;
   const plannedS = blocks.startS[m] - blocks.startS[i];
-  const isWithin =
-    isWithinLimits(plannedS, blocks, i, m, limits, rules, pair) ||
-    (!rules.isShaped && isWithinLimits(plannedS * (1 + STRETCH), blocks, i, m, limits, rules, pair));
-  return isWithin && isNear(blocks, i, pair, limits, rules);
+  let pair = pairWithinLimits(plannedS, blocks, i, m, limits, rules);
+  if (!pair && !rules.isShaped)
+    pair = pairWithinLimits(plannedS * (1 + STRETCH), blocks, i, m, limits, rules);
+  return pair && isNear(blocks, i, pair, limits, rules) ? pair : null;
 }
 
 /**
- * Sets `pair` to the one that takes `wholeS` seconds. False if V, A or a motor limit is broken, or if a half
- * reverses direction (the position along the drawing is interpolated by speed).
+ * The pair that takes `wholeS` seconds. Null if it breaks V, A or a motor limit, or if a half reverses direction (the
+ * position along the drawing is interpolated by speed).
  */
-function isWithinLimits(
+function pairWithinLimits(
   wholeS: number,
   blocks: BlockColumns,
   i: number,
   m: number,
   limits: RunLimits,
   { isShaped }: MergeRules,
-  pair: Pair,
-): boolean {
+): Pair | null {
   const { x, y, vx, vy } = blocks;
   const { stretchX, stretchY } = limits;
   const vx0 = vx[i];
@@ -184,18 +173,14 @@ function isWithinLimits(
   const wy = (2 * (y[m] - y[i])) / wholeS - (vy0 + vy1) / 2;
   const halfS = wholeS / 2;
   const maxChange = limits.accel * SLACK * halfS;
-  pair.end = m;
-  pair.halfS = halfS;
-  pair.wx = wx;
-  pair.wy = wy;
-  return (
+  const isWithin =
     isShorter(wx - vx0, wy - vy0, maxChange, isShaped) &&
     isShorter(vx1 - wx, vy1 - wy, maxChange, isShaped) &&
     isShorter(wx / stretchX, wy / stretchY, limits.speed * SLACK, isShaped) &&
     vx0 * wx + vy0 * wy >= 0 &&
     wx * vx1 + wy * vy1 >= 0 &&
-    canReach(limits, wx / stretchX, wy / stretchY)
-  );
+    canReach(limits, wx / stretchX, wy / stretchY);
+  return isWithin ? { end: m, halfS, wx, wy } : null;
 }
 
 const isShorter = (x: number, y: number, maxLength: number, inEachAxis: boolean): boolean =>

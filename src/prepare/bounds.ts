@@ -5,21 +5,20 @@
  */
 import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../drawing/drawing.js";
 import type { Affine } from "../geometry/affine.js";
+import type { Box } from "../geometry/box.js";
 
 /**
- * Writes the box of verbs [verbFrom, verbTo), whose coordinates start at `at`, transformed by `map`, to `out` from
- * `outAt` on: x0, y0, x1, y1. Moves that draw nothing are ignored.
+ * The box of verbs [verbFrom, verbTo), whose coordinates start at `coordFrom`, transformed by `map`. Moves that draw
+ * nothing are ignored.
  */
 export function boundsOfVerbs(
   verbs: Uint8Array,
   verbFrom: number,
   verbTo: number,
   coords: Float64Array,
-  at: number,
+  coordFrom: number,
   map: Affine,
-  out: Float64Array,
-  outAt: number,
-): void {
+): Box {
   const { a, b, c, d, e, f } = map;
   let x0 = Infinity;
   let y0 = Infinity;
@@ -27,6 +26,7 @@ export function boundsOfVerbs(
   let y1 = -Infinity;
   let x = 0;
   let y = 0;
+  let at = coordFrom;
   for (let v = verbFrom; v < verbTo; v++) {
     const verb = verbs[v];
     if (verb !== VERB_MOVE) {
@@ -41,12 +41,12 @@ export function boundsOfVerbs(
     const endY = b * coords[endAt] + d * coords[endAt + 1] + f;
     if (verb === VERB_CUBIC) {
       const [ux, uy, wx, wy] = [coords[at], coords[at + 1], coords[at + 2], coords[at + 3]];
-      const rangeX = extremesOf(x, a * ux + c * uy + e, a * wx + c * wy + e, endX);
-      x0 = Math.min(x0, rangeX.low);
-      x1 = Math.max(x1, rangeX.high);
-      const rangeY = extremesOf(y, b * ux + d * uy + f, b * wx + d * wy + f, endY);
-      y0 = Math.min(y0, rangeY.low);
-      y1 = Math.max(y1, rangeY.high);
+      const [minX, maxX] = extremesOf(x, a * ux + c * uy + e, a * wx + c * wy + e, endX);
+      const [minY, maxY] = extremesOf(y, b * ux + d * uy + f, b * wx + d * wy + f, endY);
+      x0 = Math.min(x0, minX);
+      x1 = Math.max(x1, maxX);
+      y0 = Math.min(y0, minY);
+      y1 = Math.max(y1, maxY);
     }
     x = endX;
     y = endY;
@@ -58,32 +58,19 @@ export function boundsOfVerbs(
       y1 = Math.max(y1, y);
     }
   }
-  out[outAt] = x0;
-  out[outAt + 1] = y0;
-  out[outAt + 2] = x1;
-  out[outAt + 3] = y1;
+  return { x0, y0, x1, y1 };
 }
 
 /** Beyond this the squares below might overflow, so the control points are used as the bound. */
 const OVERFLOWING = 1e100;
 
-/** Reused by each call of `extremesOf`. */
-const range = { low: 0, high: 0 };
-
-/** The range of one coordinate of a curve: its ends, and its extremes between them. */
-function extremesOf(
-  p0: number,
-  p1: number,
-  p2: number,
-  p3: number,
-): { readonly low: number; readonly high: number } {
-  range.low = Math.min(p0, p3);
-  range.high = Math.max(p0, p3);
-  if (p1 >= range.low && p1 <= range.high && p2 >= range.low && p2 <= range.high) return range;
+/** The range of one coordinate of a curve, min and max: its ends, and its extremes between them. */
+function extremesOf(p0: number, p1: number, p2: number, p3: number): readonly [number, number] {
+  const min = Math.min(p0, p3);
+  const max = Math.max(p0, p3);
+  if (p1 >= min && p1 <= max && p2 >= min && p2 <= max) return [min, max];
   if (Math.abs(p1) > OVERFLOWING || Math.abs(p2) > OVERFLOWING) {
-    range.low = Math.min(range.low, p1, p2);
-    range.high = Math.max(range.high, p1, p2);
-    return range;
+    return [Math.min(min, p1, p2), Math.max(max, p1, p2)];
   }
   const a = p3 - p0 + 3 * (p1 - p2);
   const b = 2 * (p0 - 2 * p1 + p2);
@@ -91,15 +78,11 @@ function extremesOf(
   const root = Math.sqrt(Math.max(b * b - 4 * a * c, 0));
   // Avoids cancellation: one root is q/a, the other c/q.
   const q = -(b + (b >= 0 ? root : -root)) / 2;
-  addExtreme(p0, p1, p2, p3, q / a);
-  addExtreme(p0, p1, p2, p3, c / q);
-  return range;
+  const extremes = [q / a, c / q].filter((t) => t > 0 && t < 1).map((t) => valueAt(p0, p1, p2, p3, t));
+  return [Math.min(min, ...extremes), Math.max(max, ...extremes)];
 }
 
-function addExtreme(p0: number, p1: number, p2: number, p3: number, t: number): void {
-  if (!(t > 0 && t < 1)) return;
+function valueAt(p0: number, p1: number, p2: number, p3: number, t: number): number {
   const s = 1 - t;
-  const value = s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
-  range.low = Math.min(range.low, value);
-  range.high = Math.max(range.high, value);
+  return s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
 }

@@ -37,13 +37,11 @@ export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: 
   if (boxContains(roomy, place.whole)) return null;
   const table = layersOf(drawing, settings.layers);
   const isVisible = visibleLayers(table, settings);
-  const boxes = place.shapeBoxes();
   const wanted = new Uint8Array(drawing.paths.count);
-  for (let shape = 0, at = 0; shape < wanted.length; shape++, at += 4) {
-    const box = { x0: boxes[at], y0: boxes[at + 1], x1: boxes[at + 2], y1: boxes[at + 3] };
-    if (isEmptyBox(box) || isFarAway(box) || boxContains(roomy, box)) continue;
+  place.shapeBoxes().forEach((box, shape) => {
+    if (isEmptyBox(box) || isFarAway(box) || boxContains(roomy, box)) return;
     if (isVisible[table.ofShape[shape]]) wanted[shape] = 1;
-  }
+  });
   let lines = flattenShapes(drawing.paths, place.map, FLATTEN_MM, wanted, {});
   if (!settings.outlineFills) lines = strokedOnly(lines, drawing);
   if (drawing.clips.length > 0) {

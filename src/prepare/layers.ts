@@ -33,27 +33,17 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   /** Length times width, of the lines that have a width; and their length. */
   const areas = new Float64Array(keyCount);
   const lengths = new Float64Array(keyCount);
-  const { group, stroke, fill, strokeWidth } = paths;
-  let runMm = 0;
   for (let shape = 0; shape < paths.count; shape++) {
+    const key = keyOf(shape);
     const shapeMm = Math.max(lengthOf(paths, shape), DOT_MM);
-    runMm += shapeMm;
-    if (strokeWidth[shape] > 0) {
-      areas[keyOf(shape)] += shapeMm * strokeWidth[shape];
-      lengths[keyOf(shape)] += shapeMm;
+    const widthMm = paths.strokeWidth[shape];
+    if (widthMm > 0) {
+      areas[key] += shapeMm * widthMm;
+      lengths[key] += shapeMm;
     }
-    // Consecutive shapes of the same layer and colour are added together.
-    const next = shape + 1;
-    const isAlike =
-      next < paths.count &&
-      group[shape] === group[next] &&
-      stroke[shape] === stroke[next] &&
-      fill[shape] === fill[next];
-    if (isAlike) continue;
-    const inks = (inksOfKey[keyOf(shape)] ??= new Map<number, number>());
+    const inks = (inksOfKey[key] ??= new Map<number, number>());
     const ink = inkOf(paths, shape);
-    inks.set(ink, (inks.get(ink) ?? 0) + runMm);
-    runMm = 0;
+    inks.set(ink, (inks.get(ink) ?? 0) + shapeMm);
   }
 
   const layers: FileLayer[] = [];

@@ -33,8 +33,8 @@ export interface Placement {
   readonly frame: Box;
   /** Box of all shapes on the paper, before any clipping; infinite if a shape draws nothing. */
   readonly whole: Box;
-  /** Box of each shape on the paper, x0, y0, x1, y1; empty for a shape that draws nothing. */
-  readonly shapeBoxes: () => Float64Array;
+  /** Box of each shape on the paper; empty for a shape that draws nothing. */
+  readonly shapeBoxes: () => readonly Box[];
 }
 
 /** Width and height as the paper lies: the long side along x in landscape, otherwise along y. */
@@ -64,7 +64,7 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
       ...place,
       map: compose(after, turn),
       whole: movedBox(whole, after),
-      shapeBoxes: () => movedBoxes(turned, after),
+      shapeBoxes: () => turned.map((box) => movedBox(box, after)),
     };
   }
   const map = compose(last, compose(after, turn));
@@ -111,59 +111,41 @@ function insideMargins(paper: Box, settings: PrepareSettings): Box {
 const EVERYTHING: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infinity };
 
 /** Boxes for `Placement`. */
-function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: Float64Array; readonly whole: Box } {
+function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: readonly Box[]; readonly whole: Box } {
   const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
-  const boxes = new Float64Array(4 * count);
+  const boxes: Box[] = [];
   let whole = EMPTY_BOX;
   let hasEmpty = false;
   for (let i = 0; i < count; i++) {
-    boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map, boxes, 4 * i);
-    const box = boxAt(boxes, i);
+    const box = boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map);
+    boxes.push(box);
     if (isEmptyBox(box)) hasEmpty = true;
     whole = uniteBoxes(whole, box);
   }
   return { boxes, whole: hasEmpty ? EVERYTHING : whole };
 }
 
-/** One of `shapeBoxes`. */
-export const boxAt = (boxes: Float64Array, i: number): Box => ({
-  x0: boxes[4 * i],
-  y0: boxes[4 * i + 1],
-  x1: boxes[4 * i + 2],
-  y1: boxes[4 * i + 3],
-});
-
 /**
  * Box of everything that the file draws, including hidden layers, so that layers plotted one at a time still align.
  */
-function contentBox(drawing: Drawing, boxes: Float64Array, whole: Box, map: Affine, onPage: boolean): Box {
+function contentBox(drawing: Drawing, boxes: readonly Box[], whole: Box, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
-  const { count, clip: clipOf } = drawing.paths;
   // A shape that draws nothing makes `whole` infinite, so it counts as far away too.
   if (page === null && clipBoxes.length === 0 && !isFarAway(whole)) return whole;
   let content = EMPTY_BOX;
-  for (let i = 0; i < count; i++) {
-    const at = 4 * i;
-    const { x0, y0, x1, y1 } = content;
-    // Most shapes lie within the box found so far.
-    const isSeen = boxes[at] >= x0 && boxes[at + 1] >= y0 && boxes[at + 2] <= x1 && boxes[at + 3] <= y1;
-    if (isSeen) continue;
-    let box = boxAt(boxes, i);
-    for (let clip = clipOf[i]; clip >= 0; clip = drawing.clips[clip].parent) {
+  boxes.forEach((shapeBox, shape) => {
+    let box = page ? intersectBoxes(shapeBox, page) : shapeBox;
+    for (let clip = drawing.paths.clip[shape]; clip >= 0; clip = drawing.clips[clip].parent) {
       box = intersectBoxes(box, clipBoxes[clip]);
     }
-    if (page) box = intersectBoxes(box, page);
     if (!isEmptyBox(box) && !isFarAway(box)) content = uniteBoxes(content, box);
-  }
+  });
   return content;
 }
 
-function clipBox(clip: ClipRegion, map: Affine): Box {
-  const box = new Float64Array(4);
-  boundsOfVerbs(clip.verbs, 0, clip.verbs.length, clip.coords, 0, map, box, 0);
-  return boxAt(box, 0);
-}
+const clipBox = ({ verbs, coords }: ClipRegion, map: Affine): Box =>
+  boundsOfVerbs(verbs, 0, verbs.length, coords, 0, map);
 
 /** mm. Anything beyond this (a thousand kilometres) is an error in the file. */
 const FAR_AWAY = 1e9;
@@ -210,18 +192,6 @@ export function pageCorners(drawing: Drawing, map: Affine): number[] {
 }
 
 const pageBox = (drawing: Drawing, map: Affine): Box => boxOfPoints(pageCorners(drawing, map));
-
-/** Only for maps of scale and translation. */
-function movedBoxes(boxes: Float64Array, { a, d, e, f }: Affine): Float64Array {
-  const moved = new Float64Array(boxes.length);
-  for (let i = 0; i < boxes.length; i += 4) {
-    moved[i] = a * boxes[i] + e;
-    moved[i + 1] = d * boxes[i + 1] + f;
-    moved[i + 2] = a * boxes[i + 2] + e;
-    moved[i + 3] = d * boxes[i + 3] + f;
-  }
-  return moved;
-}
 
 /** Only for maps that scale and translate. */
 const movedBox = (box: Box, map: Affine): Box => ({

@@ -38,16 +38,14 @@ export function shapesOnPaper(
   const within = limit === null || isFarAway(limit) ? EMPTY_BOX : limit;
   // Not true if a shape is empty, because `whole` is infinite then.
   if (boxContains(within, place.whole)) return wanted.fill(1);
-  const boxes = place.shapeBoxes();
   let outside = 0;
   let far = 0;
-  for (let shape = 0, at = 0; shape < wanted.length; shape++, at += 4) {
-    const box = { x0: boxes[at], y0: boxes[at + 1], x1: boxes[at + 2], y1: boxes[at + 3] };
-    if (isEmptyBox(box)) continue;
+  place.shapeBoxes().forEach((box, shape) => {
+    if (isEmptyBox(box)) return;
     if (isFarAway(box)) far++;
     else if (limit !== null && !boxesTouch(box, limit)) outside++;
     else wanted[shape] = 1;
-  }
+  });
   if (far > 0) warnings.push(`${shapes(far)} much too far from the paper (over 1000 km) and not drawn.`);
   if (outside > 0) {
     warnings.push(

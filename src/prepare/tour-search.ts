@@ -43,6 +43,15 @@ const EPSILON = 1e-9;
 /** A double bridge cuts within this many strokes. */
 const KICK_SPAN = 12;
 
+/** A move that removes the travel edges at t1, t3 and t5. */
+interface Move {
+  /** By how much the tour becomes shorter, mm. */
+  readonly gain: number;
+  readonly t3: number;
+  /** Null for a 2-opt move. */
+  readonly t5: number | null;
+}
+
 export class TourSearch {
   /** Travel length of the ring, mm. */
   length = 0;
@@ -59,11 +68,6 @@ export class TourSearch {
   private queueSize = 0;
   /** Reversed sections since the last kick: first and last position of each. */
   private log: number[] = [];
-
-  // The best move around the current end.
-  private gain = 0;
-  private t3 = 0;
-  private t5 = 0;
 
   /**
    * `xy` has the coordinates of the ends: x, y of end 0, of end 1 …. It is referenced, not copied. `order` is the initial
@@ -93,7 +97,7 @@ export class TourSearch {
     const found = new NearestPoints(NEAR + 2);
     for (let e = 0; e < ends; e++) {
       index.find(xy[2 * e], xy[2 * e + 1], Infinity, found);
-      const others = found.ids.subarray(0, found.count).filter((other) => other >> 1 !== e >> 1);
+      const others = found.ids.subarray(0, found.count).filter((other) => strokeOf(other) !== strokeOf(e));
       for (let k = 0; k < Math.min(others.length, NEAR); k++) {
         this.near[e * NEAR + k] = others[k];
         this.nearDistance[e * NEAR + k] = this.gap(e, others[k]);
@@ -157,97 +161,92 @@ export class TourSearch {
     this.length = length;
   }
 
-  /** Finds the best move that removes the travel edge of t1, and makes it. */
+  /** Makes the best move that removes the travel edge of t1; false if none makes the tour shorter. */
   private improveAround(t1: number): boolean {
-    const { tour, place, near, nearDistance, ends } = this;
-    const p1 = place[t1];
-    // The partner of an odd position (the exit of a stroke) is the next one, that of an even position the previous one.
-    const forward = (p1 & 1) === 1;
-    const p2 = forward ? this.next(p1) : this.previous(p1);
-    const t2 = tour[p2];
+    const t2 = this.partnerOf(t1);
+    const move = this.bestMove(t1, t2);
+    if (move) this.makeMove(t1, t2, move);
+    return move !== null;
+  }
+
+  private bestMove(t1: number, t2: number): Move | null {
+    const { near, nearDistance } = this;
     const d12 = this.gap(t1, t2);
-    this.gain = EPSILON;
-    this.t3 = -1;
+    let best: Move | null = null;
     for (let k = t2 * NEAR; k < (t2 + 1) * NEAR; k++) {
       const t3 = near[k];
       const g1 = d12 - nearDistance[k];
-      if (t3 < 0 || g1 <= this.gain) break;
+      const minGain = best?.gain ?? EPSILON;
+      if (t3 < 0 || g1 <= minGain) break;
       if (t3 === t1) continue;
-      const p3 = place[t3];
-      let rel3 = forward ? p3 - p2 : p2 - p3;
-      if (rel3 < 0) rel3 += ends;
-      const t4 = tour[this.partnerPlace(p3)];
+      const t4 = this.partnerOf(t3);
       const g2 = g1 + this.gap(t3, t4);
-      const closes = (rel3 & 1) === 0;
-      if (closes) this.offer(g2 - this.gap(t4, t1), t3, -1);
-      this.tryThird(t1, p2, forward, t3, rel3, t4, g2);
+      if (isEven(this.rel(t3, t2))) {
+        const gain = g2 - this.gap(t4, t1);
+        if (gain > minGain) best = { gain, t3, t5: null };
+      }
+      best = this.bestThird(t1, t2, t3, t4, g2, best);
     }
-    if (this.t3 < 0) return false;
-    this.makeMove(t1, t2);
-    return true;
+    return best;
   }
 
-  private tryThird(
+  /** The best move with a third edge, if it is better than `best`; otherwise `best`. */
+  private bestThird(
     t1: number,
-    p2: number,
-    forward: boolean,
+    t2: number,
     t3: number,
-    rel3: number,
     t4: number,
     g2: number,
-  ): void {
-    const { tour, place, near, nearDistance, ends } = this;
-    const closes = (rel3 & 1) === 0;
+    best: Move | null,
+  ): Move | null {
+    const { near, nearDistance } = this;
+    const rel3 = this.rel(t3, t2);
+    let better = best;
     for (let k = t4 * NEAR; k < t4 * NEAR + NEAR_THIRD; k++) {
       const t5 = near[k];
       const g3 = g2 - nearDistance[k];
-      if (t5 < 0 || g3 <= this.gain) break;
-      const p5 = place[t5];
-      let rel5 = forward ? p5 - p2 : p2 - p5;
-      if (rel5 < 0) rel5 += ends;
-      const fits = closes
-        ? rel5 > rel3
-          ? (rel5 & 1) === 0
-          : rel5 < rel3 - 1 && (rel5 & 1) === 1
-        : rel5 > 0 && rel5 < rel3;
-      if (!fits || t5 === t1) continue;
-      const t6 = tour[this.partnerPlace(p5)];
-      this.offer(g3 + this.gap(t5, t6) - this.gap(t6, t1), t3, t5);
+      const minGain = better?.gain ?? EPSILON;
+      if (t5 < 0 || g3 <= minGain) break;
+      if (t5 === t1 || !isSingleRing(rel3, this.rel(t5, t2))) continue;
+      const t6 = this.partnerOf(t5);
+      const gain = g3 + this.gap(t5, t6) - this.gap(t6, t1);
+      if (gain > minGain) better = { gain, t3, t5 };
     }
+    return better;
   }
 
-  private offer(gain: number, t3: number, t5: number): void {
-    if (gain <= this.gain) return;
-    this.gain = gain;
-    this.t3 = t3;
-    this.t5 = t5;
+  /** The position of an end counted from t2, away from t1. */
+  private rel(end: number, t2: number): number {
+    const { place, ends } = this;
+    // t2 is the entry of its stroke (even) if it comes after t1.
+    const rel = isEven(place[t2]) ? place[end] - place[t2] : place[t2] - place[end];
+    return rel < 0 ? rel + ends : rel;
   }
 
-  /** Makes the move that was found, as reversals of sections. */
-  private makeMove(t1: number, t2: number): void {
-    const { t3, t5, place } = this;
-    const t4 = this.tour[this.partnerPlace(place[t3])];
-    const t6 = t5 < 0 ? -1 : this.tour[this.partnerPlace(place[t5])];
-    // Even rel t3: t2 and t3 are both entries or both exits.
-    const closes = (place[t3] & 1) === (place[t2] & 1);
-    if (closes) {
+  /** Makes a move, as reversals of sections. */
+  private makeMove(t1: number, t2: number, { gain, t3, t5 }: Move): void {
+    const t4 = this.partnerOf(t3);
+    const changed = [t1, t2, t3, t4];
+    if (t5 === null) {
       this.turn(t1, t2, t4, t3);
-      if (t5 >= 0) this.turn(t1, t4, t6, t5);
-    } else if ((place[t5] & 1) === (place[t2] & 1)) {
-      this.turn(t1, t2, t6, t5);
-      this.turn(t2, t5, t3, t4);
     } else {
-      this.swapShortest(t1, t2, t5, t6, t3, t4);
+      const t6 = this.partnerOf(t5);
+      changed.push(t5, t6);
+      const { place } = this;
+      // Both entries or both exits.
+      const isLike2 = (end: number): boolean => isEven(place[end]) === isEven(place[t2]);
+      if (isLike2(t3)) {
+        this.turn(t1, t2, t4, t3);
+        this.turn(t1, t4, t6, t5);
+      } else if (isLike2(t5)) {
+        this.turn(t1, t2, t6, t5);
+        this.turn(t2, t5, t3, t4);
+      } else {
+        this.swapShortest(t1, t2, t5, t6, t3, t4);
+      }
     }
-    this.length -= this.gain;
-    this.push(t1);
-    this.push(t2);
-    this.push(t3);
-    this.push(t4);
-    if (t5 >= 0) {
-      this.push(t5);
-      this.push(t6);
-    }
+    this.length -= gain;
+    for (const end of changed) this.push(end);
   }
 
   /** p [x0 … x1] [y0 … y1] n becomes p [y0 … y1] [x0 … x1] n. */
@@ -271,7 +270,7 @@ export class TourSearch {
   }
 
   private span(a: number, b: number): number {
-    const forward = (this.place[a] & 1) === 0;
+    const forward = isEven(this.place[a]);
     const span = forward ? this.place[b] - this.place[a] : this.place[a] - this.place[b];
     return (span < 0 ? span + this.ends : span) + 1;
   }
@@ -282,7 +281,7 @@ export class TourSearch {
   private turn(a: number, b: number, c: number, d: number): void {
     const { place, ends } = this;
     // If b is an entry (even), the section is b … c in the ring, otherwise c … b.
-    const forward = (place[b] & 1) === 0;
+    const forward = isEven(place[b]);
     const first = forward ? place[b] : place[c];
     const last = forward ? place[c] : place[b];
     let inner = last - first;
@@ -300,7 +299,7 @@ export class TourSearch {
     if (count < 0) count += ends;
     let i = first;
     let j = last;
-    for (let k = (count + 1) >> 1; k > 0; k--) {
+    for (let k = Math.floor((count + 1) / 2); k > 0; k--) {
       const a = tour[i];
       const b = tour[j];
       tour[i] = b;
@@ -320,9 +319,10 @@ export class TourSearch {
     return p === 0 ? this.ends - 1 : p - 1;
   }
 
-  /** Position of the other end of the travel edge. */
-  private partnerPlace(p: number): number {
-    return (p & 1) === 1 ? this.next(p) : this.previous(p);
+  /** The other end of an end's travel edge. */
+  private partnerOf(end: number): number {
+    const p = this.place[end];
+    return this.tour[isEven(p) ? this.previous(p) : this.next(p)];
   }
 
   private gap(a: number, b: number): number {
@@ -346,4 +346,14 @@ export class TourSearch {
     this.queued[end] = 0;
     return end;
   }
+}
+
+const strokeOf = (end: number): number => Math.floor(end / 2);
+
+const isEven = (position: number): boolean => position % 2 === 0;
+
+/** Whether a move with t3 and t5 at these positions (file comment) gives a single ring again. */
+function isSingleRing(rel3: number, rel5: number): boolean {
+  if (!isEven(rel3)) return rel5 > 0 && rel5 < rel3;
+  return rel5 > rel3 ? isEven(rel5) : rel5 < rel3 - 1 && !isEven(rel5);
 }

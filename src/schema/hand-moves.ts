@@ -54,6 +54,8 @@ export type CommandRequest = z.infer<typeof commandRequestSchema>;
 
 export const commandAnswerSchema = z.object({
   replies: z.array(z.string()),
+  /** The machine answered with an error, which is among the replies. */
+  refused: z.boolean(),
   /** A note if the line changed the motors' position counters; otherwise null. */
   note: z.string().nullable(),
 });

@@ -253,6 +253,30 @@ describe("a board that fails", () => {
     expect(session.failure).toBeNull();
   });
 
+  describe.each([0, 0.3, 1.2, 1.45])("is distinguished from a host that is busy from %f s on", (fromS) => {
+    it.each([0.05, 0.2, 1, 1.6, 3])(
+      "for %f s: replies that arrived meanwhile are read first",
+      async (forS) => {
+        const { clock, line, session } = newSession();
+        const move = session.send("SP,1");
+        await clock.advance(fromS);
+        // As in an event loop, timers that are due come before the bytes that have arrived.
+        await clock.sleep(forS);
+        expect(session.failure).toBeNull();
+        line.say("OK\r\n");
+        await move;
+      },
+    );
+  });
+
+  it.each([0.3, 1, 10])("is detected by a host whose timers are all %f s late", async (lateS) => {
+    const { clock, session } = newSession();
+    const all = outcome(session.send("SP,1"));
+    // A check counts at most 0.25 s, and the last one comes after 1.5 s.
+    for (let checks = 0; checks < 7; checks++) await clock.sleep(0.25 + lateS);
+    expect(await all).toMatch(/^board-timeout/);
+  });
+
   it("rejects everything at once when the connection is lost", async () => {
     const { line, session } = newSession();
     const waiting = outcome(session.query("QS"));

@@ -180,6 +180,7 @@ const EFFECTS: readonly (readonly [string, readonly string[], RegExp])[] = [
   ["info", ["--json"], /"firmware":/],
   ["queue", ["--json"], /^[[{]/],
   ["raw", ["QM"], /^QM,0,0,0/],
+  ["raw", ["XX"], /The board refused XX: !8 Err: Unknown command/],
   ["logs", ["--port", "1", "--out", "log.txt"], /log\.txt is written/],
   ["pen", ["40"], /^$/],
   ["plot", ["drawing.svg", "--quiet"], /^$/],

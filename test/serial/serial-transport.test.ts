@@ -52,7 +52,7 @@ describe("a serial port", () => {
   });
 
   it("reports a file that is not a port", async () => {
-    expect(await outcome(openSerial(import.meta.filename))).toMatch(/^no-board: .*cannot be opened/);
+    expect(await outcome(openSerial(import.meta.filename))).toMatch(/^no-board: .*is not a serial port/);
   });
 
   it.each([

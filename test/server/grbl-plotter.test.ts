@@ -140,7 +140,10 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(await world.run(driver.command("$I"))).toMatchObject({
       replies: ["[VER:1.1h.20190830:]", "[OPT:V,15,128]", "ok"],
     });
-    expect(await world.run(driver.command("G38.2 Z-1"))).toMatchObject({ replies: ["error:20"] });
+    expect(await world.run(driver.command("G38.2 Z-1"))).toMatchObject({
+      replies: ["error:20"],
+      refused: true,
+    });
     expect(await outcome(world.run(driver.command("!")))).toMatch(/^bad-setting/);
     await world.run(driver.motorsOff());
     expect(driver.state).toMatchObject({ motorsOn: false, xMm: null });

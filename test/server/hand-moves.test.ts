@@ -158,10 +158,10 @@ describe("the board's console", () => {
   };
 
   it("returns all lines that the board answers, errors too", async () => {
-    expect(await say("QS")).toEqual({ replies: ["0,0", "OK"], note: null });
-    expect(await say("qb")).toEqual({ replies: ["0", "OK"], note: null });
+    expect(await say("QS")).toEqual({ replies: ["0,0", "OK"], refused: false, note: null });
+    expect(await say("qb")).toEqual({ replies: ["0", "OK"], refused: false, note: null });
     expect(await say("V")).toMatchObject({ replies: ["EBBv13_and_above EB Firmware Version 2.8.1"] });
-    expect(await say("XX,1")).toMatchObject({ replies: [expect.stringMatching(/^!8 Err/)] });
+    expect(await say("XX,1")).toMatchObject({ replies: [expect.stringMatching(/^!8 Err/)], refused: true });
     expect(await say("SM,1,1,1,0,0")).toMatchObject({
       replies: expect.arrayContaining(["OK", expect.stringMatching(/^!7 Err/)]) as unknown,
     });

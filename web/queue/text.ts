@@ -103,7 +103,7 @@ export const jobText = {
   keepPlotting: "Keep plotting",
   stopNow: "Emergency stop",
   stopNowHint: (ms: number | null) =>
-    `Stops where it is${ms === null ? "" : `, with this plotter’s firmware after at most ${(ms / 1_000).toFixed(2)} s`}. Only switching off the motors’ power is faster.`,
+    `Stops where it is${ms === null ? "" : `, with this plotter’s firmware after at most ${(ms / 1_000).toFixed(2)} s`}. Only switching off the motors’ power is faster. The pen may leave a small mark: Pause leaves none.`,
   speedPct: "Speed now",
   speedPctHint: "Percent of the plot’s speed settings. Takes effect within a second.",
   applyHeights: "Apply the current pen and speed settings",

@@ -135,18 +135,19 @@ function drawPoints(text: string, shape: ShapeBuffer, isClosed: boolean): string
   let pointCount = 0;
   let fault: string | null = null;
   while (reader.at < text.length) {
-    if (!reader.read()) {
+    const x = reader.read();
+    if (x === null) {
       fault = `character ${reader.at + 1}`;
       break;
     }
-    const x = reader.value;
     reader.skipSeparator();
-    if (!reader.read()) {
+    const y = reader.read();
+    if (y === null) {
       fault = "an odd number of coordinates";
       break;
     }
-    if (pointCount++ === 0) shape.moveTo(x, reader.value);
-    else shape.lineTo(x, reader.value);
+    if (pointCount++ === 0) shape.moveTo(x, y);
+    else shape.lineTo(x, y);
     reader.skipSeparator();
   }
   if (isClosed && pointCount > 1) shape.close();

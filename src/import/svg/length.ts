@@ -40,6 +40,9 @@ export function splitLength(text: string): { value: number; unit: string } | nul
   return Number.isFinite(value) ? { value, unit: match[2].toLowerCase() } : null;
 }
 
+/** Whether a length depends on the letters of a font, of which only the size is used. */
+export const isFontLength = (text: string): boolean => /^\s*[+-]?[\d.]+(ex|ch)\s*$/i.test(text);
+
 /** px of an absolute length; null for relative, unknown and malformed lengths. */
 export function absolutePx(text: string): number | null {
   const parts = splitLength(text);

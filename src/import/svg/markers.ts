@@ -39,17 +39,15 @@ export function markerPlaces(shape: ShapeBuffer): MarkerPlace[] {
   }));
 }
 
-/** The mean of both directions as angles from 0 to a full turn; browsers resolve a reversal in this way. */
-function angleAt({ arrive, leave }: Vertex): number {
-  const inward = turnOf(arrive ?? leave ?? [1, 0]);
-  const outward = turnOf(leave ?? arrive ?? [1, 0]);
-  const mean = (inward + outward) / 2;
-  return Math.abs(outward - inward) > Math.PI ? mean + Math.PI : mean;
-}
+/** A turn counts as a reversal within this, rad. */
+const REVERSAL = 1e-6;
 
-function turnOf([x, y]: readonly [number, number]): number {
-  const angle = Math.atan2(y, x);
-  return angle < 0 ? angle + 2 * Math.PI : angle;
+/** Halfway between both directions. At a reversal the marker points to the left of the path, as in Chromium. */
+function angleAt({ arrive, leave }: Vertex): number {
+  const [ax, ay] = arrive ?? leave ?? [1, 0];
+  const [lx, ly] = leave ?? arrive ?? [1, 0];
+  const turn = Math.atan2(ax * ly - ay * lx, ax * lx + ay * ly);
+  return Math.atan2(ay, ax) + (Math.PI - turn < REVERSAL ? -Math.PI / 2 : turn / 2);
 }
 
 function verticesOf(shape: ShapeBuffer): Vertex[] {
@@ -59,6 +57,7 @@ function verticesOf(shape: ShapeBuffer): Vertex[] {
   let x = 0;
   let y = 0;
   let first = 0;
+  let repeated = 0;
   const leave = (direction: Vertex["leave"]): void => {
     const last = vertices[vertices.length - 1];
     if (last !== undefined && last.leave === null) last.leave = direction;
@@ -76,13 +75,19 @@ function verticesOf(shape: ShapeBuffer): Vertex[] {
       vertices.push({ x, y, arrive: null, leave: null });
     } else if (verb === VERB_CLOSE) {
       const start = vertices[first];
-      const direction = unit(start.x - x, start.y - y);
-      if (direction !== null) leave(direction);
-      const arrive = direction ?? vertices[vertices.length - 1].arrive;
+      // If the path is back at its start, the close has no direction.
+      const arrive = unit(start.x - x, start.y - y);
+      const closing = arrive ?? start.leave;
+      if (closing !== null) leave(closing);
       // The closing vertex coincides with the start: both have the last segment as incoming and the first as
       // outgoing one.
-      vertices[first] = { ...start, arrive };
-      vertices.push({ x: start.x, y: start.y, arrive, leave: start.leave });
+      const end = { ...start, arrive };
+      vertices[first] = end;
+      vertices.push(end);
+      for (; shape.closedAgain[repeated] === i; repeated++) {
+        vertices[first] = { ...end, arrive: null };
+        vertices.push(vertices[first]);
+      }
       x = start.x;
       y = start.y;
     } else {

@@ -146,22 +146,17 @@ export class SvgClips {
       this.warnings.add("clip-ignored", undefined, "a clip that contains itself");
       return context.clip;
     }
-    return this.contentClip(target, inner, outside, "clipRule");
+    return this.contentClip(target, inner, outside);
   }
 
   /** The clip to the shapes inside `target`, each filled by its own rule, and to `outside`. */
-  contentClip(
-    target: number,
-    inner: Context,
-    outside: ClipNode | null,
-    rule: "clipRule" | "fillRule",
-  ): ClipNode | "empty" {
+  private contentClip(target: number, inner: Context, outside: ClipNode | null): ClipNode | "empty" {
     const { a, b, c, d, e, f } = inner.map;
     const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
     let built = this.built.get(key);
     if (built === undefined) {
       this.open.add(target);
-      built = this.build(target, inner, rule);
+      built = this.build(target, inner);
       this.open.delete(target);
       this.built.set(key, built);
     }
@@ -175,9 +170,9 @@ export class SvgClips {
   }
 
   /** The shapes of a clipPath in page mm; null if it has none. */
-  private build(target: number, context: Context, rule: "clipRule" | "fillRule"): BuiltClip | null {
+  private build(target: number, context: Context): BuiltClip | null {
     const { tree } = this;
-    const collector = new ClipCollector(rule);
+    const collector = new ClipCollector();
     for (let child = tree.firstChildren[target]; child >= 0; child = tree.nextSiblings[child]) {
       this.addChild(child, { ...context, clip: null }, collector);
     }
@@ -221,7 +216,7 @@ export class SvgClips {
   private addShape(child: number, tag: string, context: Context, collector: ClipCollector): void {
     this.cascade.collect(child, this.declared);
     const shape = this.geometry.geometryOf(child, tag, this.declared, context);
-    addClipped(collector, shape, context.map, context.style[collector.rule] === "evenodd", context.clip);
+    addClipped(collector, shape, context.map, context.style.clipRule === "evenodd", context.clip);
   }
 
   private addText(child: number, context: Context, collector: ClipCollector): void {
@@ -312,9 +307,6 @@ class ClipCollector {
   private readonly shapes: number[] = [];
   private shapeCount = 0;
 
-  /** @param rule the property that says which parts of a shape are inside */
-  constructor(readonly rule: "clipRule" | "fillRule" = "clipRule") {}
-
   add(shape: ShapeBuffer, map: Affine, evenOdd: boolean): void {
     if (shape.isEmpty) return;
     const from = shape.coords.data;
@@ -345,7 +337,7 @@ class ClipCollector {
 }
 
 /** The region's box if it is one axis-aligned rectangle, otherwise null. */
-function rectangleOf({ verbs, coords, rule }: ClipShapes): Box | null {
+export function rectangleOf({ verbs, coords, rule }: ClipShapes): Box | null {
   if (rule.length !== 1) return null;
   const points = coords.length / 2;
   const isClosedAgain = points === 5 && coords[0] === coords[8] && coords[1] === coords[9];

@@ -2,6 +2,7 @@
 import type { Box } from "../../geometry/box.js";
 import { parseColor } from "../color.js";
 import type { Declared } from "./declared.js";
+import { isFontLength } from "./length.js";
 import { NOT_DRAWN_PROPERTIES, type Property } from "./properties.js";
 import { declaredValue, isUnknownPaint, parseOpacity, parseUrl, type Style } from "./style.js";
 import { tagOf, type SvgTree } from "./svg-tree.js";
@@ -17,6 +18,9 @@ const WHITE = "#ffffff";
 const DRAWS_AS_USUAL =
   /^\s*(none|normal|auto|initial|inherit|unset|revert|solid|mixed|[01](px|%)?|100%)?\s*$/;
 
+/** Values of font-weight below the usual one. */
+const LIGHT = /^(lighter|[123]00)$/;
+
 /** The effects of the element to which `declared` belongs. */
 export function effectsOf(style: Style, declared: Declared): Effects {
   if (declared.size === 0) return NONE;
@@ -29,11 +33,13 @@ export function effectsOf(style: Style, declared: Declared): Effects {
     const name = declared.nameAt(i);
     const code = NOT_DRAWN_PROPERTIES.get(name);
     if (code !== undefined && !DRAWS_AS_USUAL.test(declared.valueAt(i))) effects.push([code, name]);
+    if (isFontLength(declared.valueAt(i))) effects.push(["length-approximate", declared.valueAt(i).trim()]);
   }
   for (const property of ["fill", "stroke"] as const) {
     const value = valueOf(property);
     if (value !== null && isUnknownPaint(value)) effects.push(["color-unknown", value.slice(0, 40)]);
   }
+  if (LIGHT.test(valueOf("font-weight") ?? "")) effects.push(["text-style-ignored", "light"]);
   if (valueOf("mask") !== null) effects.push(["mask-ignored"]);
   if (valueOf("filter") !== null) effects.push(["filter-ignored"]);
   const blend = valueOf("mix-blend-mode");

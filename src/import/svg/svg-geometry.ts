@@ -4,7 +4,7 @@ import type { Box } from "../../geometry/box.js";
 import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
 import type { Property } from "./properties.js";
 import type { Declared } from "./declared.js";
-import { lengthPx, type Side } from "./length.js";
+import { isFontLength, lengthPx, type Side } from "./length.js";
 import { mapBox } from "../map-box.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
@@ -47,6 +47,8 @@ export class SvgGeometry {
       if (tag === "path") this.warnings.add("path-data", this.firstPoint(context), `${where}: ${fault}`);
       else this.warnings.add("attribute-fault", this.firstPoint(context), `${tag} at ${where}: ${fault}`);
     }
+    if (source.fontLength !== null)
+      this.warnings.add("length-approximate", this.firstPoint(context), source.fontLength);
     return shape;
   }
 
@@ -88,12 +90,15 @@ class ElementSource implements ShapeSource {
   private context: Context | null = null;
   /** The element's last length that could not be read. */
   malformed: string | null = null;
+  /** The element's last length in ex or ch. */
+  fontLength: string | null = null;
 
   constructor(private readonly tree: SvgTree) {}
 
   of(element: number, declared: Declared, context: Context): this {
     this.element = element;
     this.malformed = null;
+    this.fontLength = null;
     this.declared = declared.size === 0 ? null : declared;
     this.context = context;
     return this;
@@ -118,6 +123,7 @@ class ElementSource implements ShapeSource {
     if (text === undefined || text === "auto") return null;
     const length = lengthPx(text, this.context!.basis, side);
     if (length === null) this.malformed = text.slice(0, 40);
+    else if (isFontLength(text)) this.fontLength = text.trim();
     return length;
   }
 

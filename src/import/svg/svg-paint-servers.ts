@@ -85,3 +85,14 @@ export class SvgPaintServers {
     return (parseColor(text) ?? INITIAL_STYLE.color).hex;
   }
 }
+
+/** Somewhere between light and dark. */
+const GRADIENT_GREY = "#808080";
+
+/** Inside a mask, where a gradient shows with less contrast whatever its first colour is. */
+export class MaskPaintServers extends SvgPaintServers {
+  override serverColor(id: string, context: Context): string | null | undefined {
+    const color = super.serverColor(id, context);
+    return typeof color === "string" && !this.isPattern(id) ? GRADIENT_GREY : color;
+  }
+}

@@ -24,7 +24,7 @@ import type { Context } from "./svg-context.js";
 import { warnOf } from "./svg-effects.js";
 import { isMarked } from "./svg-markers.js";
 import type { SvgConditions } from "./svg-conditions.js";
-import type { SvgPaintServers } from "./svg-paint-servers.js";
+import { MaskPaintServers, type SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { placeText, type PlacedText } from "./svg-text.js";
 import type { PlacedLetter } from "./svg-text-layout.js";
@@ -54,6 +54,13 @@ export class SvgPainter {
     private readonly conditions: SvgConditions,
   ) {
     this.textPaths = new SvgTextPaths(tree, cascade, geometry);
+  }
+
+  /** A painter for the content of a mask. */
+  forMask(builder: DrawingBuilder, warnings: Warnings): SvgPainter {
+    const { tree, geometry, cascade, font, conditions } = this;
+    const servers = new MaskPaintServers(tree, cascade);
+    return new SvgPainter(tree, geometry, servers, builder, warnings, cascade, font, conditions);
   }
 
   /** The box of a text in its user units: the full line height, from the first letter to the last. */

@@ -92,7 +92,8 @@ function straight(chunk: readonly Char[], font: TextFont, pen: Pen, missing: str
   const along: Pen = isVertical ? { x: pen.y, y: -pen.x } : { ...pen };
   const startX = along.x;
   const laid = layOutRuns(chunk, font, along, missing);
-  const shift = -(along.x - startX) * anchorOf(chunk[0].style);
+  // As in browsers, a text that runs backwards begins at its anchor.
+  const shift = -Math.max(0, along.x - startX) * anchorOf(chunk[0].style);
   const letters = laid.map((letter) => ({ ...letter, x: letter.x + shift }));
   along.x += shift;
   pen.x = isVertical ? -along.y : along.x;

@@ -27,6 +27,8 @@ export interface PlacedText extends LaidOutText {
 
 type CommonOfText = Pick<Char, "style" | "path" | "keepsBlanks" | "stretch">;
 
+/** Fonts do not place all of them. */
+const STACKED_ACCENTS = /\p{M}{3}/u;
 const MAX_CHARS = 100_000;
 const RAD_PER_DEG = Math.PI / 180;
 /** Size of synthetic small capitals, as a share of the font size. */
@@ -105,6 +107,8 @@ class Gatherer {
       const { node, style, open, path, keepsBlanks, stretch } = stack.pop()!;
       const tag = tagOf(tree, node);
       if (tag === TEXT_NODE) {
+        if (STACKED_ACCENTS.test(textOf(tree, node)))
+          this.effects.push(["text-style-ignored", "exact places of stacked accents"]);
         this.addText(textOf(tree, node), { style, path, keepsBlanks, stretch }, open);
         continue;
       }

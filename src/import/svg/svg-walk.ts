@@ -5,6 +5,7 @@
  * as a frame with one child. The chain of enclosing targets stops cycles, and a limit on visits stops copies
  * of copies from growing without end.
  */
+import type { Drawing } from "../../drawing/drawing.js";
 import { isSpeedFactor } from "../../drawing/speed-factor.js";
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
@@ -21,7 +22,7 @@ import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { markerPlaces } from "./markers.js";
 import { isMarked, SvgMarkers } from "./svg-markers.js";
-import { SvgMasks } from "./svg-masks.js";
+import { SvgMasks, type DrawApart } from "./svg-masks.js";
 import { LayerGroups } from "./svg-layer-groups.js";
 import type { LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
@@ -29,8 +30,8 @@ import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity } from "./style.js";
 import { withoutAlignment, withoutShift } from "./text-style.js";
 import { viewportInside } from "./svg-viewport.js";
-import type { Warnings } from "../warnings.js";
-import type { DrawingBuilder } from "../drawing-builder.js";
+import { Warnings } from "../warnings.js";
+import { DrawingBuilder } from "../drawing-builder.js";
 
 /**
  * Max elements visited through `use`, and max coordinates that they may add: anything beyond is an attack or
@@ -91,29 +92,56 @@ export class SvgWalk {
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
     private readonly conditions: SvgConditions,
+    masks: SvgMasks | null = null,
   ) {
     this.markers = new SvgMarkers(tree, cascade, clips);
-    this.masks = new SvgMasks(tree, cascade, clips);
     this.layerGroups = new LayerGroups(tree, layers, builder, warnings);
+    const drawApart: DrawApart = (element, context, work) => this.drawApart(element, context, work, layers);
+    this.masks = masks ?? new SvgMasks(tree, cascade, clips, drawApart);
     this.hasSpeeds = tree.names.includes(SPEED_ATTRIBUTE);
   }
 
   /** Draws everything below the root. */
   run(rootContext: Context): void {
-    const { tree, stack } = this;
     this.enterRoot(rootContext);
-    while (stack.length > 0) {
-      const frame = stack[stack.length - 1];
-      const element = frame.next;
-      if (element < 0) {
-        stack.pop();
-        this.leave(frame);
-        continue;
-      }
-      frame.next = frame.isSingle ? -1 : tree.nextSiblings[element];
-      this.visit(element, frame.context);
-      this.builder.progress = element / tree.count;
+    while (this.step());
+  }
+
+  /** Visits the next element; false at the end. */
+  private step(): boolean {
+    const { tree, stack } = this;
+    const frame = stack.at(-1);
+    if (frame === undefined) return false;
+    const element = frame.next;
+    if (element < 0) {
+      stack.pop();
+      this.leave(frame);
+      return true;
     }
+    frame.next = frame.isSingle ? -1 : tree.nextSiblings[element];
+    this.visit(element, frame.context);
+    this.builder.progress = element / tree.count;
+    return true;
+  }
+
+  /** Draws what is inside `element` to a drawing of its own, with faults and effects as its warnings. */
+  private drawApart(
+    element: number,
+    context: Context,
+    work: { left: number },
+    layers: LayerPlan,
+  ): Drawing | null {
+    const { tree, cascade, svgGeometry, clips, conditions, masks } = this;
+    const warnings = new Warnings();
+    const builder = new DrawingBuilder(warnings);
+    const painter = this.painter.forMask(builder, warnings);
+    const parts = [layers, svgGeometry, clips, painter, builder, warnings, conditions, masks] as const;
+    const walk = new SvgWalk(tree, cascade, ...parts);
+    walk.push(context, tree.firstChildren[element], false, []);
+    while (work.left-- > 0 && walk.step());
+    if (work.left < 0) return null;
+    work.left -= builder.coordCount;
+    return builder.finish(1, 1);
   }
 
   /** The root element may have a clip, effects and a speed, too. */

@@ -80,8 +80,19 @@ function metricsOf(font: Font): FontMetrics {
   };
 }
 
+/** Stacked combining marks in canonical order, as the font's tables expect them. */
+function orderedMarks(text: string): string {
+  return text.replace(/\p{M}{2,}/gu, (marks) => {
+    const ordered = marks.normalize("NFD");
+    // One mark may become two, which would move the characters after it.
+    return ordered.length === marks.length ? ordered : marks;
+  });
+}
+
 function layOut(font: Font, text: string, style: LetterStyle): ReturnType<TextFont["layout"]> {
-  const run = font.layout(text, {
+  const ordered = orderedMarks(text);
+  const chars = [...ordered];
+  const run = font.layout(ordered, {
     ...(style.hasLigatures === false ? { liga: false, clig: false } : {}),
     ...(style.hasKerning === false ? { kern: false } : {}),
     ...(style.isSmallCaps === true ? { smcp: true } : {}),
@@ -94,7 +105,8 @@ function layOut(font: Font, text: string, style: LetterStyle): ReturnType<TextFo
     next += glyph.codePoints.length;
     const { xAdvance, xOffset, yOffset } = run.positions[i];
     if (glyph.id === NOT_DEFINED) {
-      missing.push(String.fromCodePoint(...glyph.codePoints));
+      // The glyph itself names the first character that was missing in this font.
+      missing.push(chars[at] ?? "");
       return { path: "", x: 0, y: 0, advance: xAdvance * em, at };
     }
     const path = glyph.path.commands

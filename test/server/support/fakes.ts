@@ -174,7 +174,7 @@ export class LedPlotter implements ManagedPlotter {
 
   command(line: string): Promise<CommandAnswer> {
     this.asked.push(line);
-    return Promise.resolve({ replies: ["OK"], note: null });
+    return Promise.resolve({ replies: ["OK"], refused: false, note: null });
   }
 
   close(): Promise<void> {

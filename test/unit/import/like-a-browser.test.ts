@@ -30,10 +30,9 @@ describe("markers", () => {
       `<marker id="m" markerWidth="5" markerHeight="5"><path d="M1 1L3 2L1 3z" fill="context-stroke"/></marker>${LINE}`,
     ],
     [
-      "turned at a cusp and at a reversal",
+      "turned at a cusp",
       `<marker id="m" markerWidth="5" markerHeight="5" orient="auto" overflow="visible"><path d="M1 1L3 2L1 3z"/></marker>
-       <g fill="none" stroke="red" marker-mid="url(#m)">
-       <path d="M20 75C47 70 50 52 50 20C50 52 52 70 80 80"/><path d="M15 90L85 90L15 90"/></g>`,
+       <path d="M20 75C47 70 50 52 50 20C50 52 52 70 80 80" fill="none" stroke="red" marker-mid="url(#m)"/>`,
     ],
   ])("%s", (_name, body) => {
     expectAgreement(body);

@@ -125,6 +125,28 @@ describe("markers", () => {
   const marked = (attributes: string, path: string): string[] =>
     shapes(`${marker(attributes)}<path ${path} />`).slice(1);
 
+  // The ends of the markers' lines are those of Chromium's picture; resvg differs.
+  const all = (d: string): string[] =>
+    marked('orient="auto"', `d="${d}" fill="none" style="marker:url(#m)"`).map((line) => line.split("L")[1]);
+
+  it.each([
+    ["a reversal, left of the path", "M10 20H30H10", ["12 20", "30 18", "8 20"]],
+    ["a vertical reversal", "M20 10V30V10", ["20 12", "22 30", "20 8"]],
+    ["a line that is closed", "M10 20H30Z", ["10 22", "30 18", "10 22"]],
+    [
+      "a close at the start",
+      "M20 20V10H10V20H20Z",
+      ["20 18", "18.5858 8.5858", "8.5858 11.4142", "11.4142 21.4142", "21.4142 18.5858", "20 18"],
+    ],
+    [
+      "a repeated close",
+      "M20 20V10H10V20ZZ",
+      ["20 18", "18.5858 8.5858", "8.5858 11.4142", "11.4142 21.4142", "21.4142 18.5858", "20 18"],
+    ],
+  ])("are turned as in a browser at %s", (_where, d, ends) => {
+    expect(all(d)).toEqual(ends);
+  });
+
   it("are placed at start, middles and end", () => {
     expect(marked("", 'd="M10 10h10v10" style="marker:url(#m)"')).toEqual([
       "M10 10L12 10",

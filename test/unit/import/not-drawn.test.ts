@@ -48,6 +48,11 @@ describe("elements", () => {
     expect(codes(draw(`${LINE}<g filter="url(#f)"/><g opacity=".5"/>`))).toEqual(["filter-ignored"]);
   });
 
+  it("that stack accents on a letter are reported", () => {
+    expect(codes(draw('<text x="9" y="9">a\u0301\u0302\u0303</text>'))).toContain("text-style-ignored");
+    expect(codes(draw('<text x="9" y="9">a\u0301\u0302b</text>'))).not.toContain("text-style-ignored");
+  });
+
   it("in a text are reported, too", () => {
     expect(codes(draw('<text x="9" y="9">a<tref href="#x"/></text>'))).toEqual([
       "text-substituted",
@@ -100,6 +105,9 @@ describe("properties", () => {
     ['clip-path="rect(1px 2px 3px 4px)"', "clip-ignored"],
     ['stroke="color-mix(in srgb, red, blue)"', "color-unknown"],
     ['fill="blu"', "color-unknown"],
+    ['font-weight="300"', "text-style-ignored"],
+    ['style="font-weight:lighter"', "text-style-ignored"],
+    ['font-size="2ex"', "length-approximate"],
     ['stroke="url(#none)"', "paint-missing"],
     ['transform="rotate3d(1 1 1 45deg)"', "attribute-fault"],
   ])("%s is reported as %s", (attributes, code) => {
@@ -113,6 +121,12 @@ describe("properties", () => {
     ["background-color:transparent", []],
   ])("%s on the outermost element is reported as %j", (style, expected) => {
     expect(codes(importSvg(page(LINE, `style="${style}"`)))).toEqual(expected);
+  });
+
+  it("with a length in the size of a font's letters are named, with a count", () => {
+    const [{ code, message }] = draw('<rect width="3ch" height="2" x="-1.5ex"/>'.repeat(2)).warnings;
+    expect(code).toBe("length-approximate");
+    expect(message).toMatch(/^2 lengths are in ex or ch/);
   });
 
   it("with a length of an unknown unit are named", () => {

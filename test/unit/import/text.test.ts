@@ -49,6 +49,8 @@ describe("single-stroke letters", () => {
       extent(draw(text("HHH", `x="50" y="50" text-anchor="${anchor}"`)))[0];
     const start = at("start");
     expect(start - at("middle")).toBeCloseTo(at("middle") - at("end"), 6);
+    // Chromium begins a text that runs backwards at its anchor.
+    expect(at("middle" + '" letter-spacing="-99')).toBeCloseTo(at("start" + '" letter-spacing="-99'));
     const [x0, , x1] = extent(draw(text("HHH", 'x="50" y="50" text-anchor="middle"')));
     expect((x0 + x1) / 2).toBeCloseTo(50, 6);
   });
@@ -162,6 +164,13 @@ describe("outlines of a font", () => {
     expect(y1 - y0).toBeGreaterThan(5);
     expect(y1 - y0).toBeLessThanOrEqual(10.01);
     expect(codes(drawing)).toEqual(["glyphs-missing"]);
+  });
+
+  it("get stacked accents in the order that fonts expect: those below the letter first", async () => {
+    const file = createRequire(import.meta.url).resolve("bootstrap-icons/font/fonts/bootstrap-icons.woff");
+    const font = await openOutlineFont(new Uint8Array(readFileSync(file)));
+    const { missing } = font.layout("\u0301\u0323a\u0300", { family: "" });
+    expect(missing).toEqual(["\u0323", "\u0301", "a", "\u0300"]);
   });
 });
 

@@ -48,7 +48,8 @@ describe("place by numbers", () => {
     expect(draw(drawing, { place: { ...place, turnDeg: 0 } })).toEqual(draw(drawing, { place }));
     const { frame, shapeBoxes } = placeDrawing(drawing, { ...TRUE_SIZE, place: { ...place, turnDeg: 90 } });
     expect(frame).toEqual({ x0: 5, y0: 16, x1: 45, y1: 36 });
-    expect(Object.values(shapeBoxes()).map((v) => Math.round(v * 1e6) / 1e6)).toEqual([15, 6, 35, 46]);
+    const [{ x0, y0, x1, y1 }] = shapeBoxes();
+    expect([x0, y0, x1, y1].map((v) => Math.round(v * 1e6) / 1e6)).toEqual([15, 6, 35, 46]);
   });
 
   it("mirrors left to right and upside down about the page", () => {

@@ -12,17 +12,9 @@
  */
 import type { Trajectory } from "../../../plan/trajectory.js";
 import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
-import {
-  newLeg,
-  type Leg,
-  type LegWriter,
-  type Midway,
-  type MotorLeg,
-  type MotorState,
-  type RunWriter,
-} from "./leg.js";
+import type { Leg, LegWriter, Midway, MotorLeg, MotorState, RunWriter } from "./leg.js";
 import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
-import type { RunWalk } from "./run-walk.js";
+import type { MotorPoint, RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
 /** If one acceleration misses a leg's end speeds by more than this, the leg gets two (0.2 mm/s at 80 steps/mm). */
@@ -40,14 +32,16 @@ const SHAPED_TURN_TICKS = 12;
 /** Min ticks of the command that ends a run, about 1 ms. The idle tick must fit too. */
 const SHORTEST_TICKS = 26;
 
+/** The end of a leg. */
+interface Cut {
+  readonly tick: number;
+  /** The block at that tick. */
+  readonly block: number;
+  readonly isRunEnd: boolean;
+}
+
 export class LegRuns implements RunWriter {
-  private readonly leg = newLeg();
-  private readonly half = newLeg();
   private runIndex = 0;
-  /** Where the current leg ends: the tick, the block there, and whether the run ends too. */
-  private cutTick = 0;
-  private cutBlock = 0;
-  private cutIsRunEnd = false;
   /** Pen moves still to be written during the run, in order of time. */
   private midway: readonly Midway[] = [];
 
@@ -66,27 +60,30 @@ export class LegRuns implements RunWriter {
   }
 
   write(run: number, midway: readonly Midway[]): void {
-    const { walk, columns, leg } = this;
+    const { walk, columns } = this;
     walk.begin(run, columns.boardTicks);
     if (walk.first === walk.end) return;
     this.runIndex = run;
     this.midway = midway;
     let block = walk.first;
     let notBefore = 0;
-    for (;;) {
+    for (let isRunEnd = false; !isRunEnd;) {
       const tick = columns.boardTicks;
-      this.cut(tick, block, notBefore);
-      this.setLeg(leg, tick, block);
-      if (this.writer.turnTicks > 0 && this.shortenForTurn(leg, tick, block, notBefore))
-        this.setLeg(leg, tick, block);
+      let cut = this.nextCut(tick, block, notBefore);
+      let leg = this.legTo(cut, tick, block);
+      const beforeTurn = this.cutForTurn(leg, cut, tick, block, notBefore);
+      if (beforeTurn) {
+        cut = beforeTurn;
+        leg = this.legTo(cut, tick, block);
+      }
       if (this.writeLeg(leg)) {
         notBefore = 0;
-        block = walk.blockAt(columns.boardTicks, Math.max(block, this.cutBlock));
+        block = walk.blockAt(columns.boardTicks, Math.max(block, cut.block));
       } else {
-        notBefore = this.cutTick + this.writer.minTicks;
+        notBefore = cut.tick + this.writer.minTicks;
       }
-      this.writeMidway(this.cutIsRunEnd ? Infinity : columns.boardTicks);
-      if (this.cutIsRunEnd) break;
+      isRunEnd = cut.isRunEnd;
+      this.writeMidway(isRunEnd ? Infinity : columns.boardTicks);
     }
     this.rest(run);
   }
@@ -116,8 +113,8 @@ export class LegRuns implements RunWriter {
     columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
 
-  /** Sets the next cut after `tick`, which is in `block`; not before `notBefore`. */
-  private cut(tick: number, block: number, notBefore: number): void {
+  /** The next cut after `tick`, which is in `block`; not before `notBefore`. */
+  private nextCut(tick: number, block: number, notBefore: number): Cut {
     const { walk, writer } = this;
     const last = walk.end - 1;
     const runEnd = Math.max(walk.endTick(last), tick + 1);
@@ -162,9 +159,7 @@ export class LegRuns implements RunWriter {
     if (end < runEnd) {
       while (k > block && walk.endTick(k - 1) >= end) k--;
     }
-    this.cutTick = end;
-    this.cutBlock = k;
-    this.cutIsRunEnd = end >= runEnd;
+    return { tick: end, block: k, isRunEnd: end >= runEnd };
   }
 
   /** Where to cut a block that is long enough for a command but may be too long for one. */
@@ -173,8 +168,7 @@ export class LegRuns implements RunWriter {
     const jerkTicks = walk.hasJerk(block) ? writer.maxTicksForJerk(walk.jerk(block)) : Infinity;
     const longest = Math.max(Math.min(writer.maxTicks, jerkTicks), soonest - tick);
     const pieces = Math.ceil((blockEnd - tick) / longest);
-    const end = pieces > 1 ? Math.max(soonest, tick + Math.round((blockEnd - tick) / pieces)) : blockEnd;
-    return end;
+    return pieces > 1 ? Math.max(soonest, tick + Math.round((blockEnd - tick) / pieces)) : blockEnd;
   }
 
   /** The first tick at which a motor reverses within a leg; Infinity if none does. */
@@ -212,56 +206,57 @@ export class LegRuns implements RunWriter {
   /**
    * A motor that reverses too near to a leg's end for a separate leg is driven without reversing. On a long leg that
    * moves it off the line by a quarter of its reverse speed times the leg's duration. If that is too far, the reversal
-   * gets the shortest possible leg. Returns true if the cut was moved.
+   * gets the shortest possible leg. Returns the earlier cut; null if `cut` is good.
    */
-  private shortenForTurn({ ticks, m1, m2 }: Leg, tick: number, block: number, notBefore: number): boolean {
+  private cutForTurn(leg: Leg, cut: Cut, tick: number, block: number, notBefore: number): Cut | null {
     const { walk, writer } = this;
+    if (writer.turnTicks === 0) return null;
+    const { ticks, m1, m2 } = leg;
     const motor = backwards(m1) > backwards(m2) ? m1 : m2;
-    if (backwards(motor) * ticks <= 4 * MAX_DEVIATION_RATE || ticks < 2 * writer.minTicks) return false;
+    if (backwards(motor) * ticks <= 4 * MAX_DEVIATION_RATE || ticks < 2 * writer.minTicks) return null;
     const soonest = Math.max(tick + writer.minTicks, notBefore);
     const isAtStart = Math.abs(motor.v0) < Math.abs(motor.v1);
-    const end = isAtStart ? soonest : Math.max(soonest, this.cutTick - writer.minTicks);
-    if (end >= this.cutTick) return false;
+    const end = isAtStart ? soonest : Math.max(soonest, cut.tick - writer.minTicks);
+    if (end >= cut.tick) return null;
     let k = walk.blockAt(end, block);
     while (k > block && walk.endTick(k - 1) >= end) k--;
-    this.cutTick = end;
-    this.cutBlock = k;
-    this.cutIsRunEnd = false;
-    return true;
+    return { tick: end, block: k, isRunEnd: false };
   }
 
-  private setLeg(leg: Leg, tick: number, block: number): void {
+  /** The leg from `tick`, which is in `block`, to a cut. It may take longer than planned. */
+  private legTo(cut: Cut, tick: number, block: number): Leg {
     const { walk } = this;
-    walk.startLegs(tick, block, leg.m1, leg.m2);
-    walk.endLegs(this.cutTick, this.cutBlock, this.cutIsRunEnd, leg.m1, leg.m2);
-    leg.ticks = this.cutTick - tick;
-    leg.isParabola = block === this.cutBlock && !walk.hasJerk(block);
-    leg.isLast = this.cutIsRunEnd && this.runIndex === this.trajectory.runs.count - 1;
-    this.slowDown(leg);
+    const start = walk.pointAt(tick, block);
+    const end = cut.isRunEnd ? walk.endOf(cut.block) : walk.pointAt(cut.tick, cut.block);
+    const planned: Leg = {
+      ticks: cut.tick - tick,
+      m1: legBetween(start.m1, end.m1),
+      m2: legBetween(start.m2, end.m2),
+      isParabola: block === cut.block && !walk.hasJerk(block),
+      isLast: cut.isRunEnd && this.runIndex === this.trajectory.runs.count - 1,
+    };
+    return this.slowedDown(planned, cut.isRunEnd);
   }
 
   /**
-   * Extends the leg's time if a motor would have to step too fast, or if the run's end is too
-   * short for a command.
+   * The leg with more time if a motor would have to step too fast, or if the run's end is too short for a command. The
+   * rest of the plan is delayed by that time.
    */
-  private slowDown(leg: Leg): void {
+  private slowedDown(leg: Leg, isRunEnd: boolean): Leg {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
     // Higher speed makes up for an idle tick. If that increase could be visible, the leg takes longer instead.
     const idle = peak > MAX_MAKE_UP_RATE * leg.ticks ? this.writer.idleTicks : 0;
     const ticks = Math.max(
       leg.ticks + idle,
       Math.ceil((leg.ticks * peak) / HIGHEST_PLANNED_RATE),
-      this.cutIsRunEnd ? SHORTEST_TICKS : 1,
+      isRunEnd ? SHORTEST_TICKS : 1,
     );
-    if (ticks <= leg.ticks) return;
+    if (ticks <= leg.ticks) return leg;
     if (peak > HIGHEST_PLANNED_RATE) this.columns.warnOnce(TOO_FAST);
-    const part = leg.ticks / ticks;
-    for (const motor of [leg.m1, leg.m2]) {
-      motor.v0 *= part;
-      motor.v1 *= part;
-    }
     this.walk.origin += ticks - leg.ticks;
-    leg.ticks = ticks;
+    const part = leg.ticks / ticks;
+    const slower = (motor: MotorLeg): MotorLeg => ({ ...motor, v0: motor.v0 * part, v1: motor.v1 * part });
+    return { ...leg, ticks, m1: slower(leg.m1), m2: slower(leg.m2) };
   }
 
   /**
@@ -272,22 +267,16 @@ export class LegRuns implements RunWriter {
     if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
       return this.writeCommand(leg);
     if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.writeCommand(leg);
-    const { half } = this;
-    half.ticks = leg.ticks >> 1;
-    half.isParabola = true;
-    half.isLast = false;
-    halve(leg.m1, leg.ticks, half.ticks, half.m1);
-    halve(leg.m2, leg.ticks, half.ticks, half.m2);
-    if (!this.writeCommand(half)) return this.writeCommand(leg);
-    leg.ticks -= half.ticks;
-    for (const [motor, first] of [
-      [leg.m1, half.m1],
-      [leg.m2, half.m2],
-    ] as const) {
-      motor.p0 = first.p1;
-      motor.v0 = first.v1;
-    }
-    this.writeCommand(leg);
+    const ticks = Math.floor(leg.ticks / 2);
+    const m1 = firstHalf(leg.m1, leg.ticks, ticks);
+    const m2 = firstHalf(leg.m2, leg.ticks, ticks);
+    if (!this.writeCommand({ ticks, m1, m2, isParabola: true, isLast: false })) return this.writeCommand(leg);
+    this.writeCommand({
+      ...leg,
+      ticks: leg.ticks - ticks,
+      m1: { ...leg.m1, p0: m1.p1, v0: m1.v1 },
+      m2: { ...leg.m2, p0: m2.p1, v0: m2.v1 },
+    });
     return true;
   }
 
@@ -300,6 +289,13 @@ export class LegRuns implements RunWriter {
     return true;
   }
 }
+
+const legBetween = (start: MotorPoint, end: MotorPoint): MotorLeg => ({
+  p0: start.p,
+  p1: end.p,
+  v0: start.v,
+  v1: end.v,
+});
 
 const peakRate = (motor: MotorLeg, ticks: number): number =>
   Math.max(Math.abs(motor.v0), Math.abs(motor.v1), meanRate(motor, ticks));
@@ -320,14 +316,16 @@ function isBent(motor: MotorLeg, ticks: number): boolean {
  * The first of two accelerations, each over half of the time T, that lead from p0, v0 to p1, v1:
  * a₁ + a₂ = 2 Δv/T and 3 a₁ + a₂ = 8 (Δp − v₀ T)/T².
  */
-function halve(motor: MotorLeg, ticks: number, half: number, out: MotorLeg): void {
+function firstHalf(motor: MotorLeg, ticks: number, half: number): MotorLeg {
   const toSteps = 1 / rateFromStepsPerS(TICKS_PER_S);
   const v0 = motor.v0 * toSteps;
   const v1 = motor.v1 * toSteps;
   const mean = (motor.p1 - motor.p0 - v0 * ticks) / (ticks * ticks);
   const accel = 4 * mean - (v1 - v0) / ticks;
-  out.p0 = motor.p0;
-  out.v0 = motor.v0;
-  out.p1 = motor.p0 + v0 * half + (accel * half * half) / 2;
-  out.v1 = (v0 + accel * half) / toSteps;
+  return {
+    p0: motor.p0,
+    p1: motor.p0 + v0 * half + (accel * half * half) / 2,
+    v0: motor.v0,
+    v1: (v0 + accel * half) / toSteps,
+  };
 }

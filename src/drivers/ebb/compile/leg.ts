@@ -6,22 +6,22 @@
  */
 export interface MotorLeg {
   /** The plan's position at the start and the end. */
-  p0: number;
-  p1: number;
+  readonly p0: number;
+  readonly p1: number;
   /** The plan's speed at the start and the end, measured inside the leg. */
-  v0: number;
-  v1: number;
+  readonly v0: number;
+  readonly v1: number;
 }
 
 export interface Leg {
   /** Board ticks from this command's start to the next one's. */
-  ticks: number;
+  readonly ticks: number;
   readonly m1: MotorLeg;
   readonly m2: MotorLeg;
   /** The plan's acceleration is constant over the leg. */
-  isParabola: boolean;
+  readonly isParabola: boolean;
   /** The trajectory ends with this leg: any remaining error must be corrected now. */
-  isLast: boolean;
+  readonly isLast: boolean;
 }
 
 /** Predicted state of one motor. */
@@ -68,14 +68,6 @@ export interface LegWriter {
    */
   write(leg: Leg, m1: MotorState, m2: MotorState): number;
 }
-
-export const newLeg = (): Leg => ({
-  ticks: 0,
-  m1: { p0: 0, p1: 0, v0: 0, v1: 0 },
-  m2: { p0: 0, p1: 0, v0: 0, v1: 0 },
-  isParabola: true,
-  isLast: false,
-});
 
 /** How much of the position error to correct in one command of `ticks` ticks, in steps. */
 export function correction(errorSteps: number, ticks: number, isLast: boolean): number {

@@ -9,7 +9,17 @@ import { motor1FromXy, motor2FromXy } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { Trajectory } from "../../../plan/trajectory.js";
 import { rateFromStepsPerS, S_PER_TICK, TICKS_PER_S } from "../../../units.js";
-import type { MotorLeg } from "./leg.js";
+
+/** The plan at one moment: position of one motor in steps (fractional), speed in accumulator counts per tick. */
+export interface MotorPoint {
+  readonly p: number;
+  readonly v: number;
+}
+
+export interface PlanPoint {
+  readonly m1: MotorPoint;
+  readonly m2: MotorPoint;
+}
 
 export class RunWalk {
   /** Blocks [first, end). */
@@ -24,8 +34,8 @@ export class RunWalk {
 
   begin(run: number, boardTicks: number): void {
     const { runs } = this.trajectory;
-    this.first = runs.firstBlock[run]!;
-    this.end = runs.firstBlock[run + 1]!;
+    this.first = runs.firstBlock[run];
+    this.end = runs.firstBlock[run + 1];
     this.origin = boardTicks - runs.startS[run] * TICKS_PER_S;
   }
 
@@ -50,23 +60,14 @@ export class RunWalk {
     return k;
   }
 
-  /** Writes the position and speed at `tick`, evaluated in `block`, as the start of both motors' legs. */
-  startLegs(tick: number, block: number, m1: MotorLeg, m2: MotorLeg): void {
-    this.evaluate(this.planS(tick) - this.trajectory.startS[block], block);
-    m1.p0 = this.p1;
-    m2.p0 = this.p2;
-    m1.v0 = this.v1;
-    m2.v0 = this.v2;
+  /** The plan at `tick`, evaluated in `block`. */
+  pointAt(tick: number, block: number): PlanPoint {
+    return this.evaluate(this.planS(tick) - this.trajectory.startS[block], block);
   }
 
-  /** The same for the end of both motors' legs. At the run's end, it uses the exact end of the block. */
-  endLegs(tick: number, block: number, isRunEnd: boolean, m1: MotorLeg, m2: MotorLeg): void {
-    const { startS, durationS } = this.trajectory;
-    this.evaluate(isRunEnd ? durationS[block] : this.planS(tick) - startS[block], block);
-    m1.p1 = this.p1;
-    m2.p1 = this.p2;
-    m1.v1 = this.v1;
-    m2.v1 = this.v2;
+  /** The plan at the exact end of a block. */
+  endOf(block: number): PlanPoint {
+    return this.evaluate(this.trajectory.durationS[block], block);
   }
 
   hasJerk(block: number): boolean {
@@ -102,12 +103,8 @@ export class RunWalk {
     return earliest;
   }
 
-  private p1 = 0;
-  private p2 = 0;
-  private v1 = 0;
-  private v2 = 0;
-
-  private evaluate(t: number, k: number): void {
+  /** The plan `t` seconds after the start of block `k`. */
+  private evaluate(t: number, k: number): PlanPoint {
     const { trajectory: b, machine } = this;
     const jx = b.jx === null ? 0 : b.jx[k];
     const jy = b.jy === null ? 0 : b.jy[k];
@@ -115,10 +112,10 @@ export class RunWalk {
     const y = b.y[k] + t * (b.vy[k] + t * (b.ay[k] / 2 + (t * jy) / 6));
     const vx = b.vx[k] + t * (b.ax[k] + (t * jx) / 2);
     const vy = b.vy[k] + t * (b.ay[k] + (t * jy) / 2);
-    this.p1 = motor1FromXy(machine, x, y);
-    this.p2 = motor2FromXy(machine, x, y);
-    this.v1 = rateFromStepsPerS(motor1FromXy(machine, vx, vy));
-    this.v2 = rateFromStepsPerS(motor2FromXy(machine, vx, vy));
+    return {
+      m1: { p: motor1FromXy(machine, x, y), v: rateFromStepsPerS(motor1FromXy(machine, vx, vy)) },
+      m2: { p: motor2FromXy(machine, x, y), v: rateFromStepsPerS(motor2FromXy(machine, vx, vy)) },
+    };
   }
 }
 

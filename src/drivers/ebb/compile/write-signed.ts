@@ -24,9 +24,9 @@ const RANGE = ACCUMULATOR_RANGE;
 const MAX_JERK_TICKS = 4_000;
 
 interface Arguments {
-  rate: number;
-  accel: number;
-  jerk: number;
+  readonly rate: number;
+  readonly accel: number;
+  readonly jerk: number;
 }
 
 export class SignedWriter implements LegWriter {
@@ -35,8 +35,6 @@ export class SignedWriter implements LegWriter {
   readonly turnTicks = 0;
   readonly idleTicks: number;
   readonly joinsAnySpeeds = true;
-  private readonly a1: Arguments = { rate: 0, accel: 0, jerk: 0 };
-  private readonly a2: Arguments = { rate: 0, accel: 0, jerk: 0 };
 
   constructor(
     private readonly text: CommandText,
@@ -51,10 +49,8 @@ export class SignedWriter implements LegWriter {
 
   write(leg: Leg, m1: MotorState, m2: MotorState): number {
     const ticks = leg.ticks - this.idleTicks;
-    const stretch = leg.ticks / ticks;
-    const { a1, a2 } = this;
-    setArguments(leg, leg.m1, m1, ticks, stretch, a1);
-    setArguments(leg, leg.m2, m2, ticks, stretch, a2);
+    const a1 = argumentsFor(leg, leg.m1, m1, ticks);
+    const a2 = argumentsFor(leg, leg.m2, m2, ticks);
     const hasJerk = a1.jerk !== 0 || a2.jerk !== 0;
     this.text.name(hasJerk ? "T3" : "LT");
     this.text.number(ticks);
@@ -70,14 +66,8 @@ export class SignedWriter implements LegWriter {
   }
 }
 
-function setArguments(
-  leg: Leg,
-  motor: MotorLeg,
-  state: MotorState,
-  ticks: number,
-  stretch: number,
-  out: Arguments,
-): void {
+function argumentsFor(leg: Leg, motor: MotorLeg, state: MotorState, ticks: number): Arguments {
+  const stretch = leg.ticks / ticks;
   const planned = motor.p1 - motor.p0;
   const error = motor.p0 + 0.5 - state.steps - state.acc / RANGE;
   const distance = (planned + correction(error, ticks, leg.isLast)) * RANGE;
@@ -85,22 +75,22 @@ function setArguments(
   const v1 = motor.v1 * stretch;
   // The trapezoid of the two end speeds misses the distance by J T³/12.
   const excess = (v0 + v1) / 2 - (planned * RANGE) / ticks;
-  out.jerk = leg.isParabola ? 0 : Math.round((12 * excess) / (ticks * ticks));
-  out.accel = Math.round((v1 - v0 - (out.jerk * ticks * ticks) / 2) / ticks);
-  const bent = (out.accel * ticks) / 2 + (out.jerk * ticks * ticks) / 6;
-  out.rate = Math.round(distance / ticks - bent);
-  keepInRange(out, ticks);
+  const jerk = leg.isParabola ? 0 : Math.round((12 * excess) / (ticks * ticks));
+  const accel = Math.round((v1 - v0 - (jerk * ticks * ticks) / 2) / ticks);
+  const bent = (accel * ticks) / 2 + (jerk * ticks * ticks) / 6;
+  return keptInRange({ rate: Math.round(distance / ticks - bent), accel, jerk }, ticks);
 }
 
 /** The planned rates are limited already. Rounding and correction may still exceed the range slightly. */
-function keepInRange(a: Arguments, ticks: number): void {
+function keptInRange(a: Arguments, ticks: number): Arguments {
   const registers = registersFor("signed", a.rate, a.accel, a.jerk);
   const last = rateAt(ticks, registers.rate, registers.accel, registers.jerk);
   const first = rateAt(1, registers.rate, registers.accel, registers.jerk);
   const over = Math.max(first, last) - HIGHEST_RATE;
   const under = -HIGHEST_RATE - Math.min(first, last);
-  if (over > 0) a.rate -= Math.ceil(over);
-  else if (under > 0) a.rate += Math.ceil(under);
+  if (over > 0) return { ...a, rate: a.rate - Math.ceil(over) };
+  if (under > 0) return { ...a, rate: a.rate + Math.ceil(under) };
+  return a;
 }
 
 function run(a: Arguments, ticks: number, state: MotorState): void {

@@ -9,7 +9,7 @@ import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 import { slowRate } from "../model/slow-rate.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { HIGHEST_SLICE_RATE, OLD_FIRMWARE, TOO_FAST } from "../protocol/limits.js";
-import { newLeg, type Midway, type MotorState, type RunWriter } from "./leg.js";
+import type { Midway, MotorState, RunWriter } from "./leg.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
@@ -24,7 +24,6 @@ const SLICE_TICKS = SLICE_MS * TICKS_PER_MS;
 const MAX_STEPS_PER_MS = (HIGHEST_SLICE_RATE / ACCUMULATOR_RANGE) * TICKS_PER_MS;
 
 export class SliceRuns implements RunWriter {
-  private readonly leg = newLeg();
   /** Ticks by which the last run ended later than planned. */
   private lateTicks = 0;
 
@@ -37,7 +36,7 @@ export class SliceRuns implements RunWriter {
   ) {}
 
   write(run: number, midway: readonly Midway[]): void {
-    const { walk, columns, features, leg, m1, m2 } = this;
+    const { walk, columns, features, m1, m2 } = this;
     walk.begin(run, columns.boardTicks - this.lateTicks);
     if (walk.first === walk.end) return;
     columns.warnOnce(OLD_FIRMWARE);
@@ -58,9 +57,9 @@ export class SliceRuns implements RunWriter {
       // speed error, except in the last slice.
       const tick = columns.boardTicks + ms * TICKS_PER_MS + features.idleTicks;
       block = isLast ? last : walk.blockAt(tick, block);
-      walk.endLegs(tick, block, isLast, leg.m1, leg.m2);
-      const steps1 = Math.round(leg.m1.p1) - m1.steps;
-      const steps2 = Math.round(leg.m2.p1) - m2.steps;
+      const target = isLast ? walk.endOf(block) : walk.pointAt(tick, block);
+      const steps1 = Math.round(target.m1.p) - m1.steps;
+      const steps2 = Math.round(target.m2.p) - m2.steps;
       const minMs = Math.ceil(Math.max(Math.abs(steps1), Math.abs(steps2)) / MAX_STEPS_PER_MS);
       if (minMs > ms) walk.origin += (minMs - ms) * TICKS_PER_MS;
       if (minMs > ms + 1) columns.warnOnce(TOO_FAST);

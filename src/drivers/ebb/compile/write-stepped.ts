@@ -22,9 +22,9 @@ const JERK_ERROR_RATE = (0.5 * 80 * RANGE) / 25_000;
 
 interface Arguments {
   /** Magnitude; the sign of `steps` gives the direction. */
-  rate: number;
-  accel: number;
-  steps: number;
+  readonly rate: number;
+  readonly accel: number;
+  readonly steps: number;
 }
 
 export class SteppedWriter implements LegWriter {
@@ -33,8 +33,6 @@ export class SteppedWriter implements LegWriter {
   readonly turnTicks = 120;
   readonly idleTicks = 0;
   readonly joinsAnySpeeds = false;
-  private readonly a1: Arguments = { rate: 0, accel: 0, steps: 0 };
-  private readonly a2: Arguments = { rate: 0, accel: 0, steps: 0 };
 
   constructor(
     private readonly text: CommandText,
@@ -46,10 +44,10 @@ export class SteppedWriter implements LegWriter {
   }
 
   write(leg: Leg, m1: MotorState, m2: MotorState): number {
-    const { a1, a2, text } = this;
+    const { text } = this;
     const ticks = leg.ticks - this.features.idleTicks;
-    setArguments(leg.m1, m1, ticks, a1);
-    setArguments(leg.m2, m2, ticks, a2);
+    const a1 = argumentsFor(leg.m1, m1, ticks);
+    const a2 = argumentsFor(leg.m2, m2, ticks);
     if (a1.steps === 0 && a2.steps === 0) return 0;
     text.name("LM");
     for (const a of [a1, a2]) {
@@ -62,21 +60,18 @@ export class SteppedWriter implements LegWriter {
   }
 }
 
-function setArguments(motor: MotorLeg, state: MotorState, ticks: number, out: Arguments): void {
-  out.steps = Math.round(motor.p1) - state.steps;
-  if (out.steps === 0) {
-    out.rate = out.accel = 0;
-    return;
-  }
-  const direction = Math.sign(out.steps);
-  const distance = Math.abs(out.steps) * RANGE - state.acc;
+function argumentsFor(motor: MotorLeg, state: MotorState, ticks: number): Arguments {
+  const steps = Math.round(motor.p1) - state.steps;
+  if (steps === 0) return { rate: 0, accel: 0, steps };
+  const direction = Math.sign(steps);
+  const distance = Math.abs(steps) * RANGE - state.acc;
   const mean = distance / ticks;
   const slope = (direction * (motor.v1 - motor.v0)) / ticks;
   const room = Math.min(mean * (1 - SLOWEST_PART_OF_MEAN), HIGHEST_RATE - mean);
   const steepest = ticks > 1 ? Math.max(0, (2 * room) / (ticks - 1)) : 0;
-  out.accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
+  const accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
   // Rounded up, so that the last step is never after the last tick.
-  out.rate = Math.ceil(mean - (out.accel * (ticks - 1)) / 2);
+  return { rate: Math.ceil(mean - (accel * (ticks - 1)) / 2), accel, steps };
 }
 
 /** Advances the motor until its steps are done. Returns the number of ticks. */

@@ -23,9 +23,9 @@ const JERK_ERROR_RATE = (0.25 * 80 * RANGE) / 25_000;
 const CLEAR_WORTH_STEPS = 0.1;
 
 interface Arguments {
-  rate: number;
-  accel: number;
-  clear: boolean;
+  readonly rate: number;
+  readonly accel: number;
+  readonly clear: boolean;
 }
 
 export class TimedWriter implements LegWriter {
@@ -34,8 +34,6 @@ export class TimedWriter implements LegWriter {
   readonly turnTicks = 30;
   readonly idleTicks = 0;
   readonly joinsAnySpeeds = false;
-  private readonly a1: Arguments = { rate: 0, accel: 0, clear: false };
-  private readonly a2: Arguments = { rate: 0, accel: 0, clear: false };
 
   constructor(private readonly text: CommandText) {}
 
@@ -44,9 +42,9 @@ export class TimedWriter implements LegWriter {
   }
 
   write(leg: Leg, m1: MotorState, m2: MotorState): number {
-    const { a1, a2, text } = this;
-    setArguments(leg, leg.m1, m1, a1);
-    setArguments(leg, leg.m2, m2, a2);
+    const { text } = this;
+    const a1 = argumentsFor(leg, leg.m1, m1);
+    const a2 = argumentsFor(leg, leg.m2, m2);
     // The board refuses a command with both rates zero. Nothing is lost by waiting for the next leg.
     if (a1.rate === 0 && a2.rate === 0) return 0;
     text.name("LT");
@@ -64,36 +62,31 @@ export class TimedWriter implements LegWriter {
   }
 }
 
-function setArguments(leg: Leg, motor: MotorLeg, state: MotorState, out: Arguments): void {
+function argumentsFor(leg: Leg, motor: MotorLeg, state: MotorState): Arguments {
   const { ticks } = leg;
   const planned = motor.p1 - motor.p0;
   const direction = planned < 0 || (planned === 0 && motor.v0 + motor.v1 < 0) ? -1 : 1;
   const ahead = direction * (state.steps - motor.p0) - 0.5;
   const errorKept = -(ahead + state.acc / RANGE);
   const errorCleared = -ahead;
-  out.clear = Math.abs(errorCleared) + CLEAR_WORTH_STEPS < Math.abs(errorKept);
-  const error = out.clear ? errorCleared : errorKept;
+  const clear = Math.abs(errorCleared) + CLEAR_WORTH_STEPS < Math.abs(errorKept);
+  const error = clear ? errorCleared : errorKept;
   const distance = (Math.abs(planned) + correction(error, ticks, leg.isLast)) * RANGE;
   const mean = distance / ticks;
-  if (!(mean >= 1)) {
-    out.rate = out.accel = 0;
-    return;
-  }
+  if (!(mean >= 1)) return { rate: 0, accel: 0, clear };
   const slope = (direction * (motor.v1 - motor.v0)) / ticks;
   const steepest = (2 * Math.min(mean, HIGHEST_RATE - mean)) / (ticks + 1);
   const accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
   const start = Math.round(mean - (accel * (ticks + 1)) / 2) + Math.trunc(accel / 2);
   // At least 1: the sign of the rate gives the direction, and the board refuses both rates zero.
-  out.rate = direction * Math.max(1, start);
-  out.accel = accel;
-  keepAboveZero(out, ticks);
+  return { rate: keptAboveZero(direction * Math.max(1, start), accel, ticks), accel, clear };
 }
 
-/** Raises the rate until no tick's rate is negative; the extremes are at the first and last tick. */
-function keepAboveZero(a: Arguments, ticks: number): void {
-  const { rate } = registersFor("half", a.rate, a.accel);
-  const lowest = Math.min(rate + a.accel, rate + ticks * a.accel);
-  if (lowest < 0) a.rate += Math.sign(a.rate) * -lowest;
+/** The rate, raised until no tick's rate is negative; the extremes are at the first and last tick. */
+function keptAboveZero(rate: number, accel: number, ticks: number): number {
+  const register = registersFor("half", rate, accel).rate;
+  const lowest = Math.min(register + accel, register + ticks * accel);
+  return lowest < 0 ? rate + Math.sign(rate) * -lowest : rate;
 }
 
 function run(a: Arguments, ticks: number, state: MotorState): void {

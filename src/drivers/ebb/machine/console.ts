@@ -18,18 +18,20 @@ export async function sendLine(carriage: Carriage, line: string): Promise<Consol
   const why = whyRefused(line);
   if (why !== null) throw new PlotwrightError("bad-setting", `${JSON.stringify(line)} was not sent: ${why}.`);
   const name = commandName(line);
-  const replies = await repliesTo(carriage, line);
-  return { replies, note: await noteOn(carriage, name) };
+  const answer = await answerTo(carriage, line);
+  return { ...answer, note: await noteOn(carriage, name) };
 }
 
 /** Some commands answer with several lines. A query is sent after the line; all lines before its reply are returned. */
-async function repliesTo(carriage: Carriage, line: string): Promise<string[]> {
+async function answerTo(carriage: Carriage, line: string): Promise<Omit<ConsoleAnswer, "note">> {
   const { session } = carriage.connection;
   const mark = `console: ${line}`;
   session.log.add("note", mark);
+  let refused = false;
   await session.query(line, LONGEST_S).catch((error: unknown) => {
     // An error reply is in the log too.
     if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
+    refused = true;
   });
   await session.query("QM", LONGEST_S);
   const answers: string[] = [];
@@ -40,7 +42,10 @@ async function repliesTo(carriage: Carriage, line: string): Promise<string[]> {
     if (kind === "<" && text !== undefined) answers.unshift(text);
   }
   // After a reply of unknown form the session sends V to match replies to queries again: drop that reply.
-  return answers.slice(0, -1).filter((text) => commandName(line) === "V" || !/^EBBv.* Version /.test(text));
+  const replies = answers
+    .slice(0, -1)
+    .filter((text) => commandName(line) === "V" || !/^EBBv.* Version /.test(text));
+  return { replies, refused };
 }
 
 async function noteOn(carriage: Carriage, name: string): Promise<string | null> {

@@ -13,13 +13,14 @@ import { commandName, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
 import { SessionLog } from "../../session-log.js";
+import { SilenceWatch } from "../../silence-watch.js";
 import type { Clock, Transport } from "../../transport.js";
 
 /** Time-outs and log of a `BoardSession`. */
 export interface SessionOptions {
   /** For time-outs, in real seconds. */
   readonly clock: Clock;
-  /** Time without a reply after which the board counts as gone. Default 1.5 s. */
+  /** Time without a reply after which the board counts as gone, while this program runs. Default 1.5 s. */
   readonly patienceS?: number;
   /** Max number of lines in the log. Default 20 000. */
   readonly logLines?: number;
@@ -49,7 +50,6 @@ interface SentCommand extends AwaitedAnswer {
 
 const IDENTIFY_TRIES = 3;
 const IDENTIFY_PATIENCE_S = 0.7;
-const OVERSLEPT_S = 0.25;
 /** How often a query is sent if its replies are lost. */
 const QUERY_TRIES = 3;
 /** Log lines to search for the message about a device that is not an EiBotBoard. */
@@ -65,17 +65,13 @@ export class BoardSession {
   /** Set by `identify`. */
   identity: BoardIdentity | null = null;
 
-  private readonly clock: Clock;
   private readonly patienceS: number;
+  private readonly silence: SilenceWatch;
   private readonly answers: AnswerQueue;
   private readonly faultListeners: ((error: PlotwrightError) => void)[] = [];
   private readonly lines = new LineSplitter();
   private fault: PlotwrightError | null = null;
   private closed = false;
-  /** When the first unanswered command became the first. */
-  private firstSinceS = 0;
-  private cancelWatch: (() => void) | null = null;
-  private watchDueS = 0;
   /** A `V` that was sent to restore the order of replies has not been answered yet. */
   private isFindingOrder = false;
   /** Something was received since the last attempt to identify the board. */
@@ -99,8 +95,8 @@ export class BoardSession {
       ["clock"],
       "{ clock }, for example { clock: browserClock() }",
     );
-    this.clock = options.clock;
     this.patienceS = options.patienceS ?? 1.5;
+    this.silence = new SilenceWatch(options.clock, () => this.noAnswer());
     this.log = new SessionLog(options.clock, options.logLines);
     this.answers = new AnswerQueue((line) => {
       this.log.add("note", `belongs to no command: ${line}`);
@@ -198,7 +194,7 @@ export class BoardSession {
   async close(): Promise<void> {
     if (this.closed) return;
     this.closed = true;
-    this.cancelWatch?.();
+    this.silence.stop();
     this.answers.failAll(closedError());
     await this.transport.close();
   }
@@ -247,13 +243,12 @@ export class BoardSession {
       waitS,
       alone,
       settle: (error, value) => {
-        this.firstSinceS = this.clock.nowS();
+        this.awaitFirst();
         onReply?.(error, value);
       },
     };
-    if (this.answers.count === 0) this.firstSinceS = this.clock.nowS();
     this.answers.add(sent);
-    if (!this.cancelWatch) this.watch();
+    if (this.answers.count === 1) this.awaitFirst();
   }
 
   private put(text: string): void {
@@ -270,34 +265,17 @@ export class BoardSession {
     });
   }
 
-  /**
-   * One timer for the whole queue instead of one per command: it checks the first command at the earliest possible
-   * time-out and then sleeps for the remaining time.
-   */
-  private watch(): void {
+  /** Call when another command has become the first unanswered one. */
+  private awaitFirst(): void {
     const first = this.answers.first as SentCommand | null;
-    if (!first || this.fault || this.closed) {
-      this.cancelWatch = null;
-      return;
-    }
-    const nowS = this.clock.nowS();
-    const leftS = this.firstSinceS + this.patienceOf(first) - nowS;
-    // If the timer fires far too late, this process was suspended. First read the replies that arrived meanwhile.
-    const overslept = this.cancelWatch !== null && nowS - this.watchDueS > OVERSLEPT_S;
-    if (leftS > 0 || overslept) {
-      // Timers may fire slightly early; an extra millisecond avoids a second timer for the rest.
-      const delayS = overslept ? OVERSLEPT_S : Math.min(leftS, this.patienceS) + 0.001;
-      this.watchDueS = nowS + delayS;
-      this.cancelWatch = this.clock.after(delayS, () => this.watch());
-      return;
-    }
-    this.cancelWatch = null;
-    if (first.alone) {
-      this.answers.failFirst(silent(first.line));
-      this.watch();
-    } else {
-      this.fail(silent(first.line));
-    }
+    this.silence.expect(first ? this.patienceOf(first) : Infinity);
+  }
+
+  /** The first unanswered command has waited too long. */
+  private noAnswer(): void {
+    const first = this.answers.first as SentCommand;
+    if (first.alone) this.answers.failFirst(silent(first.line));
+    else this.fail(silent(first.line));
   }
 
   private patienceOf(sent: SentCommand): number {
@@ -311,8 +289,7 @@ export class BoardSession {
   private fail(error: PlotwrightError): void {
     if (this.fault || this.closed) return;
     this.fault = error;
-    this.cancelWatch?.();
-    this.cancelWatch = null;
+    this.silence.stop();
     this.log.add("note", error.message);
     this.answers.failAll(error);
     for (const listener of this.faultListeners) listener(error);

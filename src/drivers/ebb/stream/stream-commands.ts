@@ -23,7 +23,10 @@ export async function streamCommands(
   options: StreamOptions & {
     readonly cancel?: Cancellation;
     readonly onProgress?: (progress: StreamProgress) => void;
-    /** Board seconds between calls of `onProgress`, and between checks of `cancel`. Default 0.06. */
+    /**
+     * Board seconds between calls of `onProgress`, and between checks of `cancel`. Default 0.06. The last call is made
+     * when the plot has ended.
+     */
     readonly progressEveryS?: number;
   },
 ): Promise<StreamReport & { readonly underrunCount: number }> {
@@ -38,6 +41,7 @@ export async function streamCommands(
   tick();
   try {
     const report = await played;
+    options.onProgress?.(progressOf(streamer.place()));
     return { ...report, underrunCount: streamer.underrunCount };
   } finally {
     (stopTicking as (() => void) | null)?.();

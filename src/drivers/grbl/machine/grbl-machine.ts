@@ -199,17 +199,20 @@ export class GrblMachine implements Machine {
       );
     }
     this.session.heard = [];
+    let refused = false;
     await this.session.send(line).catch((error: unknown) => {
       // An error reply is among the received lines.
       if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
+      refused = true;
     });
     const replies = [...this.session.heard];
-    if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, note: null };
+    if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, refused, note: null };
     await this.session.send(SYNC).catch(() => undefined);
     this.penUp = null;
     await this.forgetPlace();
     return {
       replies,
+      refused,
       note: "The machine may have moved, so its position is unknown. The next move starts from here as home.",
     };
   }

@@ -5,6 +5,7 @@
 import { PlotwrightError } from "../../../errors.js";
 import { LineSplitter } from "../../line-splitter.js";
 import { SessionLog } from "../../session-log.js";
+import { SilenceWatch } from "../../silence-watch.js";
 import type { Clock, Transport } from "../../transport.js";
 import type { Axes } from "../model/planner.js";
 import {
@@ -52,8 +53,8 @@ export class GrblSession {
   private readonly lines = new LineSplitter();
   private failure: PlotwrightError | null = null;
   private closed = false;
-  private heardS: number;
-  private cancelWatch: (() => void) | null = null;
+  private readonly silence: SilenceWatch;
+  private cancelPoll: (() => void) | null = null;
 
   constructor(
     private readonly transport: Transport,
@@ -61,7 +62,7 @@ export class GrblSession {
     private readonly onLost: (error: PlotwrightError) => void,
   ) {
     this.log = new SessionLog(clock);
-    this.heardS = clock.nowS();
+    this.silence = new SilenceWatch(clock, () => this.noAnswer());
     transport.onData((bytes) => this.lines.push(bytes, (line) => this.take(line)));
     transport.onClose(() => this.fail(lineLost()));
   }
@@ -96,7 +97,9 @@ export class GrblSession {
     this.sentBytes += line.length + 1;
     this.log.add("sent", line);
     this.put(`${line}\n`);
-    if (!this.cancelWatch) this.watch();
+    // Not measured from an old reply.
+    if (this.sent.length === 1) this.silence.expect(PATIENCE_S);
+    if (!this.cancelPoll) this.poll();
   }
 
   /** Resolves when the line is accepted; for `G4` when everything before it is done. */
@@ -136,14 +139,15 @@ export class GrblSession {
   private within<T>(what: string, begin: (resolve: (value: T) => void) => void): Promise<T> {
     return new Promise((resolve, reject) => {
       if (this.failure) return reject(this.failure);
-      const cancel = this.clock.after(PATIENCE_S, () => reject(silent(what)));
+      const silence = new SilenceWatch(this.clock, () => reject(silent(what)));
+      silence.expect(PATIENCE_S);
       const failed = (error: PlotwrightError): void => {
-        cancel();
+        silence.stop();
         reject(error);
       };
       this.failures.push(failed);
       begin((value) => {
-        cancel();
+        silence.stop();
         this.failures = this.failures.filter((one) => one !== failed);
         resolve(value);
       });
@@ -156,7 +160,7 @@ export class GrblSession {
   }
 
   private take(line: string): void {
-    this.heardS = this.clock.nowS();
+    this.silence.expect(PATIENCE_S);
     this.offset = offsetOf(line) ?? this.offset;
     const status = statusOf(line, this.offset);
     if (status) {
@@ -200,27 +204,27 @@ export class GrblSession {
   }
 
   /** While a reply is missing, polls the status: Grbl answers that even if a line waits for motion. */
-  private watch(): void {
-    this.cancelWatch = null;
+  private poll(): void {
+    this.cancelPoll = null;
     if (this.failure || this.sent.length === 0) return;
-    // The first check must not use the time of an old reply.
-    const sinceS = this.clock.nowS();
-    this.cancelWatch = this.clock.after(POLL_S, () => {
-      if (this.clock.nowS() - Math.max(this.heardS, sinceS - PATIENCE_S) > PATIENCE_S) {
-        // A device that has answered but is not identified is not a Grbl.
-        const isOther = this.version === null && this.heard.length > 0;
-        this.fail(isOther ? notGrbl(this.heard.slice(-4)) : silent(this.sent[0]?.line ?? ""));
-      } else {
-        this.now(NOW.status);
-        this.watch();
-      }
+    this.cancelPoll = this.clock.after(POLL_S, () => {
+      this.now(NOW.status);
+      this.poll();
     });
+  }
+
+  private noAnswer(): void {
+    if (this.sent.length === 0) return;
+    // A device that has answered but is not identified is not a Grbl.
+    const isOther = this.version === null && this.heard.length > 0;
+    this.fail(isOther ? notGrbl(this.heard.slice(-4)) : silent(this.sent[0].line));
   }
 
   private fail(error: PlotwrightError): void {
     if (this.failure) return;
     this.failure = error;
-    this.cancelWatch?.();
+    this.silence.stop();
+    this.cancelPoll?.();
     this.log.add("note", error.message);
     this.dropSent(error);
     for (const failed of this.failures.splice(0)) failed(error);

@@ -1,0 +1,66 @@
+/**
+ * Detects a board that does not answer in time.
+ *
+ * A host that is busy or suspended reads no reply, so that time must not count as silence. A check shows it by being
+ * late. The last check gives a reply that has already arrived the time to be read.
+ *
+ *   host    runs ──────|   busy for 3 s   |── runs ─────────────|
+ *   checks  x    x    x   (due)           x    x    x    x  X       the board is silent at X
+ *   counts  ──────────────|               |─────────────────|
+ */
+import type { Clock } from "./transport.js";
+
+/** Max time between two checks: so much of a time in which the host did not run may count as silence. */
+const CHECK_S = 0.25;
+/** Time to read a reply that has already arrived. */
+const READ_S = 0.05;
+
+export class SilenceWatch {
+  private sinceS = 0;
+  private limitS = Infinity;
+  private dueS = 0;
+  private isLastCheck = false;
+  private cancel: (() => void) | null = null;
+
+  constructor(
+    private readonly clock: Clock,
+    /** Called once for each silence. */
+    private readonly onSilent: () => void,
+  ) {}
+
+  /** From now on, an answer is expected within `limitS`. Infinity: none is expected. */
+  expect(limitS: number): void {
+    this.sinceS = this.clock.nowS();
+    this.limitS = limitS;
+    this.isLastCheck = false;
+    // A timer that runs is not replaced, because this is called for each reply.
+    if (!this.cancel) this.checkAfter(Math.min(CHECK_S, limitS));
+  }
+
+  stop(): void {
+    this.limitS = Infinity;
+    this.cancel?.();
+    this.cancel = null;
+  }
+
+  private checkAfter(delayS: number): void {
+    if (delayS === Infinity || this.limitS === Infinity) return;
+    this.dueS = this.clock.nowS() + delayS;
+    this.cancel = this.clock.after(delayS, () => this.check());
+  }
+
+  private check(): void {
+    this.cancel = null;
+    const nowS = this.clock.nowS();
+    this.sinceS = Math.min(nowS, this.sinceS + Math.max(0, nowS - this.dueS));
+    const leftS = this.sinceS + this.limitS - nowS;
+    if (leftS > 0) this.checkAfter(Math.min(CHECK_S, leftS));
+    else if (!this.isLastCheck) {
+      this.isLastCheck = true;
+      this.checkAfter(READ_S);
+    } else {
+      this.limitS = Infinity;
+      this.onSilent();
+    }
+  }
+}

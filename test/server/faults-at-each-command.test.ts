@@ -1,0 +1,82 @@
+/**
+ * A fault at each command of a plot: the plot ends, by itself or with an error, and can be resumed to its end. Nothing
+ * waits endlessly.
+ */
+import { describe, expect, it } from "vitest";
+import type { JournalEntry } from "../../host/plotter/types.js";
+import type { VirtualBoard } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { IS_FULL } from "../support/full-run.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
+
+const STROKES = strokesOf([5, 5, 30, 5, 30, 12], [34, 12, 36, 5], [36, 8, 20, 14]);
+/** Much longer than the plot with its returns home. */
+const LIMIT_S = 120;
+
+type Fault = (board: VirtualBoard, world: ManualClock) => void;
+
+const FAULTS: Readonly<Record<string, Fault>> = {
+  "the supply is off for 1 s": supplyOffFor(1),
+  "the supply is off for 3 s": supplyOffFor(3),
+  "the board restarts": (board) => board.restart(),
+  "the cable is unplugged": (board) => board.unplug(),
+  "three replies are lost": (board) => board.loseReplies(3),
+  "the board is silent for 4 s": (board, world) => {
+    board.setMute(true);
+    world.after(4, () => board.setMute(false));
+  },
+  "the motion stands still for 5 s": (board, world) => {
+    board.setFrozen(true);
+    world.after(5, () => board.setFrozen(false));
+  },
+};
+
+function supplyOffFor(offS: number): Fault {
+  return (board, world) => {
+    board.setMotorVolts(0);
+    world.after(offS, () => board.setMotorVolts(9.1));
+  };
+}
+
+/** Plots until the drawing is done. Returns the number of commands, and how each attempt ended. */
+async function plotWith(fault: Fault, firmware: string, atCommand: number) {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  await world.run(driver.start());
+  const board = virtualBoardOf(driver);
+  let commandCount = 0;
+  board.onSend(() => {
+    if (++commandCount === atCommand) fault(board, world);
+  });
+  const journal: JournalEntry[] = [];
+  const outcomes: string[] = [];
+  while (outcomes.at(-1) !== "done" && outcomes.length < 4) {
+    for (let s = 0; s < LIMIT_S && driver.state.connection !== "idle"; s++) await world.advance(1);
+    const plotting = driver.plot(new LocalPlanner(STROKES), DEFAULT_PLOT_SETTINGS, {
+      from: journal.at(-1)?.place,
+      held: false,
+      journal: { record: (entry) => journal.push(entry) },
+    });
+    const run = await world.run(plotting, LIMIT_S);
+    const ended = run.finished.then(
+      ({ kind }) => kind,
+      (error: Error) => error.message,
+    );
+    outcomes.push(await world.run(ended, LIMIT_S));
+  }
+  await world.run(driver.close(), LIMIT_S);
+  return { commandCount, outcomes };
+}
+
+describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
+  it.each(Object.entries(FAULTS))("no plot hangs when %s", { timeout: 120_000 }, async (_, fault) => {
+    const { commandCount } = await plotWith(() => undefined, firmware, -1);
+    for (let at = 1; at <= commandCount; at += IS_FULL ? 1 : 7) {
+      const { outcomes } = await plotWith(fault, firmware, at);
+      expect(outcomes.at(-1), `fault at command ${at}: ${outcomes.join(" | ")}`).toBe("done");
+    }
+  });
+});
