@@ -112,7 +112,7 @@ class TypeWriter {
       metadata: this.#names,
       override: ({ zodSchema, jsonSchema }) => {
         const about = z.globalRegistry.get(zodSchema)?.description;
-        if (about !== undefined) jsonSchema.description = about;
+        if (about !== undefined) jsonSchema.description = `${about[0].toUpperCase()}${about.slice(1)}`;
       },
     }) as Schema;
     for (const [name, definition] of Object.entries($defs)) this.#used.set(name, definition);
@@ -181,12 +181,16 @@ function objectText(
   const lines = fields.map(([name, field]) => {
     const mark = required.includes(name) ? "" : "?";
     const note = limitsText(field);
-    const doc = DOCS.get(`${at}.${name}`) ?? field.description ?? "";
+    const doc = DOCS.get(`${at}.${name}`) ?? descriptionOf(field);
     const type = typeText(field, `${indent}  `, `${at}.${name}`);
     return `${commentLines(doc, indent)}${indent}  ${name}${mark}: ${type};${note === "" ? "" : ` // ${note}`}`;
   });
   return `{\n${lines.join("\n")}\n${indent}}`;
 }
+
+/** Also that of a type that may be null. */
+const descriptionOf = ({ description, anyOf = [] }: Schema): string =>
+  description ?? anyOf.find((one) => one.description !== undefined)?.description ?? "";
 
 /** Lines of at most 80 characters, for a phone too. */
 const commentLines = (doc: string, indent: string): string =>

@@ -78,9 +78,10 @@ class ReferenceWriter {
       return code(`function ${symbol.name}${this.signature(declaration)}`);
     }
     if (ts.isVariableDeclaration(declaration)) {
-      return code(
-        `const ${symbol.name}: ${this.typeText(this.checker.getTypeOfSymbol(symbol), declaration)}`,
-      );
+      const type = declaration.type
+        ? this.text(declaration.type)
+        : this.typeText(this.checker.getTypeOfSymbol(symbol), declaration);
+      return code(`const ${symbol.name}: ${type}`);
     }
     const type = this.checker.getDeclaredTypeOfSymbol(symbol);
     const members = this.checker

@@ -29,7 +29,7 @@ export const STATE_ROUTES: readonly ApiRoute[] = [
   route("get", "/state", "Returns the whole state of the server", snapshotSchema),
   route("get", "/events", "Streams a snapshot, then every change", "events"),
   route("get", "/me", "Returns the role and identity of the caller", meSchema),
-  route("get", "/openapi.json", "Returns this document", z.looseObject({})),
+  route("get", "/openapi.json", "Returns the OpenAPI description of this interface", z.looseObject({})),
   route("get", "/queue", "Returns the queue settings of the first plotter", queueSettingsSchema),
   route("patch", "/queue", "Changes the queue settings of the first plotter", queueSettingsSchema, {
     body: queueSettingsSchema,

@@ -1,6 +1,7 @@
 /** Log of the communication, newest last: a ring buffer of fixed size. */
 import type { Clock } from "./transport.js";
 
+/** The kind of an entry in the log. */
 export type LogDirection = "sent" | "received" | "note";
 
 const MARKS: Readonly<Record<LogDirection, string>> = { sent: ">", received: "<", note: "#" };

@@ -4,6 +4,7 @@ import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set
 import { linesOnPaper } from "./lines-on-paper.js";
 import { mmText, pathData, svgOpening, xmlText } from "./svg-text.js";
 
+/** What the SVG of `toSvg` shows besides the lines. */
 export interface SvgOptions {
   /** Paper size as placed. */
   readonly widthMm: number;
@@ -19,6 +20,7 @@ export interface SvgOptions {
   readonly layerNames?: readonly string[];
 }
 
+/** How the lines of a layer look. */
 export interface LayerLook {
   readonly color: string | null;
   readonly widthMm: number;

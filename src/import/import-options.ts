@@ -4,6 +4,7 @@ import { singleStrokeFont } from "./text/single-stroke-font.js";
 import type { TextFont } from "./text/text-font.js";
 
 export const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
+/** How the text of a drawing is drawn. */
 export type TextMode = (typeof TEXT_MODES)[number];
 
 /** How to read a file. Every option has a default. */

@@ -19,6 +19,7 @@ export interface Impulse {
   readonly weight: number;
 }
 
+/** The impulses of a shaper, for each axis. */
 export interface Kernel {
   /** Sorted by delay. */
   readonly x: readonly Impulse[];

@@ -49,6 +49,7 @@ export interface Trajectory {
   readonly planned?: PlannedMotion | null | undefined;
 }
 
+/** A motion before shaping, and the filter that shaped it. */
 export interface PlannedMotion {
   readonly trajectory: Trajectory;
   readonly kernel: Kernel;
@@ -65,7 +66,7 @@ export interface RunColumns {
   readonly startS: Float64Array;
 }
 
-/** Pen moves as columns, each with `count` used entries (arrays may be longer). See `PenMove`. */
+/** Pen moves as columns, each with `count` used entries (arrays may be longer). */
 export interface PenMoveColumns {
   readonly count: number;
   readonly beforeRun: Uint32Array;

@@ -14,8 +14,10 @@ import { setFor } from "./set-for.js";
 import type { PrepareSettings, ShiftMm } from "../settings/prepare.js";
 
 export const PEN_STOP_MODES = ["never", "pens", "layers"] as const;
+/** Where a plot stops for another pen: where the pen changes, before every layer, or nowhere. */
 export type PenStopMode = (typeof PEN_STOP_MODES)[number];
 
+/** A pen that the user has. */
 export interface PlotPen {
   readonly id: string;
   readonly name: string;

@@ -1,4 +1,4 @@
-/** Builds schemas from the settings tables. */
+/** Builds schemas from the settings tables. Their descriptions are shown by the HTTP reference and OpenAPI. */
 import { z } from "zod";
 import {
   rangeInWords,
@@ -12,7 +12,7 @@ export function numberSchema(row: NumberSetting): z.ZodNumber {
   const error = `it must be ${rangeInWords(row)}`;
   const number = row.isWhole ? z.int({ error }) : z.number({ error });
   const fromMin = row.minExcluded ? number.gt(row.min, { error }) : number.min(row.min, { error });
-  return fromMin.max(row.max, { error });
+  return fromMin.max(row.max, { error }).describe(row.about);
 }
 
 /** The row's words are in the OpenAPI document too. */
@@ -20,8 +20,7 @@ export const schemaOf = (row: Setting): z.ZodType => plainSchemaOf(row).describe
 
 function plainSchemaOf(row: Setting): z.ZodType {
   if (row.kind === "number") return numberSchema(row);
-  if (row.kind === "switch") return z.boolean();
-  return z.enum(row.choices);
+  return (row.kind === "switch" ? z.boolean() : z.enum(row.choices)).describe(row.about);
 }
 
 type ShapeOf<Table extends SettingsTable> = {

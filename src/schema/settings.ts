@@ -74,6 +74,7 @@ export const prepareSettingsSchema = z.object({
       yMm: anywhere,
       widthMm: positive(100_000).nullable(),
       heightMm: positive(100_000).nullable(),
+      /** Turns the box clockwise about its middle, after placing it. */
       turnDeg: numberSchema(PREPARE_TABLE.rotateDeg).optional(),
     })
     .nullable()

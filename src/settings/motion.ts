@@ -20,11 +20,13 @@ export const CORNER_RULES = {
     hint: "Like Rounded, and also speeds up and slows down softly. Best for brush pens and tall machines.",
   },
 } as const;
+/** How corners are taken: at once, rounded, or rounded with limited jerk. */
 export type MotionMode = keyof typeof CORNER_RULES;
 export const MOTION_MODES = Object.keys(CORNER_RULES) as readonly MotionMode[];
 
 /** Input shapers against the swinging of the machine (src/plan/shapers.ts). */
 export const SHAPERS = ["none", "zv", "mzv", "zvd", "ei"] as const;
+/** Input shapers against the swinging of the machine. */
 export type Shaper = (typeof SHAPERS)[number];
 
 const speed = {

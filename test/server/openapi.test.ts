@@ -41,6 +41,11 @@ describe("docs/http-reference.md", () => {
     expect(text).toBe(await httpReference());
   });
 
+  it("gives the meaning of fields, from docstrings and from the settings tables", () => {
+    expect(text).toContain("// Share of the plot's time, 0 … 1\n  progress: number;");
+    expect(text).toContain("// Height while travelling\n  upPct: number;");
+  });
+
   it("has a section for each route of the OpenAPI document", () => {
     const missing = app.documented().filter((one) => !text.includes(`\n${routeHeading(one)}\n`));
     expect(missing).toEqual([]);
