@@ -7,7 +7,8 @@ import {
   type PlotSettings,
 } from "../../src/schema/index.js";
 import type { HandMove } from "./hand-moves.js";
-import { PlotterDriver, type PlotterOptions } from "./plotter-driver.js";
+import { PlotterDriver } from "./plotter-driver.js";
+import type { PlotterOptions } from "./plotter-state.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import type { LivePlotRun, PlotStart } from "./types.js";
 import type { ManagedPlotter } from "./plotter-port.js";

@@ -13,48 +13,17 @@ import {
   powerLost,
   powerLow,
   type Machine,
-  type Springs,
   type VirtualMachine,
   machineOf,
 } from "../../src/internal.js";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  type CommandAnswer,
-  type Plotter,
-  type PlotSettings,
-} from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type CommandAnswer, type PlotSettings } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import { connect, type Connection } from "./connection.js";
-import type { Devices } from "./devices.js";
 import { moveByHand, type HandMove } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
+import { initialState, type PlotterOptions, type PlotterState } from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";
 import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
-
-export interface PlotterOptions {
-  /**
-   * "auto" (an EiBotBoard if one is plugged in, else the virtual board), "virtual", or a serial port's path.
-   */
-  readonly device: string;
-  /** Whether "auto" uses the virtual board if no board is plugged in. Default true. */
-  readonly virtualIfNone?: boolean | undefined;
-  /** Whether "auto" must skip a port, because another plotter uses it. */
-  readonly isTaken?: ((path: string) => boolean) | undefined;
-  /**
-   * How many times faster than real time a virtual board runs, also one that `device` leads to. Default 1.
-   */
-  readonly virtualSpeed?: number | undefined;
-  /** How the pen of the built-in virtual board swings. Default: not at all. */
-  readonly virtualSprings?: Springs | undefined;
-  /** Firmware version that the built-in virtual board reports. Default 2.8.1. */
-  readonly firmware?: string | undefined;
-  /** Settings for manual moves before the first job. */
-  readonly settings?: PlotSettings | undefined;
-  readonly clock: Clock;
-  readonly devices: Devices;
-}
-
-export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
 
 const RECONNECT_S = 2;
 
@@ -86,25 +55,10 @@ export class PlotterDriver {
       mayAsk: () => !this.#movingByHand && (this.#run === null || this.#run.isHeld),
       lost: () => this.#powerLost(),
       restored: () =>
-        this.#tell({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) }),
+        this.#setState({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) }),
     });
     this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
-    const isVirtual = options.device === "virtual";
-    this.#current = {
-      kind: isVirtual || options.device === "auto" ? "virtual" : "serial",
-      device: isVirtual || options.device === "auto" ? null : options.device,
-      connection: "connecting",
-      boardName: null,
-      activity: "none",
-      firmware: null,
-      emergencyStopMs: null,
-      message: null,
-      penUp: null,
-      penMoving: false,
-      motorsOn: null,
-      xMm: null,
-      yMm: null,
-    };
+    this.#current = initialState(options.device);
   }
 
   get state(): PlotterState {
@@ -122,7 +76,7 @@ export class PlotterDriver {
 
   /** Connects. Never rejects: errors are shown in `state`, and thrown by methods that need the board. */
   start(): Promise<void> {
-    this.#tell({ connection: "connecting", message: null });
+    this.#setState({ connection: "connecting", message: null });
     return this.#startConnecting();
   }
 
@@ -146,9 +100,9 @@ export class PlotterDriver {
     const run = new MachinePlot(machine, planner, settings, start);
     this.#run = run;
     const beginsHeld = start.held ?? (start.from ?? null) !== null;
-    this.#tell({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
-    run.onHeld((held) => this.#tell({ activity: held ? "held" : "plotting" }));
-    run.onProgress((progress) => this.#movedTo(progress));
+    this.#setState({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
+    run.onHeld((held) => this.#setState({ activity: held ? "held" : "plotting" }));
+    run.onProgress((progress) => this.#positionChanged(progress));
     run.finished.then(
       () => this.#runEnded(),
       () => this.#runEnded(),
@@ -244,7 +198,7 @@ export class PlotterDriver {
     const run = this.#run;
     run?.fail(closedError());
     // Fails if the connection is lost; there is nothing left to do then.
-    if (run || this.#movingByHand) await this.#machine?.leave(this.#settings).catch(() => undefined);
+    if (run || this.#movingByHand) await this.#machine?.stopAndLift(this.#settings).catch(() => undefined);
     await this.#connection?.machine.close();
     this.#virtual?.close();
   }
@@ -263,7 +217,7 @@ export class PlotterDriver {
     const virtual = this.#virtual;
     this.#supply.stop();
     this.#machine = this.#connection = this.#virtual = null;
-    this.#tell({
+    this.#setState({
       connection: "connecting",
       message: null,
       penUp: null,
@@ -339,7 +293,7 @@ export class PlotterDriver {
     this.#trouble = null;
     this.#supply.watch(machine);
     this.#machineChanged();
-    this.#tell({
+    this.#setState({
       kind: connection.kind,
       device: connection.device,
       connection: "idle",
@@ -367,25 +321,28 @@ export class PlotterDriver {
     this.#run?.fail(error);
     const connection = error.code === "no-board" ? "absent" : "fault";
     const unknown = { penUp: null, penMoving: false, motorsOn: null, xMm: null, yMm: null };
-    this.#tell({ connection, message: error.message, ...unknown });
+    this.#setState({ connection, message: error.message, ...unknown });
     this.#cancelRetry?.();
     this.#cancelRetry = this.#clock.after(RECONNECT_S, () => void this.#startConnecting());
   }
 
   #runEnded(): void {
     this.#run = null;
-    this.#tell({ activity: "none", ...(this.#machine && !this.#supply.isLow ? { connection: "idle" } : {}) });
+    this.#setState({
+      activity: "none",
+      ...(this.#machine && !this.#supply.isLow ? { connection: "idle" } : {}),
+    });
     this.#machineChanged();
   }
 
   #powerLost(): void {
     this.#run?.fail(powerLost());
-    this.#tell({ connection: "fault", message: powerLow().message });
+    this.#setState({ connection: "fault", message: powerLow().message });
     const settings = this.#settings;
     const machine = this.#machine;
     machine
       ?.forgetPlace()
-      .then(() => machine.letGo(settings))
+      .then(() => machine.release(settings))
       .catch(() => undefined);
   }
 
@@ -393,12 +350,12 @@ export class PlotterDriver {
     await this.#connecting;
     const machine = this.#idleMachine();
     this.#movingByHand = true;
-    this.#tell({ connection: "busy", activity: "moving" });
+    this.#setState({ connection: "busy", activity: "moving" });
     try {
       return await action(machine);
     } finally {
       this.#movingByHand = false;
-      this.#tell({
+      this.#setState({
         activity: "none",
         ...(this.#machine && !this.#supply.isLow ? { connection: "idle" } : {}),
       });
@@ -422,7 +379,7 @@ export class PlotterDriver {
     const machine = this.#machine;
     if (!machine) return;
     const place = machine.place(machineOf(this.#settings));
-    this.#tell({
+    this.#setState({
       emergencyStopMs: machine.emergencyStopMs(this.#settings),
       penUp: machine.penUp,
       penMoving: machine.penMoving,
@@ -433,12 +390,12 @@ export class PlotterDriver {
   }
 
   /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
-  #movedTo({ xMm, yMm, penUp, penMoving }: PlotProgress): void {
+  #positionChanged({ xMm, yMm, penUp, penMoving }: PlotProgress): void {
     // A run that ends because the connection is lost still reports a position, which is then unknown.
     if (this.#machine) this.#current = { ...this.#current, xMm, yMm, penUp, penMoving };
   }
 
-  #tell(change: Partial<PlotterState>): void {
+  #setState(change: Partial<PlotterState>): void {
     const keys = Object.keys(change) as (keyof PlotterState)[];
     if (keys.every((key) => this.#current[key] === change[key])) return;
     this.#current = { ...this.#current, ...change };

@@ -124,9 +124,9 @@ export interface Machine {
   /** Call when something else has moved the carriage: its position is then unknown. */
   forgetPlace(): Promise<void>;
   /** Call after the position is lost: lifts the pen and switches the motors off. */
-  letGo(settings: MachineSettings): Promise<void>;
+  release(settings: MachineSettings): Promise<void>;
   /** Call before the connection is closed during motion: stops at once and lifts the pen. */
-  leave(settings: MachineSettings): Promise<void>;
+  stopAndLift(settings: MachineSettings): Promise<void>;
   /** Stops a manual move, which then rejects with `conflict`, and reads the position back. */
   stopAtOnce(): void;
 

@@ -259,7 +259,7 @@ export class Carriage {
   }
 
   /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed home. */
-  async letGo(settings: MachineSettings): Promise<void> {
+  async release(settings: MachineSettings): Promise<void> {
     await this.untilStill();
     if (this.queueDepth > 1) await this.connection.session.send(`CU,4,${this.queueDepth}`);
     await this.movePen(true, settings);
@@ -282,7 +282,7 @@ export class Carriage {
       if (!canFindPlace(streamer, error)) this.state = null;
       if (this.hasRestarted) {
         this.hasRestarted = false;
-        await this.letGo(settings).catch(() => undefined);
+        await this.release(settings).catch(() => undefined);
       }
       throw error;
     } finally {
@@ -327,7 +327,7 @@ export class Carriage {
   }
 
   /** Before the connection is closed during motion: stops and lifts the pen. */
-  async leave(settings: MachineSettings): Promise<void> {
+  async stopAndLift(settings: MachineSettings): Promise<void> {
     this.stopAtOnce();
     await this.untilStill();
     await this.movePen(true, settings);

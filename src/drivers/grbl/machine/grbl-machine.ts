@@ -164,12 +164,12 @@ export class GrblMachine implements Machine {
     return Promise.resolve();
   }
 
-  async letGo(settings: MachineSettings): Promise<void> {
+  async release(settings: MachineSettings): Promise<void> {
     await this.movePen(true, settings);
     await this.motorsOff();
   }
 
-  async leave(settings: MachineSettings): Promise<void> {
+  async stopAndLift(settings: MachineSettings): Promise<void> {
     await this.recovered(await this.session.reset(stopped()));
     await this.movePen(true, settings);
   }

@@ -1,0 +1,50 @@
+/** Options and state of a plotter driver. */
+import type { Clock } from "../../src/index.js";
+import type { Springs } from "../../src/internal.js";
+import type { Plotter, PlotSettings } from "../../src/schema/index.js";
+import type { Devices } from "./devices.js";
+
+export interface PlotterOptions {
+  /**
+   * "auto" (an EiBotBoard if one is plugged in, else the virtual board), "virtual", or a serial port's path.
+   */
+  readonly device: string;
+  /** Whether "auto" uses the virtual board if no board is plugged in. Default true. */
+  readonly virtualIfNone?: boolean | undefined;
+  /** Whether "auto" must skip a port, because another plotter uses it. */
+  readonly isTaken?: ((path: string) => boolean) | undefined;
+  /**
+   * How many times faster than real time a virtual board runs, also one that `device` leads to. Default 1.
+   */
+  readonly virtualSpeed?: number | undefined;
+  /** How the pen of the built-in virtual board swings. Default: not at all. */
+  readonly virtualSprings?: Springs | undefined;
+  /** Firmware version that the built-in virtual board reports. Default 2.8.1. */
+  readonly firmware?: string | undefined;
+  /** Settings for manual moves before the first job. */
+  readonly settings?: PlotSettings | undefined;
+  readonly clock: Clock;
+  readonly devices: Devices;
+}
+
+export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
+
+/** The state before the first attempt to connect. `device` is as in the options. */
+export function initialState(device: string): PlotterState {
+  const isPath = device !== "virtual" && device !== "auto";
+  return {
+    kind: isPath ? "serial" : "virtual",
+    device: isPath ? device : null,
+    connection: "connecting",
+    boardName: null,
+    activity: "none",
+    firmware: null,
+    emergencyStopMs: null,
+    message: null,
+    penUp: null,
+    penMoving: false,
+    motorsOn: null,
+    xMm: null,
+    yMm: null,
+  };
+}
