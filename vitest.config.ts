@@ -1,4 +1,5 @@
 import { defineConfig } from "vitest/config";
+import { BaseSequencer, type TestSpecification } from "vitest/node";
 
 /** Tests at the speed of a real board. They mostly wait; heavier work beside them would disturb them. */
 const REAL_TIME = ["test/serial/**/*.test.ts"];
@@ -42,13 +43,40 @@ const SHARED = { isolate: false };
 /** Tests that also wait (for a board, a browser, a process) keep two cores busy only with a third worker. */
 const WAITING = { maxWorkers: 3 };
 
+/** The files that take longest, the slowest first. */
+const SLOWEST = [
+  "test/e2e/without-server-samples.test.ts",
+  "test/e2e/accessibility.test.ts",
+  "test/e2e/without-server.test.ts",
+  "test/e2e/both-backends.test.ts",
+  "test/e2e/site.test.ts",
+  "test/server/shared-queue.alone.test.ts",
+  "test/cli/reference.test.ts",
+  "test/e2e/machine.test.ts",
+  "test/e2e/layers.test.ts",
+  "test/serial/pen-flight-faults.test.ts",
+  "test/serial/plot-faults.test.ts",
+];
+
+/** Starts the slowest files first, so that no worker has one left at the end while the others have nothing to do. */
+class SlowestFirst extends BaseSequencer {
+  override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {
+    const isSlow = (name: string) => (file: TestSpecification) => file.moduleId.endsWith(name);
+    const slow = SLOWEST.flatMap((name) => files.filter(isSlow(name)));
+    const others = files.filter((file) => !slow.includes(file));
+    return [...slow, ...(await super.sort(others))];
+  }
+}
+
 export default defineConfig({
   test: {
     maxWorkers: 2,
+    sequence: { sequencer: SlowestFirst },
     projects: [
       {
         test: {
           ...COMMON,
+          ...WAITING,
           name: "functions",
           include: FUNCTIONS,
           exclude: PROCESSES,

@@ -10,7 +10,8 @@ import { seriousFindings } from "../test/support/axe.js";
 import { launchBrowser } from "../test/support/browser.js";
 import { dropFile, waitForPlan } from "../test/support/page-actions.js";
 import { inStates, LOOKS, type Look } from "../test/support/in-states.js";
-import { PAGE_STATES, sampleText } from "../test/support/page-states.js";
+import { PAGE_STATES } from "../test/support/page-states.js";
+import { sampleText } from "../test/support/page-states/steps.js";
 import { startServerProcess, temporaryFolder } from "../test/support/server-process.js";
 import { ROOT, ensureBuild } from "./setup.mjs";
 

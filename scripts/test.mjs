@@ -6,10 +6,11 @@
  *   npm test -- test/unit/plan     only these tests
  */
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, rmSync } from "node:fs";
 import { setPriority, tmpdir } from "node:os";
 import path from "node:path";
 import { findBrowser, installBrowser } from "./find-browser.mjs";
+import { failedFiles, failuresIn, passedCountIn, readReport, withSecondAttempt } from "./test-report.mjs";
 import { ROOT, checkNode, ensureBuild, ensureDependencies, nodeModule } from "./setup.mjs";
 
 const CHECKS = [
@@ -29,11 +30,23 @@ const CHECKS = [
 const CHECKS_PRIORITY = 5;
 const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
 
-/** The projects of vitest.config.ts that may run in parallel with the checks, and those that run alone after them. */
-const SHARED_RUNS = ["functions", "together", "commands", "processes"];
-const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? ["real-time", "load"] : [];
+/**
+ * The projects of vitest.config.ts that may run in parallel with each other and with the checks, and those that run
+ * alone after them.
+ */
+const SHARED_RUN = ["functions", "together", "commands", "processes"];
+const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? [["real-time"], ["load"]] : [];
+
+/**
+ * Only the tests in a real browser get a second attempt, which the end of the output shows. Their whole files run again,
+ * because many of their tests build on each other.
+ */
+const mayRunAgain = (file) => file.startsWith("test/e2e/");
+/** If more of them fail, it is not by chance. */
+const MAX_FILES_AGAIN = 3;
 
 const failures = [];
+const passedLater = [];
 let passedCount = 0;
 let failedCount = 0;
 
@@ -70,36 +83,42 @@ async function runChecks() {
   }
 }
 
-async function runTests(name, filters, folder) {
-  const resultFile = path.join(folder, `${name}.json`);
-  const args = ["run", "--project", name, "--passWithNoTests", "--reporter=default", "--reporter=json"];
-  const vitest = [nodeModule("vitest", "vitest.mjs"), ...args, `--outputFile.json=${resultFile}`];
+/** Runs these files of projects of vitest.config.ts, or all of them. */
+async function runVitest(projects, filters, resultFile) {
+  const args = ["run", ...projects.map((name) => `--project=${name}`), "--passWithNoTests"];
+  const reports = ["--reporter=default", "--reporter=json", `--outputFile.json=${resultFile}`];
+  const vitest = [nodeModule("vitest", "vitest.mjs"), ...args, ...reports];
   const code = await runNode([...vitest, ...filters], false);
-  countTests(name, code, resultFile);
+  return { code, report: readReport(resultFile) };
 }
 
-/**
- * Adds up vitest's own report. A file that could not be loaded has no tests in it, so it counts as one
- * failure.
- */
-function countTests(name, code, resultFile) {
-  let report;
-  try {
-    report = JSON.parse(readFileSync(resultFile, "utf8"));
-  } catch {
+async function runTests(projects, filters, folder) {
+  const name = projects.join("-");
+  let { code, report } = await runVitest(projects, filters, path.join(folder, `${name}.json`));
+  const again = report === null || filters.length > 0 ? [] : failedFiles(report).filter(mayRunAgain);
+  if (again.length > 0 && again.length <= MAX_FILES_AGAIN) {
+    console.log(`Second attempt: ${again.join(", ")}`);
+    const second = await runVitest(projects, again, path.join(folder, `${name}-again.json`));
+    if (second.report !== null) {
+      const before = failuresIn(report);
+      report = withSecondAttempt(report, second.report);
+      const failed = failuresIn(report);
+      passedLater.push(...before.filter((what) => !failed.includes(what)));
+      if (failed.length === 0) code = second.code;
+    }
+  }
+  count(name, code, report);
+}
+
+function count(name, code, report) {
+  if (report === null) {
     fail(`tests (${name}) ended with code ${code} and left no report`);
     return;
   }
-  passedCount += report.numPassedTests;
-  const before = failedCount;
-  for (const file of report.testResults) {
-    const failed = file.assertionResults.filter((test) => test.status === "failed");
-    for (const test of failed) fail(`${path.relative(process.cwd(), file.name)}: ${test.fullName}`);
-    if (failed.length === 0 && file.status === "failed") {
-      fail(`${path.relative(process.cwd(), file.name)}: ${file.message}`);
-    }
-  }
-  if (code !== 0 && failedCount === before) fail(`tests (${name}): an error outside any test, see above`);
+  passedCount += passedCountIn(report);
+  const failed = failuresIn(report);
+  for (const what of failed) fail(what);
+  if (code !== 0 && failed.length === 0) fail(`tests (${name}): an error outside any test, see above`);
 }
 
 async function findOrInstallBrowser() {
@@ -125,9 +144,9 @@ ensureBuild();
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-test-"));
 try {
   const checks = filters.length === 0 ? runChecks() : Promise.resolve();
-  for (const name of SHARED_RUNS) await runTests(name, filters, folder);
+  await runTests(SHARED_RUN, filters, folder);
   await checks;
-  for (const name of UNDISTURBED_RUNS) await runTests(name, filters, folder);
+  for (const projects of UNDISTURBED_RUNS) await runTests(projects, filters, folder);
   if (!HAS_PSEUDO_TERMINALS) {
     console.log(
       "Left out on Windows, which has no pseudo-terminals and no signals: POSIX_ONLY in vitest.config.ts",
@@ -137,6 +156,8 @@ try {
   rmSync(folder, { recursive: true, force: true });
 }
 
-if (failures.length > 0) console.log(`\nFailed:\n${failures.map((what) => `  ${what}`).join("\n")}`);
+const list = (title, tests) => console.log(`\n${title}:\n${tests.map((what) => `  ${what}`).join("\n")}`);
+if (passedLater.length > 0) list("Passed at the second attempt", passedLater);
+if (failures.length > 0) list("Failed", failures);
 console.log(`\n${passedCount} passed, ${failedCount} failed`);
 process.exitCode = failedCount === 0 && passedCount > 0 ? 0 : 1;

@@ -68,7 +68,6 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
       return {
         ...next,
         place: job.startedAt === null ? null : event.place,
-        wait: null,
         remainingS: null,
         endedAt: nowIso,
       };

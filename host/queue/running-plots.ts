@@ -231,6 +231,8 @@ export class RunningPlots {
   #held(id: string, held: boolean, wait: PlotWait | null): void {
     const job = this.#jobs.get(id);
     const running = this.#running.get(job.plotterId);
+    // Released only to go home: the job keeps its place and the pen that it waits for.
+    if (running?.runner.isCancelling === true) return;
     if (held && job.state === "plotting") {
       running?.timer.hold(this.#parts.nowIso());
       const waitsFor = wait ?? job.wait;

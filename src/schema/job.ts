@@ -81,7 +81,7 @@ export const jobSchema = z.object({
    * after the start, so that it can be compared with plottedS; null until the job is planned.
    */
   expectedS: z.number().nullable().default(null),
-  /** What a paused or interrupted job waits for; null if it is held for another reason. */
+  /** What a job that is not moving waits for; null if for nothing. A cancelled job waits for it again once it is recovered. */
   wait: plotWaitSchema.nullable().default(null),
   createdAt: z.string(),
   startedAt: z.string().nullable(),

@@ -163,7 +163,7 @@ export const PREPARE_TABLE = {
   hatchOutlines: {
     kind: "switch",
     label: "Fill closed outlines too",
-    about: "with hatching: fill closed lines too, not only filled shapes",
+    about: "when hatching: fill closed lines too, not only filled shapes",
     flag: "--hatch-outlines",
     default: false,
   },
@@ -272,7 +272,7 @@ export const PREPARE_TABLE = {
   orderS: {
     kind: "number",
     label: "Search for",
-    about: "how long the order best may search",
+    about: "how long the search for the best order may take",
     flag: "--order-s",
     default: 9,
     min: 0,

@@ -18,7 +18,8 @@ import {
   waitForSamples,
 } from "../support/page-actions.js";
 import { DESK, inStates, LOOKS, PHONE, type Look } from "../support/in-states.js";
-import { PAGE_STATES, type PageState } from "../support/page-states.js";
+import { PAGE_STATES } from "../support/page-states.js";
+import type { PageState } from "../support/page-states/page-state.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 import { IS_FULL } from "../support/full-run.js";
 
@@ -42,6 +43,7 @@ async function firstVisit({ width, height }: Look = DESK): Promise<Page> {
     viewport: { width, height },
     hasTouch: width < 760,
     reducedMotion: "reduce",
+    serviceWorkers: "block",
   });
   const page = await context.newPage();
   await page.goto(server.url);
@@ -108,11 +110,14 @@ describe("the About sheet", () => {
 
 /** The full run has the phone here too; `npm test` has it below, in light colours. */
 const FIRST_LOOKS = IS_FULL ? [DESK, PHONE] : [DESK];
+/** Dark as well in `npm test`: the state with the most controls. */
+const SCHEMES = ["light", "dark"] as const;
+const FULL_SCHEMES = IS_FULL ? SCHEMES : (["light"] as const);
 
 describe("axe finds nothing serious, light and dark", () => {
   it.each(FIRST_LOOKS)("on the first visit, $name", async (look) => {
     const page = await firstVisit(look);
-    for (const colorScheme of ["light", "dark"] as const) {
+    for (const colorScheme of FULL_SCHEMES) {
       await page.emulateMedia({ colorScheme });
       expect(await seriousFindings(page)).toEqual([]);
     }
@@ -122,7 +127,7 @@ describe("axe finds nothing serious, light and dark", () => {
   it.each(FIRST_LOOKS)("with a sample on the paper and every group of settings open, $name", async (look) => {
     const page = await openPage(look);
     await unfold(page);
-    for (const colorScheme of ["light", "dark"] as const) {
+    for (const colorScheme of SCHEMES) {
       await page.emulateMedia({ colorScheme });
       expect(await seriousFindings(page)).toEqual([]);
     }
@@ -145,7 +150,7 @@ describe("axe finds nothing serious, light and dark", () => {
     await page.getByText(/torn/).first().waitFor();
     expect(await seriousFindings(page)).toEqual([]);
     await queuePanel(page).getByRole("button", { name: "Cancel" }).click();
-    for (const colorScheme of ["light", "dark"] as const) {
+    for (const colorScheme of FULL_SCHEMES) {
       await page.emulateMedia({ colorScheme });
       expect(await seriousFindings(page)).toEqual([]);
     }

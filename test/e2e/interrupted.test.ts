@@ -4,25 +4,13 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Job } from "../../src/schema/index.js";
 import { launchBrowser } from "../support/browser.js";
-import { GHOST_COLOR } from "../../web/scene/renderer.js";
-import {
-  colorCounts,
-  dropFile,
-  plotBar,
-  queuePanel,
-  statusCard,
-  waitForPicture,
-  waitForPlan,
-} from "../support/page-actions.js";
+import { combOf, expectPartlyDrawn, SHARP } from "../support/half-drawn.js";
+import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 
 const PATIENCE_MS = 120_000;
 const NAME = "comb";
-const PEN_COLOR = "#1040c0";
-const COMB = `<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="150mm" viewBox="0 0 150 150" stroke="${PEN_COLOR}">${Array.from(
-  { length: 40 },
-  (_, i) => `<path d="M10 ${10 + 3 * i}h120"/>`,
-).join("")}</svg>`;
+const COMB = combOf("near", "far");
 
 const data = temporaryFolder("interrupted");
 let browser: Browser;
@@ -31,8 +19,7 @@ let page: Page;
 async function openPage(): Promise<void> {
   const context = await browser.newContext({
     viewport: { width: 1440, height: 900 },
-    // So that a line covers whole pixels.
-    deviceScaleFactor: 2,
+    ...SHARP,
     colorScheme: "light",
   });
   page = await context.newPage();
@@ -44,38 +31,7 @@ async function theJob(): Promise<Job> {
   return snapshotSchema.parse(answer).jobs[0];
 }
 
-const colorOf = (hex: string): number => Number.parseInt(hex.slice(1), 16);
-
-/** Of what the sheet shows of the drawing, the share that is drawn: in the line's own colour, not pale. */
-async function drawnShare(): Promise<number> {
-  await page.getByText(`Reading ${NAME}`).waitFor({ state: "detached" });
-  await waitForPicture(page);
-  let [drawn, left] = [0, 0];
-  const canvas = page.getByRole("img", { name: "The plot: what is drawn, and what is left" });
-  for (const [color, count] of await colorCounts(canvas)) {
-    if (color === colorOf(PEN_COLOR)) drawn += count;
-    else if (color === colorOf(GHOST_COLOR)) left += count;
-  }
-  expect(drawn + left).toBeGreaterThan(1_000);
-  return drawn / (drawn + left);
-}
-
-/** The page's text and picture match the job's progress. */
-async function expectPartlyDrawn(state: string): Promise<void> {
-  const job = await theJob();
-  const share = Math.round(job.progress * 100);
-  expect(job.progress).toBeGreaterThan(0.2);
-  expect(job.progress).toBeLessThan(0.8);
-  expect(job.remainingS! / job.stats!.durationS).toBeCloseTo(1 - job.progress, 1);
-  const pill = page.locator(".machine-state");
-  await expect.poll(() => pill.innerText()).toMatch(new RegExp(`^${state}: ${NAME}\\s+\\d+\\s*%$`));
-  const shown = Number(/(\d+)\s*%/.exec(await pill.innerText())![1]);
-  expect(Math.abs(shown - share)).toBeLessThanOrEqual(1);
-  const bar = statusCard(page).getByRole("progressbar");
-  expect(Math.abs(Number(await bar.getAttribute("aria-valuenow")) - share)).toBeLessThanOrEqual(1);
-  expect(await statusCard(page).innerText()).toContain("left");
-  expect(Math.abs((await drawnShare()) - job.progress)).toBeLessThan(0.15);
-}
+const expectAt = async (state: string): Promise<void> => expectPartlyDrawn(page, await theJob(), state);
 
 beforeAll(async () => {
   browser = await launchBrowser();
@@ -108,7 +64,7 @@ describe("a plot whose server was killed", () => {
       await page.context().close();
       server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
       await openPage();
-      await expectPartlyDrawn("Interrupted");
+      await expectAt("Interrupted");
     },
   );
 
@@ -116,8 +72,8 @@ describe("a plot whose server was killed", () => {
     const { id } = await theJob();
     await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
     await expect.poll(async () => (await theJob()).state).toBe("paused");
-    await expectPartlyDrawn("Paused");
+    await expectAt("Paused");
     await page.reload();
-    await expectPartlyDrawn("Paused");
+    await expectAt("Paused");
   });
 });

@@ -1,14 +1,12 @@
 /** Quality: one choice of three sets speed, acceleration and corners together, and the numbers stay reachable. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { machineById } from "../../src/index.js";
 import { motionOfQuality, type Quality } from "../../src/internal.js";
 import { seriousFindings } from "../support/axe.js";
+import { chooseMeasuredPlotter, SPRINGS } from "../support/measured-plotter.js";
 import { PageTest } from "../support/page-test.js";
 
 const PATIENCE_MS = 120_000;
 const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;
-const SPRINGS = { xHz: 15, yHz: 25, damping: 0.05 };
-const MEASURED = { ...machineById("axidraw-v3"), id: "measured", name: "Measured plotter", springs: SPRINGS };
 
 let test: PageTest;
 
@@ -47,15 +45,7 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
 
   it("sets what a step stands for, from the plotter's springs", async () => {
     const { page } = test;
-    await page.request.put(`${test.server.url}/api/v1/machines/${MEASURED.id}`, { data: MEASURED });
-    await page.reload();
-    await test.planned();
-    await page.getByRole("button", { name: "Machines…" }).click();
-    await page
-      .getByRole("dialog")
-      .getByRole("button", { name: /^Measured plotter/ })
-      .click();
-    await page.keyboard.press("Escape");
+    await chooseMeasuredPlotter(page, test.server.url);
     // Normal stays Normal: that of this machine.
     await section().getByText("15 Hz along x and 25 Hz along y", { exact: false }).waitFor();
     expect(await step("Normal").isChecked()).toBe(true);

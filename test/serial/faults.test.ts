@@ -1,4 +1,4 @@
-/** Faults of a board during a plot, over a real pseudo-terminal: each ends in a defined state within 3 s. */
+/** Faults of a board during a plot, over a real pseudo-terminal: each ends in a defined state. */
 import { fork } from "node:child_process";
 import { once } from "node:events";
 import { chmodSync } from "node:fs";
@@ -13,7 +13,11 @@ import { PtyBoard } from "../support/pty-board.js";
 import { wakefulClock } from "../support/wakeful-clock.js";
 
 const LONG = strokesOf([10, 10, 250, 10, 250, 20, 10, 20, 10, 30, 250, 30]);
-const WITHIN_S = 3;
+/**
+ * An undetected fault never ends, or only with the plot. test/server/plotter.test.ts tests the limit of 3 s, without real
+ * time: here a busy computer delays the board and the driver.
+ */
+const WITHIN_S = 15;
 const clock = wakefulClock({ countsWork: true });
 
 /** Everything opened here is closed when its own test ends, because other tests run beside it. */
@@ -110,7 +114,7 @@ describe.concurrent("in mid-plot", () => {
     },
   );
 
-  it("a blocked board can still be cancelled at once", async (test) => {
+  it("a blocked board can still be cancelled", async (test) => {
     const { board, driver, run, ended } = await drawing(test);
     board.tell({ type: "frozen", frozen: true });
     void run.cancel().catch(() => undefined);
@@ -216,7 +220,7 @@ describe.concurrent("when connecting", () => {
     });
   });
 
-  it("a board without motor supply is a fault within 3 s with advice what to check", async (test) => {
+  it("a board without motor supply is a fault with advice what to check", async (test) => {
     const board = closeAfter(test, await PtyBoard.open());
     board.tell({ type: "volts", volts: 5 });
     await board.report();

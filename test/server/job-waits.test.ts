@@ -104,17 +104,38 @@ describe("a stop for a pen", () => {
     expect(queue.get(id)).toMatchObject({ state: "interrupted", wait: null });
   });
 
-  it.each(["cancel", "finish"] as const)("is over when the job ends (%s)", async (end) => {
+  it("is due again after the plot was cancelled there and recovered, any number of times", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    const first = await plotter.nextRun();
+    await settled();
+    const place = { stroke: 7, alongMm: 0 };
+    first.holdPlace = place;
+    first.held(true, BLUE);
+    first.record({ place });
+    for (let run = first; ; run = await plotter.nextRun()) {
+      await settled();
+      queue.cancel(id);
+      // A plotter releases a held plot to send it home.
+      run.held(false);
+      await settled();
+      const kept = { wait: BLUE, place: { strokeIndex: 7, alongMm: 0 } };
+      expect(queue.get(id)).toMatchObject({ state: "cancelled", ...kept });
+      if (run !== first) break;
+      expect(queue.recover(id)).toMatchObject({ state: "paused", ...kept });
+    }
+    expect(queue.requeue(id)).toMatchObject({ state: "queued", wait: null, place: null });
+  });
+
+  it("is over when the job is done", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
     run.held(true, BLUE);
-    if (end === "cancel") queue.cancel(id);
-    else run.end({ kind: "done" });
+    run.end({ kind: "done" });
     await settled();
-    expect(queue.get(id)).toMatchObject({ state: end === "cancel" ? "cancelled" : "done", wait: null });
-    expect(queue.requeue(id).wait).toBeNull();
+    expect(queue.get(id)).toMatchObject({ state: "done", wait: null });
   });
 
   it("is not counted in the time that the plot took", async () => {

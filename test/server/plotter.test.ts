@@ -332,6 +332,17 @@ describe("a board that answers but does not move", () => {
     expect(driver.state.connection).toBe("idle");
   });
 
+  it.each(["2.8.1", "3.0.3"])("ends a cancelled plot within 3 s, on firmware %s", async (firmware) => {
+    const { world, driver, board, begin } = await newPlotter(firmware);
+    const { run } = await begin(strokesOf([10, 10, 250, 10]));
+    await world.advance(1.5);
+    board.setFrozen(true);
+    void run.cancel().catch(() => undefined);
+    const ended = await outcome(world.run(run.finished, 3));
+    expect(JSON.stringify(ended)).toMatch(/"cancelled"|board-/);
+    expect(driver.state.connection).not.toBe("busy");
+  });
+
   it("that spends the time of its moves without a step ends it too", async () => {
     const { world, board, begin } = await newPlotter("3.0.3");
     const { run } = await begin(strokesOf([10, 10, 250, 10]));

@@ -1,7 +1,7 @@
 /** Brings the page into its states (page-states.ts) for a screen size, light and dark. */
 import type { Browser, BrowserContext, Page } from "playwright-core";
 import { chooseSample } from "./page-actions.js";
-import type { PageState } from "./page-states.js";
+import type { PageState } from "./page-states/page-state.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
 /** The size of a screen. */
@@ -66,6 +66,8 @@ async function inGroup(
       viewport: { width, height },
       hasTouch: width < 760,
       reducedMotion,
+      // Storing the page for offline use costs time.
+      serviceWorkers: "block",
     });
     contexts.push(context);
     const other = await context.newPage();

@@ -3,6 +3,7 @@ import { OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import { activeJob, currentPlotter, isReady, otherOperator, type PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { SettingField } from "../ui/setting-field.js";
+import { usePenChange } from "../ui/use-change.js";
 import { servoFollower } from "./servo-follow.js";
 import { penText } from "./text.js";
 import { useHand } from "./use-hand.js";
@@ -142,7 +143,8 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
   const isFollowing = usePageState(mayFollow);
   // If another browser is the operator, storing the heights asks to take over first.
   const isOthers = usePageState((state) => otherOperator(state) !== null);
-  const { changeSettings, movePen } = useActions();
+  const { movePen } = useActions();
+  const change = usePenChange();
   const follow = useMemo(
     () =>
       servoFollower(
@@ -156,12 +158,7 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
       <SettingField
         setting={PEN_TABLE[which]}
         value={pen[which]}
-        onChange={(pct) =>
-          changeSettings(`pen ${which}`, (settings) => ({
-            ...settings,
-            pen: { ...settings.pen, [which]: pct },
-          }))
-        }
+        onChange={(pct) => change({ [which]: pct })}
         onSlide={(pct) => {
           onTry?.();
           if (isFollowing && !isOthers) follow({ isUp: which === "upPct", pct });
@@ -195,12 +192,7 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
             <SettingField
               setting={OVERLAP_TABLE.contactPct}
               value={pen.contactPct}
-              onChange={(contactPct) =>
-                changeSettings("pen contactPct", (settings) => ({
-                  ...settings,
-                  pen: { ...settings.pen, contactPct },
-                }))
-              }
+              onChange={(contactPct) => change({ contactPct })}
               onSlide={touch}
             />
             <button

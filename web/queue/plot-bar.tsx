@@ -1,5 +1,6 @@
 import { useState } from "react";
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
+import { plotterText } from "../plotter/text.js";
 import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
@@ -133,6 +134,7 @@ const PlotNote = ({ isSending, isBusy, isAbsent }: PlotNoteProps) => {
     );
   }
   if (!hasDrawing) return <p className="note">{words.needsDrawing}</p>;
+  if (link === "connecting") return <p className="note note-working">{plotterText.server.connecting}</p>;
   if (isBusy) return <p className="note">{words.queueBusy}</p>;
   return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
 };

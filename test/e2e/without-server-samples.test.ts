@@ -1,0 +1,47 @@
+/** The samples, plotted by the page without a server: the board ends with the steps of a plot by the library. */
+import { readFileSync } from "node:fs";
+import type { Browser } from "playwright-core";
+import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
+import { launchBrowser } from "../support/browser.js";
+import { plotting } from "../support/live-plot.js";
+import { done, SerialPages, storedJob, strokesOf } from "../support/serial-page.js";
+
+/** The samples take 10 to 20 minutes each on a real board. */
+const BOARD_SPEED = 100;
+const SAMPLES = [
+  ["Hello paper", "hello-paper"],
+  ["Whirling triangles", "whirling-triangles"],
+  ["Flower meadow", "flower-meadow"],
+] as const;
+
+let browser: Browser;
+let pages: SerialPages;
+
+beforeAll(async () => {
+  browser = await launchBrowser();
+});
+afterAll(() => browser.close());
+afterEach(() => pages.close());
+
+describe("the page without a server", () => {
+  it.each(SAMPLES)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
+    pages = await SerialPages.start(browser, BOARD_SPEED);
+    const page = await pages.openPage();
+    await page.getByRole("button", { name: title }).click();
+    await pages.plot(page);
+    await done(page);
+    const { settings } = await storedJob(page);
+    const strokes = strokesOf(readFileSync(`samples/${file}.svg`, "utf8"), settings);
+    const { world, board, run } = await plotting(
+      settings.motion.mode,
+      strokes,
+      "2.8.1",
+      settings.pen,
+      settings,
+    );
+    await world.run(run.finished);
+    const { steps1, steps2 } = pages.board.state();
+    expect([steps1, steps2]).toEqual([board.state().steps1, board.state().steps2]);
+    expect(pages.board.drawn()).toEqual(board.drawn());
+  });
+});
