@@ -20,6 +20,7 @@ export class SilenceWatch {
   private limitS = Infinity;
   private dueS = 0;
   private isLastCheck = false;
+  private isStopped = false;
   private cancel: (() => void) | null = null;
 
   constructor(
@@ -30,6 +31,7 @@ export class SilenceWatch {
 
   /** From now on, an answer is expected within `limitS`. Infinity: none is expected. */
   expect(limitS: number): void {
+    if (this.isStopped) return;
     this.sinceS = this.clock.nowS();
     this.limitS = limitS;
     this.isLastCheck = false;
@@ -37,7 +39,9 @@ export class SilenceWatch {
     if (!this.cancel) this.checkAfter(Math.min(CHECK_S, limitS));
   }
 
+  /** Stops for good: later calls of `expect` do nothing. */
   stop(): void {
+    this.isStopped = true;
     this.limitS = Infinity;
     this.cancel?.();
     this.cancel = null;

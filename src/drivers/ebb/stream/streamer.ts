@@ -323,6 +323,8 @@ export class Streamer {
   }
 
   private sleep(delayS: number): void {
+    // A lost connection refuses the commands at once.
+    if (this.failure) return;
     this.cancelWake?.();
     this.cancelWake = this.options.clock.after(delayS, () => this.pump());
   }
