@@ -113,6 +113,9 @@ describe("while the page is still connecting", () => {
       await test.planned();
       const note = plotBar(page).getByText("Connecting to plotwright…");
       await note.waitFor();
+      await page.setViewportSize({ width: 390, height: 844 });
+      await note.waitFor();
+      await page.setViewportSize({ width: 1440, height: 900 });
       expect(await plotBar(page).getByRole("button", { name: "Plot", exact: true }).isDisabled()).toBe(true);
       answer();
       await waitForPlotButton(page);
