@@ -1,6 +1,6 @@
 /** A drawing and its settings survive a reload; another drawing starts fresh. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { dropFile, plotBar } from "../support/page-actions.js";
+import { dropFile, plotBar, waitForPlotButton } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 const LIMIT_MS = 120_000;
@@ -93,6 +93,34 @@ describe("after a reload", () => {
       await page.reload();
       await test.planned();
       expect(await nameOnPaper()).toBe("large");
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("while the page is still connecting", () => {
+  it(
+    "the drawing is there, and a note at Plot says why it is off",
+    async () => {
+      const { page } = test;
+      let answer = (): void => undefined;
+      const mayAnswer = new Promise<void>((resolve) => (answer = resolve));
+      await page.route("**/api/v1/events", async (route) => {
+        await mayAnswer;
+        await route.continue();
+      });
+      await page.reload();
+      await test.planned();
+      const note = plotBar(page).getByText("Connecting to plotwright…");
+      await note.waitFor();
+      await page.setViewportSize({ width: 390, height: 844 });
+      await note.waitFor();
+      await page.setViewportSize({ width: 1440, height: 900 });
+      expect(await plotBar(page).getByRole("button", { name: "Plot", exact: true }).isDisabled()).toBe(true);
+      answer();
+      await waitForPlotButton(page);
+      await note.waitFor({ state: "detached" });
+      await page.unroute("**/api/v1/events");
     },
     LIMIT_MS,
   );

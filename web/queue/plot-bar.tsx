@@ -133,7 +133,7 @@ const PlotNote = ({ isSending, isBusy, isAbsent }: PlotNoteProps) => {
       </p>
     );
   }
-  if (!hasDrawing) return <p className="note">{words.needsDrawing}</p>;
+  if (!hasDrawing) return <p className="note needs-drawing">{words.needsDrawing}</p>;
   if (link === "connecting") return <p className="note note-working">{plotterText.server.connecting}</p>;
   if (isBusy) return <p className="note">{words.queueBusy}</p>;
   return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;

@@ -103,4 +103,24 @@ export const DRAWING_STATES: readonly PageState[] = [
       await page.locator("[data-max-mm]").waitFor();
     },
   },
+  {
+    name: "43-pens",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "hills", sampleText("three-colour-hills"));
+      const fold = page.locator(".group-head").filter({ has: page.getByText("Pens", { exact: true }) });
+      if ((await fold.getAttribute("aria-expanded")) === "false") await fold.dispatchEvent("click");
+      await page.getByRole("button", { name: "A pen for each colour" }).dispatchEvent("click");
+      await page.locator(".layer-stop").first().scrollIntoViewIfNeeded();
+    },
+  },
+  {
+    name: "44-placed-by-hand",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "steps", STEPS);
+      const place = page.getByRole("button", { name: "Place the drawing by hand" });
+      if ((await place.getAttribute("aria-pressed")) === "false") await place.click();
+    },
+  },
 ];

@@ -122,4 +122,17 @@ export const PLOT_STATES: readonly PageState[] = [
       await lay(page, "hills", sampleText("three-colour-hills"));
     },
   },
+  {
+    name: "45-cancelled",
+    virtualSpeed: 8,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await statusCard(page).getByText("1 %").waitFor();
+      await button(page, "Cancel").first().click();
+      await page.getByRole("button", { name: "Cancel the plot" }).first().click();
+      await button(page, /^Go on from where it was cancelled/)
+        .first()
+        .waitFor();
+    },
+  },
 ];

@@ -77,4 +77,22 @@ export const SHARING_STATES: readonly PageState[] = [
       await page.getByRole("dialog", { name: "Another page is operating" }).waitFor();
     },
   },
+  {
+    name: "41-about",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await page.getByRole("button", { name: "Keyboard shortcuts" }).click();
+      await page.getByRole("button", { name: "About plotwright" }).click();
+      await page.getByRole("dialog", { name: "About plotwright" }).getByText("zustand").waitFor();
+    },
+  },
+  {
+    name: "42-connecting",
+    reach: async ({ page }) => {
+      // Never answered, so that it stays so.
+      await page.route("**/api/v1/events", () => undefined);
+      await page.reload();
+      await plotBar(page).getByText("Connecting to plotwright…").waitFor();
+    },
+  },
 ];
