@@ -1,7 +1,7 @@
 /**
  * Starts the worker thread whose file is in the folder of the starting module, compiled (.js) or as source
- * (.ts). A source file is bundled first, once per process: if every thread compiled all modules itself, it
- * would take seconds to start. The bundle is stored below node_modules, so that it can import packages.
+ * (.ts). A source file is bundled first with all its packages, once per process: if every thread compiled and
+ * resolved hundreds of modules itself, it would take seconds to start. The bundle is stored below node_modules.
  */
 import { createHash, randomBytes } from "node:crypto";
 import { existsSync, mkdirSync, renameSync, writeFileSync } from "node:fs";
@@ -25,9 +25,12 @@ function bundleOf(name: string, starterUrl: string): URL {
   const { outputFiles } = buildSync({
     entryPoints: [fileURLToPath(new URL(`./${name}.ts`, starterUrl))],
     bundle: true,
-    packages: "external",
     platform: "node",
     format: "esm",
+    // For packages in CommonJS, which require Node's own modules.
+    banner: {
+      js: `import { createRequire as requireFor } from "node:module"; const require = requireFor(import.meta.url);`,
+    },
     target: "node20",
     write: false,
   });
