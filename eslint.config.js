@@ -138,5 +138,16 @@ export default tseslint.config(
       ],
     },
   },
+  {
+    // The types of vite bring Node's globals with them.
+    files: ["web/**/*.{ts,tsx}"],
+    ignores: ["web/vite.config.ts"],
+    rules: {
+      "no-restricted-globals": [
+        "error",
+        ...["process", "Buffer", "global", "require", "__dirname", "__filename", "setImmediate"],
+      ],
+    },
+  },
   { files: ["scripts/**", "test/**", "bench/**"], rules: { "no-console": "off" } },
 );

@@ -13,20 +13,15 @@ import { findBrowser, installBrowser } from "./find-browser.mjs";
 import { failedFiles, failuresIn, passedCountIn, readReport, withSecondAttempt } from "./test-report.mjs";
 import { ROOT, checkNode, ensureBuild, ensureDependencies, nodeModule } from "./setup.mjs";
 
-/** Each program takes many seconds, so none checks what another one has checked with the same options. */
-const TYPES = [
-  { name: "types of src and host", folder: "host" },
-  // The types of server are checked by the build.
-  { name: "types of web", folder: "web" },
-  { name: "types of test, scripts and bench", folder: "test" },
-];
+const typesOf = (folder) => [nodeModule("typescript", "bin", "tsc"), "-p", `${folder}/tsconfig.json`];
 
+/** The longest first: it runs beside the build. */
 const CHECKS = [
-  ...TYPES.map(({ name, folder }) => ({
-    name,
-    args: [nodeModule("typescript", "bin", "tsc"), "-p", `${folder}/tsconfig.json`],
-  })),
   { name: "lint", args: [nodeModule("eslint", "bin", "eslint.js"), ".", "--max-warnings", "0"] },
+  // One program with all code, and one without the types of Node and DOM. The build checks server without DOM; the lint
+  // rules keep Node out of web.
+  { name: "types", args: typesOf("test") },
+  { name: "types of src and host", args: typesOf("host") },
   {
     name: "format",
     args: [nodeModule("prettier", "bin", "prettier.cjs"), "--check", "--log-level", "warn", "."],
@@ -147,11 +142,12 @@ if (process.argv.includes(FULL)) process.env.PLOTWRIGHT_FULL = "1";
 const filters = process.argv.slice(2).filter((argument) => argument !== FULL);
 ensureDependencies();
 await findOrInstallBrowser();
+const checks = filters.length === 0 ? runChecks() : Promise.resolve();
+// Blocks until dist/ is built; the first check runs on another core meanwhile.
 ensureBuild();
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-test-"));
 try {
-  const checks = filters.length === 0 ? runChecks() : Promise.resolve();
   await runTests(SHARED_RUN, filters, folder);
   await checks;
   for (const projects of UNDISTURBED_RUNS) await runTests(projects, filters, folder);
