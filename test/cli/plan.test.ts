@@ -4,6 +4,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { VirtualBoard, type Clock } from "../../src/index.js";
+import { IS_FULL } from "../support/full-run.js";
 import { cli } from "./support.js";
 
 const SAMPLES = fileURLToPath(new URL("../../samples/", import.meta.url));
@@ -71,7 +72,7 @@ describe("plotwright plan", () => {
       `<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="20mm"><path d="M5 5h9" stroke="#000"/></svg>`,
     );
     for (const [index, name] of [dash, ...samples.map(sample)].entries()) {
-      for (const firmware of [generations[index % 3], "3.0.3"]) {
+      for (const firmware of IS_FULL ? generations : [generations[index % 3]]) {
         const ebb = join(dir, "commands.txt");
         const run = await cli("plan", name, "--json", "--commands", ebb, "--firmware", firmware);
         const { durationS } = JSON.parse(run.out) as { durationS: number };

@@ -3,16 +3,18 @@ import { readFileSync } from "node:fs";
 import type { Browser } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
 import { launchBrowser } from "../support/browser.js";
+import { cases } from "../support/full-run.js";
 import { plotting } from "../support/live-plot.js";
 import { done, SerialPages, storedJob, strokesOf } from "../support/serial-page.js";
 
-/** The samples take 10 to 20 minutes each on a real board. */
+/** The samples take 10 to 20 minutes each on a real board. `npm test` plots the first one. */
 const BOARD_SPEED = 100;
 const SAMPLES = [
   ["Hello paper", "hello-paper"],
   ["Whirling triangles", "whirling-triangles"],
   ["Flower meadow", "flower-meadow"],
 ] as const;
+const PLOTTED = SAMPLES.slice(0, cases(SAMPLES.length, 1));
 
 let browser: Browser;
 let pages: SerialPages;
@@ -24,7 +26,7 @@ afterAll(() => browser.close());
 afterEach(() => pages.close());
 
 describe("the page without a server", () => {
-  it.each(SAMPLES)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
+  it.each(PLOTTED)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
     pages = await SerialPages.start(browser, BOARD_SPEED);
     const page = await pages.openPage();
     await page.getByRole("button", { name: title }).click();

@@ -7,7 +7,7 @@ import { historyPanel, statusCard } from "../support/page-actions.js";
 import { done, expectState, SerialPages } from "../support/serial-page.js";
 import { startTabbedBrowser } from "../support/tabbed-browser.js";
 
-const HIDDEN_S = IS_FULL ? 360 : 20;
+const HIDDEN_S = IS_FULL ? 360 : 10;
 
 let browser: Browser;
 let pages: SerialPages;

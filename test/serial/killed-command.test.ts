@@ -4,8 +4,8 @@ import { once } from "node:events";
 import { mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { fileURLToPath } from "node:url";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { ROOT } from "../../scripts/setup.mjs";
 import { drawnMm } from "../support/live-plot.js";
 import { PtyBoard } from "../support/pty-board.js";
 
@@ -39,9 +39,9 @@ afterEach(async () => {
 
 /** `plotwright plot ARGS`, with what it prints. */
 function plot(...args: string[]): { child: ChildProcess; err: () => string; ended: Promise<unknown> } {
-  const main = fileURLToPath(new URL("../../server/main.ts", import.meta.url));
+  const main = join(ROOT, "dist/server/main.js");
   const all = ["plot", ...args, "--device", board.path, "--data", dir, "--no-fit", "--margin", "0"];
-  const child = fork(main, all, { execArgv: ["--import", "tsx"], stdio: "pipe" });
+  const child = fork(main, all, { execArgv: [], stdio: "pipe" });
   children.push(child);
   let text = "";
   child.stderr?.on("data", (data: Buffer) => (text += data.toString()));
