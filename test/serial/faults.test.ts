@@ -2,12 +2,12 @@
 import { fork } from "node:child_process";
 import { once } from "node:events";
 import { chmodSync } from "node:fs";
-import { fileURLToPath } from "node:url";
 import { describe, expect, it, type TestContext } from "vitest";
 import { PlotterDriver, type PlotterState } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/types.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { childScript } from "../support/child-script.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { PtyBoard } from "../support/pty-board.js";
 import { wakefulClock } from "../support/wakeful-clock.js";
@@ -236,8 +236,8 @@ describe.concurrent("when connecting", () => {
     const board = closeAfter(test, await PtyBoard.open());
     chmodSync(board.path, 0);
     // Root may open everything: then another account tries.
-    const child = fork(fileURLToPath(new URL("../support/connect-child.ts", import.meta.url)), [board.path], {
-      execArgv: ["--import", "tsx"],
+    const child = fork(childScript("connect-child"), [board.path], {
+      execArgv: [],
       ...(process.getuid?.() === 0 ? { uid: 65_534, gid: 65_534 } : {}),
     });
     const [found] = (await once(child, "message")) as [PlotterState];

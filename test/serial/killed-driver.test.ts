@@ -4,11 +4,11 @@
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
-import { fileURLToPath } from "node:url";
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/types.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { childScript } from "../support/child-script.js";
 import { untilIdle, waitS } from "../support/faulty-plots.js";
 import { drawnMm, plotting, seeded } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
@@ -50,8 +50,8 @@ async function killedAfter(firmware: string, afterS: number): Promise<number> {
   const board = await PtyBoard.open({ firmware, wakeful: true });
   const driver = new PlotterDriver({ device: board.path });
   try {
-    const file = fileURLToPath(new URL("../support/plot-child.ts", import.meta.url));
-    const child = fork(file, [board.path, JSON.stringify([LOOPS])], { execArgv: ["--import", "tsx"] });
+    const args = [board.path, JSON.stringify([LOOPS])];
+    const child = fork(childScript("plot-child"), args, { execArgv: [] });
     const journal: JournalEntry[] = [];
     child.on("message", (entry: JournalEntry) => journal.push(entry));
     await once(child, "message");

@@ -4,12 +4,12 @@
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
-import { fileURLToPath } from "node:url";
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/types.js";
 import { machineById, plan } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";
+import { childScript } from "../support/child-script.js";
 import { untilIdle, waitS } from "../support/faulty-plots.js";
 import {
   HOPS,
@@ -51,9 +51,8 @@ type Interrupt = (board: PtyBoard, overlap: PenOverlap, afterS: number) => Promi
 
 /** The process that plots is killed. */
 const kill: Interrupt = async (board, overlap, afterS) => {
-  const file = fileURLToPath(new URL("../support/plot-child.ts", import.meta.url));
   const args = [board.path, JSON.stringify(LINES), JSON.stringify({ overlap })];
-  const child = fork(file, args, { execArgv: ["--import", "tsx"] });
+  const child = fork(childScript("plot-child"), args, { execArgv: [] });
   const journal: JournalEntry[] = [];
   child.on("message", (entry: JournalEntry) => journal.push(entry));
   await once(child, "message");

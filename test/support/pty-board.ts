@@ -1,8 +1,8 @@
 /** Starts virtual boards behind pseudo-terminals, in other processes, and ends them. */
 import { fork, type ChildProcess } from "node:child_process";
-import { fileURLToPath } from "node:url";
 import type { VirtualServo } from "../../src/drivers/ebb/virtual/virtual-board.js";
 import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
+import { childScript } from "./child-script.js";
 
 export type ToBoard =
   /** `replug`: after `unplug` or `reset`, the board is available again at the same path. */
@@ -56,10 +56,8 @@ export class PtyBoard {
     } = {},
   ): Promise<PtyBoard> {
     const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false, servo = {} } = options;
-    const file = fileURLToPath(new URL("./pty-board-child.ts", import.meta.url));
-    const child = fork(file, [JSON.stringify({ firmware, speed, futureSyntax, wakeful, servo })], {
-      execArgv: ["--import", "tsx"],
-    });
+    const args = [JSON.stringify({ firmware, speed, futureSyntax, wakeful, servo })];
+    const child = fork(childScript("pty-board-child"), args, { execArgv: [] });
     const opened = await answer(child, "open");
     return new PtyBoard(opened.path, child);
   }
