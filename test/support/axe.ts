@@ -7,7 +7,7 @@ import type { Page } from "playwright-core";
  * of the sheet alone: nothing else can be used then.
  */
 export async function seriousFindings(page: Page): Promise<string[]> {
-  if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(axe.source);
+  await page.evaluate(axe.source);
   const violations = await page.evaluate(async () => {
     const tool = (window as unknown as { axe: typeof axe }).axe;
     const results = await tool.run(document.querySelector("dialog:modal") ?? document, {

@@ -22,7 +22,7 @@ export type Scheme = (typeof SCHEMES)[number];
 type LookAtIt = (page: Page, state: PageState, scheme: Scheme) => Promise<void>;
 
 /**
- * Brings the page into each of the states and calls `lookAtIt`, by default light and dark. States that leave nothing
+ * Brings the page into each of the states and calls `lookAtIt`, light and dark. States that leave nothing
  * behind share one page; each of the others has its own server.
  */
 export async function inStates(
@@ -30,12 +30,11 @@ export async function inStates(
   states: readonly PageState[],
   look: Look,
   lookAtIt: LookAtIt,
-  schemes: readonly Scheme[] = SCHEMES,
 ): Promise<void> {
   const passing = states.filter(({ isPassing }) => isPassing);
   const lasting = states.filter(({ isPassing }) => !isPassing);
   const groups = [passing, ...lasting.map((state) => [state])].filter((group) => group.length > 0);
-  for (const group of groups) await inGroup(browser, group, look, lookAtIt, schemes);
+  for (const group of groups) await inGroup(browser, group, look, lookAtIt);
 }
 
 async function inGroup(
@@ -43,7 +42,6 @@ async function inGroup(
   states: readonly PageState[],
   { width, height }: Look,
   lookAtIt: LookAtIt,
-  schemes: readonly Scheme[],
 ): Promise<void> {
   const data = temporaryFolder("page-state");
   const { device, isPairing, isFirstVisit, virtualSpeed = 20 } = states[0];
@@ -81,7 +79,7 @@ async function inGroup(
     if (!isFirstVisit) await chooseSample(page);
     for (const state of states) {
       await state.reach({ page, server, restart, openOther });
-      for (const colorScheme of schemes) {
+      for (const colorScheme of SCHEMES) {
         await page.emulateMedia({ colorScheme, reducedMotion });
         await lookAtIt(page, state, colorScheme);
       }
