@@ -1,12 +1,14 @@
 /**
  * A fault at each command of a plot: the plot ends, by itself or with an error, and can be resumed to its end. Nothing
- * waits endlessly.
+ * waits endlessly. A host that is busy for seconds at any command is no fault at all.
  */
 import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../host/plotter/types.js";
-import type { VirtualBoard } from "../../src/index.js";
+import { VirtualBoard } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { StallingHost } from "../support/stalling-host.js";
 import { IS_FULL } from "../support/full-run.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
@@ -71,7 +73,46 @@ async function plotWith(fault: Fault, firmware: string, atCommand: number) {
   return { commandCount, outcomes };
 }
 
+/** So that commands last longer than the time between two polls, and the steps stay the same over several. */
+const SLOW_PEN = {
+  ...DEFAULT_PLOT_SETTINGS,
+  pen: { ...DEFAULT_PLOT_SETTINGS.pen, dropMs: 1_000, liftMs: 1_000 },
+};
+
+/** Plots on a host that does nothing for `busyS` from the board's given reply on. Returns the number of replies. */
+async function plotWhileBusy(firmware: string, busyS: number, atReply: number): Promise<number> {
+  const world = new ManualClock();
+  const host = new StallingHost(world);
+  const board = new VirtualBoard({ clock: world, firmware });
+  const driver = new HostDriver({
+    device: "a port",
+    clock: host.clock,
+    devices: {
+      find: () => Promise.resolve([]),
+      open: () => Promise.resolve(host.transport(board.transport())),
+    },
+  });
+  await world.run(driver.start());
+  let replyCount = 0;
+  const run = await world.run(driver.plot(new LocalPlanner(STROKES), SLOW_PEN));
+  board.onSend(() => {
+    if (++replyCount === atReply) host.stallFor(busyS);
+  });
+  expect(await world.run(run.finished, LIMIT_S)).toEqual({ kind: "done" });
+  await world.run(driver.close(), LIMIT_S);
+  return replyCount;
+}
+
 describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
+  it.each([0.2, 1.3, 1.7, 2.5, 5])(
+    "a host that is busy for %f s finishes its plot",
+    { timeout: 120_000 },
+    async (busyS) => {
+      const replyCount = await plotWhileBusy(firmware, 0, -1);
+      for (let at = 1; at <= replyCount; at += IS_FULL ? 1 : 5) await plotWhileBusy(firmware, busyS, at);
+    },
+  );
+
   it.each(Object.entries(FAULTS))("no plot hangs when %s", { timeout: 120_000 }, async (_, fault) => {
     const { commandCount } = await plotWith(() => undefined, firmware, -1);
     for (let at = 1; at <= commandCount; at += IS_FULL ? 1 : 7) {

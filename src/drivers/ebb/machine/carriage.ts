@@ -232,7 +232,7 @@ export class Carriage {
           if (at) certain(at);
         }
         if (line !== "QS") this.polled(line, reply);
-        else if (streamer.playing && watch.isStalled(reply, streamer.place())) this.stalled(streamer);
+        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) this.stalled(streamer);
       },
     });
     return streamer;

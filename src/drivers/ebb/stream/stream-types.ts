@@ -26,8 +26,10 @@ export interface StreamOptions {
   readonly origin?: readonly [number, number];
 }
 
-/** When a poll was written. The board reads its counters then or slightly later. */
+/** When a poll was written. The board reads its counters then or slightly later; a busy host reads the reply much later. */
 export interface PollTime {
+  /** On the stream's clock. */
+  readonly clockS: number;
   readonly boardS: number;
   readonly place: StreamPlace;
 }

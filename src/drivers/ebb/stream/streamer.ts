@@ -85,7 +85,7 @@ export class Streamer {
       this.settle = { resolve, reject };
       this.lastWritten = null;
       this.schedulePoll();
-      this.take(stream, []);
+      this.take([stream]);
     });
   }
 
@@ -205,16 +205,13 @@ export class Streamer {
     this.fail(error);
   }
 
-  private take(stream: CommandStream, followers: readonly CommandStream[]): void {
+  /** Begins the first of these streams; the others follow it. */
+  private take([stream, ...then]: readonly CommandStream[]): void {
     this.stream = stream;
     this.next = 0;
     this.offsetS = this.timeline.endS - stream.boardS[0];
-    this.limit = followers.length > 0 ? { atIndex: stream.count, then: followers } : null;
+    this.limit = then.length > 0 ? { atIndex: stream.count, then } : null;
     this.pump();
-  }
-
-  private takeNext(then: readonly CommandStream[]): void {
-    this.take(then[0], then.slice(1));
   }
 
   /** Writes the commands that are due, and sleeps until the next is due. */
@@ -235,7 +232,7 @@ export class Streamer {
     }
     if (batch.length > 0) this.session.write(batch);
     if (this.next < endIndex) this.sleep(this.wakeInS(stream, boardS));
-    else if (this.limit && this.limit.then.length > 0) this.takeNext(this.limit.then);
+    else if (this.limit && this.limit.then.length > 0) this.take(this.limit.then);
     else this.awaitEnd(boardS);
   }
 
@@ -271,27 +268,20 @@ export class Streamer {
   }
 
   private outgoing(stream: CommandStream, index: number): Outgoing {
-    const line = commandLine(stream, index);
     const startS = this.offsetS + stream.boardS[index];
     const endS = this.offsetS + stream.boardS[index + 1];
-    this.unanswered++;
+    const takesTime = endS !== startS;
     const place = { stream, commandIndex: index, planS: stream.planS[index] };
-    if (endS === startS) {
-      this.lastWritten = place;
-      return {
-        line,
-        waitS: this.timeline.longestS(),
-        onReply: (error) => this.answered(error, place, false),
-      };
-    }
     const waitS = this.timeline.longestS();
-    const dryS = this.timeline.written(stream, index, startS, endS);
+    const dryS = takesTime ? this.timeline.written(stream, index, startS, endS) : 0;
     if (dryS > DRY_S && this.isSameRun(stream, index)) {
       this.underrunCount++;
       this.underrunS += dryS;
     }
+    this.unanswered++;
     this.lastWritten = place;
-    return { line, waitS, onReply: (error) => this.answered(error, place, true) };
+    const onReply: Outgoing["onReply"] = (error) => this.answered(error, place, takesTime);
+    return { line: commandLine(stream, index), waitS, onReply };
   }
 
   private isSameRun(stream: CommandStream, index: number): boolean {
@@ -338,7 +328,8 @@ export class Streamer {
       if (!this.playing) return;
       const waitS = this.timeline.longestS();
       const last = poll.lines.length - 1;
-      const asked: PollTime = { boardS: this.timeline.boardS(), place: this.place() };
+      const clockS = this.options.clock.nowS();
+      const asked: PollTime = { clockS, boardS: this.timeline.boardS(), place: this.place() };
       this.session.write(
         poll.lines.map((line, i) => ({
           line,
@@ -356,7 +347,7 @@ export class Streamer {
     if (!this.playing) return;
     this.options.onPoll?.(line, reply, asked);
     const waiting = isFirst ? waitingCount(line, reply) : null;
-    if (waiting !== null && this.timeline.waiting(waiting)) {
+    if (waiting !== null && this.timeline.waiting(waiting, asked.clockS)) {
       // The commands in its queue must not be drawn if it recovers.
       this.session.write([{ line: "ES" }]);
       this.fail(stuck());
@@ -393,12 +384,13 @@ export class Streamer {
   }
 
   private async untilIdle(): Promise<void> {
-    const clock = this.options.clock;
-    const startS = clock.nowS();
+    const { clock, stuckS } = this.options;
+    const untilS = clock.nowS() + stuckS;
     for (;;) {
+      const isLast = clock.nowS() > untilS;
       const fields = (await this.session.query("QM")).split(",");
       if (fields.every((field) => field === "0")) return;
-      if (clock.nowS() - startS > this.options.stuckS) throw stuck();
+      if (isLast) throw stuck();
       await new Promise<void>((resolve) => void clock.after(IDLE_POLL_S, resolve));
     }
   }
