@@ -335,15 +335,18 @@ export class PlotterDriver {
     this.#machineChanged();
   }
 
-  #powerLost(): void {
+  /** Resolves when the motors are released. */
+  async #powerLost(): Promise<void> {
     this.#run?.fail(powerLost());
     this.#setState({ connection: "fault", message: powerLow().message });
     const settings = this.#settings;
     const machine = this.#machine;
-    machine
-      ?.forgetPlace()
-      .then(() => machine.release(settings))
-      .catch(() => undefined);
+    try {
+      await machine?.forgetPlace();
+      await machine?.release(settings);
+    } catch {
+      // A lost connection is reported by the machine's own event.
+    }
   }
 
   async #byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {

@@ -180,7 +180,7 @@ export class Streamer {
       note("ES", (reply) => (stop.stepsLeft = stepsLeft(reply))),
       ...(this.options.liftLine === undefined ? [] : [{ line: this.options.liftLine, waitS }]),
     ]);
-    this.fail(error);
+    this.abandon(error);
   }
 
   /** Where the board was at the emergency stop; null if no command had run. */
@@ -198,11 +198,6 @@ export class Streamer {
     asked: PollTime,
   ): StreamPlace | null {
     return placeOfCounters(this.timeline.recent(), features, steps1, steps2, asked.boardS);
-  }
-
-  /** Stops writing and waiting. The board finishes the commands it has received. */
-  abandon(error: PlotwrightError): void {
-    this.fail(error);
   }
 
   /** Begins the first of these streams; the others follow it. */
@@ -296,7 +291,7 @@ export class Streamer {
   private answered(error: PlotwrightError | null, at: StreamPlace, takesTime: boolean): void {
     this.unanswered--;
     if (error) {
-      if (this.session.failure) this.fail(error);
+      if (this.session.failure) this.abandon(error);
       else this.refusedAt(at, error);
       return;
     }
@@ -320,37 +315,41 @@ export class Streamer {
   }
 
   private schedulePoll(): void {
-    const poll = this.options.poll;
+    const { poll, clock } = this.options;
     // The last reply may arrive after the end.
     if (!poll || !this.playing) return;
     this.cancelPoll?.();
-    this.cancelPoll = this.options.clock.after(poll.everyS, () => {
-      if (!this.playing) return;
-      const waitS = this.timeline.longestS();
-      const last = poll.lines.length - 1;
-      const clockS = this.options.clock.nowS();
-      const asked: PollTime = { clockS, boardS: this.timeline.boardS(), place: this.place() };
-      this.session.write(
-        poll.lines.map((line, i) => ({
-          line,
-          waitS,
-          onReply: (error, reply) => {
-            if (!error) this.polled(line, reply, asked, i === 0);
-            if (i === last) this.schedulePoll();
-          },
-        })),
-      );
+    this.cancelPoll = clock.after(poll.everyS, () => {
+      if (this.playing) this.poll(() => this.schedulePoll());
     });
   }
 
+  /** `done` is called with the last reply, also if it is an error. */
+  private poll(done: () => void): void {
+    const lines = this.options.poll?.lines ?? [];
+    const waitS = this.timeline.longestS();
+    const clockS = this.options.clock.nowS();
+    const asked: PollTime = { clockS, boardS: this.timeline.boardS(), place: this.place() };
+    this.session.write(
+      lines.map((line, i) => ({
+        line,
+        waitS,
+        onReply: (error, reply) => {
+          if (!error) this.polled(line, reply, asked, i === 0);
+          if (i === lines.length - 1) done();
+        },
+      })),
+    );
+  }
+
   private polled(line: string, reply: string, asked: PollTime, isFirst: boolean): void {
-    if (!this.playing) return;
+    if (!this.settle) return;
     this.options.onPoll?.(line, reply, asked);
     const waiting = isFirst ? waitingCount(line, reply) : null;
     if (waiting !== null && this.timeline.waiting(waiting, asked.clockS)) {
       // The commands in its queue must not be drawn if it recovers.
       this.session.write([{ line: "ES" }]);
-      this.fail(stuck());
+      this.abandon(stuck());
     }
     if (!this.failure) this.pump();
   }
@@ -372,6 +371,8 @@ export class Streamer {
   private async finish(): Promise<void> {
     try {
       await this.untilIdle();
+      // The motors' supply may have failed after the last poll.
+      if (this.options.poll) await new Promise<void>((resolve) => this.poll(resolve));
       const report = await this.report();
       this.stream = null;
       this.ending = false;
@@ -379,7 +380,7 @@ export class Streamer {
       this.settle = null;
       settle?.resolve(report);
     } catch (error) {
-      this.fail(error instanceof PlotwrightError ? error : internal(error));
+      this.abandon(error instanceof PlotwrightError ? error : internal(error));
     }
   }
 
@@ -419,7 +420,8 @@ export class Streamer {
     }
   }
 
-  private fail(error: PlotwrightError): void {
+  /** Stops writing and waiting. The board finishes the commands it has received. */
+  abandon(error: PlotwrightError): void {
     if (this.failure) return;
     this.failure = error;
     this.cancelWake?.();
