@@ -1,9 +1,9 @@
 import type { ChildProcess } from "node:child_process";
 
 /** Longer than a busy computer needs to start a process. */
-const WITHIN_MS = 60_000;
+const WITHIN_MS = 120_000;
 
-/** The next message of a child process that is wanted. Rejects if the process ends first, and after a minute. */
+/** The next message of a child process that is wanted. Rejects if the process ends first, and after two minutes. */
 export function nextMessage<T>(
   child: ChildProcess,
   isWanted: (message: T) => boolean = () => true,
@@ -24,7 +24,7 @@ export function nextMessage<T>(
       resolve(message);
     };
     const onExit = (): void => fail("ended before it sent the message");
-    const timer = setTimeout(() => fail("sent no such message in a minute"), WITHIN_MS);
+    const timer = setTimeout(() => fail("sent no such message in two minutes"), WITHIN_MS);
     child.on("message", onMessage);
     child.once("exit", onExit);
     if (hasEnded(child)) onExit();
