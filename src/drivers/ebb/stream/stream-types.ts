@@ -26,9 +26,9 @@ export interface StreamOptions {
   readonly origin?: readonly [number, number];
 }
 
-/** When a poll was written. The board reads its counters then or slightly later; a busy host reads the reply much later. */
+/** When a poll was written. The board reads its counters then or slightly later. */
 export interface PollTime {
-  /** On the stream's clock. */
+  /** On the stream's clock. A busy host may read the reply much later. */
   readonly clockS: number;
   readonly boardS: number;
   readonly place: StreamPlace;

@@ -324,12 +324,13 @@ export class Streamer {
     });
   }
 
-  /** `done` is called with the last reply, also if it is an error. */
+  /** `done` is called with the reply to the last line, also if it is an error. */
   private poll(done: () => void): void {
-    const lines = this.options.poll?.lines ?? [];
+    const { poll, clock } = this.options;
+    if (!poll) return;
+    const { lines } = poll;
     const waitS = this.timeline.longestS();
-    const clockS = this.options.clock.nowS();
-    const asked: PollTime = { clockS, boardS: this.timeline.boardS(), place: this.place() };
+    const asked: PollTime = { clockS: clock.nowS(), boardS: this.timeline.boardS(), place: this.place() };
     this.session.write(
       lines.map((line, i) => ({
         line,
@@ -371,8 +372,8 @@ export class Streamer {
   private async finish(): Promise<void> {
     try {
       await this.untilIdle();
-      // The motors' supply may have failed after the last poll.
-      if (this.options.poll) await new Promise<void>((resolve) => this.poll(resolve));
+      // The motors' supply may have failed since the last poll. The board answers this one before the report.
+      this.poll(() => undefined);
       const report = await this.report();
       this.stream = null;
       this.ending = false;
