@@ -44,8 +44,8 @@ export function planAndCompile(
 }
 
 /**
- * Compiles too, although only the figures are needed. This finds anything that the board cannot do now instead of during
- * the plot.
+ * Also compiles the job, although only the figures are needed: what the board cannot do is then found before the job is
+ * added, not during the plot.
  */
 function measurePrepared(
   prepared: Prepared,
@@ -67,7 +67,7 @@ function measurePrepared(
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
 }
 
-/** The buffer of every array, once each, to transfer them: columns may share a buffer. */
+/** The buffers of all arrays in `value`, to transfer them between threads. Arrays may share a buffer; it is listed once. */
 export function buffersOf(value: object): ArrayBuffer[] {
   const found = new Set<ArrayBuffer>();
   const visit = (part: unknown): void => {
