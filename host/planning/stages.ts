@@ -1,6 +1,6 @@
 /**
  * Plans a job in the planner's thread. The machine is passed as a profile, so custom machines need no lookup
- * here. Must not import zod, so that the thread starts fast.
+ * here. This file must not import zod, so that the thread starts fast.
  */
 import { planJob, trajectoryStats, type MachineProfile, type Prepared } from "../../src/index.js";
 import { pointCount, strokeCount } from "../../src/internal.js";

@@ -7,7 +7,7 @@
  *                      paused ──cancel──> cancelled      (also from queued, plotting, interrupted)
  *
  *   plotting, paused ──interrupt──> interrupted ──recover──> paused: nothing moves until it is resumed
- *                                 cancelled ──recover──> paused: if part of it is drawn, from where it was cancelled
+ *                                 cancelled ──recover──> paused: only if part of it is drawn; continues there
  *
  * The queue applies, stores and announces the result.
  */

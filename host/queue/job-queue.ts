@@ -141,7 +141,7 @@ export class JobQueue {
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }
 
-  /** Null while the board is unknown, or if its controller is not that of the settings' machine. */
+  /** The firmware of the plotter's board; null if it is unknown, or if the settings' machine has another controller. */
   #firmwareOf(plotterId: string, settings: PlotSettings): string | null {
     return firmwareFor(machineOf(settings), this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null);
   }

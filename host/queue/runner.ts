@@ -96,7 +96,7 @@ export class Runner {
     if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true, null);
   }
 
-  /** A run that is resumed before it was ever held does not report that itself, so it is reported here. */
+  /** A run that is resumed before it was held does not report a change, so the release is reported here. */
   async #resume(run: LivePlotRun): Promise<void> {
     await run.resume();
     if (!this.#pauseWanted) this.#reports.held(false, null);
