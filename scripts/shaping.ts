@@ -104,7 +104,7 @@ const variants: readonly Variant[] = [
   ...[10_000, 40_000, 160_000].map(inverse),
 ];
 const kernel = shaperKernel("zv", springs)!;
-/** Every system's rule at the limits of quality fast, with and without shaping. scurve is itself a filter, so it is not shaped. */
+/** Every system's rule at the limits of quality fast, with and without shaping. scurve is never shaped: it is a filter too. */
 const rules: readonly Variant[] = [
   ...REFERENCE_PLANNERS.flatMap((reference): Variant[] => {
     const runs = referenceRuns(reference);

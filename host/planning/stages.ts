@@ -67,7 +67,7 @@ function measurePrepared(
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
 }
 
-/** The buffers of all arrays in `value`, to transfer them between threads. Arrays may share a buffer; it is listed once. */
+/** The buffers of all arrays in `value`, to transfer between threads. A buffer that arrays share is listed once. */
 export function buffersOf(value: object): ArrayBuffer[] {
   const found = new Set<ArrayBuffer>();
   const visit = (part: unknown): void => {

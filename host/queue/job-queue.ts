@@ -333,7 +333,7 @@ export class JobQueue {
 
 const settingOf = (plotterId: string): string => `queue:${plotterId}`;
 
-/** A job that starts at a stroke stores its number. With other preparation settings it would be another stroke's number. */
+/** A job stores its first stroke by number. With other preparation settings the number would mean another stroke. */
 function mustKeepStrokes(job: Job, settings: PlotSettings): void {
   if (job.place === null || isSameValue(job.settings.prepare, settings.prepare)) return;
   throw new PlotwrightError(

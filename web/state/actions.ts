@@ -1,6 +1,6 @@
 /**
- * The user's actions as functions on the store. Other files have those for the drawing (drawing-actions.ts), and those for
- * jobs and the plotter (job-actions.ts).
+ * The user's actions as functions on the store. Those for the drawing are in drawing-actions.ts, those for jobs and the
+ * plotter in job-actions.ts.
  */
 import type { MachineProfile, StrokeSet } from "../../src/index.js";
 import { BackendFault, type Backend } from "../backend/backend.js";

@@ -212,7 +212,7 @@ export class SharedQueue {
   }
 
   /**
-   * Starts taken jobs if the plotter's queue runs automatically. Every round tries again, since the board may be missing.
+   * Starts taken jobs if the plotter's queue runs automatically. Each round tries again: the board may have been missing.
    */
   async #startTaken(): Promise<void> {
     const { queue } = this.#parts;
