@@ -61,14 +61,14 @@ function licenceText(folders) {
 function ofPackage(folder) {
   const { name, version, license } = JSON.parse(readFileSync(path.join(folder, "package.json"), "utf8"));
   const title = `${name} ${version} (${license})`;
-  const its = readdirSync(folder).find((entry) => LICENCE_FILE.test(entry));
-  const file = its === undefined ? ownCopy(`${path.basename(folder)}.txt`) : path.join(folder, its);
+  const found = readdirSync(folder).find((entry) => LICENCE_FILE.test(entry));
+  const file = found === undefined ? ownCopy(`${path.basename(folder)}.txt`) : path.join(folder, found);
   // Shipping the page without the text of a licence would violate it.
   if (!existsSync(file)) throw new Error(`${title} is built into the page: put its licence into ${file}`);
   return section(title, file);
 }
 
-/** For data, and for a package without a licence file: from its repository. */
+/** The copy in scripts/licences of a licence that no package contains. It comes from the project's repository. */
 const ownCopy = (name) => path.join(HERE, "licences", name);
 
 const section = (title, file) => `${title}\n\n${readFileSync(file, "utf8").replaceAll("\r\n", "\n").trim()}`;

@@ -25,8 +25,8 @@ export const SERVER_STOPPED =
   "The server stopped while this was plotting. Check pen and paper, then continue from where it was.";
 
 /**
- * Errors of the board, after which a plot can continue from where it was. Other errors would only occur
- * again.
+ * Errors of the board or its connection, after which a plot can continue from where it was. Any other error
+ * would occur again.
  */
 const INTERRUPTIONS: readonly ErrorCode[] = [
   "no-board",
@@ -50,7 +50,7 @@ export class RunningPlots {
   /** By plotter id. */
   readonly #running = new Map<string, Running>();
   #closing = false;
-  #lastTrouble: string | null = null;
+  #lastFault: string | null = null;
 
   /**
    * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
@@ -162,14 +162,14 @@ export class RunningPlots {
     const drawing = this.#parts.store.drawingOf(job.id);
     const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
     const entry = this.#journal(job.id);
-    const isOfEntry = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
+    const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     const runner = new Runner(
       {
         plotter,
         settings: job.settings,
         open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
         from,
-        sent: isOfEntry ? entry?.sent : undefined,
+        sent: isJournalPlace ? entry?.sent : undefined,
         speedPct: job.speedPct,
       },
       {
@@ -186,7 +186,7 @@ export class RunningPlots {
   }
 
   /**
-   * Stores the progress with the place: otherwise it is only in memory and lost when the server is killed.
+   * Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed.
    */
   #saveJournal(id: string, entry: JournalEntry): void {
     const { progress, elapsedS, remainingS } = this.#jobs.get(id);
@@ -197,11 +197,11 @@ export class RunningPlots {
   #safely(jobId: string, write: () => void): void {
     try {
       write();
-      this.#lastTrouble = null;
+      this.#lastFault = null;
     } catch (error) {
-      const trouble = error instanceof Error ? error.message : String(error);
-      if (trouble !== this.#lastTrouble) this.#parts.log?.(`the state of a plot can't be stored: ${trouble}`);
-      this.#lastTrouble = trouble;
+      const fault = error instanceof Error ? error.message : String(error);
+      if (fault !== this.#lastFault) this.#parts.log?.(`the state of a plot can't be stored: ${fault}`);
+      this.#lastFault = fault;
       if (isDiskFault(error)) this.#jobs.diskIsFull(jobId);
     }
   }
@@ -227,7 +227,7 @@ export class RunningPlots {
     });
   }
 
-  /** An earlier wait (of an interrupted job) remains until it is answered. */
+  /** If an interrupted job waited for a pen, it still waits for that pen until it is resumed. */
   #held(id: string, held: boolean, wait: PlotWait | null): void {
     const job = this.#jobs.get(id);
     const running = this.#running.get(job.plotterId);
@@ -322,7 +322,7 @@ export class RunningPlots {
         `"${this.#jobs.get(other.jobId).name}" is being plotted. Wait until it ends, or cancel it.`,
       );
     }
-    mustBeThere(plotter);
+    mustBeIdle(plotter);
     return plotter;
   }
 }
@@ -352,7 +352,8 @@ const journalProgressSchema = z.object({
   remainingS: z.number().min(0).nullable(),
 });
 
-function mustBeThere(plotter: PlotterPort): void {
+/** Throws `busy` or `no-board` unless the plotter is connected and idle. */
+function mustBeIdle(plotter: PlotterPort): void {
   const { connection, message, name } = plotter.snapshot();
   if (connection === "idle") return;
   if (connection === "busy") throw new PlotwrightError("busy", `${name} is busy. Wait for it to finish.`);

@@ -18,7 +18,7 @@ export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, i
   const isHeld = resumed !== null && io.hasKeyboard;
   const bar = io.isTerminal && !isQuiet ? progressBar() : null;
   const control = new Control(run, io, isHeld);
-  const forget = [io.onInterrupt((isFinal) => control.interrupt(isFinal)), io.onLine(() => control.goOn())];
+  const forget = [io.onInterrupt((isFinal) => control.interrupt(isFinal)), io.onLine(() => control.resume())];
   let elapsedS = 0;
   run.onProgress((progress) => {
     elapsedS = progress.elapsedS;
@@ -105,7 +105,7 @@ class Control {
     this.#io.err(`\nInsert ${what}. Enter resumes, Ctrl-C cancels.\n`);
   }
 
-  goOn(): void {
+  resume(): void {
     if (!this.#held || this.#cancelling) return;
     this.#held = false;
     this.#run.resume().catch(this.#fail);

@@ -50,7 +50,7 @@ function sayFrequency({ ripples = 0, at, over }: RingingOptions, io: CliIo): voi
   if (at === undefined) {
     throw new PlotwrightError(
       "bad-setting",
-      `--at: which figure? Its speed is ${RINGING_SPEEDS.join(", ")} mm/s.`,
+      `--at is missing: give the speed of the figure whose ripples you counted, ${RINGING_SPEEDS.join(", ")} mm/s.`,
     );
   }
   io.out(`${frequencyOfRipples(at, ripples, over).toFixed(1)} Hz\n`);

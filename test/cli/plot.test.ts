@@ -128,7 +128,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "plots what comes through a pipe",
+    "plots a drawing that comes through a pipe",
     async () => {
       const pipe = join(dir, "pipe");
       execFileSync("mkfifo", [pipe]);

@@ -40,7 +40,7 @@ describe("the ringing sheet", { timeout: PATIENCE_MS }, () => {
     expect(await page.getByText("mine", { exact: true }).first().isVisible()).toBe(true);
   });
 
-  it("turns ripples into a frequency, and says what that brings", async () => {
+  it("turns ripples into a frequency, and shows the benefit", async () => {
     await dialog().getByRole("radio", { name: "30 mm/s" }).check();
     await dialog().getByLabel("Ripples in 10 mm, x").fill("99");
     await dialog().getByText("count again, near the corner", { exact: false }).waitFor();

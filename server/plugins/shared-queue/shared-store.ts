@@ -82,8 +82,8 @@ export class SharedStore {
       pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: timeoutMs });
       const logError = (error: Error): void => log(`shared queue: ${words(error)}`);
       pool.on("error", logError);
-      // The pool listens to idle connections only. A busy one's query fails too, but without a listener its event
-      // would end the process.
+      // The pool listens for errors of idle connections only. On a busy connection the query fails, which is enough, but
+      // an "error" event without a listener would end the process.
       pool.on("connect", (client) => void client.on("error", () => undefined));
       await pool.query(TABLES);
       const boss = new Boss({ db: plainDb(pool), schedule: false });
@@ -140,8 +140,8 @@ export class SharedStore {
   }
 
   /**
-   * The job is in the taker's queue now, or was refused. The drawing stays until it begins, since it may be
-   * given back.
+   * Records that the job is now in the taker's queue, or was refused. The drawing is kept until the plot begins,
+   * since the job may be given back.
    */
   async finish(id: string, state: "stored" | "refused", message: string | null): Promise<void> {
     await this.#pool.query(
@@ -170,8 +170,8 @@ export class SharedStore {
   }
 
   /**
-   * The plot has begun, or the job was removed: it stays with its server. False: it belongs to another server
-   * now.
+   * Records that the plot has begun or the job was removed, so that it stays with its server. False: it now belongs
+   * to another server.
    */
   async begun(id: string, serverId: string): Promise<boolean> {
     const { rowCount } = await this.#pool.query(
@@ -181,6 +181,7 @@ export class SharedStore {
     return rowCount !== 0;
   }
 
+  /** Whether the job still belongs to this server. */
   async isStill(id: string, serverId: string): Promise<boolean> {
     const { rowCount } = await this.#pool.query(
       "SELECT 1 FROM plotwright_jobs WHERE id = $1 AND server_id = $2",
