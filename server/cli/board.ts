@@ -30,7 +30,6 @@ export interface PtyBoardOptions {
   readonly speed?: number;
   readonly machine?: MachineProfile;
   readonly springs?: Springs;
-  readonly recordLine?: boolean;
 }
 
 export interface PtyBoard {

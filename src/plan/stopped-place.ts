@@ -9,6 +9,7 @@
  * The first match after the journal's place is used: a part drawn twice does less harm than a missing one.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
+import { nearestShare } from "../geometry/polyline.js";
 import { pointOfPlace, strokeLengthMm } from "./place-on-drawing.js";
 import type { Place } from "./trajectory.js";
 
@@ -157,8 +158,6 @@ function nearest(
   x: number,
   y: number,
 ): { share: number; awayMm: number } {
-  const [dx, dy] = [x1 - x0, y1 - y0];
-  const length2 = dx * dx + dy * dy;
-  const share = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
-  return { share, awayMm: Math.hypot(x0 + share * dx - x, y0 + share * dy - y) };
+  const share = nearestShare(x0, y0, x1, y1, x, y);
+  return { share, awayMm: Math.hypot(x0 + share * (x1 - x0) - x, y0 + share * (y1 - y0) - y) };
 }
