@@ -1,4 +1,6 @@
 /** `plotwright logs`: all logs as one text, to send with a question. */
+import { statSync } from "node:fs";
+import { PlotwrightError } from "../../src/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { bundleText, readLog } from "../storage/log-book.js";
 import { writeOut } from "./files.js";
@@ -14,10 +16,13 @@ const PATIENCE_MS = 3_000;
 
 /** From the running server, with the boards' logs; otherwise from its data folder. */
 export async function runLogs(options: LogsOptions, io: CliIo, version: string): Promise<void> {
+  const { data, port, out = "-" } = options;
+  if (data !== undefined && statSync(data, { throwIfNoEntry: false })?.isDirectory() !== true) {
+    throw new PlotwrightError("bad-setting", `--data ${data}: there is no such folder.`);
+  }
   const text =
-    (options.data === undefined ? await fromServer(options.port) : null) ??
-    bundleText({ version, serverLog: readLog(options.data ?? defaultDataDir()) });
-  const { out = "-" } = options;
+    (data === undefined ? await fromServer(port) : null) ??
+    bundleText({ version, serverLog: readLog(data ?? defaultDataDir()) });
   writeOut(out, `${text}\n`, io);
   if (out !== "-") {
     io.err(`${out} is written. Look through it before you send it.\n`);

@@ -1,6 +1,6 @@
 /** The server on this computer: serve, service, logs. */
 import { Command, Option } from "commander";
-import { addData, addDevice, port, positive, springs, type Declare } from "./options.js";
+import { addData, addDevice, hostNames, port, positive, springs, type Declare } from "./options.js";
 import { runLogs, type LogsOptions } from "./logs.js";
 import type { ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
@@ -52,7 +52,7 @@ function addServe(command: Command): Command {
     .option("--pair-always", "ask for pairing on this computer too")
     .option("--cert <file>", "certificate (PEM): serve https")
     .option("--key <file>", "the certificate's key (PEM)")
-    .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
+    .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses", hostNames)
     .addOption(
       new Option(
         "--virtual-springs <x,y>",
