@@ -1,9 +1,7 @@
 /** `plotwright logs`: all logs as one text, to send with a question. */
-import { statSync } from "node:fs";
-import { PlotwrightError } from "../../src/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { bundleText, readLog } from "../storage/log-book.js";
-import { writeOut } from "./files.js";
+import { mustBeDataFolder, writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 
 export interface LogsOptions {
@@ -17,9 +15,7 @@ const PATIENCE_MS = 3_000;
 /** From the running server, with the boards' logs; otherwise from its data folder. */
 export async function runLogs(options: LogsOptions, io: CliIo, version: string): Promise<void> {
   const { data, port, out = "-" } = options;
-  if (data !== undefined && statSync(data, { throwIfNoEntry: false })?.isDirectory() !== true) {
-    throw new PlotwrightError("bad-setting", `--data ${data}: there is no such folder.`);
-  }
+  mustBeDataFolder(data);
   const text =
     (data === undefined ? await fromServer(port) : null) ??
     bundleText({ version, serverLog: readLog(data ?? defaultDataDir()) });

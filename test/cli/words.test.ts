@@ -74,6 +74,12 @@ describe("a word that is not a command", () => {
       "serve --allow-host studio.local http://studio",
       '--allow-host: it must be a name without http:// and port, such as studio.local, not "http://studio". See plotwright serve --help.',
     ],
+    ["ringing --at 30.1", "--at: give --ripples too, the number that you counted."],
+    ["ringing --spring-x 15", "--spring-x and --spring-y are for --check: add it."],
+    ["plan in.svg --svg ./in.svg", "--svg ./in.svg would overwrite the drawing: choose another file."],
+    ["machines --data no-folder", "--data no-folder: there is no such folder."],
+    ["pen up --data no-folder --device virtual", "--data no-folder: there is no such folder."],
+    ["service install --user me --print", "--user: add --system; without it the service runs as you."],
     ["service instal", "There is no command instal. Did you mean install? See plotwright service --help."],
     [
       "queue --url 9391",
@@ -193,6 +199,15 @@ describe("a file that cannot be used", () => {
     const { err: why } = await cli("plan", outside, "--no-fit");
     expect(why).toMatch(/outside\.svg: 1 shape is entirely outside .* Nothing is left to draw on this paper/);
     expect(why).not.toContain("There is nothing to draw");
+    expect(await cli("plan", drawing, "--paper", "5000x5000")).toMatchObject({
+      code: 3,
+      err: expect.stringMatching(/line\.svg: The drawing reaches from/) as string,
+    });
+    // The second one is checked before the first one is plotted.
+    expect(await cli("plot", drawing, folder, "--paper-s", "0", "--device", "virtual")).toMatchObject({
+      ...{ code: 3, out: "" },
+      err: expect.stringMatching(/^plotwright: \S+ can't be read: it is a folder\.$/m) as string,
+    });
     expect((await cli("plan", file("nothing", " "))).err).toMatch(
       /nothing cannot be read as a drawing: it is empty\./,
     );
