@@ -107,6 +107,7 @@ const VALUES: Readonly<Record<string, string>> = {
   "board --pty": "plotter",
   "board --firmware": "3.0.3",
   "ringing --ripples": "5",
+  "ringing --at": "30.1",
   "--commands": "-",
   "--preview": "-",
   "--svg": "-",
