@@ -3,6 +3,7 @@
  * licences.txt. Vite's own `build.license` leaves out the dependencies of workers.
  */
 import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { createRequire } from "node:module";
 import path from "node:path";
 
 const HERE = import.meta.dirname;
@@ -12,6 +13,9 @@ const FILE = "licences.txt";
 
 /** Data in our sources, which is not a package. */
 const IN_OUR_SOURCES = [{ title: "Hershey fonts, from hersheytext 2.0.0 (MIT)", file: "hershey-fonts.txt" }];
+
+/** Packages whose published file contains other packages, which the bundler therefore cannot see. */
+const CONTAINS = { "dxf-parser": ["loglevel"] };
 
 const LICENCE_FILE = /^(licen[cs]e|copying)/i;
 
@@ -25,7 +29,8 @@ export function licencePlugins() {
     for (const { moduleIds = [] } of Object.values(bundle)) {
       for (const id of moduleIds) {
         const folder = packageFolder(id);
-        if (folder !== null) folders.add(folder);
+        if (folder === null) continue;
+        for (const one of [folder, ...containedIn(folder)]) folders.add(one);
       }
     }
   };
@@ -50,6 +55,13 @@ function packageFolder(moduleId) {
   if (moduleId.startsWith("\0")) return null;
   const match = /^(.*\/node_modules\/(?:@[^/]+\/)?[^/]+)\//.exec(moduleId.replaceAll("\\", "/"));
   return match === null ? null : match[1];
+}
+
+/** The folders of the packages that this package's file contains. */
+function containedIn(folder) {
+  const { resolve } = createRequire(path.join(folder, "package.json"));
+  const names = CONTAINS[path.basename(folder)] ?? [];
+  return names.map((name) => path.dirname(resolve(`${name}/package.json`)).replaceAll("\\", "/"));
 }
 
 function licenceText(folders) {

@@ -45,8 +45,14 @@ const LOST = "The board has lost its position: push the carriage to home by hand
 const KNOWN = "The board still knows its position.";
 
 /** False if it was cancelled meanwhile. */
-export async function waitForPaper(name: string, waitS: number | undefined, io: CliIo): Promise<boolean> {
-  io.err(`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
+export async function waitForPaper(
+  name: string,
+  { paperS: waitS, quiet }: { readonly paperS?: number; readonly quiet?: boolean },
+  io: CliIo,
+): Promise<boolean> {
+  // The request for Enter is printed even if quiet: without it, the command would seem to hang.
+  if (quiet !== true || waitS === undefined)
+    io.err(`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
   const forget: (() => void)[] = [];
   try {
     return await new Promise<boolean>((resolve) => {

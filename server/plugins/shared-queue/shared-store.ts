@@ -73,9 +73,18 @@ export class SharedStore {
    */
   static async open(url: string, log: (line: string) => void, timeoutMs = TIMEOUT_MS): Promise<SharedStore> {
     const failed = (cause: unknown): PlotwrightError =>
-      new PlotwrightError("bad-setting", `The shared queue's database can't be used: ${words(cause)}.`, {
-        cause,
-      });
+      new PlotwrightError(
+        "bad-setting",
+        `The shared queue's database can't be used: ${words(cause)}. Check that it runs, and its address after --shared-queue.`,
+        { cause },
+      );
+    // pg would take any other text for the name of a database.
+    if (!/^(postgres|postgresql|socket):/.test(url)) {
+      throw new PlotwrightError(
+        "bad-setting",
+        "--shared-queue: it must be the address of a PostgreSQL database, such as postgres://user@host/plots.",
+      );
+    }
     let pool: Pool | null = null;
     try {
       const [{ default: pg }, { default: Boss }] = await Promise.all([import("pg"), import("pg-boss")]);
