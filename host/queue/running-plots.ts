@@ -98,6 +98,7 @@ export class RunningPlots {
     const plotter = this.#freePlotter(id);
     const { place: from } = this.#jobs.get(id);
     const job = this.#jobs.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
+    this.#keepPlace({ id, place: from });
     this.#begin(plotter, job).hold(this.#parts.nowIso());
     const isLost = plotter.snapshot().xMm === null;
     const place = isLost
@@ -188,7 +189,7 @@ export class RunningPlots {
   /**
    * Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed.
    */
-  #saveJournal(id: string, entry: JournalEntry): void {
+  #saveJournal(id: string, entry: Pick<JournalEntry, "place">): void {
     const { progress, elapsedS, remainingS } = this.#jobs.get(id);
     this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
@@ -245,8 +246,18 @@ export class RunningPlots {
       this.#jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.#parts.nowIso());
+      this.#keepPlace(job);
       this.#jobs.apply(id, { type: "release" }, { place: null });
     }
+  }
+
+  /**
+   * A job that was cancelled, or that starts in the middle, has no journal until it draws. Its place is stored here:
+   * otherwise it would start at the beginning after a crash, a cancel or a failure while the rest is being planned.
+   */
+  #keepPlace({ id, place }: Pick<Job, "id" | "place">): void {
+    if (place === null || this.#journal(id) !== null) return;
+    this.#saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
   }
 
   #ended(id: string, plotterId: string, end: RunEnd): void {

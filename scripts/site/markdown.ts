@@ -87,12 +87,14 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
   return { html, headings, pictures };
 }
 
-/** Prevents line breaks in "10 000", and between a number and its unit. */
+/** Prevents line breaks in "10 000" and "15 / 25", and between a number and its unit. */
 const keepNumbersTogether = (text: string): string =>
-  text.replace(
-    /(?<=\d) (?=\d{3}(?!\d)|%|(?:mm|s|ms|min|kB|MB|Hz|mm\/s|mm\/s²|mm\/s³|steps\/s)(?![\w/]))/g,
-    "\u00a0",
-  );
+  text
+    .replace(
+      /(?<=\d) (?=\d{3}(?!\d)|%|(?:mm|s|ms|min|kB|MB|Hz|mm\/s|mm\/s²|mm\/s³|steps\/s)(?![\w/]))/g,
+      "\u00a0",
+    )
+    .replace(/(?<=\d) \/ (?=\d)/g, "\u00a0/\u00a0");
 
 /** Where a link of a Markdown file leads on the site. Throws if its target is not on the site. */
 function linkTo(source: string, href: string): string {
