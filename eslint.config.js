@@ -40,6 +40,29 @@ export default tseslint.config(
       "@typescript-eslint/no-misused-promises": ["error", { checksVoidReturn: { attributes: false } }],
     },
   },
+  // One way for private members in each layer. Private constructors have no other form.
+  {
+    files: ["src/**/*.ts"],
+    rules: {
+      "no-restricted-syntax": [
+        "error",
+        { selector: "PrivateIdentifier", message: "In src a private member is written private name." },
+      ],
+    },
+  },
+  {
+    files: ["host/**/*.ts", "server/**/*.ts", "web/**/*.{ts,tsx}"],
+    rules: {
+      "no-restricted-syntax": [
+        "error",
+        {
+          selector:
+            ":matches(PropertyDefinition, MethodDefinition[kind!='constructor'], TSParameterProperty)[accessibility='private']",
+          message: "In host, server and web a private member is written #name.",
+        },
+      ],
+    },
+  },
   {
     files: ["src/**/*.ts"],
     rules: {
@@ -106,14 +129,6 @@ export default tseslint.config(
               message: "server and web never import each other; what they exchange is in src/schema.",
             },
           ],
-        },
-      ],
-      "no-restricted-syntax": [
-        "error",
-        {
-          selector:
-            ":matches(PropertyDefinition, MethodDefinition[kind!='constructor'], TSParameterProperty)[accessibility='private']",
-          message: "In server a private member is written #name.",
         },
       ],
       "no-console": "off",

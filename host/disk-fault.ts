@@ -1,7 +1,7 @@
-/** Detects a full or unwritable disk, and has the message for the user. */
+/** Recognizes the errors of a full or unwritable disk, and defines the message for the user. */
 
 export const DISK_FULL =
-  "The server's disk is full or can't be written to. Make room on it: the changes are in memory and are stored as soon as there is room.";
+  "The server's disk is full or can't be written to. Make room on it: until then the changes are only in memory. They are stored as soon as there is room.";
 
 /** SQLite also reports "disk I/O error" when a write finds no space. */
 export function isDiskFault(error: unknown): boolean {

@@ -54,7 +54,7 @@ export interface JobStore extends SettingStore {
   moveJob(id: string, beforeId: string | null): void;
   /** Removes the job; returns its drawing's id if no other job uses it, else null. */
   removeJob(id: string): string | null;
-  /** Stores the progress of a plot. */
+  /** Stores how far a plot has got. */
   saveJournal(id: string, entry: unknown): void;
   journal(id: string): unknown;
   clearJournal(id: string): void;

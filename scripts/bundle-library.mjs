@@ -1,8 +1,8 @@
 /**
  * Bundles the library's modules (src) into one file per entry: a program that imports plotwright then waits
  * 0.16 s instead of 0.23 s, because it opens 5 files instead of 180. Code shared by entries goes into chunks,
- * so that there is one PlotwrightError. tsc has written the types beside them; its single modules are
- * removed.
+ * so that there is only one PlotwrightError class. tsc has already written the types to the same folder; the
+ * single modules that it wrote are removed.
  */
 import { build } from "esbuild";
 import { readFileSync, readdirSync, rmSync } from "node:fs";

@@ -33,7 +33,7 @@ function isProgram(file) {
   }
 }
 
-async function playwrightsOwn() {
+async function browserOfPlaywright() {
   try {
     const { chromium } = await import("playwright-core");
     return chromium.executablePath();
@@ -50,7 +50,7 @@ export async function findBrowser() {
   const onPath = (process.env.PATH ?? "")
     .split(path.delimiter)
     .flatMap((folder) => PROGRAM_NAMES.map((name) => path.join(folder, name + suffix)));
-  const candidates = [...onPath, ...(PLACES[process.platform] ?? []), await playwrightsOwn()];
+  const candidates = [...onPath, ...(PLACES[process.platform] ?? []), await browserOfPlaywright()];
   return candidates.find((file) => file !== "" && isProgram(file)) ?? null;
 }
 

@@ -3,6 +3,7 @@
  * licences.txt. Vite's own `build.license` leaves out the dependencies of workers.
  */
 import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { createRequire } from "node:module";
 import path from "node:path";
 
 const HERE = import.meta.dirname;
@@ -12,6 +13,9 @@ const FILE = "licences.txt";
 
 /** Data in our sources, which is not a package. */
 const IN_OUR_SOURCES = [{ title: "Hershey fonts, from hersheytext 2.0.0 (MIT)", file: "hershey-fonts.txt" }];
+
+/** Packages whose published file contains other packages, which the bundler therefore cannot see. */
+const CONTAINS = { "dxf-parser": ["loglevel"] };
 
 const LICENCE_FILE = /^(licen[cs]e|copying)/i;
 
@@ -25,7 +29,8 @@ export function licencePlugins() {
     for (const { moduleIds = [] } of Object.values(bundle)) {
       for (const id of moduleIds) {
         const folder = packageFolder(id);
-        if (folder !== null) folders.add(folder);
+        if (folder === null) continue;
+        for (const one of [folder, ...containedIn(folder)]) folders.add(one);
       }
     }
   };
@@ -52,6 +57,13 @@ function packageFolder(moduleId) {
   return match === null ? null : match[1];
 }
 
+/** The folders of the packages that this package's file contains. */
+function containedIn(folder) {
+  const { resolve } = createRequire(path.join(folder, "package.json"));
+  const names = CONTAINS[path.basename(folder)] ?? [];
+  return names.map((name) => path.dirname(resolve(`${name}/package.json`)).replaceAll("\\", "/"));
+}
+
 function licenceText(folders) {
   const ours = section("plotwright (MIT)", path.join(HERE, "..", "LICENSE"));
   const others = IN_OUR_SOURCES.map(({ title, file }) => section(title, ownCopy(file)));
@@ -61,14 +73,14 @@ function licenceText(folders) {
 function ofPackage(folder) {
   const { name, version, license } = JSON.parse(readFileSync(path.join(folder, "package.json"), "utf8"));
   const title = `${name} ${version} (${license})`;
-  const its = readdirSync(folder).find((entry) => LICENCE_FILE.test(entry));
-  const file = its === undefined ? ownCopy(`${path.basename(folder)}.txt`) : path.join(folder, its);
+  const found = readdirSync(folder).find((entry) => LICENCE_FILE.test(entry));
+  const file = found === undefined ? ownCopy(`${path.basename(folder)}.txt`) : path.join(folder, found);
   // Shipping the page without the text of a licence would violate it.
   if (!existsSync(file)) throw new Error(`${title} is built into the page: put its licence into ${file}`);
   return section(title, file);
 }
 
-/** For data, and for a package without a licence file: from its repository. */
+/** The copy in scripts/licences of a licence that no package contains. It comes from the project's repository. */
 const ownCopy = (name) => path.join(HERE, "licences", name);
 
 const section = (title, file) => `${title}\n\n${readFileSync(file, "utf8").replaceAll("\r\n", "\n").trim()}`;

@@ -12,7 +12,7 @@ interface PngIcon {
   readonly file: string;
   readonly px: number;
   /**
-   * Share of the icon's width that the drawing takes; below 1 the background extends to the edges, to be
+   * The drawing's share of the icon's width. Below 1 the background extends to the edges, which may be
    * cropped.
    */
   readonly share: number;

@@ -170,14 +170,14 @@ function planned(
   return plan(strokes, motion, DEFAULT_PEN, { startX, startY, returnHome: false, machine });
 }
 
-/** The first run, sampled. */
-function along(t: Trajectory, see: (state: ReturnType<typeof stateAt>, tS: number) => Point): Point[] {
+/** Samples of the first run, each as the point that `pointOf` makes of it. */
+function along(t: Trajectory, pointOf: (state: ReturnType<typeof stateAt>, tS: number) => Point): Point[] {
   const start = t.runs.startS[0];
   const end = t.penMoves.startS[1] - 1e-9;
   const count = 1500;
   return Array.from({ length: count + 1 }, (_, i) => {
     const tS = start + ((end - start) * i) / count;
-    return see(stateAt(t, tS), tS);
+    return pointOf(stateAt(t, tS), tS);
   });
 }
 

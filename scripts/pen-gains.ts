@@ -1,4 +1,4 @@
-/** Prints a table of docs/motion.md: the time that drawings save if the carriage moves during pen moves. */
+/** A table of docs/motion.md: the time that drawings save if the carriage moves during pen moves. */
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import {

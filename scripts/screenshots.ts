@@ -34,7 +34,7 @@ async function shootAll(browser: Browser, look: Look): Promise<void> {
   });
 }
 
-/** Waits until the picture on the paper is current: without a graphics card a frame is slow. */
+/** Waits until the canvas shows the current drawing: without a graphics card a frame is slow. */
 async function drawn(page: Page): Promise<void> {
   for (let frame = 0; frame < 3; frame++) await page.evaluate(() => new Promise(requestAnimationFrame));
   await page.waitForTimeout(300);
@@ -60,8 +60,7 @@ async function pictureForReadme(browser: Browser): Promise<void> {
       .getByRole("region", { name: "Plot", exact: true })
       .getByRole("button", { name: "Plot", exact: true })
       .click();
-    // Watch opens by itself.
-    // Enough of the drawing for a picture.
+    // Watch opens by itself. By then enough is drawn for a picture.
     await desk.waitForTimeout(90_000);
     await savePicture(desk, "watch");
     const phone = await browser.newPage({ ...look, viewport: { width: 390, height: 844 }, hasTouch: true });

@@ -1,6 +1,6 @@
 /**
- * The first step of `npm start` and `npm test`: right Node, packages installed, dist/ built. Runs before
- * anything is installed, so it uses nothing but Node itself.
+ * The first step of `npm start` and `npm test`: checks the version of Node, installs the packages and builds dist/. It
+ * runs before anything is installed, so it uses nothing but Node itself.
  */
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -58,7 +58,7 @@ export function run(command, args, options = {}) {
   return result.status ?? 1;
 }
 
-/** npm, found so that it also works on Windows, where npm is a .cmd file that only a shell can start. */
+/** Runs npm, also on Windows, where npm is a .cmd file that only a shell can start. */
 export function runNpm(args, options = {}) {
   const npmScript = process.env.npm_execpath;
   if (npmScript && /npm-cli\.c?js$/.test(npmScript))
@@ -140,7 +140,7 @@ const SITE_INPUTS = [
   "CONTRIBUTING.md",
 ];
 
-/** One hash over the name and content of everything that decides what is built. */
+/** One hash over the names and contents of all files that the build reads. */
 function stampOf(inputs) {
   const hash = createHash("sha256");
   for (const file of inputs.flatMap((input) => [...filesBelow(input)]).sort()) {
@@ -164,7 +164,7 @@ function buildOnce(folder, inputs, build) {
   writeFileSync(stampFile, stamp);
 }
 
-/** A test runner's NODE_ENV would bring React's development version. */
+/** With the NODE_ENV of a test runner, the build would contain React's development version. */
 const forProduction = () => ({
   env: { ...process.env, NODE_ENV: "production" },
   stdio: "pipe",

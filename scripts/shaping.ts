@@ -73,8 +73,8 @@ function rowOf(springs: Springs, { name, motion, isInverse, runs }: Variant): st
     };
   });
   const errors = FACTORS.map((_, i) => {
-    const of = (what: "max" | "rms"): string => median(rows.map((row) => row[what][i])).toFixed(2);
-    return `${of("max")} / ${of("rms")}`;
+    const medianOf = (what: "max" | "rms"): string => median(rows.map((row) => row[what][i])).toFixed(2);
+    return `${medianOf("max")} / ${medianOf("rms")}`;
   });
   return [
     `${springs.xHz} / ${springs.yHz}`,
@@ -104,7 +104,7 @@ const variants: readonly Variant[] = [
   ...[10_000, 40_000, 160_000].map(inverse),
 ];
 const kernel = shaperKernel("zv", springs)!;
-/** Every system's rule at the limits of quality fast, shaped and not; scurve is a filter itself. */
+/** Every system's rule at the limits of quality fast, with and without shaping. scurve is never shaped: it is a filter too. */
 const rules: readonly Variant[] = [
   ...REFERENCE_PLANNERS.flatMap((reference): Variant[] => {
     const runs = referenceRuns(reference);
@@ -129,18 +129,20 @@ const steps: readonly (readonly [Springs, Variant])[] = SPRINGS.flatMap((one) =>
 const TABLES = {
   rules: {
     title: "Corner rules at the limits of quality fast",
-    rows: rules.map((way) => [springs, way] as const),
+    rows: rules.map((variant) => [springs, variant] as const),
   },
   shapers: {
     title: "Shapers at the limits of quality fast",
-    rows: variants.map((way) => [springs, way] as const),
+    rows: variants.map((variant) => [springs, variant] as const),
   },
   steps: { title: "The steps of quality", rows: steps },
 };
 for (const [name, { title, rows }] of Object.entries(TABLES)) {
   if (process.argv[2] !== undefined && process.argv[2] !== name) continue;
   console.log(`${title}:\n`);
-  console.log(`${markdownTable([HEAD, ...rows.map(([one, way]) => rowOf(one, way))])}\n`);
+  console.log(
+    `${markdownTable([HEAD, ...rows.map(([machineSprings, variant]) => rowOf(machineSprings, variant))])}\n`,
+  );
 }
 
 function motionS({ durationS, blockCount }: Trajectory): number {

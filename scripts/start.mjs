@@ -22,8 +22,8 @@ const end = () => server.connected && server.disconnect();
 for (const signal of ["SIGINT", "SIGTERM", "SIGHUP"]) process.on(signal, end);
 server.on("exit", (code) => process.exit(code ?? 1));
 
-// npm ends its shell, not this process: then the parent changes. (After SIGKILL of npm, its shell stays alive
-// unnoticed.)
+// npm ends its shell, but not this process. The process then has another parent. (If npm is killed by SIGKILL, its
+// shell stays alive, and this can't be noticed.)
 const npm = process.ppid;
 if (process.env.npm_lifecycle_event === "start") {
   setInterval(() => process.ppid !== npm && end(), 500).unref();

@@ -29,7 +29,7 @@ const CHECKS = [
   { name: "package (publint)", args: [nodeModule("publint", "src", "cli.js"), "--strict"] },
 ];
 
-/** A little below normal: the tests that run beside them respond in time. */
+/** A little below normal, so that the tests that run at the same time respond in time. */
 const CHECKS_PRIORITY = 5;
 const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
 
@@ -45,7 +45,7 @@ const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? [["real-time"], ["load"]] : [];
  * because many of their tests build on each other.
  */
 const mayRunAgain = (file) => file.startsWith("test/e2e/");
-/** If more of them fail, it is not by chance. */
+/** If more files fail, it is probably not by chance. */
 const MAX_FILES_AGAIN = 3;
 
 const failures = [];

@@ -1,6 +1,6 @@
 /**
- * `npx tsx scripts/true-corners.ts`: the time cost of one corner under each rule and its minimum, and how
- * much longer blend takes than junction for whole polygons. For docs/comparison.md.
+ * `npx tsx scripts/true-corners.ts`: the time that one corner costs under each rule, the possible minimum, and
+ * how much longer blend takes than junction for whole polygons. For docs/comparison.md.
  */
 import { DEFAULT_PEN, plan, type StrokeSet } from "../src/index.js";
 import type { MotionMode } from "../src/internal.js";

@@ -16,6 +16,7 @@ export { ERROR_TABLE } from "./errors.js";
 export type { DrawingWarning } from "./drawing/drawing.js";
 export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
 export { meanScale } from "./geometry/affine.js";
+export { nearestShare } from "./geometry/polyline.js";
 export type { PaperName, PaperSize } from "./drawing/paper.js";
 
 // import

@@ -19,20 +19,11 @@ export const TICKS_PER_MS = TICKS_PER_S / 1_000;
 /** The motor makes one step each time the 31-bit accumulator overflows. */
 export const ACCUMULATOR_RANGE = 2 ** 31;
 
-export const mmFromPx = (px: number): number => px * MM_PER_PX;
-export const mmFromInch = (inch: number): number => inch * MM_PER_INCH;
-export const ticksFromS = (s: number): number => s * TICKS_PER_S;
 export const sFromTicks = (ticks: number): number => ticks / TICKS_PER_S;
 
 /** Accumulator counts per tick from a step rate in steps/s (not rounded). */
 export const rateFromStepsPerS = (stepsPerS: number): number => (stepsPerS * ACCUMULATOR_RANGE) / TICKS_PER_S;
 export const stepsPerSFromRate = (rate: number): number => (rate * TICKS_PER_S) / ACCUMULATOR_RANGE;
-/** Accumulator counts per tick² from steps/s² (not rounded). */
-export const accelFromStepsPerS2 = (stepsPerS2: number): number =>
-  (stepsPerS2 * ACCUMULATOR_RANGE) / (TICKS_PER_S * TICKS_PER_S);
-/** Accumulator counts per tick³ from steps/s³ (not rounded). */
-export const jerkFromStepsPerS3 = (stepsPerS3: number): number =>
-  (stepsPerS3 * ACCUMULATOR_RANGE) / (TICKS_PER_S * TICKS_PER_S * TICKS_PER_S);
 
 const MM_PER_UNIT = { mm: 1, cm: 10, m: 1_000, in: MM_PER_INCH, '"': MM_PER_INCH } as const;
 export const LENGTH_UNITS = ["mm", "in"] as const;

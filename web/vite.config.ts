@@ -19,7 +19,7 @@ const withoutNeverCalled = (): Plugin => ({
   apply: "build",
   transform(source, id) {
     const file = id.replaceAll("\\", "/");
-    if (ONLY_WHAT_IS_USED.test(file)) return { code: source, moduleSideEffects: false };
+    if (ONLY_WHAT_IS_USED.test(file)) return { code: source, map: null, moduleSideEffects: false };
     if (!NEVER_CALLED.test(file)) return null;
     const names = [...source.matchAll(/^export (?:function|const) (\w+)/gm)].map((match) => match[1]);
     const renamed = [...source.matchAll(/^export \{ \w+ as (\w+) \};$/gm)].map((match) => match[1]);

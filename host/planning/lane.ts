@@ -1,5 +1,5 @@
 /**
- * Runs work on a limited number of slots. Each client may use one slot at a time, so that none can block the
+ * Limits how much work runs at a time. Each client may use one slot at a time, so that no client can block the
  * others.
  */
 import { PlotwrightError } from "../../src/index.js";
@@ -30,14 +30,14 @@ export function lane(slots: number): Lane {
 
   function turnOf(client: string, signal: AbortSignal | undefined): Promise<void> {
     return new Promise((resolve, reject) => {
-      const one = { client, begin: resolve };
+      const entry = { client, begin: resolve };
       const leave = (): void => {
-        const at = waiting.indexOf(one);
+        const at = waiting.indexOf(entry);
         if (at < 0) return;
         waiting.splice(at, 1);
         reject(new PlotwrightError("cancelled", "Planning was cancelled."));
       };
-      waiting.push(one);
+      waiting.push(entry);
       signal?.addEventListener("abort", leave, { once: true });
       if (signal?.aborted === true) leave();
       else beginNext();

@@ -1,7 +1,7 @@
 /** Messages between the planner and its thread. Large arrays are transferred, not copied. */
 import { PlotwrightError, type ErrorCode, type StrokeSet } from "../../src/index.js";
 import type { JobStats } from "../../src/schema/index.js";
-import type { PlanRequest, PlannedPlot } from "../../host/planning/plot-planner.js";
+import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
 
 export type ToWorker =
   | { readonly type: "plan"; readonly id: number; readonly request: PlanRequest }

@@ -1,6 +1,6 @@
 /**
  * Plans a job in the planner's thread. The machine is passed as a profile, so custom machines need no lookup
- * here. Must not import zod, so that the thread starts fast.
+ * here. This file must not import zod, so that the thread starts fast.
  */
 import { planJob, trajectoryStats, type MachineProfile, type Prepared } from "../../src/index.js";
 import { pointCount, strokeCount } from "../../src/internal.js";
@@ -44,8 +44,8 @@ export function planAndCompile(
 }
 
 /**
- * Compiles too, although only the figures are needed. This finds anything that the board cannot do now instead of during
- * the plot.
+ * Also compiles the job, although only the figures are needed: what the board cannot do is then found before the job is
+ * added, not during the plot.
  */
 function measurePrepared(
   prepared: Prepared,
@@ -67,7 +67,7 @@ function measurePrepared(
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
 }
 
-/** The buffer of every array, once each, to transfer them: columns may share a buffer. */
+/** The buffers of all arrays in `value`, to transfer between threads. A buffer that arrays share is listed once. */
 export function buffersOf(value: object): ArrayBuffer[] {
   const found = new Set<ArrayBuffer>();
   const visit = (part: unknown): void => {

@@ -21,7 +21,7 @@ import type { PlotPlanner } from "../planning/plot-planner.js";
 import { connect, type Connection } from "./connection.js";
 import { moveByHand, type HandMove } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
-import { initialState, type PlotterOptions, type PlotterState } from "./plotter-state.js";
+import { initialState, UNKNOWN, type PlotterOptions, type PlotterState } from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";
 import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
 
@@ -217,15 +217,7 @@ export class PlotterDriver {
     const virtual = this.#virtual;
     this.#supply.stop();
     this.#machine = this.#connection = this.#virtual = null;
-    this.#setState({
-      connection: "connecting",
-      message: null,
-      penUp: null,
-      penMoving: false,
-      motorsOn: null,
-      xMm: null,
-      yMm: null,
-    });
+    this.#setState({ connection: "connecting", message: null, ...UNKNOWN });
     await connection?.machine.close().catch(() => undefined);
     virtual?.close();
     await this.#startConnecting();
@@ -320,8 +312,7 @@ export class PlotterDriver {
     // A held run does not notice the lost board by itself.
     this.#run?.fail(error);
     const connection = error.code === "no-board" ? "absent" : "fault";
-    const unknown = { penUp: null, penMoving: false, motorsOn: null, xMm: null, yMm: null };
-    this.#setState({ connection, message: error.message, ...unknown });
+    this.#setState({ connection, message: error.message, ...UNKNOWN });
     this.#cancelRetry?.();
     this.#cancelRetry = this.#clock.after(RECONNECT_S, () => void this.#startConnecting());
   }
@@ -335,15 +326,18 @@ export class PlotterDriver {
     this.#machineChanged();
   }
 
-  #powerLost(): void {
+  /** Resolves when the motors are released. */
+  async #powerLost(): Promise<void> {
     this.#run?.fail(powerLost());
     this.#setState({ connection: "fault", message: powerLow().message });
     const settings = this.#settings;
     const machine = this.#machine;
-    machine
-      ?.forgetPlace()
-      .then(() => machine.release(settings))
-      .catch(() => undefined);
+    try {
+      await machine?.forgetPlace();
+      await machine?.release(settings);
+    } catch {
+      // A lost connection is reported by the machine's own event.
+    }
   }
 
   async #byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {

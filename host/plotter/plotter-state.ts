@@ -29,6 +29,15 @@ export interface PlotterOptions {
 
 export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
 
+/** What is not known of a plotter that is not connected. */
+export const UNKNOWN = {
+  penUp: null,
+  penMoving: false,
+  motorsOn: null,
+  xMm: null,
+  yMm: null,
+} as const satisfies Partial<PlotterState>;
+
 /** The state before the first attempt to connect. `device` is as in the options. */
 export function initialState(device: string): PlotterState {
   const isPath = device !== "virtual" && device !== "auto";
@@ -41,10 +50,6 @@ export function initialState(device: string): PlotterState {
     firmware: null,
     emergencyStopMs: null,
     message: null,
-    penUp: null,
-    penMoving: false,
-    motorsOn: null,
-    xMm: null,
-    yMm: null,
+    ...UNKNOWN,
   };
 }

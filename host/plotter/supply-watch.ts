@@ -7,7 +7,8 @@ const ASK_EVERY_S = 2;
 export interface SupplyEvents {
   /** Whether the machine is free to be asked. */
   mayAsk(): boolean;
-  lost(): void;
+  /** Resolves when the motors are released. Before that the supply does not count as restored. */
+  lost(): Promise<void>;
   restored(): void;
 }
 
@@ -16,6 +17,7 @@ export class SupplyWatch {
   #wasReadLow = false;
   #machine: Machine | null = null;
   #cancel: (() => void) | null = null;
+  #released: Promise<void> = Promise.resolve();
   readonly #clock: Clock;
   readonly #events: SupplyEvents;
 
@@ -63,6 +65,7 @@ export class SupplyWatch {
   }
 
   async #ask(machine: Machine): Promise<void> {
+    await this.#released;
     const isLow = (await machine.isSupplyLow()) && (await machine.isSupplyLow());
     if (isLow) this.#lost();
     else if (this.#isLow) {
@@ -74,6 +77,6 @@ export class SupplyWatch {
   #lost(): void {
     if (this.#isLow) return;
     this.#isLow = true;
-    this.#events.lost();
+    this.#released = this.#events.lost();
   }
 }

@@ -2,9 +2,10 @@
  * The current state of all jobs, in memory and on disk. Every change is stored, then applied in memory, then announced.
  * So even if the process is killed, browsers have only seen changes that were stored.
  *
- * There are two exceptions. Progress is only in memory and is stored with the next change of state. And a job that is on
- * a plotter still changes when the disk is full: the change is announced with a message about the disk, and stored as
- * soon as there is room.
+ * There are two exceptions:
+ * - Progress is only in memory and is stored with the next change of state.
+ * - A job that is on a plotter still changes when the disk is full. The change is announced with a message about the
+ *   disk, and stored as soon as there is room.
  */
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
@@ -98,7 +99,7 @@ export class JobList {
     }
   }
 
-  /** Reports, once, that data of a job that is on a plotter could not be stored. */
+  /** Adds the message about the full disk to a job that is on a plotter, unless it has the message already. */
   diskIsFull(id: string): void {
     if (!this.#unsaved.has(id)) this.#saveLater(this.get(id));
   }
@@ -146,15 +147,15 @@ export class JobList {
     }
   }
 
-  /** Shows a message to the user, unless the job has ended: then the message about its end stays. */
+  /** Shows a message to the user. The message of a job that has ended stays as it is. */
   note(id: string, message: string): Job {
     const job = this.get(id);
     return ENDED_STATES.includes(job.state) ? job : this.save({ ...job, message });
   }
 
   /**
-   * Updates the expected time of all jobs queued for a plotter. Uses one statement and one event for all jobs, to be fast,
-   * because other plotters are plotting meanwhile.
+   * Updates the expected time of all jobs queued for a plotter. One statement and one event for all jobs keep this fast,
+   * because other plotters may be plotting.
    */
   updateExpected(plotterId: string, ratio: number): void {
     const expectedS = this.#parts.store.saveExpected(plotterId, ratio);
@@ -172,6 +173,7 @@ export class JobList {
     this.#parts.announce({ type: "order", ids: this.order() });
   }
 
+  /** Throws `conflict` unless the job is queued. `what`: the part to change, as in "Its settings". */
   mustBeQueued(id: string, what: string): Job {
     const job = this.get(id);
     if (job.state === "queued") return job;

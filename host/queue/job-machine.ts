@@ -4,12 +4,12 @@
  *   queued ──start──> plotting ──finish──> done
  *                       │  ^ └──fail──> failed ──requeue──> queued (also from done, cancelled, interrupted)
  *                  hold v  │ release
- *                      paused ──cancel──> cancelled      (cancel works in every state that is not an end)
+ *                      paused ──cancel──> cancelled      (also from queued, plotting, interrupted)
  *
  *   plotting, paused ──interrupt──> interrupted ──recover──> paused: nothing moves until it is resumed
- *                                 cancelled ──recover──> paused: if part of it is drawn, from where it was cancelled
+ *                                 cancelled ──recover──> paused: only if part of it is drawn; continues there
  *
- * This file knows nothing of disks, boards or sockets; the queue applies, stores and announces the result.
+ * The queue applies, stores and announces the result.
  */
 import { PlotwrightError } from "../../src/index.js";
 import type { Job, JobPlace, JobState } from "../../src/schema/index.js";

@@ -64,10 +64,10 @@ export class JobQueue {
   /** Adds a queued copy with the same drawing and settings: directly after a queued job, otherwise last. */
   duplicate(id: string): Job {
     const job = this.get(id);
-    const waiting = this.#jobs.order().filter((one) => this.get(one).state === "queued");
-    const behind = job.state === "queued" ? (waiting[waiting.indexOf(id) + 1] ?? null) : null;
-    const copy = this.#fresh({ ...job, plotterId: this.#presentPlotter(job) });
-    return this.#jobs.insert(copy, { id: this.#parts.store.drawingOf(id), bytes: 0 }, { beforeId: behind });
+    const waiting = this.#jobs.order().filter((queuedId) => this.get(queuedId).state === "queued");
+    const beforeId = job.state === "queued" ? (waiting[waiting.indexOf(id) + 1] ?? null) : null;
+    const copy = this.#newJob({ ...job, plotterId: this.#existingPlotter(job) });
+    return this.#jobs.insert(copy, { id: this.#parts.store.drawingOf(id), bytes: 0 }, { beforeId });
   }
 
   /**
@@ -96,7 +96,7 @@ export class JobQueue {
     }
     // The plotter may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
-    const job = this.#fresh({ plotterId, name, settings, stats, warnings: [...warnings] });
+    const job = this.#newJob({ plotterId, name, settings, stats, warnings: [...warnings] });
     return this.#jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId });
   }
 
@@ -124,7 +124,7 @@ export class JobQueue {
     return this.#jobs.save(job.state === "queued" ? { ...job, expectedS: this.#expectedS(job) } : job);
   }
 
-  /** The figures of a job after a change of its settings or plotter; empty when they stay the same. */
+  /** The figures of a job after its settings or plotter change; empty if they stay the same. */
   async #remeasured(
     id: string,
     { settings, plotterId }: JobPatch,
@@ -141,7 +141,7 @@ export class JobQueue {
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }
 
-  /** Null while the board is unknown, or if its controller is not that of the settings' machine. */
+  /** The firmware of the plotter's board; null if it is unknown, or if the settings' machine has another controller. */
   #firmwareOf(plotterId: string, settings: PlotSettings): string | null {
     return firmwareFor(machineOf(settings), this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null);
   }
@@ -156,7 +156,7 @@ export class JobQueue {
   requeue(id: string): Job {
     const job = this.get(id);
     const { stats } = job;
-    const plotterId = this.#presentPlotter(job);
+    const plotterId = this.#existingPlotter(job);
     // Check first: a job that is already queued must not lose its place in the queue.
     applyJobEvent(job, { type: "requeue" }, this.#parts.nowIso());
     this.#parts.store.moveJob(id, null);
@@ -271,8 +271,8 @@ export class JobQueue {
     const { claims } = this.#parts;
     if (claims === undefined) return this.#runs.start(id);
     this.#runs.mustBeStartable(id);
-    const why = await claims.claim(id);
-    if (why !== null) return why;
+    const refusal = await claims.claim(id);
+    if (refusal !== null) return refusal;
     try {
       return this.#runs.start(id);
     } catch (error) {
@@ -311,7 +311,7 @@ export class JobQueue {
     if (!this.#runs.isClosing && this.#jobs.has(id)) this.#jobs.note(id, message);
   }
 
-  #fresh(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {
+  #newJob(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {
     return { ...queuedJob(from, this.#parts.nowIso()), expectedS: this.#expectedS(from) };
   }
 
@@ -320,7 +320,7 @@ export class JobQueue {
   }
 
   /** The job's plotter, or the first one if that plotter was removed. */
-  #presentPlotter({ plotterId }: Job): string {
+  #existingPlotter({ plotterId }: Job): string {
     return this.#parts.plotters.has(plotterId) ? plotterId : this.#firstPlotter();
   }
 
@@ -333,7 +333,7 @@ export class JobQueue {
 
 const settingOf = (plotterId: string): string => `queue:${plotterId}`;
 
-/** A queued job's start is a stroke's number. With other preparation settings that number would be another stroke. */
+/** A job stores its first stroke by number. With other preparation settings the number would mean another stroke. */
 function mustKeepStrokes(job: Job, settings: PlotSettings): void {
   if (job.place === null || isSameValue(job.settings.prepare, settings.prepare)) return;
   throw new PlotwrightError(

@@ -6,8 +6,8 @@ import type { DrawingStore, JobStore, StoredDrawing, WatchedFile } from "../stor
 
 export interface Claims {
   /**
-   * Null: the job is now this server's, and all servers know it. Otherwise why it must not start. Never
-   * rejects.
+   * Claims a job for this server. Resolves with null when all servers know of the claim, otherwise with the reason why
+   * the job must not start. Never rejects.
    */
   claim(jobId: string): Promise<string | null>;
   /** Gives up a claim on a job that did not start. Never rejects. */

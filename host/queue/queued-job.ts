@@ -1,4 +1,4 @@
-/** A new job, and the timer that measures how long it moves. */
+/** Creates a queued job, and measures how long a plot moves. */
 import type { Job } from "../../src/schema/index.js";
 
 /** A new queued job with a new id; plotter, name, settings and figures come from `from`. */
@@ -29,7 +29,7 @@ export function queuedJob(
   };
 }
 
-/** Measures the seconds a plot has moved, without holds. Times are ISO 8601, as in the job. */
+/** Measures how long a plot has moved, without the time in which it was held. Times are ISO 8601, as in the job. */
 export class MotionTimer {
   #since: number | null;
   #movedMs = 0;

@@ -39,6 +39,7 @@ export interface RunPlan {
 export class Runner {
   readonly #plan: RunPlan;
   readonly #reports: RunReports;
+  /** Aborted when the plot is cancelled. */
   readonly #abort = new AbortController();
   #run: LivePlotRun | null = null;
   #pauseWanted: boolean;
@@ -88,14 +89,14 @@ export class Runner {
   }
 
   /**
-   * A run that starts in the middle is held before anyone could listen for it, so the hold is reported here.
+   * A run that starts in the middle is held before its listeners are added, so the hold is reported here.
    */
   async #hold(run: LivePlotRun): Promise<void> {
     await run.pause();
     if (!this.isCancelling && this.#pauseWanted) this.#reports.held(true, null);
   }
 
-  /** A run that is resumed before it was ever held does not report that itself, so it is reported here. */
+  /** A run that is resumed before it was held does not report a change, so the release is reported here. */
   async #resume(run: LivePlotRun): Promise<void> {
     await run.resume();
     if (!this.#pauseWanted) this.#reports.held(false, null);
@@ -114,8 +115,8 @@ export class Runner {
 
   async #plot(): Promise<PlotOutcome> {
     const { plotter, settings, open, from, sent, speedPct } = this.#plan;
-    // An interrupted plot may have left the pen on the paper. It is opened even to be cancelled, which lifts
-    // the pen.
+    // An interrupted plot may have left the pen on the paper. So its planner is opened even after a cancel: cancelling
+    // the run then lifts the pen.
     const planner = await open(from === null ? this.#abort.signal : new AbortController().signal);
     try {
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };

@@ -25,8 +25,8 @@ export const SERVER_STOPPED =
   "The server stopped while this was plotting. Check pen and paper, then continue from where it was.";
 
 /**
- * Errors of the board, after which a plot can continue from where it was. Other errors would only occur
- * again.
+ * Errors of the board or its connection, after which a plot can continue from where it was. Any other error
+ * would occur again.
  */
 const INTERRUPTIONS: readonly ErrorCode[] = [
   "no-board",
@@ -50,7 +50,7 @@ export class RunningPlots {
   /** By plotter id. */
   readonly #running = new Map<string, Running>();
   #closing = false;
-  #lastTrouble: string | null = null;
+  #lastFault: string | null = null;
 
   /**
    * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
@@ -98,6 +98,7 @@ export class RunningPlots {
     const plotter = this.#freePlotter(id);
     const { place: from } = this.#jobs.get(id);
     const job = this.#jobs.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
+    this.#keepPlace({ id, place: from });
     this.#begin(plotter, job).hold(this.#parts.nowIso());
     const isLost = plotter.snapshot().xMm === null;
     const place = isLost
@@ -162,14 +163,14 @@ export class RunningPlots {
     const drawing = this.#parts.store.drawingOf(job.id);
     const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
     const entry = this.#journal(job.id);
-    const isOfEntry = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
+    const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     const runner = new Runner(
       {
         plotter,
         settings: job.settings,
         open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
         from,
-        sent: isOfEntry ? entry?.sent : undefined,
+        sent: isJournalPlace ? entry?.sent : undefined,
         speedPct: job.speedPct,
       },
       {
@@ -186,9 +187,9 @@ export class RunningPlots {
   }
 
   /**
-   * Stores the progress with the place: otherwise it is only in memory and lost when the server is killed.
+   * Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed.
    */
-  #saveJournal(id: string, entry: JournalEntry): void {
+  #saveJournal(id: string, entry: Pick<JournalEntry, "place">): void {
     const { progress, elapsedS, remainingS } = this.#jobs.get(id);
     this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
@@ -197,11 +198,11 @@ export class RunningPlots {
   #safely(jobId: string, write: () => void): void {
     try {
       write();
-      this.#lastTrouble = null;
+      this.#lastFault = null;
     } catch (error) {
-      const trouble = error instanceof Error ? error.message : String(error);
-      if (trouble !== this.#lastTrouble) this.#parts.log?.(`the state of a plot can't be stored: ${trouble}`);
-      this.#lastTrouble = trouble;
+      const fault = error instanceof Error ? error.message : String(error);
+      if (fault !== this.#lastFault) this.#parts.log?.(`the state of a plot can't be stored: ${fault}`);
+      this.#lastFault = fault;
       if (isDiskFault(error)) this.#jobs.diskIsFull(jobId);
     }
   }
@@ -227,7 +228,7 @@ export class RunningPlots {
     });
   }
 
-  /** An earlier wait (of an interrupted job) remains until it is answered. */
+  /** If an interrupted job waited for a pen, it still waits for that pen until it is resumed. */
   #held(id: string, held: boolean, wait: PlotWait | null): void {
     const job = this.#jobs.get(id);
     const running = this.#running.get(job.plotterId);
@@ -245,8 +246,18 @@ export class RunningPlots {
       this.#jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.#parts.nowIso());
+      this.#keepPlace(job);
       this.#jobs.apply(id, { type: "release" }, { place: null });
     }
+  }
+
+  /**
+   * A job that was cancelled, or that starts in the middle, has no journal until it draws. Its place is stored here:
+   * otherwise it would start at the beginning after a crash, a cancel or a failure while the rest is being planned.
+   */
+  #keepPlace({ id, place }: Pick<Job, "id" | "place">): void {
+    if (place === null || this.#journal(id) !== null) return;
+    this.#saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
   }
 
   #ended(id: string, plotterId: string, end: RunEnd): void {
@@ -322,7 +333,7 @@ export class RunningPlots {
         `"${this.#jobs.get(other.jobId).name}" is being plotted. Wait until it ends, or cancel it.`,
       );
     }
-    mustBeThere(plotter);
+    mustBeIdle(plotter);
     return plotter;
   }
 }
@@ -352,7 +363,8 @@ const journalProgressSchema = z.object({
   remainingS: z.number().min(0).nullable(),
 });
 
-function mustBeThere(plotter: PlotterPort): void {
+/** Throws `busy` or `no-board` unless the plotter is connected and idle. */
+function mustBeIdle(plotter: PlotterPort): void {
   const { connection, message, name } = plotter.snapshot();
   if (connection === "idle") return;
   if (connection === "busy") throw new PlotwrightError("busy", `${name} is busy. Wait for it to finish.`);

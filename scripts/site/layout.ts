@@ -15,8 +15,8 @@ const DOCS_POLICY = [
 ].join("; ");
 
 /**
- * As server/http sends it as a header. Pages of the browser version are served by any web server, so the page carries
- * its policy itself. Styles set by React are properties and need no exception.
+ * The policy that server/http sends as a header. Any web server can serve the browser version, so its page contains the
+ * policy. Styles set by React are properties and need no exception.
  */
 const APP_POLICY = [
   "default-src 'self'",
@@ -49,7 +49,7 @@ interface Content {
   readonly headings: readonly Heading[];
 }
 
-/** `current`: null for a page outside the navigation. `toDocs`: where the folder docs/ is, "" inside it. */
+/** `current`: null for a page outside the navigation. `toDocs`: the path to the folder docs/, "" inside it. */
 export function layout(current: DocPage | null, { title, html, headings }: Content, toDocs = ""): string {
   const fullTitle = title === "plotwright" ? "plotwright: pen plotter software" : `${title} · plotwright`;
   return `<!doctype html>

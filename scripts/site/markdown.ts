@@ -38,7 +38,7 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
         return `<h${depth} id="${id}">${this.parser.parseInline(tokens)}${anchor}</h${depth}>\n`;
       },
       link({ href, text, tokens }: Tokens.Link) {
-        // On GitHub a file's name is a good text, here its page has a name.
+        // On GitHub the text of a link is a file's name. On the site it is the label of the file's page.
         const page = text.endsWith(".md") ? pageOf(source, href) : undefined;
         const words = page === undefined ? this.parser.parseInline(tokens) : escapeHtml(page.label);
         return `<a href="${escapeHtml(linkTo(source, href))}">${words}</a>`;
@@ -87,12 +87,14 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
   return { html, headings, pictures };
 }
 
-/** No line break in "10 000", and between a number and its unit. */
+/** Prevents line breaks in "10 000" and "15 / 25", and between a number and its unit. */
 const keepNumbersTogether = (text: string): string =>
-  text.replace(
-    /(?<=\d) (?=\d{3}(?!\d)|%|(?:mm|s|ms|min|kB|MB|Hz|mm\/s|mm\/s²|mm\/s³|steps\/s)(?![\w/]))/g,
-    "\u00a0",
-  );
+  text
+    .replace(
+      /(?<=\d) (?=\d{3}(?!\d)|%|(?:mm|s|ms|min|kB|MB|Hz|mm\/s|mm\/s²|mm\/s³|steps\/s)(?![\w/]))/g,
+      "\u00a0",
+    )
+    .replace(/(?<=\d) \/ (?=\d)/g, "\u00a0/\u00a0");
 
 /** Where a link of a Markdown file leads on the site. Throws if its target is not on the site. */
 function linkTo(source: string, href: string): string {

@@ -5,7 +5,7 @@ import { positive, springs, type Declare } from "./options.js";
 export const declareBoard: Declare = (command, { io }) => {
   command
     .requiredOption("--pty <path>", "path where the serial port appears")
-    .option("--firmware <version>", "firmware to be", "2.8.1")
+    .option("--firmware <version>", "firmware version of the board", "2.8.1")
     .addOption(
       new Option("--speed <factor>", "board seconds per real second (default: 1)").argParser(positive),
     )

@@ -19,7 +19,7 @@ export interface BoardCommandOptions {
   readonly speed?: number;
   /** Machine id. */
   readonly machine?: string;
-  /** How its pen swings; default: not at all. */
+  /** How its pen swings; default: it does not. */
   readonly springs?: Springs;
   /** File for the drawn lines; default: drawn.svg. */
   readonly svg?: string;
@@ -30,7 +30,6 @@ export interface PtyBoardOptions {
   readonly speed?: number;
   readonly machine?: MachineProfile;
   readonly springs?: Springs;
-  readonly recordLine?: boolean;
 }
 
 export interface PtyBoard {
@@ -191,10 +190,10 @@ function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
       `viewBox="0 0 ${widthMm} ${heightMm}" fill="none" stroke-linecap="round" stroke-linejoin="round">\n`,
   ];
   for (const penDown of [false, true]) {
-    const look = penDown
+    const style = penDown
       ? 'id="drawn" stroke="#000" stroke-width="0.3"'
       : 'id="travel" stroke="#7aa" stroke-width="0.1" stroke-dasharray="0.5 1"';
-    parts.push(`<g ${look}>\n`);
+    parts.push(`<g ${style}>\n`);
     for (const line of board.drawn()) {
       if (line.penDown === penDown) parts.push(`<path d="${pathOf(line.xy)}"/>\n`);
     }

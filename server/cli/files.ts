@@ -17,12 +17,24 @@ export const nameOf = (file: string): string => (file === "-" ? "stdin" : file);
 /** Checks all drawings before the first one is used; throws `bad-file` for one that can't be read. */
 export function mustBeReadable(files: readonly string[]): void {
   for (const file of files.filter((one) => one !== "-")) {
-    try {
-      accessSync(file, constants.R_OK);
-    } catch (cause) {
-      throw new PlotwrightError("bad-file", `${file} can't be read: ${fileFault(cause)}.`, { cause });
-    }
+    const why = whyUnreadable(file);
+    if (why !== null) throw new PlotwrightError("bad-file", `${file} can't be read: ${why}.`);
   }
+}
+
+function whyUnreadable(file: string): string | null {
+  try {
+    accessSync(file, constants.R_OK);
+    return statSync(file).isDirectory() ? "it is a folder" : null;
+  } catch (cause) {
+    return fileFault(cause);
+  }
+}
+
+/** For a command that only reads the data folder: a mistyped one would look like an empty one. */
+export function mustBeDataFolder(data: string | undefined): void {
+  if (data === undefined || statSync(data, { throwIfNoEntry: false })?.isDirectory() === true) return;
+  throw new PlotwrightError("bad-setting", `--data ${data}: there is no such folder.`);
 }
 
 /**
@@ -30,6 +42,7 @@ export function mustBeReadable(files: readonly string[]): void {
  * written to a temporary file during `use`. Errors in the drawing name it.
  */
 export async function withDrawingFile<T>(file: string, use: (path: string) => Promise<T>): Promise<T> {
+  mustBeReadable([file]);
   try {
     if (file !== "-" && !isPipe(file)) return await use(resolve(file));
     const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));
@@ -49,7 +62,8 @@ const isPipe = (file: string): boolean => statSync(file, { throwIfNoEntry: false
 
 /** The error, with the drawing's name if the drawing is at fault. */
 function naming(name: string, error: unknown): unknown {
-  if (!(error instanceof PlotwrightError) || !["bad-file", "too-large"].includes(error.code)) return error;
+  if (!(error instanceof PlotwrightError) || !["bad-file", "too-large", "out-of-bounds"].includes(error.code))
+    return error;
   if (error.message.includes(basename(name))) return error;
   return new PlotwrightError(error.code, `${name}: ${error.message}`, { cause: error });
 }

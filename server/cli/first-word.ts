@@ -1,4 +1,4 @@
-/** The error for an unknown command, with what was probably meant. */
+/** The error for an unknown command, with a guess at what the user meant. */
 import { PlotwrightError } from "../../src/index.js";
 
 const DRAWING = /\.(svg|dxf|hpgl|hpg|plt|json)$/i;
@@ -19,13 +19,13 @@ function hint(word: string, commands: readonly string[]): string {
   return `The commands are ${commands.join(", ")}.`;
 }
 
-/** The command of which `word` is probably a typing error; null if there is none. */
+/** The command that `word` probably misspells; null if there is none. */
 function nearest(word: string, commands: readonly string[]): string | null {
-  return commands.find((command) => isSlip(word, command) || isSlip(command, word)) ?? null;
+  return commands.find((command) => isTypo(word, command) || isTypo(command, word)) ?? null;
 }
 
-/** Whether `a` is `b` without a letter, with another letter, or with two neighbours swapped. */
-function isSlip(a: string, b: string): boolean {
+/** Whether `a` is `b` with one letter missing or different, or with two neighbouring letters swapped. */
+function isTypo(a: string, b: string): boolean {
   for (let i = 0; i <= b.length; i++) {
     const [head, tail] = [b.slice(0, i), b.slice(i + 1)];
     if (a === head + tail) return true;

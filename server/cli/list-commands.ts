@@ -1,6 +1,7 @@
 /** Commands that list boards and plotter models. */
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles } from "../storage/machine-files.js";
+import { mustBeDataFolder } from "./files.js";
 import type { CliIo } from "./io.js";
 import { addData, addJson, type Declare } from "./options.js";
 
@@ -31,6 +32,7 @@ async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
 }
 
 function runMachines({ data, json }: ListOptions, io: CliIo): void {
+  mustBeDataFolder(data);
   const files = new MachineFiles(data ?? defaultDataDir());
   if (json === true) io.out(`${JSON.stringify(files.list())}\n`);
   else {

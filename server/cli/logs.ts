@@ -1,7 +1,7 @@
 /** `plotwright logs`: all logs as one text, to send with a question. */
 import { defaultDataDir } from "../storage/data-dir.js";
 import { bundleText, readLog } from "../storage/log-book.js";
-import { writeOut } from "./files.js";
+import { mustBeDataFolder, writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
 
 export interface LogsOptions {
@@ -14,10 +14,11 @@ const PATIENCE_MS = 3_000;
 
 /** From the running server, with the boards' logs; otherwise from its data folder. */
 export async function runLogs(options: LogsOptions, io: CliIo, version: string): Promise<void> {
+  const { data, port, out = "-" } = options;
+  mustBeDataFolder(data);
   const text =
-    (options.data === undefined ? await fromServer(options.port) : null) ??
-    bundleText({ version, serverLog: readLog(options.data ?? defaultDataDir()) });
-  const { out = "-" } = options;
+    (data === undefined ? await fromServer(port) : null) ??
+    bundleText({ version, serverLog: readLog(data ?? defaultDataDir()) });
   writeOut(out, `${text}\n`, io);
   if (out !== "-") {
     io.err(`${out} is written. Look through it before you send it.\n`);

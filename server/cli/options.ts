@@ -26,7 +26,7 @@ export const addDevice = (command: Command): Command =>
     );
 
 export const addData = (command: Command): Command =>
-  command.option("--data <folder>", "folder for jobs and settings");
+  command.option("--data <folder>", "folder for jobs and settings (default: ~/.local/share/plotwright)");
 
 /** The machine: given by an option, or stored by a server in its data folder. */
 export const addHandOptions = (command: Command): Command =>
@@ -40,6 +40,14 @@ export function port(text: string): number {
   const value = Number(text);
   if (!/^\d+$/.test(text) || value > 65_535) throw new InvalidArgumentError("It must be 0 to 65535.");
   return value;
+}
+
+/** Of an option that takes several names: the ones before it, and this one. */
+export function hostNames(text: string, before: readonly string[] = []): string[] {
+  if (!/^[\w.-]+$/.test(text)) {
+    throw new InvalidArgumentError("It must be a name without http:// and port, such as studio.local.");
+  }
+  return [...before, text];
 }
 
 export function positive(text: string): number {

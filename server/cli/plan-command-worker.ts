@@ -1,4 +1,4 @@
-/** See plan-thread.ts. */
+/** The thread in which `plotwright plan` runs; plan-thread.ts starts it. */
 import { parentPort, workerData } from "node:worker_threads";
 import { faultOf, type Fault } from "../../host/planning/messages.js";
 import { runPlan } from "./plan.js";

@@ -1,4 +1,6 @@
+import { resolve } from "node:path";
 import { Option } from "commander";
+import { PlotwrightError } from "../../src/index.js";
 import { withDrawingFile } from "./files.js";
 import type { PlanCommandOptions } from "./plan.js";
 import { runPlanInThread } from "./plan-thread.js";
@@ -22,8 +24,20 @@ export const declarePlan: Declare = (command, { io }) => {
     .option("--strokes <out.json>", "write the prepared drawing as polylines in mm, to a file or -")
     .action((file: string, { ebb, ...given }: PlanCommandOptions & OptionValues & { ebb?: string }) => {
       const options = ebb === undefined ? given : { commands: ebb, ...given };
-      return withDrawingFile(file, (path) =>
-        runPlanInThread({ file: path, settings: settingsFromOptions(options), options }, io),
-      );
+      const settings = settingsFromOptions(options);
+      mustKeepDrawing(file, options);
+      return withDrawingFile(file, (path) => runPlanInThread({ file: path, settings, options }, io));
     });
 };
+
+/** A result must not overwrite the drawing that it is made from. */
+function mustKeepDrawing(file: string, options: PlanCommandOptions): void {
+  for (const name of ["commands", "preview", "svg", "strokes"] as const) {
+    const out = options[name];
+    if (out === undefined || out === "-" || file === "-" || resolve(out) !== resolve(file)) continue;
+    throw new PlotwrightError(
+      "bad-setting",
+      `--${name} ${out} would overwrite the drawing: choose another file.`,
+    );
+  }
+}

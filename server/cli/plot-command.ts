@@ -1,3 +1,5 @@
+import type { Command, Option } from "commander";
+import { PlotwrightError } from "../../src/index.js";
 import { addData, addDevice, copies, seconds, type Declare } from "./options.js";
 import { resumePlot, runPlot, type PlotCommandOptions } from "./plot.js";
 import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
@@ -19,7 +21,30 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
     .option("--restart", "discard an interrupted plot and start from the beginning")
     .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {
-      if (options.resume === true) setExitCode(await resumePlot(files, options, io));
-      else setExitCode(await runPlot(files, settingsFromOptions(options), options, io));
+      if (options.resume === true) {
+        mustFitResume(command);
+        setExitCode(await resumePlot(files, options, io));
+      } else setExitCode(await runPlot(files, settingsFromOptions(options), options, io));
     });
 };
+
+/** The other options belong to a new plot, and would have no effect. */
+const WITH_RESUME = ["--resume", "--device", "--virtual-speed", "--data", "--quiet"];
+
+function mustFitResume(command: Command): void {
+  const other = command.options.find(
+    (option) => isGiven(command, option) && !WITH_RESUME.includes(option.long ?? ""),
+  );
+  if (other === undefined) return;
+  throw new PlotwrightError(
+    "bad-setting",
+    `--resume continues with the settings of the plot that was begun, so leave out ${other.long ?? other.flags}.`,
+  );
+}
+
+/** `--fit` and `--no-fit` set the same value: only the value tells which of them was given. */
+function isGiven(command: Command, option: Option): boolean {
+  const name = option.attributeName();
+  const isNegated = command.getOptionValue(name) === false;
+  return command.getOptionValueSource(name) === "cli" && option.negate === isNegated;
+}

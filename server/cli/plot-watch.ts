@@ -18,7 +18,7 @@ export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, i
   const isHeld = resumed !== null && io.hasKeyboard;
   const bar = io.isTerminal && !isQuiet ? progressBar() : null;
   const control = new Control(run, io, isHeld);
-  const forget = [io.onInterrupt((isFinal) => control.interrupt(isFinal)), io.onLine(() => control.goOn())];
+  const forget = [io.onInterrupt((isFinal) => control.interrupt(isFinal)), io.onLine(() => control.resume())];
   let elapsedS = 0;
   run.onProgress((progress) => {
     elapsedS = progress.elapsedS;
@@ -45,8 +45,14 @@ const LOST = "The board has lost its position: push the carriage to home by hand
 const KNOWN = "The board still knows its position.";
 
 /** False if it was cancelled meanwhile. */
-export async function waitForPaper(name: string, waitS: number | undefined, io: CliIo): Promise<boolean> {
-  io.err(`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
+export async function waitForPaper(
+  name: string,
+  { paperS: waitS, quiet }: { readonly paperS?: number; readonly quiet?: boolean },
+  io: CliIo,
+): Promise<boolean> {
+  // The request for Enter is printed even if quiet: without it, the command would seem to hang.
+  if (quiet !== true || waitS === undefined)
+    io.err(`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
   const forget: (() => void)[] = [];
   try {
     return await new Promise<boolean>((resolve) => {
@@ -105,7 +111,7 @@ class Control {
     this.#io.err(`\nInsert ${what}. Enter resumes, Ctrl-C cancels.\n`);
   }
 
-  goOn(): void {
+  resume(): void {
     if (!this.#held || this.#cancelling) return;
     this.#held = false;
     this.#run.resume().catch(this.#fail);

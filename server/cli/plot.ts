@@ -56,7 +56,7 @@ export async function runPlot(
   mustHaveEnded(record, options);
   mustBeReadable(files);
   for (const [index, file] of jobs.entries()) {
-    if (index > 0 && !(await waitForPaper(nameOf(file), options.paperS, io))) return cancelled(io);
+    if (index > 0 && !(await waitForPaper(nameOf(file), options, io))) return cancelled(io);
     const code = await withDrawingFile(file, (path) => {
       const { only } = options;
       const plot: Plot = { name: basename(nameOf(file)), path, settings, only, from: null, sent: undefined };

@@ -26,7 +26,8 @@ export const declareAdd: Declare = (command, { io }) => {
     .option("--plotter <id>", "which of the server's plotters (default: its first one)")
     .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: AddOptions & OptionValues) => {
-      const plotter = plotterOf(await serverState(options), options.plotter);
+      const state = await serverState(options);
+      const plotter = plotterOf(state, options.plotter);
       // The plotter's own model, unless the user names one.
       const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
       const base = settingsFromOptions(machine ? { ...options, machine } : options);
@@ -45,7 +46,8 @@ export const declareAdd: Declare = (command, { io }) => {
             ...(options.plotter === undefined ? {} : { plotterId: options.plotter }),
           };
           const job = await addJob(options, wanted, drawing);
-          if (options.quiet !== true) io.out(`${job.id}\t${job.name}\t${timeOf(job)}\n`);
+          const columns = [job.id, job.name, timeOf(job), ...plotterNameOf(job, state)];
+          if (options.quiet !== true) io.out(`${columns.join("\t")}\n`);
         });
       }
     });
@@ -53,11 +55,11 @@ export const declareAdd: Declare = (command, { io }) => {
 
 export const declareQueue: Declare = (command, { io }) => {
   addJson(addServer(command)).action(async (options: ServerOptions & { json?: boolean }) => {
-    const { jobs } = await serverState(options);
-    const waiting = jobs.filter((job) => !ENDED_STATES.some((state) => state === job.state));
+    const state = await serverState(options);
+    const waiting = state.jobs.filter((job) => !ENDED_STATES.some((ended) => ended === job.state));
     if (options.json === true) io.out(`${JSON.stringify(waiting)}\n`);
     else if (waiting.length === 0) io.err("The queue is empty.\n");
-    else waiting.forEach((job) => io.out(`${line(job)}\n`));
+    else waiting.forEach((job) => io.out(`${line(job, state)}\n`));
   });
 };
 
@@ -86,8 +88,15 @@ function plotterOf(
   );
 }
 
-const line = (job: Job): string =>
-  [job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name].join("\t");
+const line = (job: Job, state: ServerState): string =>
+  [
+    ...[job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name],
+    ...plotterNameOf(job, state),
+  ].join("\t");
+
+/** One more column, if the server has several plotters. */
+const plotterNameOf = ({ plotterId }: Job, { plotters }: ServerState): string[] =>
+  plotters.length < 2 ? [] : [plotters.find(({ id }) => id === plotterId)?.name ?? plotterId];
 
 /** The time left, or the whole time if it has not begun. */
 const timeOf = ({ remainingS, expectedS, stats, state }: Job): string =>

@@ -40,17 +40,28 @@ export const declareRinging: Declare = (command, { io }) => {
     .option("--spring-x <Hz>", "for --check: the frequency read for x", positive)
     .option("--spring-y <Hz>", "for --check: the frequency read for y", positive)
     .action((out: string, options: RingingOptions) => {
+      mustFitTogether(options);
       if (options.ripples !== undefined) sayFrequency(options, io);
       else if (options.check) writeCheck(out, options, io);
       else writeSheet(out, io);
     });
 };
 
+/** Alone, these options would have no effect. */
+function mustFitTogether({ at, ripples, check, springX, springY }: RingingOptions): void {
+  if (at !== undefined && ripples === undefined) {
+    throw new PlotwrightError("bad-setting", "--at: give --ripples too, the number that you counted.");
+  }
+  if ((springX ?? springY) !== undefined && check !== true) {
+    throw new PlotwrightError("bad-setting", "--spring-x and --spring-y are for --check: add it.");
+  }
+}
+
 function sayFrequency({ ripples = 0, at, over }: RingingOptions, io: CliIo): void {
   if (at === undefined) {
     throw new PlotwrightError(
       "bad-setting",
-      `--at: which figure? Its speed is ${RINGING_SPEEDS.join(", ")} mm/s.`,
+      `--at is missing: give the speed of the figure whose ripples you counted, ${RINGING_SPEEDS.join(", ")} mm/s.`,
     );
   }
   io.out(`${frequencyOfRipples(at, ripples, over).toFixed(1)} Hz\n`);

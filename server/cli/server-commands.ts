@@ -1,6 +1,7 @@
 /** The server on this computer: serve, service, logs. */
 import { Command, Option } from "commander";
-import { addData, addDevice, port, positive, springs, type Declare } from "./options.js";
+import { PlotwrightError } from "../../src/index.js";
+import { addData, addDevice, hostNames, port, positive, springs, type Declare } from "./options.js";
 import { runLogs, type LogsOptions } from "./logs.js";
 import type { ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
@@ -31,6 +32,9 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
     .option("--user <name>", "with --system: the user that runs the server")
     .option("--print", "only show what would be written")
     .action((serveArgs: string[], options: ServiceOptions) => {
+      if (options.user !== undefined && options.system !== true) {
+        throw new PlotwrightError("bad-setting", "--user: add --system; without it the service runs as you.");
+      }
       // Check the options now: a service that fails on a mistyped option would fail unnoticed.
       addServe(new Command("serve").copyInheritedSettings(service)).parse(serveArgs, { from: "user" });
       installService(options, serveArgs, io);
@@ -52,7 +56,7 @@ function addServe(command: Command): Command {
     .option("--pair-always", "ask for pairing on this computer too")
     .option("--cert <file>", "certificate (PEM): serve https")
     .option("--key <file>", "the certificate's key (PEM)")
-    .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses")
+    .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses", hostNames)
     .addOption(
       new Option(
         "--virtual-springs <x,y>",

@@ -24,23 +24,27 @@ export interface SettingOption {
 
 /** Settings whose value is more than one number, switch or choice. */
 const STRUCTURED: readonly SettingOption[] = [
-  { flags: "--machine <id>", path: "machine", about: "plotter model, for example axidraw-v3" },
+  {
+    flags: "--machine <id>",
+    path: "machine",
+    about: "plotter model (default axidraw-v3; for add and moves by hand: the server's plotter)",
+  },
   {
     flags: "--paper <size>",
     path: "prepare.paper",
-    about: "A4, A3, Letter, … or WIDTHxHEIGHT in mm, or as in 8.5x11in",
+    about: "A4, A3, Letter, … or WIDTHxHEIGHT in mm, or as in 8.5x11in (default A4)",
     parse: paper,
   },
   {
     flags: "--margins <mm,mm,mm,mm>",
     path: "prepare.margins",
-    about: "top, right, bottom, left",
+    about: "top, right, bottom, left (default: --margin on all sides)",
     parse: fourMargins,
   },
   {
     flags: "--place <x,y[,w,h]>",
     path: "prepare.place",
-    about: "the drawing's own box, mm from the paper's corner",
+    about: "the drawing's own box, mm from the paper's corner (default: see --fit)",
     parse: place,
   },
 ];
@@ -77,7 +81,9 @@ function number(text: string): number {
 function numbers(text: string, counts: readonly number[]): number[] {
   const parts = text.split(",");
   if (!counts.includes(parts.length)) {
-    throw new InvalidArgumentError(`It must be ${counts.join(" or ")} lengths with commas between.`);
+    throw new InvalidArgumentError(
+      `It must be ${counts.join(", ").replace(/, (\d+)$/, " or $1")} lengths with commas between.`,
+    );
   }
   return parts.map(length);
 }

@@ -24,7 +24,7 @@ import {
 import { fileFault } from "../storage/file-fault.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles, machineOfText } from "../storage/machine-files.js";
-import { readText } from "./files.js";
+import { mustBeDataFolder, readText } from "./files.js";
 import { storedMachine } from "./stored-machine.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
@@ -75,6 +75,7 @@ export function settingsFromOptions(values: OptionValues): PlotSettings {
 export function handSettingsFromOptions(values: OptionValues): PlotSettings {
   const settings = settingsFromOptions(values);
   const { machine, machineFile, config, device } = values;
+  mustBeDataFolder(typeof values["data"] === "string" ? values["data"] : undefined);
   const isGiven =
     machine !== undefined ||
     machineFile !== undefined ||

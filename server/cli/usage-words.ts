@@ -1,7 +1,7 @@
 /** Commander's messages about wrong arguments, reworded: what is wrong, and what to do. */
 
-/** Options begin with --: an extra argument is usually an option without its name. */
-const OPTIONS = "Options begin with --, such as --port 9381; names with blanks need quotes.";
+/** An extra argument is usually an option without its name, or part of a file name. */
+const OPTIONS = "Options begin with --, and names with blanks need quotes.";
 
 /** Commander's message, and ours. */
 const REWORDED: readonly (readonly [RegExp, string])[] = [
@@ -21,6 +21,10 @@ const REWORDED: readonly (readonly [RegExp, string])[] = [
   [/^unknown command '(.*)' \(Did you mean (.*)\?\)$/, "There is no command $1. Did you mean $2?"],
   [/^unknown option '(.*)'$/, "There is no option $1."],
   [/^unknown option '(.*)' \(Did you mean (.*)\?\)$/, "There is no option $1. Did you mean $2?"],
+  [
+    /^too many arguments for 'serve'\. Expected 0 arguments but got (\d+)\.$/,
+    "serve takes no arguments, got $1. Options begin with --, such as --port 9381.",
+  ],
   [
     /^too many arguments for '(.+)'\. Expected 0 arguments but got (\d+)\.$/,
     `$1 takes no arguments, got $2. ${OPTIONS}`,

@@ -23,7 +23,7 @@ export interface ServerOptions {
   readonly device?: string;
   /** Speed of the virtual board: 1 is real time. */
   readonly virtualSpeed?: number;
-  /** How the pen of the virtual board swings: its drawn line rings. Default: not at all. */
+  /** How the pen of the virtual board vibrates, which makes its drawn lines ring. Default: it does not. */
   readonly virtualSprings?: Springs;
   /** Folder for jobs and settings. */
   readonly dataDir?: string;

@@ -7,7 +7,7 @@ export interface ApiRoute {
   /** Below /api/v1, with :names as in express. */
   readonly path: string;
   readonly about: string;
-  /** "file": the body is a file as it is. */
+  /** "file": the body is the content of a file. */
   readonly body?: ZodType | "file";
   readonly answer: ZodType | "text" | "events";
   readonly status?: number;

@@ -1,4 +1,4 @@
-/** /api/v1/drawings: uploads a drawing as it is, for a job that is added in the next request. */
+/** /api/v1/drawings: uploads a drawing for a job that is added in the next request. */
 import { Router, type Request } from "express";
 import { z } from "zod";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";

@@ -24,10 +24,6 @@ export class EventHub {
     this.#heartbeat.unref();
   }
 
-  get clientCount(): number {
-    return this.#clients.size;
-  }
-
   announce(event: ServerEvent): void {
     if (this.#isClosed) return;
     if (event.type === "progress") {

@@ -52,7 +52,7 @@ export function guardHosts(
       !(isIP(host) > 0 || names.has(host) || host === localName() || host.endsWith(".localhost"))
     ) {
       refuse(
-        `this server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or allow the name with --allow-host.`,
+        `This server does not answer to the name ${JSON.stringify(request.headers.host ?? "")}. Use its address, or allow the name with --allow-host.`,
       );
     }
     const { origin } = request.headers;

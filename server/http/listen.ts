@@ -90,6 +90,12 @@ export function listen(http: Server, port: number, host: string): Promise<void> 
   });
 }
 
+const LISTEN_FAULTS: Readonly<Record<string, string>> = {
+  EACCES: "this user may not use that port; choose one above 1023 with --port",
+  EADDRNOTAVAIL: "this computer does not have that address; choose another with --host",
+  ENOTFOUND: "no computer has that name; choose another with --host",
+};
+
 function listenFault(cause: NodeJS.ErrnoException, port: number, host: string): PlotwrightError {
   if (cause.code === "EADDRINUSE") {
     return new PlotwrightError(
@@ -98,7 +104,11 @@ function listenFault(cause: NodeJS.ErrnoException, port: number, host: string): 
       { cause },
     );
   }
-  return new PlotwrightError("bad-setting", `Can't listen on ${host}:${port} (${cause.message}).`, { cause });
+  return new PlotwrightError(
+    "bad-setting",
+    `Can't listen on ${host}:${port}: ${LISTEN_FAULTS[cause.code ?? ""] ?? cause.message}.`,
+    { cause },
+  );
 }
 
 /** The URL of the server on this computer. */

@@ -1,6 +1,6 @@
 /**
- * A worker thread with limits: it is terminated when it takes too long or needs too much memory, and its
- * listener is called. This is needed because work on an untrusted file may never end.
+ * A worker thread with limits: it is terminated when it takes too long or needs too much memory. Work on an
+ * untrusted file may never end without this.
  */
 import type { Worker } from "node:worker_threads";
 import { PlotwrightError } from "../../src/index.js";
@@ -46,7 +46,7 @@ export class BoundedThread<Message> {
     this.#worker = startWorker(name, starterUrl, {
       workerData,
       resourceLimits: { maxOldGenerationSizeMb: heapMb },
-      // A library may print about a damaged file; that must not mix with the output of a command.
+      // A library may print warnings about a damaged file; they must not mix with the output of a command.
       stdout: true,
     });
     this.#worker.stdout.resume();

@@ -1,4 +1,4 @@
-/** Planning for the queue: takes the id of a stored drawing and uses a few threads at a time. */
+/** Planning for the queue: plans stored drawings in a limited number of threads. */
 import { stat } from "node:fs/promises";
 import { machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";

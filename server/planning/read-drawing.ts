@@ -8,7 +8,7 @@ export function readDrawing(file: string): string {
   return textOfBytes(readBytes(file));
 }
 
-/** The file as it is; throws `bad-file` with the reason if it can't be read. */
+/** The file's bytes; throws `bad-file` with the reason if it can't be read. */
 export function readBytes(file: string): Buffer<ArrayBuffer> {
   try {
     return readFileSync(file);

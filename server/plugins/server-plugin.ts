@@ -3,7 +3,7 @@
  * function that creates it. Only `composition/load-plugins.ts` imports plug-ins, and only if an option of the server
  * asks for them.
  *
- *   made ──the queue loads its jobs──> start(host) ──the port is open──> listening(address) ──> close()
+ *   created ──the queue loads its jobs──> start(host) ──the port is open──> listening(address) ──> close()
  */
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { ApiPart } from "../http/api-route.js";

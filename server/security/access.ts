@@ -91,7 +91,7 @@ export class Access {
   /** The session or key with this secret; null if the secret is unknown. */
   entryOf(secret: string): AccessEntry | null {
     const sha256 = hashOf(secret);
-    const entry = this.#entries.find((one) => equal(one.secretSha256, sha256));
+    const entry = this.#entries.find(({ secretSha256 }) => equal(secretSha256, sha256));
     if (entry === undefined) return null;
     const now = this.#now();
     if (now.getTime() - Date.parse(entry.lastSeenAt) > SEEN_EVERY_MS) this.#saveSeen(entry, now);
@@ -102,7 +102,7 @@ export class Access {
   #saveSeen(seen: StoredEntry, now: Date): void {
     const lastSeenAt = now.toISOString();
     try {
-      this.#save(this.#entries.map((one) => (one === seen ? { ...one, lastSeenAt } : one)));
+      this.#save(this.#entries.map((entry) => (entry === seen ? { ...entry, lastSeenAt } : entry)));
     } catch {
       return;
     }

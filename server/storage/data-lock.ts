@@ -50,7 +50,7 @@ export function lockDataDir(dir: string): () => void {
   }
 }
 
-/** link() creates the name, or fails if it exists, in one step, and the content is already complete. */
+/** In one step, link() creates the name with its complete content, or fails if the name exists. */
 function tryLink(from: string, to: string): boolean {
   try {
     linkSync(from, to);

@@ -57,7 +57,7 @@ export class DrawingFiles implements DrawingStore {
     }
   }
 
-  /** The same for an upload; throws `bad-file` if it is empty. */
+  /** As `add`, but throws `bad-file` if the file is empty. */
   async addFile(chunks: AsyncIterable<Uint8Array>): Promise<StoredDrawing> {
     const drawing = await this.add(chunks);
     if (drawing.bytes > 0) return drawing;

@@ -1,4 +1,4 @@
-/** Explains the system's error codes in messages. */
+/** Explains the system's error codes in words for the user. */
 
 const FILE_FAULTS: Readonly<Record<string, string>> = {
   ENOENT: "there is no such file or folder",

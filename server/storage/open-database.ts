@@ -130,7 +130,7 @@ function withCopy(dataDir: string, db: Database, repair: string | null): OpenedD
   }
 }
 
-/** The copy is completely on disk before it gets its name. */
+/** Copies a file. The copy gets its name only when it is completely on disk. */
 function copyWhole(from: string, to: string): void {
   const draft = `${to}.draft`;
   try {

@@ -92,7 +92,7 @@ export class Store implements JobStore, PlotterStore {
     this.#run("INSERT OR IGNORE INTO watched (name, sha256) VALUES (?, ?)", [name, sha256]);
   }
 
-  /** Whether this job of the shared queue was taken into the own queue. */
+  /** Whether this server has added this job of the shared queue to its own queue. */
   isShared(id: string): boolean {
     return this.#db.get("SELECT 1 FROM shared WHERE id = ?", [id]) !== null;
   }
@@ -101,7 +101,7 @@ export class Store implements JobStore, PlotterStore {
     this.#run("INSERT INTO shared (id, job_id) VALUES (?, ?)", [id, jobId]);
   }
 
-  /** Jobs of the shared queue that have begun without the other servers having been informed yet. */
+  /** Jobs taken from the shared queue whose start has not been reported to the other servers. */
   unreportedShared(): { readonly id: string; readonly jobId: string }[] {
     return this.#all("SELECT id, job_id FROM shared WHERE is_told = 0 AND job_id IS NOT NULL").map((row) => ({
       id: String(row["id"]),

@@ -1,4 +1,4 @@
-/** Drawings that were uploaded for a job that is not added yet. One that no job claims in time is removed. */
+/** Drawings that were uploaded for a job that is not added yet. A drawing that no job claims in time is removed. */
 import { PlotwrightError } from "../../src/index.js";
 import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
 

@@ -1,8 +1,8 @@
 /**
  * Detects a board that does not answer in time.
  *
- * A host that is busy or suspended reads no reply, so that time must not count as silence. A check shows it by being
- * late. The last check gives a reply that has already arrived the time to be read.
+ * A host that is busy or suspended reads no replies, so that time must not count as silence. A late check shows that the
+ * host was stalled. Before silence is reported, a last check leaves time to read a reply that has already arrived.
  *
  *   host    runs ──────|   busy for 3 s   |── runs ─────────────|
  *   checks  x    x    x   (due)           x    x    x    x  X       the board is silent at X
@@ -10,9 +10,9 @@
  */
 import type { Clock } from "./transport.js";
 
-/** Max time between two checks: so much of a time in which the host did not run may count as silence. */
+/** Max time between two checks, s. At most this much of a stall counts as silence. */
 const CHECK_S = 0.25;
-/** Time to read a reply that has already arrived. */
+/** Time to read a reply that has already arrived, s. */
 const READ_S = 0.05;
 
 export class SilenceWatch {

@@ -18,19 +18,16 @@
  * error), so n = ⌈√(6/8 · max(|a0|, |a1|) / tolerance)⌉ equal steps suffice (Wang, Wu, Chen 1984).
  *
  * Invariants: max gap between curve and chords ≤ tolerance, up to MAX_STEPS; the last point is
- * p3 exactly; at most 2n + 1 points; no recursion; the only allocation is the buffer's growth.
+ * p3 exactly; at most 2n + 1 points; the only allocation is the buffer's growth.
  */
 import type { PointBuffer } from "./growable.js";
 
 /** More than any paper needs: 65 536 steps keep 1 µm on a curve with control points 5 km apart. */
 const MAX_STEPS = 65_536;
+/** A curve is halved at most this often. */
 const MAX_DEPTH = 16;
 /** If the accelerations at the two ends differ by more than this factor, equal steps are wasteful. */
 const UNEVEN = 3;
-
-/** Stack of halves still to flatten, 8 numbers each. One for the module is enough, since no callback runs meanwhile. */
-const stack = new Float64Array((MAX_DEPTH + 2) * 8);
-const depths = new Uint8Array(MAX_DEPTH + 2);
 
 /**
  * Appends the points of the curve p0 p1 p2 p3 after p0, up to and including p3 (p0 itself is not written).
@@ -49,57 +46,44 @@ export function flattenCubic(
   tolerance: number,
 ): void {
   if (!(tolerance > 0)) throw new RangeError(`flattenCubic: tolerance must be > 0, got ${tolerance}`);
-  let top = 0;
-  depths[0] = 0;
-  for (;;) {
-    const n = stepCount(x0, y0, x1, y1, x2, y2, x3, y3, tolerance);
-    if (n > 2 && n < MAX_STEPS && depths[top] < MAX_DEPTH && isUneven(x0, y0, x1, y1, x2, y2, x3, y3)) {
-      // de Casteljau at t = 1/2: push the second half on the stack and continue with the first.
-      const x01 = (x0 + x1) / 2;
-      const y01 = (y0 + y1) / 2;
-      const x12 = (x1 + x2) / 2;
-      const y12 = (y1 + y2) / 2;
-      const x23 = (x2 + x3) / 2;
-      const y23 = (y2 + y3) / 2;
-      const x012 = (x01 + x12) / 2;
-      const y012 = (y01 + y12) / 2;
-      const x123 = (x12 + x23) / 2;
-      const y123 = (y12 + y23) / 2;
-      const xm = (x012 + x123) / 2;
-      const ym = (y012 + y123) / 2;
-      const at = top * 8;
-      stack[at] = xm;
-      stack[at + 1] = ym;
-      stack[at + 2] = x123;
-      stack[at + 3] = y123;
-      stack[at + 4] = x23;
-      stack[at + 5] = y23;
-      stack[at + 6] = x3;
-      stack[at + 7] = y3;
-      const depth = depths[top] + 1;
-      depths[top] = depth;
-      depths[++top] = depth;
-      x1 = x01;
-      y1 = y01;
-      x2 = x012;
-      y2 = y012;
-      x3 = xm;
-      y3 = ym;
-      continue;
-    }
-    if (n === 1) out.push(x3, y3);
-    else writeSteps(out, x0, y0, x1, y1, x2, y2, x3, y3, n);
-    if (top === 0) return;
-    const at = --top * 8;
-    x0 = stack[at];
-    y0 = stack[at + 1];
-    x1 = stack[at + 2];
-    y1 = stack[at + 3];
-    x2 = stack[at + 4];
-    y2 = stack[at + 5];
-    x3 = stack[at + 6];
-    y3 = stack[at + 7];
+  flatten(out, x0, y0, x1, y1, x2, y2, x3, y3, tolerance, 0);
+}
+
+/** `depth`: how often the curve has been halved. */
+function flatten(
+  out: PointBuffer,
+  x0: number,
+  y0: number,
+  x1: number,
+  y1: number,
+  x2: number,
+  y2: number,
+  x3: number,
+  y3: number,
+  tolerance: number,
+  depth: number,
+): void {
+  const n = stepCount(x0, y0, x1, y1, x2, y2, x3, y3, tolerance);
+  if (n === 1) return out.push(x3, y3);
+  const canHalve = n > 2 && n < MAX_STEPS && depth < MAX_DEPTH;
+  if (!canHalve || !isUneven(x0, y0, x1, y1, x2, y2, x3, y3)) {
+    return writeSteps(out, x0, y0, x1, y1, x2, y2, x3, y3, n);
   }
+  // de Casteljau at t = 1/2.
+  const x01 = (x0 + x1) / 2;
+  const y01 = (y0 + y1) / 2;
+  const x12 = (x1 + x2) / 2;
+  const y12 = (y1 + y2) / 2;
+  const x23 = (x2 + x3) / 2;
+  const y23 = (y2 + y3) / 2;
+  const x012 = (x01 + x12) / 2;
+  const y012 = (y01 + y12) / 2;
+  const x123 = (x12 + x23) / 2;
+  const y123 = (y12 + y23) / 2;
+  const xm = (x012 + x123) / 2;
+  const ym = (y012 + y123) / 2;
+  flatten(out, x0, y0, x01, y01, x012, y012, xm, ym, tolerance, depth + 1);
+  flatten(out, xm, ym, x123, y123, x23, y23, x3, y3, tolerance, depth + 1);
 }
 
 /** Number of equal steps of t needed for the tolerance; 1 if the chord is enough. */

@@ -148,3 +148,11 @@ export function distance(x0: number, y0: number, x1: number, y1: number): number
   const dy = y1 - y0;
   return Math.sqrt(dx * dx + dy * dy);
 }
+
+/** Where on a segment it is nearest to (x, y): the share of its length before that point, 0 … 1. */
+export function nearestShare(x0: number, y0: number, x1: number, y1: number, x: number, y: number): number {
+  const dx = x1 - x0;
+  const dy = y1 - y0;
+  const length2 = dx * dx + dy * dy;
+  return length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
+}

@@ -2,7 +2,7 @@
  * Clip regions during import: a chain of nodes from the innermost outwards, shared by all shapes they clip.
  *
  * Most clips in exported files are the artboard's rectangle around everything. A node that is an axis-aligned
- * rectangle is skipped for every shape inside it, so such files cost the next stage nothing. A region gets an
+ * rectangle is skipped for every shape inside it, so such files need no clipping later. A region gets an
  * index only when a shape needs it.
  */
 import type { ClipRegion } from "../drawing/drawing.js";

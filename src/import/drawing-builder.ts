@@ -1,4 +1,5 @@
 /** Collects shapes into the columns of a Drawing. Only this file converts coordinates to page mm. */
+import { curveBoxOf } from "../drawing/curve-box.js";
 import {
   RULE_EVENODD,
   RULE_NONZERO,
@@ -8,11 +9,10 @@ import {
   type DrawingGroup,
 } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
-import type { Affine } from "../geometry/affine.js";
+import { IDENTITY, type Affine } from "../geometry/affine.js";
 import { boxOfPoints, EMPTY_BOX, uniteBoxes, type Box } from "../geometry/box.js";
 import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
-import { curveBoxOf } from "./curve-box.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 
@@ -147,7 +147,10 @@ export class DrawingBuilder {
     const coordOffsets = this.coordOffsets.data;
     for (let i = 0; i < this.shapeCount; i++) {
       const [from, to] = [verbOffsets[i], verbOffsets[i + 1]];
-      box = uniteBoxes(box, curveBoxOf(this.verbs.data, from, to, this.coords.data, coordOffsets[i]));
+      box = uniteBoxes(
+        box,
+        curveBoxOf(this.verbs.data, from, to, this.coords.data, coordOffsets[i], IDENTITY),
+      );
     }
     return box;
   }

@@ -9,7 +9,7 @@ export type TextMode = (typeof TEXT_MODES)[number];
 
 /** How to read a file. Every option has a default. */
 export interface ImportOptions {
-  /** SVG: px per inch, also for numbers without unit: 96 by CSS; 72 or 90 in files of some programs. */
+  /** SVG: px per inch, also for numbers without a unit. Default 96, as in CSS. Files of some programs use 72 or 90. */
   readonly pxPerInch?: number;
   /**
    * How text is drawn: in the built-in single-stroke letters (default), as outlines of `font`, or not at all.
@@ -18,7 +18,7 @@ export interface ImportOptions {
   readonly text?: TextMode;
   /** The font for outlines, from `openOutlineFont`. */
   readonly font?: TextFont;
-  /** For SVG's `switch` and `systemLanguage`, best first. Default: English. */
+  /** The user's languages for SVG's `switch` and `systemLanguage`, preferred first. Default: English. */
   readonly languages?: readonly string[];
 }
 

@@ -4,8 +4,10 @@
  * Invariants: every subpath begins with VERB_MOVE and has at least one more verb; a lone move is removed when
  * the next one begins. A dot is a move and a line to the same point.
  */
+import { curveBoxOf } from "../drawing/curve-box.js";
 import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../drawing/drawing.js";
-import { applyX, applyY, type Affine } from "../geometry/affine.js";
+import { applyX, applyY, IDENTITY, type Affine } from "../geometry/affine.js";
+import type { Box } from "../geometry/box.js";
 import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 
 export class ShapeBuffer {
@@ -133,3 +135,7 @@ export class ShapeBuffer {
     }
   }
 }
+
+/** The box of a finished shape's curves, not of their control points. */
+export const curveBox = ({ verbs, coords }: ShapeBuffer): Box =>
+  curveBoxOf(verbs.data, 0, verbs.length, coords.data, 0, IDENTITY);

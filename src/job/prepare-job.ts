@@ -35,7 +35,8 @@ export function prepareJob(
     // For an empty drawing its own warning is enough.
     const isEmpty = drawing.warnings.some(({ code }) => code === "empty-drawing");
     const reasons = drawing.warnings.map(({ message }) => message);
-    const why = isEmpty ? reasons : ["There is nothing to draw.", ...warnings];
+    // Otherwise the last of the warnings says that nothing is left.
+    const why = isEmpty ? reasons : warnings;
     throw new PlotwrightError("bad-file", why.join(" "));
   }
   checkBounds(prepared.strokes, machine);

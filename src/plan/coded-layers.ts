@@ -9,13 +9,13 @@
  *
  * Scale of +s: speed_lim_xy_hr and its use in AxiDraw's axidraw_conf.py and axidraw.py.
  */
+import { MM_PER_INCH } from "../units.js";
 import { settingsIdOf, type StrokeLayer } from "../drawing/stroke-set.js";
 import { parseLayerName, type LayerCodes } from "../prepare/layer-codes.js";
 import { penOfLayer } from "./pen-times.js";
 import type { LayerMotion, MotionSettings } from "../settings/motion.js";
 import type { LayerPen, PenSettings } from "../settings/pen.js";
 
-const MM_PER_INCH = 25.4;
 /** mm/s per percent. */
 const SPEED_OF_PCT = (8.6979 * MM_PER_INCH) / 110;
 const LONGEST_WAIT_MS = 60_000;

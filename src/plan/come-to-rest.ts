@@ -22,9 +22,12 @@ import type { PenSettings } from "../settings/pen.js";
 import { fillAlong } from "./shaped-along.js";
 import { shapeRest } from "./shaped-rest.js";
 import {
+  blockAt,
   blockLength,
   blockState,
   newMotionState,
+  runEndS,
+  runOfBlock,
   stateAt,
   type MotionState,
   type PlannedMotion,
@@ -103,12 +106,12 @@ function shapedRest(
   accel: number,
   lift: Lift | null,
 ): RestPlan {
-  const run = trajectory.blockCount > 0 ? runOf(trajectory, blockAt(trajectory, tS)) : 0;
-  const runEndS = endOfRun(trajectory, run);
+  const run = runOfBlock(trajectory, Math.max(0, blockAt(trajectory, tS)));
+  const endS = runEndS(trajectory, run);
   const state = stateAt(trajectory, tS);
   const pieces = new BlockColumns(0, false);
-  if (tS >= runEndS) return finish(pieces, state, tS, -1, lift);
-  const plannedEndS = endOfRun(planned, run);
+  if (trajectory.blockCount === 0 || tS >= endS) return finish(pieces, state, tS, -1, lift);
+  const plannedEndS = runEndS(planned, run);
   const { vx, vy } = stateAt(planned, tS);
   const speed2 = vx * vx + vy * vy;
   let stopS = Math.min(tS, plannedEndS);
@@ -117,7 +120,7 @@ function shapedRest(
   const rest = shapeRest(planned, run, kernel, tS, state, pieces, end);
   // At the start of a run nothing moves yet.
   if (rest.shaped.count === 0) return finish(pieces, end, tS, -1, lift);
-  const planS = stopS < plannedEndS - SHORTEST_PIECE_S ? stopS + kernel.meanDelayS : runEndS;
+  const planS = stopS < plannedEndS - SHORTEST_PIECE_S ? stopS + kernel.meanDelayS : endS;
   return finish(rest.shaped, end, planS, state.stroke, lift, { rest: rest.planned, kernel });
 }
 
@@ -130,8 +133,8 @@ function slowDown(
   pieces: BlockColumns,
 ): number {
   const { runs, durationS, startS } = trajectory;
-  let k = blockAt(trajectory, tS);
-  const end = runs.firstBlock[runOf(trajectory, k) + 1];
+  let k = Math.max(0, blockAt(trajectory, tS));
+  const end = runs.firstBlock[runOfBlock(trajectory, k) + 1];
   let v2 = speed2;
   let t = tS - startS[k];
   for (; k < end; k++, t = 0) {
@@ -271,34 +274,4 @@ function finish(
   const before = oneRun(planned.rest);
   fillAlong(trajectory, before, planned.kernel.meanDelayS);
   return { trajectory: { ...trajectory, planned: { trajectory: before, kernel: planned.kernel } }, planS };
-}
-
-/** The block that is running at `tS`. */
-function blockAt(trajectory: Trajectory, tS: number): number {
-  let low = 0;
-  let high = trajectory.blockCount;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (trajectory.startS[middle] <= tS) low = middle;
-    else high = middle;
-  }
-  return low;
-}
-
-function runOf(trajectory: Trajectory, block: number): number {
-  const { firstBlock, count } = trajectory.runs;
-  let low = 0;
-  let high = count;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (firstBlock[middle] <= block) low = middle;
-    else high = middle;
-  }
-  return low;
-}
-
-/** When a run's last block ends, s. */
-function endOfRun({ runs, startS, durationS, totalS }: Trajectory, run: number): number {
-  const last = runs.firstBlock[run + 1] - 1;
-  return last >= runs.firstBlock[run] ? startS[last] + durationS[last] : totalS;
 }

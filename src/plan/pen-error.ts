@@ -1,5 +1,6 @@
 /** The deviation of the drawn line from the drawing on a machine that swings (model: spring-pen.ts). */
 import type { StrokeSet } from "../drawing/stroke-set.js";
+import { distance, nearestShare } from "../geometry/polyline.js";
 import type { Springs } from "../machines/profile.js";
 import { swingPen, type PenPoint } from "./spring-pen.js";
 import type { Trajectory } from "./trajectory.js";
@@ -73,19 +74,16 @@ class NearLine {
       this.startMm += length;
       this.point++;
     }
-    let nearest2 = Infinity;
+    let nearestMm = Infinity;
     let fromMm = this.startMm;
     for (let i = this.point; i <= Math.max(first, last - 1) && fromMm <= alongMm + NEAR_MM; i++) {
       const j = Math.min(i + 1, last);
-      const [dx, dy] = [xy[2 * j] - xy[2 * i], xy[2 * j + 1] - xy[2 * i + 1]];
-      const [px, py] = [x - xy[2 * i], y - xy[2 * i + 1]];
-      const length2 = dx * dx + dy * dy;
-      const share = length2 > 0 ? Math.min(1, Math.max(0, (px * dx + py * dy) / length2)) : 0;
-      const [ex, ey] = [px - share * dx, py - share * dy];
-      nearest2 = Math.min(nearest2, ex * ex + ey * ey);
-      fromMm += Math.sqrt(length2);
+      const [x0, y0, x1, y1] = [xy[2 * i], xy[2 * i + 1], xy[2 * j], xy[2 * j + 1]];
+      const share = nearestShare(x0, y0, x1, y1, x, y);
+      nearestMm = Math.min(nearestMm, distance(x, y, x0 + share * (x1 - x0), y0 + share * (y1 - y0)));
+      fromMm += distance(x0, y0, x1, y1);
     }
-    return Math.sqrt(nearest2);
+    return nearestMm;
   }
 
   private lengthOf(i: number): number {

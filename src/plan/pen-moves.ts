@@ -1,5 +1,6 @@
 /** A plan's pen moves: stored in columns, read as objects. */
-import type { PenMove, PenMoveColumns } from "./trajectory.js";
+import { firstWhere } from "../geometry/binary-search.js";
+import { SAME_TIME_S, type PenMove, type PenMoveColumns } from "./trajectory.js";
 
 export class PenMoveWriter implements PenMoveColumns {
   count = 0;
@@ -55,19 +56,22 @@ export function penMoveColumns(moves: readonly PenMove[]): PenMoveColumns {
   return writer.finish();
 }
 
-/** Rounding difference between a command's plan time and the trajectory's. */
-const SAME_TIME_S = 1e-7;
-
 /** The height to which the last pen move before `tS` lifts the pen; null if it lowers it, or there is none. */
-export function liftedTo({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): number | null {
-  let last = -1;
-  while (last + 1 < penMoves.count && penMoves.startS[last + 1] < tS - SAME_TIME_S) last++;
+export function liftedTo({ penMoves }: WithPenMoves, tS: number): number | null {
+  const last = lastBefore(penMoves, tS);
   return last >= 0 && penMoves.up[last] === 1 ? penMoves.heightPct[last] : null;
 }
 
 /** True if the last pen move before `tS` lifts the pen, or there is none. */
-export function isPenUpBefore({ penMoves }: { readonly penMoves: PenMoveColumns }, tS: number): boolean {
-  let up = true;
-  for (let i = 0; i < penMoves.count && penMoves.startS[i] < tS - SAME_TIME_S; i++) up = penMoves.up[i] === 1;
-  return up;
+export function isPenUpBefore({ penMoves }: WithPenMoves, tS: number): boolean {
+  const last = lastBefore(penMoves, tS);
+  return last < 0 || penMoves.up[last] === 1;
 }
+
+interface WithPenMoves {
+  readonly penMoves: PenMoveColumns;
+}
+
+/** The last pen move that begins before `tS`; −1 if there is none. */
+const lastBefore = ({ count, startS }: PenMoveColumns, tS: number): number =>
+  firstWhere(0, count, (i) => startS[i] >= tS - SAME_TIME_S) - 1;

@@ -1,8 +1,5 @@
 /** The place in the drawing at a given time of a plan. */
-import { stateAt, type Place, type Trajectory } from "./trajectory.js";
-
-/** Rounding difference between a command's plan time and the trajectory's. */
-const SAME_TIME_S = 1e-7;
+import { SAME_TIME_S, stateAt, type Place, type Trajectory } from "./trajectory.js";
 
 /** The first place still to be drawn at `planS`, where the carriage is at rest; null if everything is drawn. */
 export function nextPlace(trajectory: Trajectory, planS: number): Place | null {

@@ -1,3 +1,4 @@
+import { firstWhere } from "../geometry/binary-search.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
 /** Finds the time of a place in a trajectory, fast enough for frequent progress reports. */
@@ -22,17 +23,11 @@ export class PlaceTimes {
     const run = this.runOfStroke.get(place.stroke);
     if (run === undefined) return null;
     const { alongMm, startS, durationS, runs } = this.trajectory;
-    let low = runs.firstBlock[run];
-    let high = runs.firstBlock[run + 1];
-    if (low === high) return runs.startS[run];
-    const lastBlock = high - 1;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (alongMm[middle] <= place.alongMm) low = middle;
-      else high = middle;
-    }
-    const spanMm = low < lastBlock ? alongMm[low + 1] - alongMm[low] : 0;
-    const share = spanMm > 0 ? Math.min(1, Math.max(0, (place.alongMm - alongMm[low]) / spanMm)) : 0;
-    return startS[low] + share * durationS[low];
+    const [first, end] = [runs.firstBlock[run], runs.firstBlock[run + 1]];
+    if (first === end) return runs.startS[run];
+    const k = firstWhere(first + 1, end, (i) => alongMm[i] > place.alongMm) - 1;
+    const spanMm = k + 1 < end ? alongMm[k + 1] - alongMm[k] : 0;
+    const share = spanMm > 0 ? Math.min(1, Math.max(0, (place.alongMm - alongMm[k]) / spanMm)) : 0;
+    return startS[k] + share * durationS[k];
   }
 }

@@ -9,7 +9,8 @@
  * The first match after the journal's place is used: a part drawn twice does less harm than a missing one.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
-import { strokeLengthMm } from "./place-on-drawing.js";
+import { nearestShare } from "../geometry/polyline.js";
+import { pointOfPlace, strokeLengthMm } from "./place-on-drawing.js";
 import type { Place } from "./trajectory.js";
 
 /** Tolerance for rounded corners, merged blocks and whole steps, mm. */
@@ -17,6 +18,8 @@ const NEAR_MM = 0.08;
 
 /** A pen that is down this near to a stroke's start may not have reached it yet: by rounding, or by pen-flight.ts; mm. */
 const LANDING_MM = 0.15;
+/** Error of a position that is rounded to whole steps, mm. */
+const STEP_MM = 0.01;
 /** Max distance of the carriage from the drawing: `leavesMm` by shaping (shapers.ts), and all else. */
 const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
 
@@ -79,22 +82,25 @@ export function stoppedPlace(
 
 /**
  * Whether the pen is down while the carriage is still travelling to the stroke. A stroke may lead back along the travel:
- * then a position within `landingMm` of its start does not prove that the stroke has begun.
+ * then a position near its start may be on either, and the nearer of the two counts.
  *
  * @param alongMm where on the stroke the carriage may be instead, if anywhere
  */
 function isLanding(
-  { xy, offsets }: StrokeSet,
+  strokes: StrokeSet,
   stroke: number,
   pen: PenPlace,
   { landingMm, nearMm, alongMm }: { landingMm: number; nearMm: number; alongMm: number | null },
 ): boolean {
+  const { xy, offsets } = strokes;
   const start = 2 * offsets[stroke];
   const awayMm = Math.hypot(xy[start] - pen.x, xy[start + 1] - pen.y);
-  if (awayMm <= LANDING_MM) return alongMm === null;
-  if (awayMm > landingMm || stroke === 0) return false;
   const travel = [xy[start - 2], xy[start - 1], xy[start], xy[start + 1]] as const;
-  return nearest(...travel, pen.x, pen.y).awayMm <= nearMm;
+  const travelMm = stroke === 0 ? Infinity : nearest(...travel, pen.x, pen.y).awayMm;
+  if (awayMm > LANDING_MM) return awayMm <= landingMm && travelMm <= nearMm;
+  if (alongMm === null) return true;
+  const { x, y } = pointOfPlace(strokes, { stroke, alongMm });
+  return travelMm <= Math.hypot(x - pen.x, y - pen.y) + STEP_MM;
 }
 
 /**
@@ -152,8 +158,6 @@ function nearest(
   x: number,
   y: number,
 ): { share: number; awayMm: number } {
-  const [dx, dy] = [x1 - x0, y1 - y0];
-  const length2 = dx * dx + dy * dy;
-  const share = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
-  return { share, awayMm: Math.hypot(x0 + share * dx - x, y0 + share * dy - y) };
+  const share = nearestShare(x0, y0, x1, y1, x, y);
+  return { share, awayMm: Math.hypot(x0 + share * (x1 - x0) - x, y0 + share * (y1 - y0) - y) };
 }

@@ -39,7 +39,7 @@ export function swungPlace(
     const [x, y] = [carriage.x + axisX.d, carriage.y + axisY.d];
     const pen = { x, y, vx: axisX.rate, vy: axisY.rate };
     now = snappedPlace(strokes, now, pen, STEP_S * Math.hypot(pen.vx, pen.vy) + NEAR_MM);
-    // Turned back, it stays where it was.
+    // Once the pen has turned back, its place no longer changes, and the pen moves away from it.
     const on = pointOfPlace(strokes, now);
     if (Math.hypot(on.x - x, on.y - y) > NEAR_MM) break;
     if (now.alongMm > furthest.alongMm) furthest = now;

@@ -1,3 +1,4 @@
+import { firstWhere } from "../geometry/binary-search.js";
 import type { Kernel } from "./impulse-filter.js";
 
 /**
@@ -100,6 +101,9 @@ export interface Place {
   readonly alongMm: number;
 }
 
+/** Rounding difference between a command's plan time and the trajectory's. */
+export const SAME_TIME_S = 1e-7;
+
 /** One instant of a trajectory: mm in the machine frame, mm/s, mm/s². */
 export interface MotionState {
   x: number;
@@ -138,10 +142,10 @@ export function stateAt(
   const move = lastNotAfter(tS, penMoves.count, (i) => penMoves.startS[i]);
   out.penUp = move < 0 || penMoves.up[move] === 1;
   out.penMoving = move >= 0 && tS < penRestS(trajectory, move);
-  const k = lastNotAfter(tS, trajectory.blockCount, (i) => trajectory.startS[i]);
+  const k = blockAt(trajectory, tS);
   if (k < 0) return rest(out, startOf(trajectory));
   const t = tS - trajectory.startS[k];
-  const run = lastNotAfter(k, runs.count, (i) => runs.firstBlock[i]);
+  const run = runOfBlock(trajectory, k);
   // The end of a block belongs to that block, unless another block or a wait follows immediately.
   if (t >= trajectory.durationS[k] && (tS >= trajectory.totalS || endsRun(trajectory, k))) {
     blockState(trajectory, k, trajectory.durationS[k], out);
@@ -278,9 +282,21 @@ const GAUSS_WEIGHTS = [5 / 18, 8 / 18, 5 / 18];
 
 /** True if block `k` is the last of its run. */
 function endsRun(trajectory: Trajectory, k: number): boolean {
-  const { firstBlock, count } = trajectory.runs;
-  const run = lastNotAfter(k, count, (i) => firstBlock[i]);
-  return firstBlock[run + 1] === k + 1;
+  return trajectory.runs.firstBlock[runOfBlock(trajectory, k) + 1] === k + 1;
+}
+
+/** The last block that begins at or before `tS`; −1 before the first. */
+export const blockAt = ({ startS, blockCount }: Trajectory, tS: number): number =>
+  lastNotAfter(tS, blockCount, (k) => startS[k]);
+
+/** The run that block `k` belongs to. */
+export const runOfBlock = ({ runs }: Trajectory, k: number): number =>
+  lastNotAfter(k, runs.count, (run) => runs.firstBlock[run]);
+
+/** When a run's motion ends, s; for a dot, which has no blocks, when it begins. */
+export function runEndS({ runs, startS, durationS }: Trajectory, run: number): number {
+  const end = runs.firstBlock[run + 1];
+  return end > runs.firstBlock[run] ? startS[end - 1] + durationS[end - 1] : runs.startS[run];
 }
 
 function rest(out: MotionState, [x, y]: readonly [number, number]): MotionState {
@@ -298,13 +314,5 @@ function startOf(trajectory: Trajectory): readonly [number, number] {
 const endOf = (trajectory: Trajectory): readonly [number, number] => [trajectory.endX, trajectory.endY];
 
 /** Index of the last of `count` ascending values that is ≤ `value`; −1 if none is. */
-function lastNotAfter(value: number, count: number, at: (index: number) => number): number {
-  let low = 0;
-  let high = count;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (at(middle) <= value) low = middle + 1;
-    else high = middle;
-  }
-  return low - 1;
-}
+const lastNotAfter = (value: number, count: number, at: (index: number) => number): number =>
+  firstWhere(0, count, (i) => at(i) > value) - 1;

@@ -8,8 +8,7 @@
  * Symbols: end 2i is the first point of line i, end 2i + 1 its last. `far[e]` is the other end of the chain that ends in
  * e (valid for chain ends only). It shows when a pair would join a chain to itself, which is allowed only for real loops.
  *
- * No points move: joining adds the gap, at most `radius`, as a straight segment. Dots and closed lines are
- * unchanged.
+ * No points move: joining adds the gap, at most `radius`, as a straight segment. Dots and closed lines are unchanged.
  */
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 import { LineBuilder, SAME_POINT, isClosedLine, lineLength, type Lines } from "../geometry/polyline.js";

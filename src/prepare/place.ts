@@ -7,6 +7,7 @@
  *        y  └───────────┘           true     page corner on paper corner
  *                                   place    the content's box as given, then turned about its centre
  */
+import { curveBoxOf } from "../drawing/curve-box.js";
 import type { ClipRegion, Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
 import { PlotwrightError } from "../errors.js";
@@ -21,7 +22,6 @@ import {
   type Affine,
 } from "../geometry/affine.js";
 import { EMPTY_BOX, boxOfPoints, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
-import { boundsOfVerbs } from "./bounds.js";
 import type { MirrorMode, PlacedBox, PrepareSettings } from "../settings/prepare.js";
 
 export interface Placement {
@@ -117,7 +117,7 @@ function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: readonly B
   let whole = EMPTY_BOX;
   let hasEmpty = false;
   for (let i = 0; i < count; i++) {
-    const box = boundsOfVerbs(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map);
+    const box = curveBoxOf(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map);
     boxes.push(box);
     if (isEmptyBox(box)) hasEmpty = true;
     whole = uniteBoxes(whole, box);
@@ -145,7 +145,7 @@ function contentBox(drawing: Drawing, boxes: readonly Box[], whole: Box, map: Af
 }
 
 const clipBox = ({ verbs, coords }: ClipRegion, map: Affine): Box =>
-  boundsOfVerbs(verbs, 0, verbs.length, coords, 0, map);
+  curveBoxOf(verbs, 0, verbs.length, coords, 0, map);
 
 /** mm. Anything beyond this (a thousand kilometres) is an error in the file. */
 const FAR_AWAY = 1e9;

@@ -7,7 +7,7 @@
  */
 import type { Drawing } from "../drawing/drawing.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
-import { lineCount, totalLength } from "../geometry/polyline.js";
+import { lineCount, totalLength, type Lines } from "../geometry/polyline.js";
 import { filledAreas, filledOnly } from "./areas.js";
 import {
   byLayer,
@@ -144,20 +144,15 @@ export function prepare(
   if (lineCount(lines) === 0) warnings.push(emptyWarning(drawing, isVisible));
   const passesOf = (part: number): number =>
     setFor(settings.layerRepeats, table.layers[parts.layer[part]].id) ?? 1;
-  const asInFile = repeatLines(lines, passesOf);
-  const unordered = travelAsDrawn(asInFile);
-  const asDrawnMm = asInFile === lines ? unordered : travelAsDrawn(lines);
-  const tour = orderLines(lines, asDrawnMm, settings, within(options, 0.55, 0.98));
-  const spread = spreadLines(linesOfTour(lines, tour), settings.spread);
-  lines = repeatLines(spread, passesOf);
-  const isOnceEach = lines === spread;
-  let travelMm = travelAsDrawn(lines);
-  // With several passes, an order with less travel per pass may need more travel between passes.
-  if (settings.spread === "none" && travelMm > unordered) {
-    lines = asInFile;
-    travelMm = unordered;
-  }
-  const strokes = strokeSetOf(lines, parts, table.layers, isVisible, settings.reinkMm, settings.layerShifts);
+  const ordered = inDrawingOrder(lines, passesOf, settings, within(options, 0.55, 0.98));
+  const strokes = strokeSetOf(
+    ordered.lines,
+    parts,
+    table.layers,
+    isVisible,
+    settings.reinkMm,
+    settings.layerShifts,
+  );
 
   progress(1, "done");
   return {
@@ -165,20 +160,40 @@ export function prepare(
     layers,
     paperWidthMm: place.paper.x1,
     paperHeightMm: place.paper.y1,
-    travelMmUnordered: unordered,
-    travelMm,
-    drawMm: isOnceEach ? drawnMm(layers) : totalLength(lines),
+    travelMmUnordered: ordered.travelMmUnordered,
+    travelMm: ordered.travelMm,
+    drawMm: totalLength(ordered.lines),
     warnings,
   };
+}
+
+/** Lines in drawing order, each as often as its layer is drawn, and the travel before and after ordering. */
+interface Ordered extends Pick<Prepared, "travelMmUnordered" | "travelMm"> {
+  readonly lines: Lines;
+}
+
+function inDrawingOrder(
+  lines: Lines,
+  passesOf: (part: number) => number,
+  settings: PrepareSettings,
+  work: Work,
+): Ordered {
+  const asInFile = repeatLines(lines, passesOf);
+  const travelMmUnordered = travelAsDrawn(asInFile);
+  const tour = orderLines(lines, travelAsDrawn(lines), settings, work);
+  const inOrder = repeatLines(spreadLines(linesOfTour(lines, tour), settings.spread), passesOf);
+  const travelMm = travelAsDrawn(inOrder);
+  // With several passes, an order with less travel per pass may need more travel between passes.
+  if (settings.spread === "none" && travelMm > travelMmUnordered) {
+    return { lines: asInFile, travelMmUnordered, travelMm: travelMmUnordered };
+  }
+  return { lines: inOrder, travelMmUnordered, travelMm };
 }
 
 const nothingToFill = (withOutlines: boolean): string =>
   withOutlines
     ? "There is nothing to fill with lines: no filled shape and no closed line."
     : "There is nothing to fill with lines: no shape of this drawing is filled. Fill closed outlines too, or give shapes a fill.";
-
-const drawnMm = (layers: readonly PreparedLayer[]): number =>
-  layers.reduce((sum, { visible, drawMm }) => (visible ? sum + drawMm : sum), 0);
 
 /** The same work, with its progress mapped to a part of the whole. */
 const within = (work: Work, from: number, to: number): Work => ({

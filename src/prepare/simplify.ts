@@ -8,7 +8,7 @@
  *
  * The distance is measured to the chord as a segment, so a line that doubles back keeps its turning point.
  */
-import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
+import { LineBuilder, lineCount, nearestShare, type Lines } from "../geometry/polyline.js";
 
 /** No dropped point is farther than `tolerance` mm from the new line; end points stay. */
 export function simplifyLines(lines: Lines, tolerance: number): Lines {
@@ -50,15 +50,10 @@ function keptPoints(xy: Float64Array, first: number, points: number, tolerance: 
 }
 
 function distance2ToSegment(xy: Float64Array, p: number, a: number, b: number): number {
-  const ax = xy[2 * a];
-  const ay = xy[2 * a + 1];
-  const dx = xy[2 * b] - ax;
-  const dy = xy[2 * b + 1] - ay;
-  const px = xy[2 * p] - ax;
-  const py = xy[2 * p + 1] - ay;
-  const length2 = dx * dx + dy * dy;
-  const t = length2 > 0 ? Math.min(Math.max((px * dx + py * dy) / length2, 0), 1) : 0;
-  const ex = px - t * dx;
-  const ey = py - t * dy;
+  const [x0, y0, x1, y1] = [xy[2 * a], xy[2 * a + 1], xy[2 * b], xy[2 * b + 1]];
+  const [x, y] = [xy[2 * p], xy[2 * p + 1]];
+  const t = nearestShare(x0, y0, x1, y1, x, y);
+  const ex = x - x0 - t * (x1 - x0);
+  const ey = y - y0 - t * (y1 - y0);
   return ex * ex + ey * ey;
 }

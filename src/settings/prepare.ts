@@ -5,7 +5,6 @@ export const LAYER_MODES = ["group", "stroke", "all"] as const;
 export type LayerMode = (typeof LAYER_MODES)[number];
 
 export const ORDER_MODES = ["none", "fast", "best"] as const;
-export type OrderMode = (typeof ORDER_MODES)[number];
 
 export const MIRROR_MODES = ["none", "leftRight", "upDown"] as const;
 export type MirrorMode = (typeof MIRROR_MODES)[number];

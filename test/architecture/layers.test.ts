@@ -95,17 +95,17 @@ describe("the layers of src", () => {
     expect(wrong.map(write)).toEqual([]);
   });
 
-  it("have no circle among their files or folders, deep ones too", () => {
+  it("have no import cycle among their files or folders, however long", () => {
     expect(circleOfFiles("src", SOURCES)).toEqual([]);
     expect(circleOfFolders("src", SOURCES)).toEqual([]);
   });
 
-  it("know nothing of Node, of server, web or test", () => {
+  it("use nothing of Node, server, web or test", () => {
     const wrong = importsIn("src").filter(({ to }) => /^(node:|server\/|web\/|test\/|scripts\/)/.test(to));
     expect(wrong.map(write)).toEqual([]);
   });
 
-  it("keep zod to src/schema, so the planning worker does not carry it", () => {
+  it("use zod only in src/schema, so that the planning worker does not load it", () => {
     const wrong = importsIn("src").filter(({ from, to }) => to === "zod" && !from.startsWith("src/schema/"));
     expect(wrong.map(write)).toEqual([]);
     expect(
@@ -169,7 +169,7 @@ describe("the folders of server", () => {
     return SERVER_LAYERS.indexOf(folder.startsWith("server/plugins/") ? "server/plugins/*" : folder);
   };
 
-  it("have no circle among their files or folders", () => {
+  it("have no import cycle among their files or folders", () => {
     expect(circleOfFiles("server", SOURCES)).toEqual([]);
     expect(circleOfFolders("server", SOURCES)).toEqual([]);
   });
@@ -180,7 +180,7 @@ describe("the folders of server", () => {
     expect(wrong.map(write)).toEqual([]);
   });
 
-  it("are not the place of entries, which are the only files beside them", () => {
+  it("contain no entries, which are the only files beside them", () => {
     const files = sourceFiles("server").filter((file) => path.posix.dirname(file) === "server");
     expect(files.sort()).toEqual(["server/index.ts", "server/main.ts"]);
   });
@@ -247,7 +247,7 @@ describe("the folders of web", () => {
   });
 });
 
-describe("the seams", () => {
+describe("the boundaries", () => {
   it("keep the commands of a controller in its driver's folder", () => {
     expect(foreignCommands(SOURCES)).toEqual([]);
   });

@@ -91,7 +91,7 @@ function worth(springs: Springs, firmware: string) {
 // `npm test` has one machine and fewer drawings.
 describe.each(SPRINGS.slice(0, cases(SPRINGS.length, 1)))("on springs of $xHz and $yHz Hz", (springs) => {
   it.each(["2.8.1", "3.0.3"])(
-    "the pen of a board draws as exactly as promised, and as soon, on firmware %s",
+    "the pen of a board is as exact and as fast as promised, on firmware %s",
     { timeout: 1_800_000 },
     (firmware) => {
       const { fine, fast } = worth(springs, firmware);

@@ -172,7 +172,7 @@ function runOf(pieceS: number, joints: readonly Point[]): Trajectory {
 }
 
 describe("a motor that reverses where two pieces of the plan meet", () => {
-  it.each(["2.5.3", "2.8.1", "3.0.3"])("stops there, and does not jump on firmware %s", (firmware) => {
+  it.each(["2.5.3", "2.8.1", "3.0.3"])("stops at the reversal without a jump, on firmware %s", (firmware) => {
     // Motor speeds x + y and x − y: one reverses 3 ms before the second joint, the other exactly at it.
     const trajectory = runOf(0.078, [
       [-30.9, 23.1],

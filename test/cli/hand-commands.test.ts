@@ -42,6 +42,11 @@ describe("without a plotter", () => {
     expect(err).toMatch(/^plotwright: No plotter is plugged in: [^\n]*--device virtual\.\n$/);
   });
 
+  it("an unknown machine is bad usage, not a missing board", async () => {
+    const { code, err } = await cli("info", "--machine", "typewriter", "--device", "virtual", "--data", data);
+    expect([code, err]).toEqual([2, expect.stringMatching(/There is no machine "typewriter"\. Known/)]);
+  });
+
   it(
     "the virtual board is used on request",
     async () => {

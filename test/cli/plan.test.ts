@@ -103,7 +103,7 @@ describe("plotwright plan", () => {
     expect(out).toMatch(/^EM,1/);
   });
 
-  it("refuses --json together with --commands -, as both want stdout", async () => {
+  it("refuses --json together with --commands -, because both write to stdout", async () => {
     expect(await cli("plan", sample(firstSample), "--json", "--commands", "-")).toMatchObject({
       code: 2,
       out: "",
@@ -200,7 +200,7 @@ describe("bad input on the command line", () => {
   const svg = (content: string, attributes = 'width="100mm" height="100mm" viewBox="0 0 100 100"'): string =>
     `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ${attributes} fill="none" stroke="black">${content}</svg>`;
 
-  it("ends with 3 and one line that explains the fault, for files that can't be plotted", async () => {
+  it("exits with 3 and one line that explains the fault, for files that can't be plotted", async () => {
     const files: Record<string, string> = {
       absent: join(dir, "absent.svg"),
       folder: dir,
@@ -228,7 +228,7 @@ describe("bad input on the command line", () => {
     }
   });
 
-  it("never expands entities, so a bomb of them is at most a short text", async () => {
+  it("never expands entities, so an entity bomb stays a short text", async () => {
     const entities = [..."bcdefghij"]
       .map((name, i) => `<!ENTITY ${name} "${`&${"abcdefghij"[i]};`.repeat(10)}">`)
       .join("");
@@ -266,7 +266,7 @@ describe("bad input on the command line", () => {
     }
   });
 
-  it("ends with 2 for unknown usage, and writes nothing", async () => {
+  it("exits with 2 for unknown usage, and writes nothing", async () => {
     const file = write("good.svg", svg('<path d="M10 10h50"/>'));
     const out = join(dir, "out.txt");
     for (const args of [

@@ -57,6 +57,8 @@ describe("plotwright plot", () => {
       io.line();
       expect((await plotted).code).toBe(0);
       expect(io.errText).toMatch(/Done: stdin/);
+      const quiet = ["--copies", "2", "--paper-s", "0", "--quiet"];
+      expect(await plot(withoutKeyboard(), file, ...quiet)).toEqual({ code: 0, out: "", err: "" });
       const refused = await plot(withoutKeyboard(), file, "--copies", "2");
       expect(refused).toMatchObject({ code: 2, err: expect.stringMatching(/--paper-s/) as string });
       const copies = await plot(withoutKeyboard(), file, "--copies", "3", "--paper-s", "0");
@@ -80,9 +82,16 @@ describe("plotwright plot", () => {
       expect(refused.code).toBe(5);
       const sent = { stroke: 0, alongMm: 4 };
       expect(record.find()).toMatchObject({ from: { stroke: 0, alongMm: 3 }, sent, progress: 0.4 });
-      const resumed = await plot(withoutKeyboard(), "--resume");
-      expect(resumed.err).toMatch(/^Resuming b\.svg\.\nDone: b\.svg/);
-      expect([resumed.code, record.find()]).toEqual([0, null]);
+      for (const other of [["--speed", "20"], ["--copies", "2"], ["--restart"], ["--no-fit"]]) {
+        const { code, err } = await plot(withoutKeyboard(), "--resume", ...other);
+        expect([code, err.trim()]).toEqual([2, expect.stringMatching(`leave out ${other[0]}\\.$`)]);
+      }
+      const resumed = await plot(withoutKeyboard(), "--resume", "--quiet");
+      expect(resumed).toEqual({ code: 0, out: "", err: "" });
+      cutShort();
+      const again = await plot(withoutKeyboard(), "--resume");
+      expect(again.err).toMatch(/^Resuming b\.svg\.\nDone: b\.svg/);
+      expect([again.code, record.find()]).toEqual([0, null]);
       expect((await plot(new CaughtIo(), "--resume")).err).toMatch(/nothing to resume/);
       cutShort();
       expect((await plot(new CaughtIo(), file, "--restart")).code).toBe(0);
@@ -128,7 +137,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "plots what comes through a pipe",
+    "plots a drawing that comes through a pipe",
     async () => {
       const pipe = join(dir, "pipe");
       execFileSync("mkfifo", [pipe]);

@@ -14,6 +14,7 @@ import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { machineById } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { cliReference } from "../../scripts/cli-reference.js";
+import { SharedDatabase, send, share, sharedJobsOf, stateOf } from "../server/support/shared-servers.js";
 import { CaughtIo, cliWith, type CliRun } from "./support.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
@@ -37,7 +38,7 @@ beforeAll(async () => {
   writeFileSync(join(folder, "machine.json"), JSON.stringify(machine));
   writeFileSync(join(folder, "measured.json"), JSON.stringify({ ...machine, springs }));
   writeFileSync(join(folder, "settings.json"), "{}");
-  mkdirSync(join(folder, "drawings"));
+  for (const name of ["drawings", "data"]) mkdirSync(join(folder, name));
   vi.stubEnv("XDG_CONFIG_HOME", folder);
   process.chdir(folder);
   const options = { port: 0, dataDir: join(folder, "server"), device: "virtual", log: () => undefined };
@@ -51,7 +52,7 @@ afterAll(async () => {
 });
 
 /** Added by the test, so that a line touches nothing outside its folder and takes no real time. */
-function additionsOf(command: string): string[] {
+function additionsOf(command: string, args: readonly string[] = []): string[] {
   const data = ["--data", join(folder, "data")];
   const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
   switch (command) {
@@ -66,7 +67,7 @@ function additionsOf(command: string): string[] {
     case "serve":
       return ["--port", "0", "--no-mdns", ...board];
     case "plot":
-      return ["--paper-s", "0", ...board];
+      return args.includes("--resume") ? board : ["--paper-s", "0", ...board];
     case "add":
     case "queue":
       return ["--url", server.url];
@@ -86,10 +87,10 @@ const CODES: Readonly<Record<string, number>> = { "plotwright service status": 3
 const TAKE_DRAWINGS = ["plan", "plot", "add", "frame"];
 /** Options that a test cannot run, and why. `service` has options only in its own commands. */
 const NOT_RUN: Readonly<Record<string, string>> = {
-  "serve --open": "it would open a browser",
-  "add --url": "every line of add has it, since the server takes a free port",
-  "queue --url": "every line of queue has it",
-  "serve --shared-queue": "it needs a PostgreSQL database: test/server/shared-queue.alone.test.ts",
+  "serve --open": "it would open a browser: it has a test below",
+  "add --url": "every line of add has it, and it has a test below",
+  "queue --url": "every line of queue has it, and it has a test below",
+  "serve --shared-queue": "it needs a PostgreSQL database: it has a test below",
 };
 
 /** A value for each option that takes one and has no default or choices; some for one command only. */
@@ -106,6 +107,7 @@ const VALUES: Readonly<Record<string, string>> = {
   "board --pty": "plotter",
   "board --firmware": "3.0.3",
   "ringing --ripples": "5",
+  "ringing --at": "30.1",
   "--commands": "-",
   "--preview": "-",
   "--svg": "-",
@@ -119,7 +121,6 @@ const VALUES: Readonly<Record<string, string>> = {
   "serve --key": TLS.key,
   "--allow-host": "studio.local",
   "--watch": "drawings",
-  "--shared-queue": "postgres://127.0.0.1/plots",
   "--max-upload-mb": "20",
   "--out": "plotwright.log",
   "--pty": "plotter",
@@ -140,6 +141,9 @@ const WITH: Readonly<Record<string, readonly string[]>> = {
   "test-patch --shaper": ["--machine-file", "measured.json"],
   "plan --pen-error": ["--spring-x", "15", "--spring-y", "25"],
   "ringing --ripples": ["--at", "30.1"],
+  "ringing --at": ["--ripples", "5"],
+  "ringing --spring-x": ["--check", "--spring-y", "25"],
+  "ringing --spring-y": ["--check", "--spring-x", "15"],
   "ringing --check": ["--spring-x", "15", "--spring-y", "25"],
   "--spring-x": ["--spring-y", "25"],
   "--spring-y": ["--spring-x", "15"],
@@ -220,7 +224,7 @@ describe("each option in docs/cli.md", async () => {
     "$name $flag runs",
     async ({ name, flag, args }) => {
       if (flag === "--resume") leaveCutShort();
-      const { code, err } = await runLine(name, [name, ...additionsOf(name), ...args]);
+      const { code, err } = await runLine(name, [name, ...additionsOf(name, args), ...args]);
       expect([args, code, err]).toEqual([args, 0, expect.any(String)]);
     },
     LIMIT_MS,
@@ -251,9 +255,107 @@ describe("each option in docs/cli.md", async () => {
 
   it.each(EFFECTS)("%s takes effect: %j", { timeout: LIMIT_MS }, async (name, args, expected) => {
     const io = new CaughtIo();
-    await cliWith(io, name, ...args, ...additionsOf(name));
+    await cliWith(io, name, ...args, ...additionsOf(name, args));
     expect(io.outText + io.errText).toMatch(expected);
   });
+});
+
+describe("serve", () => {
+  // On Windows a browser is opened by a built-in command, which cannot be replaced.
+  it.runIf(process.platform !== "win32")(
+    "--open passes the page's address to the program that opens browsers",
+    async () => {
+      const bin = join(folder, "bin");
+      const opened = join(folder, "opened");
+      mkdirSync(bin);
+      for (const name of ["xdg-open", "open"])
+        writeFileSync(join(bin, name), `#!/bin/sh\nprintf '%s' "$1" > '${opened}'\n`, { mode: 0o755 });
+      vi.stubEnv("PATH", `${bin}:${process.env["PATH"] ?? ""}`);
+      const io = new CaughtIo();
+      const running = cliWith(io, "serve", "--open", ...additionsOf("serve"));
+      try {
+        await expect.poll(() => existsSync(opened) && readFileSync(opened, "utf8")).toMatch(/^http/);
+      } finally {
+        io.interrupt();
+        await running;
+      }
+      expect(await running).toMatchObject({
+        code: 0,
+        out: `plotwright is at ${readFileSync(opened, "utf8")}\n`,
+      });
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "--shared-queue shows the jobs of that database",
+    async () => {
+      const database = await SharedDatabase.open();
+      const io = new CaughtIo();
+      const running = cliWith(io, "serve", "--shared-queue", database.url, ...additionsOf("serve"));
+      try {
+        await expect.poll(() => io.outText + io.errText).toMatch(/plotwright is at/);
+        const url = /plotwright is at (\S+)/.exec(io.outText)?.[1] ?? "";
+        await share({ url }, "fern", { machine: "axidraw-v3-a3" });
+        expect((await sharedJobsOf({ url })).map(({ name }) => name)).toEqual(["fern"]);
+      } finally {
+        io.interrupt();
+        await running;
+        await database.close();
+      }
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("serve --shared-queue", () => {
+  it.each([
+    ["plots", "--shared-queue: it must be the address of a PostgreSQL database"],
+    ["postgres://127.0.0.1:1/x", "ECONNREFUSED 127.0.0.1:1. Check that it runs, and its address"],
+  ])(
+    "%s: the fault is explained",
+    async (url, message) => {
+      const { code, err } = await cliWith(
+        new CaughtIo(),
+        ...["serve", "--shared-queue", url],
+        ...additionsOf("serve"),
+      );
+      expect([code, err]).toEqual([2, expect.stringContaining(message)]);
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("--url", () => {
+  it(
+    "selects the server, whose plotters are named if it has several",
+    async () => {
+      const options = { port: 0, dataDir: join(folder, "other"), device: "virtual", log: () => undefined };
+      const other = await createServer({ ...options, maxUploadBytes: 1e6 });
+      try {
+        const at = ["--url", other.url];
+        const body = { name: "Second", device: "virtual", machine: "axidraw-v3" };
+        expect((await send(other.url, "POST", "/plotters", body)).status).toBe(201);
+        const [first, second] = (await stateOf(other)).plotters;
+        const added = await cliWith(new CaughtIo(), "add", "wide.svg", "--plotter", second.id, ...at);
+        expect([added.code, added.out]).toEqual([0, expect.stringMatching(/\twide\.svg\t[\d:]+\tSecond\n$/)]);
+        await cliWith(new CaughtIo(), "add", "other.svg", ...at);
+        const { out } = await cliWith(new CaughtIo(), "queue", ...at);
+        const columns = out
+          .trimEnd()
+          .split("\n")
+          .map((line) => line.split("\t").slice(-2));
+        expect(columns).toEqual([
+          ["wide.svg", "Second"],
+          ["other.svg", first.name],
+        ]);
+        expect((await cliWith(new CaughtIo(), "queue", "--url", server.url)).out).not.toContain("wide.svg");
+      } finally {
+        await other.close();
+      }
+    },
+    LIMIT_MS,
+  );
 });
 
 describe("docs/cli.md", () => {
@@ -267,7 +369,8 @@ describe("docs/cli.md", () => {
     "$line",
     async ({ name, line }) => {
       if (line.endsWith("--resume")) leaveCutShort();
-      const { code, err } = await runLine(name, [...line.split(" ").slice(1), ...additionsOf(name)]);
+      const args = line.split(" ").slice(1);
+      const { code, err } = await runLine(name, [...args, ...additionsOf(name, args)]);
       expect([err, code]).toEqual([expect.any(String), CODES[line] ?? 0]);
       if (line.includes("--out plotwright.log")) expect(existsSync("plotwright.log")).toBe(true);
     },

@@ -44,7 +44,7 @@ describe("the settings' options", () => {
     }
   });
 
-  it("let single numbers and another shaper overrule a quality", () => {
+  it("let single numbers and another shaper override a quality", () => {
     const given = ["--quality", "fast", "--spring-x", "15", "--spring-y", "25"];
     const { motion } = settingsOf(...given, "--accel", "900", "--shaper", "ei");
     expect(motion).toMatchObject({ shaper: "ei", draw: { speedMmPerS: 85, accelMmPerS2: 900 } });
@@ -54,7 +54,7 @@ describe("the settings' options", () => {
     );
   });
 
-  it("limit single axes, beside a step of quality too", () => {
+  it("limit single axes, also together with a quality", () => {
     const axes = ["--speed-x", "60", "--speed-y", "40", "--accel-x", "900", "--accel-y", "300"];
     const limits = { speedXMmPerS: 60, speedYMmPerS: 40, accelXMmPerS2: 900, accelYMmPerS2: 300 };
     expect(settingsOf(...axes).motion).toEqual({ ...DEFAULT_PLOT_SETTINGS.motion, ...limits });
@@ -63,7 +63,7 @@ describe("the settings' options", () => {
     expect(() => settingsOf("--accel-y", "0")).toThrow(/^--accel-y: it must be more than 0/);
   });
 
-  it("put each value in its place", () => {
+  it("store each value in its setting", () => {
     const settings = settingsOf(
       ...["--machine", "axidraw-se-a3", "--paper", "a3", "--margin", "0", "--no-fit", "--rotate", "-90"],
       ...["--speed", "35.5", "--accel", "400", "--corner", "0.1", "--travel-speed", "200"],
@@ -112,7 +112,7 @@ describe("the settings' options", () => {
     expect(settingsOf("--paper", "A4", "--no-landscape").prepare.landscape).toBe(false);
   });
 
-  it("take the drawing's shape work too", () => {
+  it("include hatching, mirroring and other work on shapes", () => {
     const { prepare, motion } = settingsOf(
       ...["--hatch", "0.4", "--hatch-angle", "30", "--hatch-cross", "--hide-covered", "--no-outline-fills"],
       ...["--mirror", "leftRight", "--margins", "10,20,30,40", "--place", "5,6,70", "--spread", "shuffle"],

@@ -39,7 +39,7 @@ describe("a word that is not a command", () => {
     ],
     [
       ["plan", "my", "drawing.svg"],
-      /^plotwright: plan takes at most 1 argument, got 2\. .* names with blanks need quotes/,
+      /^plotwright: plan takes at most 1 argument, got 2\. Options begin with --, and names with blanks need quotes/,
     ],
   ])("%j has a surplus word", async (args, message) => {
     const { code, err } = await cli(...args);
@@ -66,6 +66,20 @@ describe("a word that is not a command", () => {
       "pen 101",
       '<where>: it must be up, down, or a height of 0 to 100 percent, not "101". See plotwright pen --help.',
     ],
+    [
+      "plan in.svg --place 1",
+      '--place: it must be 2, 3 or 4 lengths with commas between, not "1". See plotwright plan --help.',
+    ],
+    [
+      "serve --allow-host studio.local http://studio",
+      '--allow-host: it must be a name without http:// and port, such as studio.local, not "http://studio". See plotwright serve --help.',
+    ],
+    ["ringing --at 30.1", "--at: give --ripples too, the number that you counted."],
+    ["ringing --spring-x 15", "--spring-x and --spring-y are for --check: add it."],
+    ["plan in.svg --svg ./in.svg", "--svg ./in.svg would overwrite the drawing: choose another file."],
+    ["machines --data no-folder", "--data no-folder: there is no such folder."],
+    ["pen up --data no-folder --device virtual", "--data no-folder: there is no such folder."],
+    ["service install --user me --print", "--user: add --system; without it the service runs as you."],
     ["service instal", "There is no command instal. Did you mean install? See plotwright service --help."],
     [
       "queue --url 9391",
@@ -145,6 +159,9 @@ describe("a file that cannot be used", () => {
     [["plan", "in", "--svg", "no-folder/x.svg"], /x\.svg can't be written: there is no such file or folder/],
     [["plan", "in", "--ebb", "in/x.txt"], /x\.txt can't be written: a part of this path is a file/],
     [["plan", "."], /can't be read: it is a folder/],
+    [["logs", "--data", "no-folder"], /--data no-folder: there is no such folder/],
+    [["logs", "--data", "in"], /--data .*: there is no such folder/],
+    [["serve", "--port", "0", "--host", "192.0.2.1"], /this computer does not have that address/],
   ] as const)(
     "stops %j with a message, without the system's codes",
     { timeout: 60_000 },
@@ -178,6 +195,19 @@ describe("a file that cannot be used", () => {
     expect(err.match(/nothing to draw|no lines to draw/gi)).toHaveLength(1);
     expect(err).toMatch(/^plotwright: \S*empty\.svg: 1 picture is not drawn/);
     expect(err).not.toContain("other notes");
+    const outside = file("outside.svg", LINE.replace("M1 1H9", "M5000 5000h9"));
+    const { err: why } = await cli("plan", outside, "--no-fit");
+    expect(why).toMatch(/outside\.svg: 1 shape is entirely outside .* Nothing is left to draw on this paper/);
+    expect(why).not.toContain("There is nothing to draw");
+    expect(await cli("plan", drawing, "--paper", "5000x5000")).toMatchObject({
+      code: 3,
+      err: expect.stringMatching(/line\.svg: The drawing reaches from/) as string,
+    });
+    // The second one is checked before the first one is plotted.
+    expect(await cli("plot", drawing, folder, "--paper-s", "0", "--device", "virtual")).toMatchObject({
+      ...{ code: 3, out: "" },
+      err: expect.stringMatching(/^plotwright: \S+ can't be read: it is a folder\.$/m) as string,
+    });
     expect((await cli("plan", file("nothing", " "))).err).toMatch(
       /nothing cannot be read as a drawing: it is empty\./,
     );

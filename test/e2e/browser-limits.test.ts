@@ -1,4 +1,4 @@
-/** The page without a server where the browser lets it use no plotter, or stores nothing. */
+/** The page without a server in a browser that does not let it use a plotter, or stores nothing. */
 import { chromium, type Browser, type Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
 import { browserOptions, launchBrowser } from "../support/browser.js";
@@ -62,7 +62,7 @@ async function plotsOnTheVirtualBoard(): Promise<void> {
   await historyPanel(page).getByText("Done", { exact: true }).waitFor();
 }
 
-describe("a browser that lets the page use no plotter", { timeout: 200_000 }, () => {
+describe("a browser that does not let the page use a plotter", { timeout: 200_000 }, () => {
   async function expectVirtualBoardOnly(words: RegExp): Promise<void> {
     await page.getByText(words).waitFor();
     expect(await page.getByRole("button", { name: "Connect a plotter…" }).count()).toBe(0);
@@ -94,7 +94,7 @@ describe("a browser that lets the page use no plotter", { timeout: 200_000 }, ()
 });
 
 describe("a browser's storage", { timeout: 200_000 }, () => {
-  it("which is refused is reported, and the page plots without it", async () => {
+  it("that is refused is reported, and the page plots without it", async () => {
     const refuse = `IDBFactory.prototype.open = () => { throw new DOMException("blocked", "SecurityError"); };`;
     await openOrigin(browser, { workerScript: refuse });
     await openApp();
@@ -102,7 +102,7 @@ describe("a browser's storage", { timeout: 200_000 }, () => {
     await plotsOnTheVirtualBoard();
   });
 
-  it("which is full is reported, and nothing is lost until there is room", async () => {
+  it("that is full is reported, and nothing is lost until there is room", async () => {
     await openOrigin(browser);
     const session = await page.context().newCDPSession(page);
     const origin = String(app?.url);

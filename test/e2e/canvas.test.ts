@@ -110,7 +110,7 @@ describe("a stroke", () => {
     expect(await test.page.getByRole("tooltip").count()).toBe(0);
   });
 
-  it("can be plotted from: the job waits there with the pen up, and goes on when it is resumed", async () => {
+  it("can be plotted from: the job waits there with the pen up, and continues when it is resumed", async () => {
     await card().getByRole("button", { name: "Plot from here" }).click();
     await statusCard(test.page).getByRole("button", { name: "Resume" }).waitFor();
     const held = (await test.jobs()).find(({ state }) => state === "paused")!;
@@ -122,7 +122,7 @@ describe("a stroke", () => {
     expect(plottedS).toBeLessThan(stats!.durationS);
   });
 
-  it("is selected no more when another plan may number the strokes differently", async () => {
+  it("is no longer selected when another plan may number the strokes differently", async () => {
     await openView(test.page, "Prepare");
     await card().waitFor();
     await test.field("Margin").fill("30");
@@ -143,7 +143,7 @@ describe("what the margins cut off", () => {
     return [...counts].reduce((sum, [color, count]) => sum + ((color & 255) < 205 ? count : 0), 0);
   };
 
-  it("is told beside Plot, and shown pale", async () => {
+  it("is reported beside Plot, and shown pale", async () => {
     await test.field("Margin").fill("15");
     await test.page.getByRole("radio", { name: "Fit paper" }).check();
     await test.planned();

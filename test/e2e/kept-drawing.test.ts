@@ -73,7 +73,7 @@ describe("after a reload", () => {
   );
 
   it(
-    "so is a large one",
+    "a large drawing is on the paper again, too",
     async () => {
       const { page } = test;
       await test.drop("large", LARGE);
@@ -85,7 +85,7 @@ describe("after a reload", () => {
   );
 
   it(
-    "a file that cannot be read is not, but the drawing before it is",
+    "a file that cannot be read is replaced by the drawing before it",
     async () => {
       const { page } = test;
       await dropFile(page, "torn.svg", MIXED.slice(0, 300));

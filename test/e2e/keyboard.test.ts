@@ -55,7 +55,7 @@ describe("the keyboard", () => {
     LIMIT_MS,
   );
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

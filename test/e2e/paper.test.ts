@@ -25,12 +25,12 @@ const drawn = async (): Promise<string> =>
 const plot = () => plotBar(test.page).getByRole("button", { name: "Plot", exact: true });
 
 describe("the size on the paper", () => {
-  it("is always told, in mm and in percent of the file", async () => {
+  it("is always shown, in mm and in percent of the file", async () => {
     await test.drop("flag", FLAG);
     expect(await drawn()).toBe("Drawn 267 × 178 mm, 445 %");
   });
 
-  it("is the file's where its page is the paper", async () => {
+  it("is the file's if its page is the paper", async () => {
     await test.drop("ruler", RULER);
     expect(await drawn()).toBe("Drawn 279 × 10 mm, 100 %");
     expect(await test.page.getByRole("radio", { name: "True size" }).isChecked()).toBe(true);
@@ -52,7 +52,7 @@ describe("the size on the paper", () => {
 });
 
 describe("what the machine does not reach", () => {
-  it("is told at the plot button, which is off until the drawing is turned", async () => {
+  it("is reported at the plot button, which is disabled until the drawing is turned", async () => {
     await test.drop("tall", svgOf(100, 200, "M0 0L100 200"));
     await test.page.getByRole("radio", { name: "Portrait" }).check();
     await test.planned();
@@ -68,7 +68,7 @@ describe("what the machine does not reach", () => {
     expect(await drawn()).toMatch(/^Drawn 267 × 133.5 mm/);
   });
 
-  it("is mended by itself for a drawing that nothing was chosen for", async () => {
+  it("is corrected automatically if the user has chosen nothing for the drawing", async () => {
     await test.field("Rotate").fill("0");
     await test.page.getByRole("radio", { name: "Portrait" }).check();
     await test.drop("flag", FLAG);
@@ -76,7 +76,7 @@ describe("what the machine does not reach", () => {
     expect(await plot().isEnabled()).toBe(true);
   });
 
-  it("is mended by a turn of page and paper where the page is the paper", async () => {
+  it("is corrected by turning page and paper if the page is the paper", async () => {
     await test.drop("tall page", svgOf(210, 297, "M20 10V200"));
     expect(await drawn()).toBe("Drawn 190 × 0 mm, 100 %");
     expect(await plot().isEnabled()).toBe(true);
@@ -170,7 +170,7 @@ describe("a file", () => {
     expect(await plot().isEnabled()).toBe(true);
   });
 
-  it("of a picture only is named as that", async () => {
+  it("that is only a picture is reported as one", async () => {
     await test.drop(
       "photo",
       `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"><image href="a.png" width="60mm" height="40mm"/></svg>`,
@@ -179,7 +179,7 @@ describe("a file", () => {
     expect(await plot().isDisabled()).toBe(true);
   });
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

@@ -26,9 +26,9 @@ const state = async (): Promise<Snapshot> =>
   snapshotSchema.parse(await (await fetch(`${test.server.url}/api/v1/state`)).json());
 const storedPen = async () => (await state()).plotterSettings["main"]?.pen;
 
-describe("what a browser kept before the server did", () => {
+describe("settings that a browser stored before the server did", () => {
   it(
-    "goes to the plotter once, and is on every other screen from then on",
+    "go to the plotter once, and are on every other screen from then on",
     async () => {
       const { page } = test;
       expect((await state()).plotterSettings).toEqual({});
@@ -130,7 +130,7 @@ describe("a first plot", () => {
   );
 
   it(
-    "and each later one takes at most 2",
+    "is followed by plots that take at most 2 clicks each",
     async () => {
       const { page } = test;
       const before = await page.evaluate(() => (window as unknown as { clickCount: number }).clickCount);
@@ -149,7 +149,7 @@ describe("a first plot", () => {
     LIMIT_MS,
   );
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

@@ -32,7 +32,7 @@ describe("a plot that waits for a pen", { timeout: LIMIT_MS }, () => {
 });
 
 describe("a plot that was cancelled half way", { timeout: LIMIT_MS }, () => {
-  it("is shown at its position as soon as it is taken up again, and waits for the pen again", async () => {
+  it("is shown at its position as soon as it is recovered, and waits for the pen again", async () => {
     const { id } = await theJob();
     await test.page.request.post(`${test.server.url}/api/v1/jobs/${id}/cancel`);
     await expect.poll(async () => (await theJob()).state).toBe("cancelled");

@@ -117,7 +117,7 @@ const rounded = (values: object): number[] =>
   Object.values(values).map((mm: number) => Math.round(mm * 100) / 100);
 
 describe("placing the drawing", () => {
-  it("puts handles round it at the click of a button, without moving it", async () => {
+  it("shows handles around it at the click of a button, without moving it", async () => {
     const before = await test.queuedBox();
     await test.page.getByRole("button", { name: "Place the drawing by hand" }).click();
     await test.field("From the left").waitFor();

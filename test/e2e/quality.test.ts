@@ -29,7 +29,7 @@ const limitsOf = ({ shaper, draw, travel }: Awaited<ReturnType<typeof motionOfJo
 });
 
 describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
-  it("has today's limits as Normal for a plotter that was not measured, and leads to the ringing sheet", async () => {
+  it("has the default limits as Normal for a plotter that was not measured, and leads to the ringing sheet", async () => {
     expect(await step("Normal").isChecked()).toBe(true);
     expect(await step("Fine").isDisabled()).toBe(true);
     expect(await step("Fast").isDisabled()).toBe(true);
@@ -43,7 +43,7 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     await test.page.keyboard.press("Escape");
   });
 
-  it("sets what a step stands for, from the plotter's springs", async () => {
+  it("sets the limits that a step stands for, from the plotter's springs", async () => {
     const { page } = test;
     await chooseMeasuredPlotter(page, test.server.url);
     // Normal stays Normal: that of this machine.

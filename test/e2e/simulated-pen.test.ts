@@ -49,7 +49,7 @@ describe("the view of the simulated pen", { timeout: PATIENCE_MS }, () => {
     await test.page.emulateMedia({ colorScheme: "light" });
   });
 
-  it("draws the pen in colours of its error, with what was asked beside it", async () => {
+  it("draws the pen in colours of its error, with the drawing beside it", async () => {
     const { page } = test;
     const stage = (await page.locator(".stage").boundingBox())!;
     await page.mouse.move(stage.x + stage.width / 2, stage.y + stage.height / 2);
@@ -64,7 +64,7 @@ describe("the view of the simulated pen", { timeout: PATIENCE_MS }, () => {
     await page.getByRole("button", { name: "Whole paper" }).click();
   });
 
-  it("follows the settings, and is put away with the view", async () => {
+  it("follows the settings, and disappears with the view", async () => {
     const before = await maxMm();
     await test.group("Speed");
     await test.page.locator("#group-motion").getByText("Details", { exact: true }).click();
@@ -77,14 +77,14 @@ describe("the view of the simulated pen", { timeout: PATIENCE_MS }, () => {
     expect((await colors()).get(ASKED) ?? 0).toBe(0);
   });
 
-  it("is one press away from where the swing of the plotter is told", async () => {
+  it("opens with one click from where the plotter's swing is set", async () => {
     await test.page.getByRole("button", { name: "Show what the pen draws" }).click();
     await result().waitFor();
     await test.look("Speed");
     expect(await legend().count()).toBe(0);
   });
 
-  it("does not stand in the way of another drawing", async () => {
+  it("works with another drawing", async () => {
     await test.look("Pen (simulated)");
     await test.drop("lines", ruledSheet());
     await test.drop("steps", STEPS);

@@ -176,13 +176,13 @@ describe("two browsers and a watcher", () => {
     await anna.getByText("server can’t be reached").first().waitFor({ state: "detached" });
   });
 
-  it("anybody may stop it", async () => {
+  it("every browser may stop it", async () => {
     await queuePanel(anna).getByRole("button", { name: "Cancel" }).click();
     await queuePanel(anna).getByRole("alertdialog").getByRole("button", { name: "Cancel" }).click();
     for (const page of pages()) await historyPanel(page).getByText("Cancelled", { exact: true }).waitFor();
   });
 
-  it("a device that is not paired is told how to be", async () => {
+  it("a device that is not paired is told how to pair", async () => {
     const page = await browser.newPage({ viewport: VIEWPORT });
     await page.goto(server.url);
     await page.getByRole("heading", { name: "Pair this device" }).waitFor();

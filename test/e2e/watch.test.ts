@@ -40,7 +40,7 @@ async function penPixels(): Promise<number> {
 }
 
 describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
-  it("opens Watch: how long it takes yet, how far it is, when it is done", async () => {
+  it("opens Watch, with the time left, the progress and the time of the end", async () => {
     const { page } = test;
     await test.drop(LINES, ruledSheet());
     await test.queue();
@@ -58,7 +58,7 @@ describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
     await expect.poll(penPixels).toBeGreaterThan(20);
   });
 
-  it("leaves what is laid out as it is, and its pen is not on that drawing", async () => {
+  it("does not change the laid-out drawing, and shows no pen on it", async () => {
     const { page } = test;
     expect(await plotBar(page).isVisible()).toBe(false);
     await openView(page, "Prepare");
@@ -71,7 +71,7 @@ describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
     await openView(page, "Watch");
   });
 
-  it("is what a new tab opens on", async () => {
+  it("is the first view of a new tab", async () => {
     const tab = await test.page.context().newPage();
     await tab.goto(test.server.url);
     await statusCard(tab).getByText(LINES, { exact: true }).waitFor();
@@ -89,7 +89,7 @@ describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
     await page.getByRole("banner").waitFor();
   });
 
-  it("has Pause under the thumb on a phone, and nothing wider than it", async () => {
+  it("has Pause within reach of the thumb on a phone, and nothing wider than the screen", async () => {
     const { page } = test;
     await page.setViewportSize({ width: 390, height: 844 });
     const box = (await button("Pause").boundingBox())!;
@@ -146,7 +146,7 @@ describe("the queue", { timeout: PATIENCE_MS }, () => {
     await row.waitFor({ state: "detached" });
   });
 
-  it("says at which stroke a job starts, apart from the whole drawing", async () => {
+  it("shows at which stroke a job starts, in a row apart from copies of the whole drawing", async () => {
     const drawing = ruledSheet(6);
     const add = (from?: { strokeIndex: number; alongMm: number }) =>
       fetch(`${test.server.url}/api/v1/jobs`, {
@@ -161,7 +161,7 @@ describe("the queue", { timeout: PATIENCE_MS }, () => {
     expect(await rows.count()).toBe(2);
   });
 
-  it("meets no error in the browser's console on the way", () => {
+  it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);
   });
 });

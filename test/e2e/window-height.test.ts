@@ -45,6 +45,22 @@ describe("before the first plot", () => {
   });
 });
 
+describe("the menu of the last plot in the queue", () => {
+  it("opens within the window, where its plot is at the window's end", async () => {
+    const { page } = test;
+    await page.setViewportSize({ width: 1440, height: 620 });
+    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    const opener = queuePanel(page).getByRole("button", { name: /^More for / });
+    await opener.evaluate((element) => element.scrollIntoView({ block: "end" }));
+    await opener.click();
+    const last = queuePanel(page).getByRole("button", { name: /^Remove / });
+    await last.waitFor();
+    const { y, height } = (await last.boundingBox())!;
+    expect(y + height).toBeLessThanOrEqual(620);
+    await last.click();
+  });
+});
+
 describe.each(SIZES)("a window of $width × $height", (size) => {
   it("holds the whole page with all groups of settings open, also after scrolling past a column's end", async () => {
     const { page } = test;

@@ -1,11 +1,9 @@
 /** The samples, plotted by the page without a server: the board ends with the steps of a plot by the library. */
 import { readFileSync } from "node:fs";
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { launchBrowser } from "../support/browser.js";
+import { describe, expect, it } from "vitest";
 import { cases } from "../support/full-run.js";
 import { plotting } from "../support/live-plot.js";
-import { done, SerialPages, storedJob, strokesOf } from "../support/serial-page.js";
+import { done, storedJob, strokesOf, useSerialPages } from "../support/serial-page.js";
 
 /** The samples take 10 to 20 minutes each on a real board. `npm test` plots the first one. */
 const BOARD_SPEED = 100;
@@ -16,18 +14,11 @@ const SAMPLES = [
 ] as const;
 const PLOTTED = SAMPLES.slice(0, cases(SAMPLES.length, 1));
 
-let browser: Browser;
-let pages: SerialPages;
-
-beforeAll(async () => {
-  browser = await launchBrowser();
-});
-afterAll(() => browser.close());
-afterEach(() => pages.close());
+const startPages = useSerialPages();
 
 describe("the page without a server", () => {
   it.each(PLOTTED)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
-    pages = await SerialPages.start(browser, BOARD_SPEED);
+    const pages = await startPages(BOARD_SPEED);
     const page = await pages.openPage();
     await page.getByRole("button", { name: title }).click();
     await pages.plot(page);

@@ -1,28 +1,19 @@
 /** The page without a server: a reload, a hidden tab and a second tab while it plots on the board. */
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { launchBrowser } from "../support/browser.js";
+import { describe, expect, it } from "vitest";
 import { IS_FULL } from "../support/full-run.js";
 import { historyPanel, statusCard } from "../support/page-actions.js";
-import { done, expectState, SerialPages } from "../support/serial-page.js";
+import { done, expectState, useSerialPages } from "../support/serial-page.js";
 import { startTabbedBrowser } from "../support/tabbed-browser.js";
 
 const HIDDEN_S = IS_FULL ? 360 : 10;
 
-let browser: Browser;
-let pages: SerialPages;
-
-beforeAll(async () => {
-  browser = await launchBrowser();
-});
-afterAll(() => browser.close());
-afterEach(() => pages.close());
+const startPages = useSerialPages();
 
 describe("the page without a server", () => {
   it("plots without an underrun while its tab is hidden", { timeout: (HIDDEN_S + 200) * 1_000 }, async () => {
     // Of 4 s each: longer than the tab is hidden.
     const lines = Math.ceil(HIDDEN_S / 4) + 3;
-    pages = await SerialPages.start(browser, 1, startTabbedBrowser);
+    const pages = await startPages(1, startTabbedBrowser);
     const page = await pages.openPage();
     await pages.plotComb(page, lines);
     await expect.poll(() => pages.board.statistics().movingS).toBeGreaterThan(1);
@@ -41,7 +32,7 @@ describe("the page without a server", () => {
   });
 
   it("recovers after a reload in the middle of a plot", { timeout: 300_000 }, async () => {
-    pages = await SerialPages.start(browser, 1);
+    const pages = await startPages(1);
     const page = await pages.openPage();
     await pages.plotComb(page, 4);
     await expect.poll(() => pages.board.statistics().movingS).toBeGreaterThan(2);
@@ -51,7 +42,7 @@ describe("the page without a server", () => {
   });
 
   it("lets one tab operate while another one watches", { timeout: 300_000 }, async () => {
-    pages = await SerialPages.start(browser, 1);
+    const pages = await startPages(1);
     const page = await pages.openPage();
     await pages.plotComb(page, 20);
     await expectState(page, /^Plotting/);

@@ -12,6 +12,7 @@ import { childScript } from "../support/child-script.js";
 import { untilIdle, waitS } from "../support/faulty-plots.js";
 import { drawnMm, plotting, seeded } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { nextMessage } from "../support/next-message.js";
 import { PtyBoard } from "../support/pty-board.js";
 import { countFor } from "../support/full-run.js";
 
@@ -54,7 +55,7 @@ async function killedAfter(firmware: string, afterS: number): Promise<number> {
     const child = fork(childScript("plot-child"), args, { execArgv: [] });
     const journal: JournalEntry[] = [];
     child.on("message", (entry: JournalEntry) => journal.push(entry));
-    await once(child, "message");
+    await nextMessage(child);
     await waitS(afterS);
     child.kill("SIGKILL");
     await once(child, "exit");

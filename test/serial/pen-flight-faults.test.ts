@@ -10,7 +10,7 @@ import type { JournalEntry } from "../../host/plotter/types.js";
 import { machineById, plan } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";
 import { childScript } from "../support/child-script.js";
-import { untilIdle, waitS } from "../support/faulty-plots.js";
+import { untilIdle, untilUnderWay, waitS } from "../support/faulty-plots.js";
 import {
   HOPS,
   instant,
@@ -24,6 +24,7 @@ import {
 import { countFor } from "../support/full-run.js";
 import { seeded } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
+import { nextMessage } from "../support/next-message.js";
 import { PtyBoard } from "../support/pty-board.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
@@ -55,7 +56,7 @@ const kill: Interrupt = async (board, overlap, afterS) => {
   const child = fork(childScript("plot-child"), args, { execArgv: [] });
   const journal: JournalEntry[] = [];
   child.on("message", (entry: JournalEntry) => journal.push(entry));
-  await once(child, "message");
+  await nextMessage(child);
   await waitS(afterS);
   child.kill("SIGKILL");
   await once(child, "exit");
@@ -69,7 +70,7 @@ const unplug: Interrupt = async (board, overlap, afterS) => {
     const journal: JournalEntry[] = [];
     const record = (entry: JournalEntry): void => void journal.push(entry);
     const run = await driver.plot(new LocalPlanner(HOPS), penSettings(overlap), { journal: { record } });
-    await new Promise<void>((resolve) => run.onProgress(() => resolve()));
+    await untilUnderWay(run);
     await waitS(afterS);
     board.tell({ type: "unplug" });
     await expect(run.finished).rejects.toThrow();

@@ -1,12 +1,15 @@
 /**
  * A fault at each command of a plot: the plot ends, by itself or with an error, and can be resumed to its end. Nothing
- * waits endlessly.
+ * waits endlessly. A host that is busy for seconds at any command is no fault at all.
  */
 import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../host/plotter/types.js";
-import type { VirtualBoard } from "../../src/index.js";
+import { VirtualBoard } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { StallingHost } from "../support/stalling-host.js";
+import { compareDrawn } from "../support/drawn-truth.js";
 import { IS_FULL } from "../support/full-run.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
@@ -15,6 +18,8 @@ import { virtualBoardOf } from "../support/virtual-board-of.js";
 const STROKES = strokesOf([5, 5, 30, 5, 30, 12], [34, 12, 36, 5], [36, 8, 20, 14]);
 /** Much longer than the plot with its returns home. */
 const LIMIT_S = 120;
+/** More than the replies after the last reading of the supply. */
+const AFTER_LAST_READING = 6;
 
 type Fault = (board: VirtualBoard, world: ManualClock) => void;
 
@@ -54,7 +59,7 @@ async function plotWith(fault: Fault, firmware: string, atCommand: number) {
   const journal: JournalEntry[] = [];
   const outcomes: string[] = [];
   while (outcomes.at(-1) !== "done" && outcomes.length < 4) {
-    for (let s = 0; s < LIMIT_S && driver.state.connection !== "idle"; s++) await world.advance(1);
+    for (let s = 0; s < LIMIT_S && driver.state.connection !== "idle"; s += 0.05) await world.advance(0.05);
     const plotting = driver.plot(new LocalPlanner(STROKES), DEFAULT_PLOT_SETTINGS, {
       from: journal.at(-1)?.place,
       held: false,
@@ -67,11 +72,77 @@ async function plotWith(fault: Fault, firmware: string, atCommand: number) {
     );
     outcomes.push(await world.run(ended, LIMIT_S));
   }
+  const gapMm = compareDrawn(STROKES, board.drawn()).gapMm;
   await world.run(driver.close(), LIMIT_S);
-  return { commandCount, outcomes };
+  return { commandCount, outcomes, gapMm };
+}
+
+/** So that commands last longer than the time between two polls, and the steps stay the same over several. */
+const SLOW_PEN = {
+  ...DEFAULT_PLOT_SETTINGS,
+  pen: { ...DEFAULT_PLOT_SETTINGS.pen, dropMs: 1_000, liftMs: 1_000 },
+};
+
+/** Plots on a host that does nothing for `busyS` from the board's given reply on. Returns the number of replies. */
+async function plotWhileBusy(firmware: string, busyS: number, atReply: number): Promise<number> {
+  const world = new ManualClock();
+  const host = new StallingHost(world);
+  const board = new VirtualBoard({ clock: world, firmware });
+  const driver = new HostDriver({
+    device: "a port",
+    clock: host.clock,
+    devices: {
+      find: () => Promise.resolve([]),
+      open: () => Promise.resolve(host.transport(board.transport())),
+    },
+  });
+  await world.run(driver.start());
+  let replyCount = 0;
+  const run = await world.run(driver.plot(new LocalPlanner(STROKES), SLOW_PEN));
+  board.onSend(() => {
+    if (++replyCount === atReply) host.stallFor(busyS);
+  });
+  expect(await world.run(run.finished, LIMIT_S)).toEqual({ kind: "done" });
+  await world.run(driver.close(), LIMIT_S);
+  return replyCount;
 }
 
 describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
+  it.each([0.2, 1.3, 1.7, 2.5, 5])(
+    "a host that is busy for %f s finishes its plot",
+    { timeout: 120_000 },
+    async (busyS) => {
+      const replyCount = await plotWhileBusy(firmware, 0, -1);
+      for (let at = 1; at <= replyCount; at += IS_FULL ? 1 : 5) await plotWhileBusy(firmware, busyS, at);
+    },
+  );
+
+  it("a supply that fails for 3 s, also at the end, leaves no gap", { timeout: 120_000 }, async () => {
+    const { commandCount, gapMm: roundedMm } = await plotWith(() => undefined, firmware, -1);
+    for (let at = 1; at <= commandCount; at += IS_FULL ? 1 : 2) {
+      const { gapMm } = await plotWith(supplyOffFor(3), firmware, at);
+      expect(gapMm, `fault at command ${at}`).toBeLessThanOrEqual(roundedMm + 0.05);
+    }
+  });
+
+  it("a supply that fails for 0.6 s ends the plot", { timeout: 120_000 }, async () => {
+    const { commandCount } = await plotWith(() => undefined, firmware, -1);
+    for (let at = 1; at <= commandCount - AFTER_LAST_READING; at += IS_FULL ? 1 : 2) {
+      const { outcomes } = await plotWith(supplyOffFor(0.6), firmware, at);
+      expect(outcomes[0], `fault at command ${at}`).toMatch(/no power/);
+    }
+  });
+
+  it("a supply that returns at once does not disturb the next plot", { timeout: 120_000 }, async () => {
+    const { commandCount } = await plotWith(() => undefined, firmware, -1);
+    for (let at = 1; at <= commandCount; at += IS_FULL ? 1 : 2) {
+      for (const offS of [0.6, 1]) {
+        const { outcomes } = await plotWith(supplyOffFor(offS), firmware, at);
+        expect(outcomes.join(" | "), `fault at command ${at}`).not.toContain("restarted");
+      }
+    }
+  });
+
   it.each(Object.entries(FAULTS))("no plot hangs when %s", { timeout: 120_000 }, async (_, fault) => {
     const { commandCount } = await plotWith(() => undefined, firmware, -1);
     for (let at = 1; at <= commandCount; at += IS_FULL ? 1 : 7) {

@@ -267,7 +267,7 @@ describe("the queue", () => {
     expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
   });
 
-  it("offers a plot whose board failed before anything was drawn, paused at its beginning", async () => {
+  it("offers to continue a plot whose board failed before anything was drawn, paused at its beginning", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const broken = await plotter.nextRun();
@@ -286,7 +286,7 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("paused");
   });
 
-  it("offers a plot that has begun to draw, for every way in which it ended", async () => {
+  it("offers to continue a plot that has begun to draw, however it ended", async () => {
     const { id } = await add("fern");
     await queue.start(id);
     const broken = await plotter.nextRun();
@@ -364,7 +364,7 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("paused");
   });
 
-  it("makes copies that share the drawing, right behind the original", async () => {
+  it("makes copies that share the drawing, right after the original", async () => {
     const fern = await add("fern");
     await add("moss");
     const copy = queue.duplicate(fern.id);

@@ -265,10 +265,15 @@ describe("the board's reports while it plots", () => {
     const { world, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.4);
+    let oddCount = 0;
+    board.onSend((bytes) => {
+      if (!/^\d{4},0158\s/.test(String.fromCharCode(...bytes))) return;
+      board.setMotorVolts(9.1);
+      oddCount++;
+    });
     board.setMotorVolts(5);
-    await world.advance(0.25);
-    board.setMotorVolts(9.1);
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(oddCount).toBe(1);
   });
 
   it("end the plot within 3 s when the motors lose their power, and waits for it to come back", async () => {

@@ -67,7 +67,7 @@ describe("a claimed shared job that has not begun", () => {
     await expect.poll(() => jobsOf(server)).toEqual(["fern here queued", "copy done"]);
   });
 
-  it("is skipped by a queue that runs on, and the job behind it begins", async () => {
+  it("is skipped by a queue that runs automatically, and the next job begins", async () => {
     const duplicate = async (name: string): Promise<void> => {
       const id = await jobNamed("copy");
       const answer = await send(server.url, "POST", `/jobs/${id}/duplicate`);

@@ -56,7 +56,7 @@ describe("a lane", () => {
     expect(await Promise.all(all)).toEqual(["a1", "a2", "b1", "c1", "b2"]);
   });
 
-  it("drops clients that have gone while waiting, and those gone before", async () => {
+  it("drops clients that disconnect while they wait, or before", async () => {
     const { begun, begin, end } = desk(1);
     const gone = new AbortController();
     const first = begin("first");

@@ -157,7 +157,7 @@ describe("a webhook", () => {
     expect(received).toHaveLength(5);
   });
 
-  it("are sent after a restart if they could not be sent before", async () => {
+  it("is sent after a restart if it could not be sent before", async () => {
     const { webhook } = await subscribe(["done"]);
     isAway = true;
     await app.webhooks.close();

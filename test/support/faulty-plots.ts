@@ -65,7 +65,7 @@ export async function plotWithFault(
       });
     const { sleptS: sleptBeforeS } = await board.report();
     let run = await start();
-    await new Promise<void>((resolve) => run.onProgress(() => resolve()));
+    await untilUnderWay(run);
     const happened = waitS(afterS).then(() => fault.happen(board, random));
     const outcomes: string[] = [];
     for (;;) {
@@ -87,6 +87,10 @@ export async function plotWithFault(
     await board.close();
   }
 }
+
+/** Until the plot reports progress. Rejects if it fails before: then it reports none. */
+export const untilUnderWay = (run: LivePlotRun): Promise<unknown> =>
+  Promise.race([new Promise<void>((resolve) => run.onProgress(() => resolve())), run.finished]);
 
 const outcomeOf = (run: LivePlotRun): Promise<string> =>
   run.finished.then(

@@ -1,8 +1,13 @@
 /** Starts virtual boards behind pseudo-terminals, in other processes, and ends them. */
 import { fork, type ChildProcess } from "node:child_process";
+import { once } from "node:events";
 import type { VirtualServo } from "../../src/drivers/ebb/virtual/virtual-board.js";
 import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
 import { childScript } from "./child-script.js";
+import { hasEnded, nextMessage } from "./next-message.js";
+
+/** Then a board's process that does not end by itself is killed. */
+const CLOSED_WITHIN_MS = 10_000;
 
 export type ToBoard =
   /** `replug`: after `unplug` or `reset`, the board is available again at the same path. */
@@ -58,8 +63,13 @@ export class PtyBoard {
     const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false, servo = {} } = options;
     const args = [JSON.stringify({ firmware, speed, futureSyntax, wakeful, servo })];
     const child = fork(childScript("pty-board-child"), args, { execArgv: [] });
-    const opened = await answer(child, "open");
-    return new PtyBoard(opened.path, child);
+    try {
+      const opened = await answer(child, "open");
+      return new PtyBoard(opened.path, child);
+    } catch (error) {
+      child.kill("SIGKILL");
+      throw error;
+    }
   }
 
   tell(message: ToBoard): void {
@@ -68,31 +78,20 @@ export class PtyBoard {
 
   async report(): Promise<BoardReport> {
     const report = answer(this.child, "report");
-    this.tell({ type: "report" });
+    if (this.child.connected) this.tell({ type: "report" });
     return report;
   }
 
   async close(): Promise<void> {
-    if (this.child.exitCode !== null) return;
-    const gone = new Promise((resolve) => this.child.once("exit", resolve));
-    this.child.disconnect();
-    await gone;
+    const { child } = this;
+    if (hasEnded(child)) return;
+    const ended = once(child, "exit");
+    const killing = setTimeout(() => child.kill("SIGKILL"), CLOSED_WITHIN_MS);
+    if (child.connected) child.disconnect();
+    await ended;
+    clearTimeout(killing);
   }
 }
 
-function answer<T extends FromBoard["type"]>(
-  child: ChildProcess,
-  type: T,
-): Promise<Extract<FromBoard, { type: T }>> {
-  return new Promise((resolve, reject) => {
-    const onExit = (): void => reject(new Error(`the board's process ended before its ${type}`));
-    const onMessage = (message: FromBoard): void => {
-      if (message.type !== type) return;
-      child.off("message", onMessage);
-      child.off("exit", onExit);
-      resolve(message as Extract<FromBoard, { type: T }>);
-    };
-    child.on("message", onMessage);
-    child.once("exit", onExit);
-  });
-}
+const answer = <T extends FromBoard["type"]>(child: ChildProcess, type: T) =>
+  nextMessage<Extract<FromBoard, { type: T }>>(child, (message) => message.type === type);

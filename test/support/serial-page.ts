@@ -3,11 +3,12 @@
  * browser. For tests that compare what the board has drawn with the drawing.
  */
 import type { Browser, BrowserContext, Page } from "playwright-core";
-import { expect } from "vitest";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { importDrawing, type StrokeSet } from "../../src/index.js";
 import { machineOf, prepareJob } from "../../src/internal.js";
 import { ENDED_STATES, jobSchema, type Job, type PlotSettings } from "../../src/schema/index.js";
 import { storedRecords } from "./backends.js";
+import { launchBrowser } from "./browser.js";
 import { compareDrawn } from "./drawn-truth.js";
 import { FAKE_SERIAL_SCRIPT } from "./fake-serial-script.js";
 import { dropFile, plotBar, statusCard, waitForPlan } from "./page-actions.js";
@@ -116,6 +117,30 @@ export class SerialPages {
     expect(awayMm).toBeLessThan(MAX_OFF_MM);
     return { gapMm, overlapMm, isGood: gapMm < MAX_OFF_MM && overlapMm < MAX_OFF_MM };
   }
+}
+
+/**
+ * Opens a browser for the tests of a file. The returned function starts the pages of one test, which are closed after
+ * the test.
+ */
+export function useSerialPages(): (
+  boardSpeed: number,
+  open?: (browser: Browser) => Promise<TabbedBrowser>,
+) => Promise<SerialPages> {
+  let browser: Browser;
+  let pages: SerialPages | null = null;
+  beforeAll(async () => {
+    browser = await launchBrowser();
+  });
+  afterEach(async () => {
+    await pages?.close();
+    pages = null;
+  });
+  afterAll(() => browser.close());
+  return async (boardSpeed, open) => {
+    pages = await SerialPages.start(browser, boardSpeed, open);
+    return pages;
+  };
 }
 
 /** The first words of the line about the plotter. */

@@ -6,7 +6,8 @@ import type { Clock, Transport } from "../../src/index.js";
  */
 export class StallingHost {
   private stalled = false;
-  private readonly waiting: (() => void)[] = [];
+  private readonly dueTimers: (() => void)[] = [];
+  private readonly arrived: (() => void)[] = [];
 
   constructor(private readonly world: Clock) {}
 
@@ -14,22 +15,29 @@ export class StallingHost {
   stallRegularly(everyS: number, stallS: number): () => void {
     let cancel = (): void => undefined;
     const begin = (): void => {
-      this.stalled = true;
-      cancel = this.world.after(stallS, () => {
-        this.stalled = false;
-        for (const callback of this.waiting.splice(0)) callback();
-        cancel = this.world.after(everyS - stallS, begin);
-      });
+      cancel = this.stallFor(stallS, () => (cancel = this.world.after(everyS - stallS, begin)));
     };
     cancel = this.world.after(everyS - stallS, begin);
     return () => cancel();
+  }
+
+  stallFor(stallS: number, over: () => void = () => undefined): () => void {
+    this.stalled = true;
+    return this.world.after(stallS, () => {
+      this.stalled = false;
+      // As in an event loop, timers that are due come before the bytes that have arrived.
+      for (const callback of [...this.dueTimers.splice(0), ...this.arrived.splice(0)]) callback();
+      over();
+    });
   }
 
   readonly clock: Clock = {
     nowS: () => this.world.nowS(),
     after: (delayS, callback) => {
       let cancelled = false;
-      const cancel = this.world.after(delayS, () => this.whenAwake(() => cancelled || callback()));
+      const cancel = this.world.after(delayS, () =>
+        this.whenAwake(this.dueTimers, () => cancelled || callback()),
+      );
       return () => {
         cancelled = true;
         cancel();
@@ -42,14 +50,16 @@ export class StallingHost {
     return {
       write: (bytes) => line.write(bytes),
       onData: (listener) =>
-        line.onData((bytes) => void this.world.after(delayS, () => this.whenAwake(() => listener(bytes)))),
+        line.onData(
+          (bytes) => void this.world.after(delayS, () => this.whenAwake(this.arrived, () => listener(bytes))),
+        ),
       onClose: (listener) => line.onClose(listener),
       close: () => line.close(),
     };
   }
 
-  private whenAwake(callback: () => void): void {
-    if (this.stalled) this.waiting.push(callback);
+  private whenAwake(waiting: (() => void)[], callback: () => void): void {
+    if (this.stalled) waiting.push(callback);
     else callback();
   }
 }

@@ -20,7 +20,7 @@ beforeAll(async () => {
 afterAll(() => browser.close());
 
 describe("the page without a server", () => {
-  it("loses and doubles nothing where a tab is killed", { timeout: 60_000 + KILLS * 120_000 }, async () => {
+  it("loses and doubles nothing when a tab is killed", { timeout: 60_000 + KILLS * 120_000 }, async () => {
     const random = seeded(22);
     for (let kill = 0; kill < KILLS; kill++) {
       const pages = await SerialPages.start(browser, 1);

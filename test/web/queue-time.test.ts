@@ -16,11 +16,11 @@ describe("the time of a queue", () => {
     expect(queueTime([withActive(state)], false).isRunning).toBe(false);
   });
 
-  it("has none before it is started", () => {
+  it("has no end before it is started", () => {
     expect(queueTime([waiting], true).isRunning).toBe(false);
   });
 
-  it("has none if it stops for paper between two plots", () => {
+  it("has no end if it stops for paper between two plots", () => {
     expect(queueTime([withActive("plotting"), waiting], false).isRunning).toBe(false);
     expect(queueTime([withActive("plotting")], false).isRunning).toBe(true);
   });

@@ -1,6 +1,6 @@
 /**
- * The interface through which the page reaches jobs and plotters. `server/` implements it by plotwright's server,
- * `browser/` by a worker of the page. A failed request rejects with a BackendFault.
+ * The interface through which the page reaches jobs and plotters. `server/` implements it with plotwright's server,
+ * `browser/` with a worker of the page. A failed request rejects with a BackendFault.
  */
 import type { MachineProfile } from "../../src/index.js";
 import type {
@@ -33,7 +33,7 @@ import type {
 } from "../../src/schema/index.js";
 import type { DrawingText } from "../worker/drawing-text.js";
 
-/** The message can be shown to the user as it is. */
+/** An error whose message is written for the user. */
 export class BackendFault extends Error {
   override readonly name = "BackendFault";
   readonly code: string;
@@ -68,22 +68,22 @@ export interface BackendListener {
 export interface BackendFeatures {
   /** Other devices, keys, webhooks, several plotters, a shared queue. */
   readonly sharing: boolean;
-  /** The user has to allow the page to use the plotter's port, by `connect`. */
+  /** The user must first allow the page to use the plotter's port, with `connect`. */
   readonly asksForPort: boolean;
-  /** Where `asksForPort`: why the page can't use a port in this browser, and what to do; null: it can. */
+  /** If `asksForPort`: why the page can't use a port in this browser, and what to do; null: it can. */
   readonly whyNoPort: string | null;
 }
 
 export interface Backend {
   readonly features: BackendFeatures;
 
-  /** Reports the whole state once, then each change. Returns a function that stops. */
+  /** Reports the whole state once, then each change. Returns a function that stops listening. */
   listen(listener: BackendListener): () => void;
 
   addJob(job: Omit<NewJob, "drawing">, drawing: DrawingText): Promise<Job>;
   patchJob(id: string, patch: JobPatch): Promise<Job>;
   actOnJob(id: string, action: JobAction): Promise<Job>;
-  /** Changes a job while it is plotted. */
+  /** Changes a job that is plotting or paused. */
   changeJob(id: string, change: JobChange): Promise<Job>;
   movePlace(id: string, move: MovePlace): Promise<Job>;
   /** `beforeId` null: to the end. */
@@ -122,7 +122,7 @@ export interface Backend {
   studio(): Promise<StudioBackend>;
 }
 
-/** Moves by hand, with the speeds and the machine of `settings`. */
+/** Manual moves, with the speeds and the machine of `settings`. */
 export interface HandBackend {
   walk(plotterId: string, settings: PlotSettings, xMm: number, yMm: number): Promise<Plotter>;
   jog(plotterId: string, settings: PlotSettings, dxMm: number, dyMm: number): Promise<Plotter>;

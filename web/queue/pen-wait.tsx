@@ -1,4 +1,5 @@
 import type { Job, PlotWait } from "../../src/schema/index.js";
+import { usePageState } from "../state/use-store.js";
 import { penWaitText } from "./text.js";
 import { JobButtons } from "./job-buttons.js";
 import "./jobs.css";
@@ -12,11 +13,16 @@ export const PenWait = ({ job, wait }: { job: Job; wait: PlotWait }) => (
     <div className="pen-wait-words">
       <strong>{wait.penName === null ? words.putForLayer(wait.layerName) : words.put(wait.penName)}</strong>
       {wait.penName !== null && <span>{words.layer(wait.layerName)}</span>}
-      <span className="note">{words.hint}</span>
+      <Hint />
     </div>
     <JobButtons job={job} />
   </div>
 );
+
+const Hint = () => {
+  const isWatching = usePageState((state) => state.me?.role === "watch");
+  return <span className="note">{isWatching ? words.watcherHint : words.hint}</span>;
+};
 
 /** A picture of a pen in the colour of its ink. */
 const PenSwatch = ({ color }: { color: string | null }) => (

@@ -122,4 +122,5 @@ export const penWaitText = {
   putForLayer: (layer: string) => `Put in the pen for “${layer}”`,
   layer: (layer: string) => `for the layer “${layer}”`,
   hint: "The pen is up and the carriage is home. Continue when the new pen is fixed.",
+  watcherHint: "The pen is up and the carriage is home. Another device continues the plot.",
 };

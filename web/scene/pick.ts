@@ -6,6 +6,7 @@
  * A piece is sampled in steps of half a cell, and is listed in every cell that has a sample. Cells whose corners lie
  * between two samples are missed, so the search looks one cell further than its radius.
  */
+import { nearestShare } from "../../src/internal.js";
 import { PIECE_FLOATS, type Pieces } from "./pieces.js";
 
 export interface PickGrid {
@@ -84,11 +85,11 @@ const distanceTo = (floats: Float32Array, piece: number, x: number, y: number): 
   const f = piece * PIECE_FLOATS;
   const x0 = floats[f];
   const y0 = floats[f + 1];
-  const dx = floats[f + 2] - x0;
-  const dy = floats[f + 3] - y0;
-  const length2 = dx * dx + dy * dy;
-  const share = length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 0;
-  return { piece, share, distanceMm: Math.hypot(x - x0 - share * dx, y - y0 - share * dy) };
+  const x1 = floats[f + 2];
+  const y1 = floats[f + 3];
+  const share = nearestShare(x0, y0, x1, y1, x, y);
+  const distanceMm = Math.hypot(x - x0 - share * (x1 - x0), y - y0 - share * (y1 - y0));
+  return { piece, share, distanceMm };
 };
 
 const boundsOf = (floats: Float32Array, count: number) => {

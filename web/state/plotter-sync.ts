@@ -14,97 +14,16 @@ import {
   type PlotSettings,
   type PlotterSettings,
 } from "../../src/schema/index.js";
-import type { Backend } from "../backend/backend.js";
 import { motionForSprings } from "./motion-of-machine.js";
-import {
-  ACTIVE_STATES,
-  currentPlotter,
-  mayOperate,
-  otherOperator,
-  type PageState,
-  type PageStore,
-} from "./store.js";
-import type { AsOperator } from "./take-over.js";
+import { createPlotterSaver, type Shown, type SyncParts } from "./plotter-saver.js";
+import { ACTIVE_STATES, currentPlotter, mayOperate, otherOperator, type PageState } from "./store.js";
 
-/** While a slider is dragged, its value is stored a few times a second. */
-const SAVE_MS = 250;
-
-type Shown = Pick<PageState, "settings" | "presets">;
-
-interface SyncParts {
-  readonly store: PageStore;
-  readonly backend: Pick<Backend, "savePlotterSettings" | "setPlotterMachine">;
-  readonly asOperator: AsOperator;
-  after(delayMs: number, callback: () => void): void;
-  /** Shows the user what went wrong. */
-  failed(error: unknown): void;
-  /** Shows the plotter's values; `isStep`: as an undo step, otherwise the undo history is cleared. */
-  show(values: Shown, isStep: boolean): void;
-}
-
-export const createPlotterSync = ({ store, backend, asOperator, after, failed, show }: SyncParts) => {
-  /** Changes by the user that the server does not have yet. */
-  let unsaved: { readonly id: string; readonly settings: PlotterSettings } | null = null;
-  /** The settings before the first change that the server does not have yet. */
-  let lastSaved: PlotterSettings | null = null;
-  /** Counts how often the user has declined to take over. Changes made before that are dropped. */
-  let refusals = 0;
-  let isWaiting = false;
-  let sendingCount = 0;
-  let turn: Promise<void> = Promise.resolve();
+export const createPlotterSync = (parts: SyncParts) => {
+  const { store, failed, show } = parts;
+  // After a failure, or if the user has not taken over, the plotter's values are shown again.
+  const saver = createPlotterSaver(parts, () => follow());
   /** The plotter whose values the page shows. */
   let shownId: string | null = null;
-
-  /** Sends requests one after the other, so that the last change wins. */
-  const send = (request: () => Promise<unknown>): void => {
-    sendingCount++;
-    turn = turn
-      .then(async () => {
-        await request();
-      })
-      .catch(failed)
-      .then(() => {
-        sendingCount--;
-        // After a failure, or if the user has not taken over, the plotter's values are shown again.
-        follow();
-      });
-  };
-
-  const setMachine = async (id: string, machine: string): Promise<void> => {
-    const saved = await asOperator(() => backend.setPlotterMachine(id, machine));
-    if (saved === null) return;
-    store.setState(({ plotters }) => ({
-      plotters: plotters.map((plotter) => (plotter.id === id ? saved : plotter)),
-    }));
-  };
-
-  /** False: another browser is the operator, and the user has not taken over. */
-  const saveNow = async (id: string, settings: PlotterSettings): Promise<boolean> => {
-    const saved = await asOperator(() => backend.savePlotterSettings(id, settings));
-    if (saved === null) return false;
-    store.setState(({ plotterSettings }) => ({ plotterSettings: { ...plotterSettings, [id]: saved } }));
-    return true;
-  };
-
-  const saveOrTakeBack = async (id: string, settings: PlotterSettings, turnOf: number): Promise<void> => {
-    if (turnOf !== refusals || (await saveNow(id, settings))) return;
-    refusals++;
-    unsaved = null;
-    const { settings: now } = store.getState();
-    if (lastSaved) show({ settings: withPlotterPart(now, lastSaved), presets: lastSaved.presets }, true);
-  };
-
-  const saveSoon = (): void => {
-    if (isWaiting) return;
-    isWaiting = true;
-    after(SAVE_MS, () => {
-      isWaiting = false;
-      const wanted = unsaved;
-      unsaved = null;
-      const turnOf = refusals;
-      if (wanted) send(() => saveOrTakeBack(wanted.id, wanted.settings, turnOf));
-    });
-  };
 
   /** Called after a change by the user. Stores the part that belongs to the plotter. */
   const changed = (before: Shown): void => {
@@ -113,26 +32,24 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
     if (!plotter || state.link !== "connected" || !mayOperate(state)) return;
     const { machine } = state.settings;
     if (machine !== before.settings.machine && machine !== plotter.machine) {
-      send(() => setMachine(plotter.id, machine));
+      saver.sendMachine(plotter.id, machine);
     }
     const [old, now] = [partOf(before), partOf(state)];
     if (isSame(old, now)) return;
-    const stored = (unsaved?.id === plotter.id ? unsaved.settings : state.plotterSettings[plotter.id]) ?? now;
+    const stored = saver.unsentOf(plotter.id) ?? state.plotterSettings[plotter.id] ?? now;
     const settings = {
       pen: isSame(old.pen, now.pen) ? stored.pen : now.pen,
       pens: isSame(old.pens, now.pens) ? stored.pens : now.pens,
       presets: isSame(old.presets, now.presets) ? stored.presets : now.presets,
     };
-    if (!unsaved && sendingCount === 0) lastSaved = old;
-    unsaved = { id: plotter.id, settings };
-    saveSoon();
+    saver.saveSoon(plotter.id, settings, old);
   };
 
   /** Shows the plotter's values, unless changes by this page are still being stored. */
   const follow = (isStep = true): void => {
     const state = store.getState();
     const plotter = currentPlotter(state);
-    if (!plotter || state.link !== "connected" || unsaved || sendingCount > 0) return;
+    if (!plotter || state.link !== "connected" || saver.isBusy()) return;
     const isOther = shownId !== null && shownId !== plotter.id;
     const isFirst = shownId !== plotter.id;
     // A running plot is shown with the settings that it is plotted with.
@@ -155,8 +72,8 @@ export const createPlotterSync = ({ store, backend, asOperator, after, failed, s
     try {
       for (const { id, machine } of state.plotters) {
         if (state.plotterSettings[id] !== undefined) continue;
-        if (!(await saveNow(id, kept.settings))) return false;
-        if (machine === null) await setMachine(id, kept.machine);
+        if (!(await saver.saveNow(id, kept.settings))) return false;
+        if (machine === null) await saver.setMachine(id, kept.machine);
       }
       return true;
     } catch (error) {

@@ -7,8 +7,11 @@ export const RowMenu = ({ label, children }: { label: string; children: ReactNod
   const [isOpen, setOpen] = useState(false);
   const box = useRef<HTMLDivElement>(null);
   const opener = useRef<HTMLButtonElement>(null);
+  const list = useRef<HTMLDivElement>(null);
   useEffect(() => {
     if (!isOpen) return;
+    // The last row's menu opens below the end of a column.
+    list.current?.scrollIntoView({ block: "nearest" });
     const onPress = (event: PointerEvent): void => {
       if (!box.current?.contains(event.target as Node)) setOpen(false);
     };
@@ -38,6 +41,7 @@ export const RowMenu = ({ label, children }: { label: string; children: ReactNod
       </button>
       {isOpen && (
         <div
+          ref={list}
           className="row-menu-list"
           role="group"
           aria-label={label}

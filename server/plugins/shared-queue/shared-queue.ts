@@ -1,8 +1,8 @@
 /**
  * One server's side of the shared queue. When one of its plotters is idle, it takes the next job for that
  * plotter (by name or by machine) into its own queue. From then on it is a job like any other: stored,
- * interrupted and recovered on the server that took it. The own queue stores the shared job's id, so that a
- * job taken just before a crash is added only once.
+ * interrupted and recovered on the server that took it. This server's queue also stores the shared job's id, so
+ * that a job taken just before a crash is added only once.
  */
 import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
@@ -61,13 +61,13 @@ export class SharedQueue {
   #isClosed = false;
   /** All jobs this server took before a restart or failure are in its queue. */
   #isCaughtUp = false;
-  /** Own ids of jobs taken but not yet started. */
+  /** Jobs taken but not yet started, by their ids in this server's queue. */
   readonly #unstarted = new Set<string>();
   /** Jobs on lost servers that were already reported. */
   readonly #reportedLost = new Set<string>();
   /** Plotters without a machine that were already reported. */
   readonly #reportedNoMachine = new Set<string>();
-  #lastTrouble: string | null = null;
+  #lastFault: string | null = null;
 
   constructor(parts: SharedParts) {
     this.#parts = parts;
@@ -92,8 +92,8 @@ export class SharedQueue {
   }
 
   /**
-   * Call before a job starts. Returns null if it may start (the database then shows it as begun), otherwise the reason
-   * why not.
+   * Call before a job starts. Returns null if it may start (the database then marks it as begun), otherwise the reason
+   * why it must not.
    */
   async claim(jobId: string): Promise<string | null> {
     const { shared, store, serverId, queue, log } = this.#parts;
@@ -149,13 +149,13 @@ export class SharedQueue {
       await this.#startTaken();
       await this.#reportLost();
       for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
-      if (this.#lastTrouble !== null) log("shared queue: working again");
-      this.#lastTrouble = null;
+      if (this.#lastFault !== null) log("shared queue: working again");
+      this.#lastFault = null;
     } catch (error) {
       this.#isCaughtUp = false;
-      const trouble = error instanceof Error ? error.message : String(error);
-      if (trouble !== this.#lastTrouble) log(`shared queue: ${trouble}`);
-      this.#lastTrouble = trouble;
+      const fault = error instanceof Error ? error.message : String(error);
+      if (fault !== this.#lastFault) log(`shared queue: ${fault}`);
+      this.#lastFault = fault;
     }
     if (this.#isClosed) return;
     this.#timer = setTimeout(() => this.wake(), this.#parts.pollMs ?? POLL_MS);
@@ -172,9 +172,9 @@ export class SharedQueue {
   }
 
   /**
-   * Removes a job that belongs to another server now from the own queue; returns the message shown for it.
-   * The message comes first, so that it explains a missing job; after a crash between the two it is shown
-   * twice rather than never.
+   * Removes a job that now belongs to another server from this server's queue; returns the message for the user.
+   * The message is stored before the job is removed: after a crash between the two it is shown twice rather than
+   * never.
    */
   async #leave({ id, jobId }: { readonly id: string; readonly jobId: string }): Promise<string> {
     const { store, queue, log, notice } = this.#parts;
@@ -212,7 +212,7 @@ export class SharedQueue {
   }
 
   /**
-   * Starts taken jobs if the plotter's queue runs automatically. Tried every round, since the board may be missing.
+   * Starts taken jobs if the plotter's queue runs automatically. Each round tries again: the board may have been missing.
    */
   async #startTaken(): Promise<void> {
     const { queue } = this.#parts;
@@ -224,8 +224,8 @@ export class SharedQueue {
   }
 
   /**
-   * Takes a job for a plotter, only if it is connected and idle: otherwise the job would wait while others
-   * are free.
+   * Takes a job for a plotter that is connected and idle. On any other plotter the job would wait, although
+   * another server's plotter may be free.
    */
   async #feed(plotter: PlotterPort): Promise<void> {
     const { shared, serverId, serverName, queue, log } = this.#parts;
@@ -275,7 +275,7 @@ export class SharedQueue {
 const targetText = (target: SharedTarget): string =>
   "plotter" in target ? `plotter ${target.plotter.toLowerCase()}` : `machine ${target.machine}`;
 
-/** Ignores refusals: the job may have been started, or the plotter used for another one, meanwhile. */
+/** Ignores refusals: meanwhile the job may have been started, or the plotter may have got another job. */
 async function startIfFree(queue: JobQueue, id: string): Promise<void> {
   try {
     await queue.start(id);

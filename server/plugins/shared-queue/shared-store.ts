@@ -73,17 +73,26 @@ export class SharedStore {
    */
   static async open(url: string, log: (line: string) => void, timeoutMs = TIMEOUT_MS): Promise<SharedStore> {
     const failed = (cause: unknown): PlotwrightError =>
-      new PlotwrightError("bad-setting", `The shared queue's database can't be used: ${words(cause)}.`, {
-        cause,
-      });
+      new PlotwrightError(
+        "bad-setting",
+        `The shared queue's database can't be used: ${words(cause)}. Check that it runs, and its address after --shared-queue.`,
+        { cause },
+      );
+    // pg would take any other text for the name of a database.
+    if (!/^(postgres|postgresql|socket):/.test(url)) {
+      throw new PlotwrightError(
+        "bad-setting",
+        "--shared-queue: it must be the address of a PostgreSQL database, such as postgres://user@host/plots.",
+      );
+    }
     let pool: Pool | null = null;
     try {
       const [{ default: pg }, { default: Boss }] = await Promise.all([import("pg"), import("pg-boss")]);
       pool = new pg.Pool({ connectionString: url, max: 3, connectionTimeoutMillis: timeoutMs });
       const logError = (error: Error): void => log(`shared queue: ${words(error)}`);
       pool.on("error", logError);
-      // The pool listens to idle connections only. A busy one's query fails too, but without a listener its event
-      // would end the process.
+      // The pool listens for errors of idle connections only. On a busy connection the query fails, which is enough, but
+      // an "error" event without a listener would end the process.
       pool.on("connect", (client) => void client.on("error", () => undefined));
       await pool.query(TABLES);
       const boss = new Boss({ db: plainDb(pool), schedule: false });
@@ -140,8 +149,8 @@ export class SharedStore {
   }
 
   /**
-   * The job is in the taker's queue now, or was refused. The drawing stays until it begins, since it may be
-   * given back.
+   * Records that the job is now in the taker's queue, or was refused. The drawing is kept until the plot begins,
+   * since the job may be given back.
    */
   async finish(id: string, state: "stored" | "refused", message: string | null): Promise<void> {
     await this.#pool.query(
@@ -170,8 +179,8 @@ export class SharedStore {
   }
 
   /**
-   * The plot has begun, or the job was removed: it stays with its server. False: it belongs to another server
-   * now.
+   * Records that the plot has begun or the job was removed, so that it stays with its server. False: it now belongs
+   * to another server.
    */
   async begun(id: string, serverId: string): Promise<boolean> {
     const { rowCount } = await this.#pool.query(
@@ -181,6 +190,7 @@ export class SharedStore {
     return rowCount !== 0;
   }
 
+  /** Whether the job still belongs to this server. */
   async isStill(id: string, serverId: string): Promise<boolean> {
     const { rowCount } = await this.#pool.query(
       "SELECT 1 FROM plotwright_jobs WHERE id = $1 AND server_id = $2",

@@ -80,11 +80,6 @@ export class WatchFolder {
     this.#watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
   }
 
-  /** Resolves when all files reported so far have been handled. */
-  async settled(): Promise<void> {
-    await this.#last;
-  }
-
   async close(): Promise<void> {
     this.#abort.abort();
     await this.#watcher.close();

@@ -138,7 +138,7 @@ export class Webhooks {
           this.#busy.delete(webhookId);
         })
         .then(() => this.#next(webhookId))
-        // For example a full disk. The next try is when a job changes: an immediate retry would loop.
+        // The cause may be a full disk, so an immediate retry would loop. The next change of a job tries again.
         .catch((error: unknown) => this.#parts.log(`webhooks: ${String(error)}`));
       this.#running.add(run);
     }, pauseMs);

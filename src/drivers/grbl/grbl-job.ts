@@ -5,7 +5,7 @@ import type { StrokeSet } from "../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../machines/profile.js";
 import { penMovesOf } from "../../plan/pen-moves.js";
 import { plan } from "../../plan/plan.js";
-import type { Trajectory } from "../../plan/trajectory.js";
+import { runEndS, type Trajectory } from "../../plan/trajectory.js";
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
 import { dwellS, grblOf, type GrblController } from "./model/grbl-controller.js";
@@ -114,7 +114,7 @@ function writeCommands(
       feed = move.feed;
     }
     // Wait for rest, as planned: otherwise Grbl's planner would continue into the next run without a stop.
-    if (moves.length > 0) add(SYNC, endOfRun(trajectory, run));
+    if (moves.length > 0) add(SYNC, runEndS(trajectory, run));
   }
   if (lines.length === 0) add(SYNC, 0);
   return {
@@ -123,9 +123,4 @@ function writeCommands(
     warnings: [],
     lines,
   };
-}
-
-function endOfRun({ runs, startS, durationS }: Trajectory, run: number): number {
-  const last = runs.firstBlock[run + 1] - 1;
-  return startS[last] + durationS[last];
 }

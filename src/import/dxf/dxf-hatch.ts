@@ -8,7 +8,7 @@ import { IDENTITY } from "../../geometry/affine.js";
 import { drawDxfEntity } from "./dxf-shapes.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 
-/** The edges of a ring, as entities; a polyline is a single one. */
+/** The edges of a ring as entities. A polyline is one entity. */
 export type HatchLoop = readonly DxfEntity[];
 
 const LOOP = 92;
@@ -92,10 +92,7 @@ function edgeOf([kind, ...groups]: readonly DxfGroup[]): DxfEntity | null {
   }
 }
 
-/**
- * As the ellipse's parameter, anticlockwise; the file gives the angles of clockwise arcs in the opposite
- * direction.
- */
+/** Anticlockwise, rad, as the ellipse's parameter. The file measures the angles of clockwise arcs clockwise. */
 function anglesOf(groups: readonly DxfGroup[], axisRatio: number): { startAngle: number; endAngle: number } {
   const [start = 0] = numbersOf(groups, 50);
   const [end = 360] = numbersOf(groups, 51);

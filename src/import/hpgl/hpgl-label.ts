@@ -186,8 +186,8 @@ export class HpglLabels {
   }
 
   /**
-   * With 1, 4 and 7 the label stands on the pen's position, with 2, 5 and 8 it is vertically centred on it,
-   * with the others it hangs from it.
+   * With 1, 4 and 7 the pen's position is the label's bottom, with 2, 5 and 8 its vertical middle, with the
+   * others its top.
    */
   private get rise(): number {
     return (((this.origin % 10) + 2) % 3) / 2;

@@ -1,7 +1,7 @@
 /**
- * HPGL and HP-GL/2 to a Drawing, by pen: PU PD PA PR AA AR CI EA ER RA RR SP PE, scaling by IP and SC, labels
- * by LB. Language reference: HP, "PCL 5 Technical Reference", chapters 18 to 21. A plotter unit is 0.025 mm;
- * y is up.
+ * Reads HPGL and HP-GL/2 as a Drawing with a layer for each pen: PU PD PA PR AA AR CI EA ER RA RR SP PE, scaling by IP
+ * and SC, labels by LB. Language reference: HP, "PCL 5 Technical Reference", chapters 18 to 21. A plotter unit is
+ * 0.025 mm; y is up.
  */
 import type { Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
@@ -20,7 +20,7 @@ import { Warnings } from "../warnings.js";
 const MM_PER_PLOTTER_UNIT = 0.025;
 const ARC_TOLERANCE_MM = 2e-5;
 const MAX_PENS = 256;
-/** The usual carousel; further pens repeat the colours. */
+/** The colours of a usual pen carousel. Pens with higher numbers repeat them. */
 const PEN_COLORS = ["#000000", "#ff0000", "#008000", "#0000ff", "#ffa500", "#800080", "#00a0a0", "#808080"];
 const COMMAND = /([A-Za-z]{2})([^A-Za-z\u0003;]*)/y;
 const LABEL_END = "\u0003";

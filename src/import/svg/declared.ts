@@ -1,9 +1,8 @@
 /**
  * The winning values of one element by property, including custom properties (`--x`).
  *
- * A list, since there are few entries. The object is reused for one element after the other, a million times;
- * a Map would leave a chain of cleared tables that the garbage collector promotes to the old generation and
- * keeps.
+ * A list, since there are few entries. One object is reused for every element, perhaps a million times. A Map
+ * would leave a chain of cleared tables, which the garbage collector promotes to the old generation and keeps.
  */
 export class Declared {
   private count = 0;

@@ -9,7 +9,7 @@ import type { ClipShapes } from "../clip-node.js";
 import type { WarningCode } from "../warnings.js";
 import { clipShapesOf, outlinesOf, ringsOf } from "./clip-shapes.js";
 
-/** A darker shape hides, and a less light one shows with less contrast. */
+/** Below MIN a shape hides; between MIN and FULL it only fades. */
 const MIN_LUMINANCE = 0.02;
 const FULL_LUMINANCE = 0.98;
 
@@ -18,12 +18,13 @@ const MITER_LIMIT = 4;
 /** Max shapes to combine: more are an attack or a mistake. */
 const MAX_COMBINED = 500;
 
-/** Warnings about content that shows with less contrast, and about content that draws nothing. */
+/** Warnings about content that only fades. */
 const FADES: ReadonlySet<string> = new Set<WarningCode>([
   "opacity-ignored",
   "gradient-fill",
   "gradient-stroke",
 ]);
+/** Warnings about content that draws nothing. */
 const HARMLESS: ReadonlySet<string> = new Set<WarningCode>([
   "empty-drawing",
   "single-point",

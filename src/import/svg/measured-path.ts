@@ -8,7 +8,8 @@
  * chord the direction changes linearly from the curve's tangent at its start to the one at its end.
  */
 import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
-import { cubicAt } from "../curve-box.js";
+import { firstWhere } from "../../geometry/binary-search.js";
+import { cubicAt } from "../../drawing/curve-box.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 
 const STEPS = 64;
@@ -50,15 +51,9 @@ export class MeasuredPath {
   /** The position at length `along`, clamped to the path's ends; null if the path has no length. */
   placeAt(along: number): PathPlace | null {
     const { chords } = this;
-    let low = 0;
-    let high = chords.length - 1;
-    if (high < 0) return null;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (chords[middle].end < along) low = middle + 1;
-      else high = middle;
-    }
-    const { end, length, x, y, dx, dy, startAngle, turn } = chords[low];
+    if (chords.length === 0) return null;
+    const at = firstWhere(0, chords.length - 1, (i) => chords[i].end >= along);
+    const { end, length, x, y, dx, dy, startAngle, turn } = chords[at];
     const t = Math.min(1, Math.max(0, 1 - (end - along) / length));
     return { x: x + t * dx, y: y + t * dy, angle: startAngle + t * turn };
   }

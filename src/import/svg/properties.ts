@@ -69,10 +69,7 @@ const CSS_ONLY = [
   "d",
 ] as const;
 
-/**
- * Properties that change what a browser draws and are not drawn here, by the warning that they give. All of them
- * may be written as attributes, too.
- */
+/** Properties that a browser draws and plotwright does not, with the warning for each. All may also be attributes. */
 export const NOT_DRAWN_PROPERTIES: ReadonlyMap<string, WarningCode> = new Map<string, WarningCode>([
   ["backdrop-filter", "filter-ignored"],
   ["mask-image", "mask-ignored"],

@@ -91,7 +91,7 @@ const FIELDS: Partial<Record<Property, keyof Style>> = {
   "marker-end": "markerEnd",
 };
 
-/** An invalid value leaves the inherited one, as an invalid declaration does. */
+/** An invalid value keeps the inherited one, as if it were not declared. */
 const SETTERS: Partial<Record<Property, Setter>> = {
   fill: (style, value) => setPaint(style, "fill", value),
   stroke: (style, value) => setPaint(style, "stroke", value),

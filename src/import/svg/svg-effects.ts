@@ -14,7 +14,7 @@ export type Effects = readonly (readonly [code: WarningCode, detail?: string])[]
 const NONE: Effects = [];
 const WHITE = "#ffffff";
 
-/** Values of the properties that are not drawn with which nothing is missing. */
+/** Values of NOT_DRAWN_PROPERTIES that change nothing, so that they need no warning. */
 const DRAWS_AS_USUAL =
   /^\s*(none|normal|auto|initial|inherit|unset|revert|solid|mixed|[01](px|%)?|100%)?\s*$/;
 

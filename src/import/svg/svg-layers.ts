@@ -89,10 +89,7 @@ function wrapperIn(tree: SvgTree, parent: number): number {
 function groupsIn(tree: SvgTree, parent: number): number[] {
   const groups: number[] = [];
   const group = tree.names.indexOf("g");
-  const first = tree.firstChildren[parent];
-  // Usually there is none among thousands of children.
-  const isAny = first >= 0 && tree.tags.subarray(first, tree.count).includes(group);
-  for (let child = isAny ? first : -1; child >= 0; child = tree.nextSiblings[child]) {
+  for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
     if (tree.tags[child] === group) groups.push(child);
   }
   return groups;

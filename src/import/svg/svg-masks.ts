@@ -20,7 +20,7 @@ import { computeStyle, declaredValue, parseUrl } from "./style.js";
 
 /** Max elements and coordinates drawn in masks, in the whole file: masks may be used many times. */
 const MAX_MASK_WORK = 2_000_000;
-/** A shape costs as much as this many coordinates, to combine it with the others; so does each use of a mask. */
+/** Cost of combining one shape with the others, in coordinates. Each use of a mask costs the same. */
 const WORK_PER_SHAPE = 100;
 
 export interface MaskClip {
@@ -29,7 +29,7 @@ export interface MaskClip {
   readonly isFaint: boolean;
 }
 
-/** Draws what is inside an element and counts `work` down; null if that takes too much. */
+/** Draws the content of an element and subtracts its cost from `work`; null if it exceeds what is left. */
 export type DrawApart = (element: number, context: Context, work: { left: number }) => Drawing | null;
 
 export class SvgMasks {

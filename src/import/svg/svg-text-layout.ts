@@ -12,7 +12,7 @@ import { layOutLine } from "../text/text-line.js";
 export interface Char {
   text: string;
   readonly style: Style;
-  /** The path it stands on; null for a straight line. */
+  /** The path that it is placed on; null for a straight line. */
   readonly path: TextPath | null;
   x: number | null;
   y: number | null;

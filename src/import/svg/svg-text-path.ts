@@ -2,18 +2,17 @@
 import type { Cascade } from "./cascade.js";
 import { Declared } from "./declared.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
-import { curveBox } from "../curve-box.js";
 import { drawPathData } from "../path-data.js";
 import { elementTransform } from "./element-transform.js";
 import { splitLength, lengthPx } from "./length.js";
 import { MeasuredPath, type PathPlace } from "./measured-path.js";
-import { ShapeBuffer } from "../shape-buffer.js";
+import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
 import { IDENTITY } from "../../geometry/affine.js";
 
-/** Max error of an arc that letters stand on, in em. */
+/** Max error of an arc that letters are placed on, in em. */
 const ARC_TOLERANCE = 1e-4;
 
 /**

@@ -18,7 +18,7 @@ import type { TextFont } from "../text/text-font.js";
 export interface PlacedText extends LaidOutText {
   /** Elements that are not laid out: a textPath without a path, and unsupported kinds. */
   readonly unsupported: readonly string[];
-  /** Of the spans: what a browser draws with them and a pen does not. */
+  /** Effects of the spans that a browser draws and a pen cannot. */
   readonly effects: Effects;
   /** Start of the text, in user units. */
   readonly x: number;
@@ -27,7 +27,7 @@ export interface PlacedText extends LaidOutText {
 
 type CommonOfText = Pick<Char, "style" | "path" | "keepsBlanks" | "stretch">;
 
-/** Fonts do not place all of them. */
+/** Three or more combining marks in a row: few fonts place all of them correctly. */
 const STACKED_ACCENTS = /\p{M}{3}/u;
 const MAX_CHARS = 100_000;
 const RAD_PER_DEG = Math.PI / 180;
@@ -120,7 +120,7 @@ class Gatherer {
       else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
         this.cascade.collect(node, this.declared);
         const own = this.styleInside(style);
-        // Deeply nested spans have no use; deeper ones are not laid out.
+        // No real file nests spans deeper than 64: deeper ones are not laid out.
         if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64) {
           this.effects.push(...effectsOf(own, this.declared));
           const clip = declaredValue(own, this.declared, "clip-path") ?? "none";

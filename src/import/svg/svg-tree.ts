@@ -47,10 +47,7 @@ export interface SvgTree {
   readonly hasStylesheetLink: boolean;
 }
 
-/**
- * Where in `text` each value begins; it ends at the same quote that precedes it. Or `OWN_STRING` + index in
- * `own`.
- */
+/** Where each value begins in `text` (it ends at the quote that precedes it), or `OWN_STRING` + index in `own`. */
 interface AttributeValues {
   readonly text: string;
   readonly places: Uint32Array;

@@ -44,7 +44,7 @@ const MAX_COPIED_COORDS = 50_000_000;
 const SPEED_ATTRIBUTE = "data-plotwright-speed";
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
-/** Elements that draw nothing where they stand. All others that are not drawn here are reported. */
+/** Elements that draw nothing at their place in the file. All others that are not drawn are reported. */
 const INVISIBLE = new Set(
   `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
    meshgradient metadata mpath pattern radialGradient script solidcolor solidColor stop style symbol title view`.split(
@@ -124,7 +124,7 @@ export class SvgWalk {
     return true;
   }
 
-  /** Draws what is inside `element` to a drawing of its own, with faults and effects as its warnings. */
+  /** Draws the content of `element` into a separate drawing, whose warnings include its errors and effects. */
   private drawApart(
     element: number,
     context: Context,
@@ -414,7 +414,7 @@ export class SvgWalk {
   }
 }
 
-/** One past the last element inside each element; elements stand in document order. */
+/** One past the last element inside each element; elements are in document order. */
 function subtreeEndsOf(tree: SvgTree): Uint32Array {
   const ends = new Uint32Array(tree.count);
   for (let element = tree.count - 1; element >= 0; element--) {

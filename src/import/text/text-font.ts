@@ -71,8 +71,7 @@ export interface TextFont {
 
 /** Height of capitals in the built-in letters, and about that of all fonts. */
 export const CAPITAL_EM = 0.7;
-/** Approximate ascent of all fonts, and depth of a "g" below the baseline. */
-export const ASCENT_EM = 0.9;
+/** Approximate depth of a "g" below the baseline, of all fonts. */
 export const DESCENT_EM = 7 / 30;
 
 /** Metrics of usual browser fonts, for fonts without their own. */

@@ -248,7 +248,7 @@ describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
 });
 
 describe("the check itself", () => {
-  it("finds a planner that takes the tip to be clear at 30 % of the way", () => {
+  it("finds a planner that assumes the tip to be clear at 30 % of the way", () => {
     const strokes = sampleStrokes("flower-meadow.svg");
     const marks = marksOf({ strokes, pen: penOf("fast", { contactPct: 30 }) }, STATED);
     expect(marks.strayMm).toBeGreaterThan(SAFE_MM);

@@ -1,6 +1,6 @@
 /** The basic shapes of the CSS property `clip-path`, drawn as Chromium draws them. */
 import { describe, expect, it } from "vitest";
-import { curveBox } from "../../../src/import/curve-box.js";
+import { curveBox } from "../../../src/import/shape-buffer.js";
 import { cssClipShape } from "../../../src/import/svg/css-clip-shape.js";
 import { draw } from "./support/shapes.js";
 

@@ -67,12 +67,12 @@ describe("the ringing sheet", () => {
     }
   });
 
-  it("refuses a count that no machine swings by", () => {
+  it("refuses a count of ripples that no machine can have", () => {
     expect(frequencyOfRipples(30, 5, 10)).toBe(15);
     expect(() => frequencyOfRipples(30, 500, 10)).toThrow(/1500 Hz.*2 to 200 Hz/);
   });
 
-  it("has a second sheet of one figure not shaped and for five factors", () => {
+  it("has a second sheet with a figure without shaping and one for each of five factors", () => {
     const checks = ringingChecks(springs);
     expect(checks.map(({ factor }) => factor)).toEqual([null, 0.8, 0.9, 1, 1.1, 1.25]);
     expect(checks[1].springs?.xHz).toBeCloseTo(11.2, 9);

@@ -54,7 +54,7 @@ describe("data-plotwright-speed", () => {
         <g><path d="M10 40h100" data-plotwright-speed="1"/><path d="M10 50h100"/></g></g>`),
   );
 
-  it("slows an element and what is inside a group, and the inner one counts", () => {
+  it("slows an element or a whole group; an inner value replaces the group's", () => {
     expect(drawing.warnings).toEqual([]);
     expect([...(drawing.paths.speedFactor ?? [])]).toEqual([1, 0.5, 0.2, 1, 0.5]);
     const strokes = strokesOf(drawing, { ...SETTINGS, layers: "all" });

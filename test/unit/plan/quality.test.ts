@@ -40,7 +40,7 @@ function worth(quality: Quality, springs: Springs) {
 
 // `npm test` has one machine: each plans and simulates all drawings.
 describe.each(SPRINGS.slice(0, cases(SPRINGS.length, 1)))("on springs of $xHz and $yHz Hz", (springs) => {
-  it("fast takes 35 % less time, is not less exact, and at most 1.3 times with a frequency wrong by 10 %", () => {
+  it("fast takes 35 % less time with no larger error, and at most 1.3 times the error if a frequency is wrong by 10 %", () => {
     const { time, max, rms } = worth("fast", springs);
     expect(time).toBeLessThanOrEqual(0.65);
     for (const [right, low, high] of [max, rms]) {
@@ -49,7 +49,7 @@ describe.each(SPRINGS.slice(0, cases(SPRINGS.length, 1)))("on springs of $xHz an
     }
   }, 120_000);
 
-  it("fine takes 15 % less time at most 0.6 of the largest error, with a frequency wrong by 10 % too", () => {
+  it("fine takes 15 % less time with at most 0.6 of the largest error, also if a frequency is wrong by 10 %", () => {
     const { time, max } = worth("fine", springs);
     expect(time).toBeLessThanOrEqual(0.85);
     expect(Math.max(...max)).toBeLessThanOrEqual(0.6);
@@ -65,13 +65,13 @@ describe("a step of quality", () => {
     expect(qualityOf(own, springs)).toBeNull();
   });
 
-  it("of a machine that was not measured is today's default, and only normal", () => {
+  it("of a machine that was not measured can only be normal, with the default limits", () => {
     expect({ ...DEFAULT_MOTION, ...motionOfQuality("normal", null) }).toEqual(DEFAULT_MOTION);
     expect(qualityOf(DEFAULT_MOTION, null)).toBe("normal");
     expect(() => motionOfQuality("fast", null)).toThrow(/ringing sheet/);
   });
 
-  it("asks less of a weak machine", () => {
+  it("accelerates less on a weak machine", () => {
     const weak = motionOfQuality("fast", { xHz: 5, yHz: 30, damping: 0.05 });
     expect(weak.draw.accelMmPerS2).toBe(438);
   });

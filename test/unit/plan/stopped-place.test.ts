@@ -78,6 +78,26 @@ describe("where a plot was interrupted", () => {
     expect(begun.alongMm).toBeCloseTo(0.1, 6);
   });
 
+  it("is the start of a stroke that leads back if the carriage is still on its way to it", () => {
+    // The travel from (78, 30) and the stroke enclose 18 degrees.
+    const back = strokesOf([60, 12, 78, 12, 78, 30], [60, 36, 63, 36]);
+    const since = { aheadMm: 500, landingMm: 1 };
+    const before = { stroke: 0, alongMm: 30 };
+    const onTravel = { x: 60.094, y: 35.969, up: false };
+    expect(stoppedPlace(back, before, onTravel, since)).toEqual({ stroke: 1, alongMm: 0 });
+    const onStroke = stoppedPlace(back, before, { x: 60.094, y: 36, up: false }, since);
+    expect(onStroke.stroke).toBe(1);
+    expect(onStroke.alongMm).toBeCloseTo(0.094, 6);
+    // On both: drawn again.
+    const exactlyBack = strokesOf([0, 0, 100, 0], [50, 0, 60, 0]);
+    expect(stoppedPlace(exactlyBack, { stroke: 1, alongMm: 0 }, { x: 50.1, y: 0, up: false }, since)).toEqual(
+      {
+        stroke: 1,
+        alongMm: 0,
+      },
+    );
+  });
+
   it("is the next stroke where the pen comes down fast, further before it but on the way to it", () => {
     const landing = { x: 100, y: 47, up: false };
     const since = { aheadMm: 500, landingMm: 3.5 };

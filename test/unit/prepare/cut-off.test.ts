@@ -20,7 +20,7 @@ const cutOf = (drawing: ReturnType<typeof drawingOf>, settings: Partial<PrepareS
 const LINES = ["M20 20L80 20", "M50 50L95 50", "M5 2L60 2"];
 
 describe("lines that the margins cut off", () => {
-  it("is lines outside, and lines that leave", () => {
+  it("are lines outside the margins, and lines that cross them", () => {
     const cut = cutOf(drawingOf(LINES))!;
     expect([...cut.lines.xy]).toEqual([50, 50, 95, 50, 5, 2, 60, 2]);
     expect(cut.outsideCount).toBe(1);

@@ -122,7 +122,7 @@ describe("the colour of a layer", () => {
     expect(looksOf([{ d: "M0 0L1 0M90 90L91 90", stroke: PURPLE }, line(BLUE, 9, 5)])).toEqual([[BLUE, 2]]);
   });
 
-  it("is the commonest among dots", () => {
+  it("is the most frequent one among dots", () => {
     const dot = (stroke: string, x: number) => ({ d: `M${x} 5L${x} 5`, stroke });
     expect(looksOf([dot(PURPLE, 1), dot(BLUE, 2), dot(BLUE, 3)])).toEqual([[BLUE, 2]]);
   });

@@ -91,7 +91,7 @@ describe("placing", () => {
 });
 
 describe("shaping", () => {
-  it("closes a closed subpath to the bit and continues from its start", () => {
+  it("closes a closed subpath exactly and continues from its start", () => {
     expect(draw(drawingOf(["M10 10L20 10L20 20ZL0 0"]), { joinMm: 0 })).toEqual([
       [10, 10, 20, 10, 20, 20, 10, 10],
       [10, 10, 0, 0],

@@ -1,16 +1,16 @@
-/** What this browser lets a page do. A page that was opened by plain http over a network may use very little. */
+/** What this browser allows the page to do. It allows less on an insecure page (plain http from another computer). */
 import { browserText } from "./text.js";
 
-/** Why the page can't use a plotter, and what to do; null where it can. */
+/** Why the page can't use a plotter, and what to do; null if it can. */
 export const whyNoPort = (): string | null => {
   if (!window.isSecureContext) return browserText.insecure;
   return (navigator as { serial?: Serial }).serial === undefined ? browserText.noSerial : null;
 };
 
-/** Whether one tab can know of the others. The Web Locks that this takes are missing on an insecure page. */
+/** Whether the tabs can agree on one host. They do so with Web Locks, which an insecure page does not have. */
 export const hasLocks = (): boolean => (navigator as { locks?: LockManager }).locks !== undefined;
 
-/** Browsers offer `crypto.randomUUID` on secure pages only. Without it the virtual plotter would not work either. */
+/** Adds `crypto.randomUUID` on insecure pages, where browsers do not have it. Even the virtual plotter needs it. */
 export const provideRandomIds = (): void => {
   const { crypto } = globalThis as {
     crypto: { randomUUID?: () => string } & Pick<Crypto, "getRandomValues">;

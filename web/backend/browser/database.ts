@@ -20,9 +20,9 @@ interface Change {
   readonly value: unknown;
 }
 
-/** Where the host keeps its records: `Database`, or memory where the browser stores nothing. */
+/** Where the host keeps its records: `Database`, or memory if the browser stores nothing. */
 export interface Records {
-  /** Everything that is stored, without the drawings. */
+  /** All records of a store, by key. */
   read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>>;
   readDrawing(id: string): Promise<unknown>;
   drawingIds(): Promise<string[]>;
@@ -55,7 +55,7 @@ export class Database implements Records {
     this.#events = events;
   }
 
-  /** Rejects where the browser stores nothing for this site, as some do in private windows. */
+  /** Rejects if the browser stores nothing for this site, as some do in private windows. */
   static async open(name: string, events: DatabaseEvents): Promise<Database> {
     const request = indexedDB.open(name, VERSION);
     request.onupgradeneeded = () => {
@@ -100,7 +100,7 @@ export class Database implements Records {
   #change(change: Change): void {
     this.#queued.set(`${change.store}/${change.key}`, change);
     this.#last = this.#nextWrite();
-    // Reported by `events`, and to each caller of `written`.
+    // Not an unhandled rejection: `events` and every caller of `written` get the error.
     this.#last.catch(() => undefined);
   }
 

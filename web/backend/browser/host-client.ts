@@ -15,7 +15,7 @@ import {
 } from "./protocol.js";
 import { reasonOf } from "./worker-fault.js";
 
-/** How long a call waits for a host: after a host's page was closed, there is none for a moment. */
+/** How long a call waits for a host. After the host's page is closed, there is no host for a moment. */
 const NO_HOST_MS = 15_000;
 
 interface Waiting {
@@ -52,7 +52,7 @@ export class HostClient {
     sendVisibility();
     worker.onerror = (event) => this.#failed(reasonOf(event));
     this.#channel.onmessage = ({ data }: MessageEvent<Message>) => {
-      if (data.to === "pages") this.#hear(data);
+      if (data.to === "pages") this.#receive(data);
     };
     this.remote = new Proxy({} as Remote, {
       get:
@@ -66,7 +66,7 @@ export class HostClient {
     return this.#host === this.tab;
   }
 
-  /** Each host's first event is a snapshot. A host that is running already is asked for one. */
+  /** The first event of a host is a snapshot. This asks a host that is already running for another one. */
   listen(listener: BackendListener): () => void {
     this.#listeners.add(listener);
     this.#send({ to: "host", type: "hello", tab: this.tab });
@@ -87,11 +87,11 @@ export class HostClient {
     return new Promise((resolve, reject) => this.#calls.set(id, { resolve, reject }));
   }
 
-  #hear(message: FromHost): void {
+  #receive(message: FromHost): void {
     switch (message.type) {
       case "event":
         if (message.tab !== undefined && message.tab !== this.tab) return;
-        if (message.event.type === "snapshot") this.#hostIs(message.host);
+        if (message.event.type === "snapshot") this.#setHost(message.host);
         // A host that has handed over still sends events while it closes its plotters.
         if (message.host !== this.#host) return;
         for (const listener of this.#listeners) {
@@ -109,7 +109,7 @@ export class HostClient {
         return;
       }
       case "handed-over":
-        this.#hostIs(null);
+        this.#setHost(null);
         return;
       case "failed":
         if (message.host === this.tab) this.#failed(message.message);
@@ -117,7 +117,7 @@ export class HostClient {
   }
 
   /** Sets the host. Calls to the previous one fail, because it no longer answers. */
-  #hostIs(host: string | null): void {
+  #setHost(host: string | null): void {
     if (host === this.#host) return;
     this.#host = host;
     for (const { reject } of this.#calls.values())

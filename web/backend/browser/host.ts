@@ -29,7 +29,7 @@ import { workerPlanning } from "./worker-planning.js";
 const STOPPED =
   "The page was closed or reloaded while this was plotting. Check pen and paper, then continue from where it was.";
 const PROGRESS_MS = 100;
-/** Systems give the process of a hidden tab less time. */
+/** The system gives the process of a hidden tab less time, so timers may be this late. */
 const HIDDEN_LATENESS_S = 0.7;
 
 export interface Host {
@@ -42,7 +42,7 @@ export interface Host {
 }
 
 export interface HostPage {
-  /** Gets every event once what it reports is stored, in order. */
+  /** Called with every event, in order, after the change that it reports is stored. */
   send(event: ServerEvent): void;
   isPageHidden(): boolean;
 }
@@ -88,29 +88,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
         devices,
       }),
   });
-  const drawings = {
-    add: async (drawing: DrawingText): Promise<string> => {
-      const id = crypto.randomUUID();
-      db.put("drawings", id, drawing);
-      await db.written().catch((cause: unknown) => {
-        // It must not hold up the changes that have room.
-        db.remove("drawings", id);
-        throw new PlotwrightError("disk-full", browserText.notAdded(reasonOf(cause)), { cause });
-      });
-      return id;
-    },
-    read: async (id: string): Promise<DrawingText> => {
-      // A plot begins by reading its drawing. Waiting here makes sure that its new state is stored before.
-      await db.written();
-      const drawing = await db.readDrawing(id);
-      if (typeof drawing === "string" || drawing instanceof ArrayBuffer) return drawing;
-      throw new PlotwrightError("bad-file", "The browser no longer has this drawing. Add it again.");
-    },
-    remove: (id: string): Promise<void> => {
-      db.remove("drawings", id);
-      return db.written();
-    },
-  };
+  const drawings = drawingRecords(db);
   const queue = new JobQueue({
     store,
     files: drawings,
@@ -128,10 +106,12 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     faultId = null;
     if (notices.list().some((notice) => notice.id === id)) notices.remove(String(id));
   };
-  // An insecure page says so in the plotter's panel.
+  // On an insecure page the plotter's panel already says so.
   if (db instanceof MemoryRecords && hasLocks()) notices.add(browserText.nothingStored);
   if (store.unreadableCount > 0) {
-    notices.add(`Jobs of another version of plotwright that can't be read: ${store.unreadableCount}.`);
+    notices.add(
+      `Jobs that can't be read, because another version of plotwright stored them: ${store.unreadableCount}.`,
+    );
   } else await removeUnused(db, store);
   return {
     api: hostApi({ queue, registry, notices, machines, drawings }),
@@ -158,7 +138,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
   };
 }
 
-/** Tabs that can't know of each other must not share records. */
+/** Tabs that can't agree on one host must not share records. */
 const openRecords = async (events: DatabaseEvents): Promise<Records> => {
   if (!hasLocks()) return new MemoryRecords();
   return Database.open(DATABASE, events).catch(() => new MemoryRecords());
@@ -178,13 +158,39 @@ function announcer(db: Records, send: (event: ServerEvent) => void): (event: Ser
       if (performance.now() - progressAtMs < PROGRESS_MS) return;
       progressAtMs = performance.now();
     }
-    // A change that can't be stored is announced too, with a notice: a plot must not become invisible.
+    // A change that can't be stored is announced too: the page must always show a running plot. A notice reports the
+    // fault.
     const stored = db.written().catch(() => undefined);
     last = last.then(() => stored).then(() => send(event));
   };
 }
 
-/** Drawings whose job was never added, because the page was closed before. */
+/** Drawings by id. */
+const drawingRecords = (db: Records) => ({
+  add: async (drawing: DrawingText): Promise<string> => {
+    const id = crypto.randomUUID();
+    db.put("drawings", id, drawing);
+    await db.written().catch((cause: unknown) => {
+      // A large drawing must not prevent later, smaller changes from being stored.
+      db.remove("drawings", id);
+      throw new PlotwrightError("disk-full", browserText.notAdded(reasonOf(cause)), { cause });
+    });
+    return id;
+  },
+  read: async (id: string): Promise<DrawingText> => {
+    // A plot begins by reading its drawing. Waiting here ensures that the plot's new state is stored first.
+    await db.written();
+    const drawing = await db.readDrawing(id);
+    if (typeof drawing === "string" || drawing instanceof ArrayBuffer) return drawing;
+    throw new PlotwrightError("bad-file", "The browser no longer has this drawing. Add it again.");
+  },
+  remove: (id: string): Promise<void> => {
+    db.remove("drawings", id);
+    return db.written();
+  },
+});
+
+/** Removes drawings whose job was never added because the page was closed first. */
 async function removeUnused(db: Records, store: StoredModel): Promise<void> {
   for (const id of await db.drawingIds()) if (!store.isUsed(id)) db.remove("drawings", id);
 }

@@ -25,9 +25,9 @@ const start = JSON.parse(self.name) as WorkerStart;
 const channel = new BroadcastChannel(start.channel);
 let host: Host | null = null;
 let isPageHidden = false;
-/** Ends this worker's time as the host. */
+/** Releases the lock: this worker is then no longer the host. */
 let release: () => void = () => undefined;
-/** The page that another host has handed over to. */
+/** The page to which another host has handed over. */
 let next: string | null = null;
 
 /** A message without `to` and `host`, which `post` adds. */

@@ -1,10 +1,10 @@
-/** The records of a host that may not store anything: gone when its tab is closed. */
+/** The records of a host in a browser that stores nothing. They are lost when the tab is closed. */
 import type { Records, StoreName } from "./database.js";
 
 export class MemoryRecords implements Records {
   readonly #drawings = new Map<string, unknown>();
 
-  /** A new host begins with nothing, and keeps all but the drawings in its own memory. */
+  /** Always empty: nothing is left from an earlier host, and this host has all records but drawings in memory anyway. */
   read(): Promise<Map<string, unknown>> {
     return Promise.resolve(new Map());
   }

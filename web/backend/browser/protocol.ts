@@ -7,8 +7,8 @@ import type { ServerEvent } from "../../../src/schema/index.js";
 import type { HostApi, HostMethod } from "./host-api.js";
 
 /**
- * The channel that all tabs share. Changes with the messages, so that pages of different versions do not misunderstand
- * each other.
+ * The channel that all tabs share. Change its number when the messages change, so that pages of different versions do
+ * not misunderstand each other.
  */
 export const CHANNEL = "plotwright-1";
 /** The worker that holds this Web Lock is the host. The browser releases it when that worker ends. */
@@ -19,7 +19,7 @@ export const DATABASE = "plotwright-host";
 export interface WorkerStart {
   /** The page's id, also used as the id of its host. */
   readonly tab: string;
-  /** Where tabs can't know of each other, each has a channel, and so a host, of its own. */
+  /** CHANNEL, or a channel of this tab only if tabs can't agree on one host. */
   readonly channel: string;
   readonly virtualSpeed: number;
 }

@@ -1,5 +1,5 @@
 /**
- * The serial ports that the user has allowed this page to use. A worker can open them; only a page can ask for more.
+ * The serial ports that the user has allowed this page to use. A worker can open them, but only a page can ask for more.
  */
 import { PlotwrightError } from "../../../src/index.js";
 import { usbIds, type UsbId } from "../../../src/internal.js";
@@ -35,7 +35,7 @@ export function serialDevices(
     find,
     findAll: () => find(usbIds()),
     open: async (path) => {
-      const port = (await ports()).find((one) => names.get(one) === path);
+      const port = (await ports()).find((candidate) => names.get(candidate) === path);
       if (port === undefined) {
         throw new PlotwrightError(
           "no-board",

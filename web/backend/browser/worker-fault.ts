@@ -1,4 +1,4 @@
-/** Why a worker failed. The event has no message where the worker's file could not be loaded. */
+/** Why a worker failed. The event has no message if the worker's file could not be loaded. */
 import { browserText } from "./text.js";
 
 export const reasonOf = (event: Event): string =>

@@ -99,7 +99,7 @@ class WorkerPlanner implements PlotPlanner {
     const waiting = this.#waiting.get(id);
     this.#waiting.delete(id);
     if (message.type === "failed") {
-      // If the drawing can't be prepared, the worker is not needed any more.
+      // The drawing can't be prepared, so the worker is not needed any more.
       if (id === null) this.#worker.terminate();
       waiting?.reject(new PlotwrightError(message.code, message.message));
     } else waiting?.resolve(message);

@@ -1,4 +1,4 @@
-/** The live event stream: connects, parses every event by the schema, and reconnects endlessly. */
+/** The live event stream: connects, parses every event with its schema, and always reconnects. */
 import { serverEventSchema, type ServerEvent } from "../../../src/schema/index.js";
 import type { BackendListener } from "../backend.js";
 
@@ -10,8 +10,8 @@ const SLOW_RETRY_MS = 6_000;
 const ASLEEP_MS = 15_000;
 
 /**
- * Returns a function that closes it. The browser itself does not retry after an HTTP error (from a server that is just
- * starting), so a closed stream is opened again here. So is one that has lost its network.
+ * Returns a function that closes it. The browser does not retry after an HTTP error (from a server that is just
+ * starting), so the stream is opened again here. It is also opened again when the network is back.
  */
 export const openEvents = (path: string, listener: BackendListener): (() => void) => {
   let source: EventSource | null = null;
@@ -56,17 +56,17 @@ export const openEvents = (path: string, listener: BackendListener): (() => void
 /** Calls `onBack` when the network is back or the device wakes up, and `onGone` when the network is lost. */
 const watchNetwork = (onBack: () => void, onGone: () => void): (() => void) => {
   let hiddenAtMs: number | null = null;
-  const onSight = (): void => {
+  const onVisibility = (): void => {
     if (document.visibilityState === "hidden") hiddenAtMs = Date.now();
     else if (hiddenAtMs !== null && Date.now() - hiddenAtMs > ASLEEP_MS) onBack();
   };
   window.addEventListener("online", onBack);
   window.addEventListener("offline", onGone);
-  document.addEventListener("visibilitychange", onSight);
+  document.addEventListener("visibilitychange", onVisibility);
   return () => {
     window.removeEventListener("online", onBack);
     window.removeEventListener("offline", onGone);
-    document.removeEventListener("visibilitychange", onSight);
+    document.removeEventListener("visibilitychange", onVisibility);
   };
 };
 

@@ -1,4 +1,4 @@
-/** Moves by hand and the console, by plotwright's server. */
+/** Manual moves and the console, through plotwright's server. */
 import {
   commandAnswerSchema,
   plotterSchema,
@@ -6,14 +6,14 @@ import {
   type Plotter,
 } from "../../../src/schema/index.js";
 import type { HandBackend } from "../backend.js";
-import { one, type Requests } from "./requests.js";
+import { pathOf, type Requests } from "./requests.js";
 
 export const handRoutes = ({ ask }: Requests): HandBackend => {
   const move = (
     plotterId: string,
     name: string,
     body: Record<string, unknown> & { readonly settings: PlotSettings },
-  ): Promise<Plotter> => ask(plotterSchema, "POST", `${one("plotters", plotterId)}/${name}`, body);
+  ): Promise<Plotter> => ask(plotterSchema, "POST", `${pathOf("plotters", plotterId)}/${name}`, body);
   return {
     walk: (id, settings, xMm, yMm) => move(id, "walk", { xMm, yMm, settings }),
     jog: (id, settings, dxMm, dyMm) => move(id, "jog", { dxMm, dyMm, settings }),
@@ -24,6 +24,6 @@ export const handRoutes = ({ ask }: Requests): HandBackend => {
     frameBox: (id, settings, boxMm) => move(id, "frame", { boxMm, settings }),
     square: (id, settings, sizeMm) => move(id, "square", { sizeMm, settings }),
     servo: (id, settings, pos) => move(id, "servo", { pos, settings }),
-    command: (id, line) => ask(commandAnswerSchema, "POST", `${one("plotters", id)}/command`, { line }),
+    command: (id, line) => ask(commandAnswerSchema, "POST", `${pathOf("plotters", id)}/command`, { line }),
   };
 };

@@ -15,7 +15,7 @@ const okSchema = z.object({ ok: z.literal(true) });
 const uploadSchema = z.object({ id: z.string() });
 
 export const createRequests = (fetchPath: Fetch) => {
-  /** `body`: a blob is sent as it is, anything else as JSON. */
+  /** A blob is sent unchanged, any other body as JSON. */
   const send = async (method: string, path: string, body?: unknown): Promise<Response> => {
     const init: RequestInit = { method };
     if (body instanceof Blob) init.body = body;
@@ -52,7 +52,7 @@ export const createRequests = (fetchPath: Fetch) => {
 };
 
 /** The path of one item: `/jobs/ID`. */
-export const one = (what: string, id: string): string => `/${what}/${encodeURIComponent(id)}`;
+export const pathOf = (what: string, id: string): string => `/${what}/${encodeURIComponent(id)}`;
 
 const faultOf = async (response: Response): Promise<BackendFault> => {
   const parsed = apiErrorSchema.safeParse(await response.json().catch(() => null));

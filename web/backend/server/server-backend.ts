@@ -1,4 +1,4 @@
-/** The page's backend by plotwright's server: REST requests and the live event stream. */
+/** The page's backend with plotwright's server: REST requests and the live event stream. */
 import { z } from "zod";
 import {
   jobSchema,
@@ -13,13 +13,13 @@ import {
 import { contentOf } from "../../worker/drawing-text.js";
 import { BackendFault, type Backend, type DrawingSource } from "../backend.js";
 import { openEvents } from "./events.js";
-import { API, createRequests, one, type Fetch } from "./requests.js";
+import { API, createRequests, pathOf, type Fetch } from "./requests.js";
 
 const samplesSchema = z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) });
 const operatorAnswerSchema = z.object({ operator: operatorSchema.nullable() });
 
 const drawingPath = ({ of, id }: DrawingSource): string =>
-  of === "job" ? `${one("jobs", id)}/drawing` : one("samples", id);
+  of === "job" ? `${pathOf("jobs", id)}/drawing` : pathOf("samples", id);
 
 export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(path, init)): Backend => {
   const requests = createRequests(fetchPath);
@@ -29,34 +29,34 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     listen: (listener) => openEvents(`${API}/events`, listener),
 
     addJob: (job, drawing) => askWithDrawing(jobSchema, "/jobs", job, drawing),
-    patchJob: (id, patch) => ask(jobSchema, "PATCH", one("jobs", id), patch),
-    actOnJob: (id, action) => ask(jobSchema, "POST", `${one("jobs", id)}/${action}`),
-    changeJob: (id, change) => ask(jobSchema, "POST", `${one("jobs", id)}/change`, change),
-    movePlace: (id, move) => ask(jobSchema, "POST", `${one("jobs", id)}/place`, move),
-    moveJob: (id, beforeId) => command("POST", `${one("jobs", id)}/move`, { beforeId }),
-    duplicateJob: (id) => ask(jobSchema, "POST", `${one("jobs", id)}/duplicate`),
-    removeJob: (id) => command("DELETE", one("jobs", id)),
+    patchJob: (id, patch) => ask(jobSchema, "PATCH", pathOf("jobs", id), patch),
+    actOnJob: (id, action) => ask(jobSchema, "POST", `${pathOf("jobs", id)}/${action}`),
+    changeJob: (id, change) => ask(jobSchema, "POST", `${pathOf("jobs", id)}/change`, change),
+    movePlace: (id, move) => ask(jobSchema, "POST", `${pathOf("jobs", id)}/place`, move),
+    moveJob: (id, beforeId) => command("POST", `${pathOf("jobs", id)}/move`, { beforeId }),
+    duplicateJob: (id) => ask(jobSchema, "POST", `${pathOf("jobs", id)}/duplicate`),
+    removeJob: (id) => command("DELETE", pathOf("jobs", id)),
     jobDrawing: async (id) =>
       contentOf(await (await send("GET", drawingPath({ of: "job", id }))).arrayBuffer()),
     setQueue: (plotterId, settings) =>
-      ask(queueSettingsSchema, "PATCH", `${one("plotters", plotterId)}/queue`, settings),
+      ask(queueSettingsSchema, "PATCH", `${pathOf("plotters", plotterId)}/queue`, settings),
 
     me: () => ask(meSchema, "GET", "/me"),
     takeOver: async () => (await ask(operatorAnswerSchema, "POST", "/operator/take")).operator,
-    dismissNotice: (id) => command("DELETE", one("notices", id)),
+    dismissNotice: (id) => command("DELETE", pathOf("notices", id)),
 
     savePlotterSettings: (id, settings) =>
-      ask(plotterSettingsSchema, "PUT", `${one("plotters", id)}/settings`, settings),
-    setPlotterMachine: (id, machine) => ask(plotterSchema, "PATCH", one("plotters", id), { machine }),
-    movePen: (id, request) => ask(plotterSchema, "POST", `${one("plotters", id)}/pen`, request),
-    motorsOff: (id) => ask(plotterSchema, "POST", `${one("plotters", id)}/motors-off`),
-    home: (id, settings) => ask(plotterSchema, "POST", `${one("plotters", id)}/home`, { settings }),
+      ask(plotterSettingsSchema, "PUT", `${pathOf("plotters", id)}/settings`, settings),
+    setPlotterMachine: (id, machine) => ask(plotterSchema, "PATCH", pathOf("plotters", id), { machine }),
+    movePen: (id, request) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/pen`, request),
+    motorsOff: (id) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/motors-off`),
+    home: (id, settings) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/home`, { settings }),
     connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
-    log: async (id) => (await send("GET", `${one("plotters", id)}/log`)).text(),
+    log: async (id) => (await send("GET", `${pathOf("plotters", id)}/log`)).text(),
 
     machines: async () => (await ask(machineListSchema, "GET", "/machines")).machines,
-    saveMachine: (profile) => ask(machineProfileSchema, "PUT", one("machines", profile.id), profile),
-    removeMachine: (id) => command("DELETE", one("machines", id)),
+    saveMachine: (profile) => ask(machineProfileSchema, "PUT", pathOf("machines", profile.id), profile),
+    removeMachine: (id) => command("DELETE", pathOf("machines", id)),
 
     samples: async () => (await ask(samplesSchema, "GET", "/samples")).samples,
     sample: async (name) => (await send("GET", drawingPath({ of: "sample", id: name }))).text(),

@@ -1,4 +1,4 @@
-/** Plotters, access, webhooks and the shared queue, by plotwright's server. */
+/** Plotters, access, webhooks and the shared queue, through plotwright's server. */
 import { z } from "zod";
 import {
   accessEntrySchema,
@@ -9,7 +9,7 @@ import {
   webhookSchema,
 } from "../../../src/schema/index.js";
 import { BackendFault, type StudioBackend } from "../backend.js";
-import { one, type Requests } from "./requests.js";
+import { pathOf, type Requests } from "./requests.js";
 
 const devicesSchema = z.object({ devices: z.array(deviceSchema) });
 const entriesSchema = z.object({ entries: z.array(accessEntrySchema) });
@@ -22,17 +22,17 @@ const newWebhookAnswerSchema = z.object({ webhook: webhookSchema, secret: z.stri
 export const studioRoutes = ({ ask, command, askWithDrawing }: Requests): StudioBackend => ({
   devices: async () => (await ask(devicesSchema, "GET", "/devices")).devices,
   addPlotter: (plotter) => ask(plotterSchema, "POST", "/plotters", plotter),
-  patchPlotter: (id, patch) => ask(plotterSchema, "PATCH", one("plotters", id), patch),
-  removePlotter: (id) => command("DELETE", one("plotters", id)),
+  patchPlotter: (id, patch) => ask(plotterSchema, "PATCH", pathOf("plotters", id), patch),
+  removePlotter: (id) => command("DELETE", pathOf("plotters", id)),
 
   pairing: () => ask(pairingSchema, "POST", "/pairing"),
   access: async () => (await ask(entriesSchema, "GET", "/access")).entries,
   addKey: (key) => ask(newKeyAnswerSchema, "POST", "/access/keys", key),
-  revoke: (id) => command("DELETE", one("access", id)),
+  revoke: (id) => command("DELETE", pathOf("access", id)),
 
   webhooks: async () => (await ask(webhooksSchema, "GET", "/webhooks")).webhooks,
   addWebhook: (webhook) => ask(newWebhookAnswerSchema, "POST", "/webhooks", webhook),
-  removeWebhook: (id) => command("DELETE", one("webhooks", id)),
+  removeWebhook: (id) => command("DELETE", pathOf("webhooks", id)),
 
   sharedJobs: async () => {
     try {
@@ -45,6 +45,6 @@ export const studioRoutes = ({ ask, command, askWithDrawing }: Requests): Studio
   shareJob: async (job, drawing) => {
     await askWithDrawing(sentSchema, "/shared-jobs", job, drawing);
   },
-  giveBackShared: (id) => command("POST", `${one("shared-jobs", id)}/give-back`),
-  withdrawShared: (id) => command("DELETE", one("shared-jobs", id)),
+  giveBackShared: (id) => command("POST", `${pathOf("shared-jobs", id)}/give-back`),
+  withdrawShared: (id) => command("DELETE", pathOf("shared-jobs", id)),
 });

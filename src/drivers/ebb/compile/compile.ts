@@ -10,7 +10,7 @@ import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { checkPen } from "../../../plan/check-settings.js";
 import { penMoveAt } from "../../../plan/pen-moves.js";
-import type { PenMove, Trajectory } from "../../../plan/trajectory.js";
+import { runEndS, type PenMove, type Trajectory } from "../../../plan/trajectory.js";
 import { TICKS_PER_MS } from "../../../units.js";
 import {
   MAX_DELAY_MS,
@@ -192,12 +192,6 @@ class Compiler {
     columns.text.line(line);
     columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
   }
-}
-
-/** Trajectory seconds at the end of a run's motion. */
-function runEndS({ runs, startS, durationS }: Trajectory, run: number): number {
-  const end = runs.firstBlock[run + 1];
-  return end > runs.firstBlock[run] ? startS[end - 1] + durationS[end - 1] : runs.startS[run];
 }
 
 function runWriterFor(

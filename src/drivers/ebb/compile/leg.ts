@@ -4,6 +4,8 @@
  * Positions in steps (fractional), speeds in accumulator counts per tick. The board may be a fraction of a
  * step off at the start of a leg. The command leads from the actual position to the planned one.
  */
+import { TICKS_PER_S } from "../../../units.js";
+
 export interface MotorLeg {
   /** The plan's position at the start and the end. */
   readonly p0: number;
@@ -77,4 +79,4 @@ export function correction(errorSteps: number, ticks: number, isLast: boolean): 
 }
 
 /** 12 steps/s: 0.15 mm/s at 80 steps/mm, too little to affect the line visibly. */
-const MAX_CORRECTION_STEPS_PER_TICK = 12 / 25_000;
+const MAX_CORRECTION_STEPS_PER_TICK = 12 / TICKS_PER_S;

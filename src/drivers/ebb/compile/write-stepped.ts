@@ -10,7 +10,8 @@
  * The rate of an LM must not reach zero, or the last step would never come. Rates are
  * kept above 1 % of the mean.
  */
-import { ACCUMULATOR_RANGE } from "../../../units.js";
+import { firstWhere } from "../../../geometry/binary-search.js";
+import { ACCUMULATOR_RANGE, rateFromStepsPerS } from "../../../units.js";
 import { registersFor, sumOfRates, type Registers } from "../model/accumulator.js";
 import type { CommandText } from "../protocol/commands.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
@@ -18,7 +19,8 @@ import type { Leg, LegWriter, MotorLeg, MotorState } from "./leg.js";
 import { HIGHEST_RATE, SLOWEST_PART_OF_MEAN } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-const JERK_ERROR_RATE = (0.5 * 80 * RANGE) / 25_000;
+/** As in write-timed.ts, but 0.5 mm/s. */
+const JERK_ERROR_RATE = rateFromStepsPerS(0.5 * 80);
 
 interface Arguments {
   /** Magnitude; the sign of `steps` gives the direction. */
@@ -87,14 +89,5 @@ function run(a: Arguments, ticks: number, state: MotorState): number {
 
 /** First tick at which the sum of rates reaches `distance`; at most `ticks`. */
 function tickOfSum(distance: number, ticks: number, { rate, accel }: Registers): number {
-  let low = 1;
-  let high = ticks;
-  // Usually the last tick.
-  if (ticks > 1 && sumOfRates(ticks - 1, rate, accel, 0) < distance) return ticks;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (sumOfRates(middle, rate, accel, 0) >= distance) high = middle;
-    else low = middle + 1;
-  }
-  return low;
+  return firstWhere(1, ticks, (tick) => sumOfRates(tick, rate, accel, 0) >= distance);
 }

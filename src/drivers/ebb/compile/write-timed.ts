@@ -8,7 +8,7 @@
  * The accumulator has the fraction of a step moved since the last step, in the direction of travel. After a reversal
  * that fraction counts in the wrong direction. If zero is nearer to the true position, the command clears it.
  */
-import { ACCUMULATOR_RANGE } from "../../../units.js";
+import { ACCUMULATOR_RANGE, rateFromStepsPerS } from "../../../units.js";
 import { registersFor, sumOfRates } from "../model/accumulator.js";
 import type { CommandText } from "../protocol/commands.js";
 import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } from "./leg.js";
@@ -18,7 +18,7 @@ const RANGE = ACCUMULATOR_RANGE;
 /**
  * Max speed error at a leg's ends from replacing a jerk by a constant acceleration: 0.25 mm/s at 80 steps/mm.
  */
-const JERK_ERROR_RATE = (0.25 * 80 * RANGE) / 25_000;
+const JERK_ERROR_RATE = rateFromStepsPerS(0.25 * 80);
 /** An accumulator is cleared only if that reduces the error by more than this, steps. */
 const CLEAR_WORTH_STEPS = 0.1;
 

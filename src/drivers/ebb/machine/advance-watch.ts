@@ -3,6 +3,7 @@
  * while the plan advances. Otherwise a long command would hide the fault until its end.
  */
 import { parseSteps } from "../protocol/replies.js";
+import type { PollTime } from "../stream/stream-types.js";
 import type { StreamPlace } from "../stream/timeline.js";
 import type { Clock } from "../../transport.js";
 
@@ -25,18 +26,21 @@ export class AdvanceWatch {
     private readonly speed: number,
   ) {}
 
-  /** Call with each reply to QS and the board's planned place. True if the motors do not move. */
-  isStalled(reply: string, at: StreamPlace): boolean {
+  /**
+   * Call with each reply to QS, the time of the query, and the board's planned place now. True if the motors do not move.
+   * A busy host reads a reply long after the board sent it. So the first of two equal replies counts from when it was
+   * read, and the second until it was asked for: the time between them is certain.
+   */
+  isStalled(reply: string, asked: PollTime, now: StreamPlace): boolean {
     const steps = parseSteps(reply).join();
-    const planned = plannedSteps(at);
-    const nowS = this.clock.nowS();
     if (this.lastChange?.steps !== steps) {
-      this.lastChange = { steps, sinceS: nowS, planned };
+      this.lastChange = { steps, sinceS: this.clock.nowS(), planned: plannedSteps(now) };
       return false;
     }
     const { sinceS, planned: before } = this.lastChange;
+    const planned = plannedSteps(asked.place);
     const moved = Math.max(Math.abs(planned[0] - before[0]), Math.abs(planned[1] - before[1]));
-    return nowS - sinceS > STALL_S * this.speed && moved > MOVED_STEPS;
+    return asked.clockS - sinceS > STALL_S * this.speed && moved > MOVED_STEPS;
   }
 }
 

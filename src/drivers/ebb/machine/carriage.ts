@@ -24,7 +24,7 @@ import { maxAheadS, Streamer } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
-import { isButtonPressed, isPowerLow } from "./readings.js";
+import { isButtonPressed, isPowerLow, pollLines } from "./readings.js";
 
 /** The longest motion command: the compiler splits longer ones. */
 const LONGEST_COMMAND_S = 0.15;
@@ -215,7 +215,7 @@ export class Carriage {
   streamer(settings: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
-    const lines = this.pollLines();
+    const lines = pollLines(features, this.markQuery);
     const places = new CertainPlace(features, this.origin, lines[lines.length - 1]);
     const streamer = new Streamer(session, {
       clock: boardClock,
@@ -232,7 +232,7 @@ export class Carriage {
           if (at) certain(at);
         }
         if (line !== "QS") this.polled(line, reply);
-        else if (streamer.playing && watch.isStalled(reply, streamer.place())) this.stalled(streamer);
+        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) this.stalled(streamer);
       },
     });
     return streamer;
@@ -412,15 +412,6 @@ export class Carriage {
   private polled(line: string, reply: string): void {
     if (isButtonPressed(line, reply)) this.events.buttonPressed();
     if (line === "QC") this.events.supplyRead(isPowerLow(line, reply));
-  }
-
-  /** The queries polled during a stream: for the board's time, its button and the motors' supply. */
-  private pollLines(): readonly string[] {
-    const { features } = this.connection;
-    if (this.queueDepth > 1) return ["QU,6", "QG", "QS", "QC", this.markQuery];
-    if (features.hasClear) return ["QG", "QS", "QC", this.markQuery];
-    if (features.hasGeneralQuery) return ["QG", "QS", "QC"];
-    return features.hasStepQuery ? ["QM", "QB", "QS", "QC"] : ["QM", "QB", "QC"];
   }
 
   private misplaced(report: StreamReport): never {

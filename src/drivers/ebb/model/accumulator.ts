@@ -18,6 +18,7 @@
  * 2^53 up to MAX_PIECE_TICKS ticks; longer commands are split into pieces. A rate that leaves its range wraps, as in
  * the board's registers: the piece ends there, and the next one continues with the wrapped rate.
  */
+import { firstWhere } from "../../../geometry/binary-search.js";
 import { ACCUMULATOR_RANGE } from "../../../units.js";
 import type { TickArithmetic } from "../protocol/firmware.js";
 
@@ -190,14 +191,8 @@ export class AxisMotion {
   }
 
   private pieceAt(tick: number): Piece | undefined {
-    let low = 0;
-    let high = this.pieces.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.pieces[middle].fromTick <= tick) low = middle;
-      else high = middle - 1;
-    }
-    return this.pieces[low];
+    const { pieces } = this;
+    return pieces[firstWhere(1, pieces.length, (i) => pieces[i].fromTick > tick) - 1];
   }
 }
 
@@ -217,14 +212,7 @@ function tickOfStep(
   jerk: number,
   acc: number,
 ): number {
-  let low = 1;
-  let high = ticks;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (Math.abs(stepsAfter(middle, rate, accel, jerk, acc)) >= steps) high = middle;
-    else low = middle + 1;
-  }
-  return low;
+  return firstWhere(1, ticks, (tick) => Math.abs(stepsAfter(tick, rate, accel, jerk, acc)) >= steps);
 }
 
 /** Wraps the rate register so that the next tick's rate is in range. */
@@ -249,22 +237,14 @@ function sameSignTicks(
     const r = rateAt(k, rate, accel, jerk);
     return r >= low && r <= high;
   };
-  // The rate is monotone up to its vertex, so checking the last tick is enough.
+  // The rate is monotone up to its vertex.
   let end = limit;
   if (jerk !== 0) {
     const vertex = -accel / jerk - 0.5;
     if (vertex > 1 && vertex < end) end = Math.max(1, Math.floor(vertex));
     if (arithmetic === "signed") end = Math.min(end, ticksBeforeAccelWraps(accel, jerk));
   }
-  if (inside(end)) return end;
-  let good = 1;
-  let bad = end;
-  while (bad - good > 1) {
-    const middle = (good + bad) >> 1;
-    if (inside(middle)) good = middle;
-    else bad = middle;
-  }
-  return good;
+  return firstWhere(2, end + 1, (k) => !inside(k)) - 1;
 }
 
 /** The acceleration register has 32 bits too. */

@@ -2,7 +2,7 @@
  * Parses the parameters of SM, XM, LM, L3, LT, T3, TD and HM into entries of the motion queue, as each firmware does.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../../units.js";
+import { rateFromStepsPerS, TICKS_PER_S } from "../../../units.js";
 import { slowMove, steppedAxis, type AxisOrder, type MoveOrder, type Order } from "./orders.js";
 import { BoardFault, type Parameters } from "./parameters.js";
 
@@ -115,7 +115,7 @@ export class MotionCommands {
       if (longest === 0) return [];
       const axis = (distance: number): AxisOrder => {
         const stepsPerS = (fastest * Math.abs(distance)) / longest;
-        const rate = Math.min(INT31, Math.floor((stepsPerS * ACCUMULATOR_RANGE) / TICKS_PER_S));
+        const rate = Math.min(INT31, Math.floor(rateFromStepsPerS(stepsPerS)));
         return {
           rate: Math.sign(distance) * Math.max(distance === 0 ? 0 : 1, rate),
           accel: 0,

@@ -28,6 +28,8 @@ export interface StreamOptions {
 
 /** When a poll was written. The board reads its counters then or slightly later. */
 export interface PollTime {
+  /** On the stream's clock. A busy host may read the reply much later. */
+  readonly clockS: number;
   readonly boardS: number;
   readonly place: StreamPlace;
 }

@@ -85,7 +85,7 @@ export class Streamer {
       this.settle = { resolve, reject };
       this.lastWritten = null;
       this.schedulePoll();
-      this.take(stream, []);
+      this.take([stream]);
     });
   }
 
@@ -180,7 +180,7 @@ export class Streamer {
       note("ES", (reply) => (stop.stepsLeft = stepsLeft(reply))),
       ...(this.options.liftLine === undefined ? [] : [{ line: this.options.liftLine, waitS }]),
     ]);
-    this.fail(error);
+    this.abandon(error);
   }
 
   /** Where the board was at the emergency stop; null if no command had run. */
@@ -200,21 +200,13 @@ export class Streamer {
     return placeOfCounters(this.timeline.recent(), features, steps1, steps2, asked.boardS);
   }
 
-  /** Stops writing and waiting. The board finishes the commands it has received. */
-  abandon(error: PlotwrightError): void {
-    this.fail(error);
-  }
-
-  private take(stream: CommandStream, followers: readonly CommandStream[]): void {
+  /** Begins the first of these streams; the others follow it. */
+  private take([stream, ...then]: readonly CommandStream[]): void {
     this.stream = stream;
     this.next = 0;
     this.offsetS = this.timeline.endS - stream.boardS[0];
-    this.limit = followers.length > 0 ? { atIndex: stream.count, then: followers } : null;
+    this.limit = then.length > 0 ? { atIndex: stream.count, then } : null;
     this.pump();
-  }
-
-  private takeNext(then: readonly CommandStream[]): void {
-    this.take(then[0], then.slice(1));
   }
 
   /** Writes the commands that are due, and sleeps until the next is due. */
@@ -235,7 +227,7 @@ export class Streamer {
     }
     if (batch.length > 0) this.session.write(batch);
     if (this.next < endIndex) this.sleep(this.wakeInS(stream, boardS));
-    else if (this.limit && this.limit.then.length > 0) this.takeNext(this.limit.then);
+    else if (this.limit && this.limit.then.length > 0) this.take(this.limit.then);
     else this.awaitEnd(boardS);
   }
 
@@ -271,27 +263,20 @@ export class Streamer {
   }
 
   private outgoing(stream: CommandStream, index: number): Outgoing {
-    const line = commandLine(stream, index);
     const startS = this.offsetS + stream.boardS[index];
     const endS = this.offsetS + stream.boardS[index + 1];
-    this.unanswered++;
+    const takesTime = endS !== startS;
     const place = { stream, commandIndex: index, planS: stream.planS[index] };
-    if (endS === startS) {
-      this.lastWritten = place;
-      return {
-        line,
-        waitS: this.timeline.longestS(),
-        onReply: (error) => this.answered(error, place, false),
-      };
-    }
     const waitS = this.timeline.longestS();
-    const dryS = this.timeline.written(stream, index, startS, endS);
+    const dryS = takesTime ? this.timeline.written(stream, index, startS, endS) : 0;
     if (dryS > DRY_S && this.isSameRun(stream, index)) {
       this.underrunCount++;
       this.underrunS += dryS;
     }
+    this.unanswered++;
     this.lastWritten = place;
-    return { line, waitS, onReply: (error) => this.answered(error, place, true) };
+    const onReply: Outgoing["onReply"] = (error) => this.answered(error, place, takesTime);
+    return { line: commandLine(stream, index), waitS, onReply };
   }
 
   private isSameRun(stream: CommandStream, index: number): boolean {
@@ -306,7 +291,7 @@ export class Streamer {
   private answered(error: PlotwrightError | null, at: StreamPlace, takesTime: boolean): void {
     this.unanswered--;
     if (error) {
-      if (this.session.failure) this.fail(error);
+      if (this.session.failure) this.abandon(error);
       else this.refusedAt(at, error);
       return;
     }
@@ -330,36 +315,42 @@ export class Streamer {
   }
 
   private schedulePoll(): void {
-    const poll = this.options.poll;
+    const { poll, clock } = this.options;
     // The last reply may arrive after the end.
     if (!poll || !this.playing) return;
     this.cancelPoll?.();
-    this.cancelPoll = this.options.clock.after(poll.everyS, () => {
-      if (!this.playing) return;
-      const waitS = this.timeline.longestS();
-      const last = poll.lines.length - 1;
-      const asked: PollTime = { boardS: this.timeline.boardS(), place: this.place() };
-      this.session.write(
-        poll.lines.map((line, i) => ({
-          line,
-          waitS,
-          onReply: (error, reply) => {
-            if (!error) this.polled(line, reply, asked, i === 0);
-            if (i === last) this.schedulePoll();
-          },
-        })),
-      );
+    this.cancelPoll = clock.after(poll.everyS, () => {
+      if (this.playing) this.poll(() => this.schedulePoll());
     });
   }
 
+  /** `done` is called with the reply to the last line, also if it is an error. */
+  private poll(done: () => void): void {
+    const { poll, clock } = this.options;
+    if (!poll) return;
+    const { lines } = poll;
+    const waitS = this.timeline.longestS();
+    const asked: PollTime = { clockS: clock.nowS(), boardS: this.timeline.boardS(), place: this.place() };
+    this.session.write(
+      lines.map((line, i) => ({
+        line,
+        waitS,
+        onReply: (error, reply) => {
+          if (!error) this.polled(line, reply, asked, i === 0);
+          if (i === lines.length - 1) done();
+        },
+      })),
+    );
+  }
+
   private polled(line: string, reply: string, asked: PollTime, isFirst: boolean): void {
-    if (!this.playing) return;
+    if (!this.settle) return;
     this.options.onPoll?.(line, reply, asked);
     const waiting = isFirst ? waitingCount(line, reply) : null;
-    if (waiting !== null && this.timeline.waiting(waiting)) {
+    if (waiting !== null && this.timeline.waiting(waiting, asked.clockS)) {
       // The commands in its queue must not be drawn if it recovers.
       this.session.write([{ line: "ES" }]);
-      this.fail(stuck());
+      this.abandon(stuck());
     }
     if (!this.failure) this.pump();
   }
@@ -381,6 +372,8 @@ export class Streamer {
   private async finish(): Promise<void> {
     try {
       await this.untilIdle();
+      // The motors' supply may have failed since the last poll. The board answers this one before the report.
+      this.poll(() => undefined);
       const report = await this.report();
       this.stream = null;
       this.ending = false;
@@ -388,17 +381,18 @@ export class Streamer {
       this.settle = null;
       settle?.resolve(report);
     } catch (error) {
-      this.fail(error instanceof PlotwrightError ? error : internal(error));
+      this.abandon(error instanceof PlotwrightError ? error : internal(error));
     }
   }
 
   private async untilIdle(): Promise<void> {
-    const clock = this.options.clock;
-    const startS = clock.nowS();
+    const { clock, stuckS } = this.options;
+    const untilS = clock.nowS() + stuckS;
     for (;;) {
+      const isLast = clock.nowS() > untilS;
       const fields = (await this.session.query("QM")).split(",");
       if (fields.every((field) => field === "0")) return;
-      if (clock.nowS() - startS > this.options.stuckS) throw stuck();
+      if (isLast) throw stuck();
       await new Promise<void>((resolve) => void clock.after(IDLE_POLL_S, resolve));
     }
   }
@@ -427,7 +421,8 @@ export class Streamer {
     }
   }
 
-  private fail(error: PlotwrightError): void {
+  /** Stops writing and waiting. The board finishes the commands it has received. */
+  abandon(error: PlotwrightError): void {
     if (this.failure) return;
     this.failure = error;
     this.cancelWake?.();

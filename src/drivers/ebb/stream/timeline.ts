@@ -116,10 +116,10 @@ export class BoardTimeline {
   }
 
   /**
-   * The board reports how many commands wait, which bounds its time from both sides. Returns true
-   * if it is stuck.
+   * The board reports how many commands wait, which bounds its time from both sides. `askedS`: the time of the query.
+   * Returns true if the board is stuck.
    */
-  waiting(count: number): boolean {
+  waiting(count: number, askedS: number): boolean {
     const nowS = this.clock.nowS();
     const executing = this.entry(this.ackedCount - 1 - count);
     if (!executing) return false;
@@ -130,7 +130,7 @@ export class BoardTimeline {
       this.executing = executing.number;
       this.executingSinceS = nowS;
     }
-    return nowS - this.executingSinceS > executing.endS - executing.startS + this.stuckS;
+    return askedS - this.executingSinceS > executing.endS - executing.startS + this.stuckS;
   }
 
   forgetExecuted(boardS: number): void {

@@ -1,4 +1,5 @@
 /** Finds the place on a plan at which a stop left the carriage. */
+import { nearestShare } from "../../../geometry/polyline.js";
 import type { Trajectory } from "../../../plan/trajectory.js";
 
 /** Blocks within this of the nearest one count as equally near, because the path may cross itself. */
@@ -33,7 +34,7 @@ function nearestOn(trajectory: Trajectory, k: number, x: number, y: number): { a
   const dy = vy[k] * t + (ay[k] * t * t) / 2;
   const lengthMm = Math.hypot(dx, dy);
   const [px, py] = [x - trajectory.x[k], y - trajectory.y[k]];
-  const share = lengthMm > 0 ? Math.min(1, Math.max(0, (px * dx + py * dy) / lengthMm ** 2)) : 0;
+  const share = nearestShare(0, 0, dx, dy, px, py);
   const awayMm = Math.hypot(px - share * dx, py - share * dy);
   const v = Math.hypot(vx[k], vy[k]);
   const a = lengthMm > 0 ? (ax[k] * dx + ay[k] * dy) / lengthMm : 0;

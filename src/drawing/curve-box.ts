@@ -1,9 +1,9 @@
 /**
- * Exact bounding boxes: a cubic's extremes are where its derivative is zero, not at its control points.
+ * Exact bounding boxes of curves: a cubic's extremes are where its derivative is zero, not at its control points.
  *
  *   B′(t)/3 = a t² + b t + c,  a = −p0 + 3p1 − 3p2 + p3,  b = 2 (p0 − 2p1 + p2),  c = p1 − p0
  */
-import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../drawing/drawing.js";
+import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "./drawing.js";
 import type { Affine } from "../geometry/affine.js";
 import type { Box } from "../geometry/box.js";
 
@@ -11,7 +11,7 @@ import type { Box } from "../geometry/box.js";
  * The box of verbs [verbFrom, verbTo), whose coordinates start at `coordFrom`, transformed by `map`. Moves that draw
  * nothing are ignored.
  */
-export function boundsOfVerbs(
+export function curveBoxOf(
   verbs: Uint8Array,
   verbFrom: number,
   verbTo: number,
@@ -78,11 +78,12 @@ function extremesOf(p0: number, p1: number, p2: number, p3: number): readonly [n
   const root = Math.sqrt(Math.max(b * b - 4 * a * c, 0));
   // Avoids cancellation: one root is q/a, the other c/q.
   const q = -(b + (b >= 0 ? root : -root)) / 2;
-  const extremes = [q / a, c / q].filter((t) => t > 0 && t < 1).map((t) => valueAt(p0, p1, p2, p3, t));
+  const extremes = [q / a, c / q].filter((t) => t > 0 && t < 1).map((t) => cubicAt(p0, p1, p2, p3, t));
   return [Math.min(min, ...extremes), Math.max(max, ...extremes)];
 }
 
-function valueAt(p0: number, p1: number, p2: number, p3: number, t: number): number {
+/** One coordinate of a cubic at parameter `t`. */
+export function cubicAt(p0: number, p1: number, p2: number, p3: number, t: number): number {
   const s = 1 - t;
   return s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
 }

@@ -1,0 +1,14 @@
+/**
+ * The first integer in [from, end) for which `isTrue` holds; `end` if there is none. After the first one it must hold
+ * for all others.
+ */
+export function firstWhere(from: number, end: number, isTrue: (i: number) => boolean): number {
+  let low = from;
+  let high = end;
+  while (low < high) {
+    const middle = (low + high) >>> 1;
+    if (isTrue(middle)) high = middle;
+    else low = middle + 1;
+  }
+  return low;
+}

@@ -1,0 +1,89 @@
+/** The methods of the host for jobs and the queue. */
+import { PlotwrightError } from "../../../src/index.js";
+import {
+  jobChangeSchema,
+  jobPatchSchema,
+  movePlaceSchema,
+  newJobSchema,
+  queueSettingsSchema,
+  type Job,
+  type JobChange,
+  type JobPatch,
+  type MovePlace,
+  type NewJob,
+  type QueueSettings,
+} from "../../../src/schema/index.js";
+import type { CustomMachines } from "../../../host/custom-machines.js";
+import type { JobQueue } from "../../../host/queue/job-queue.js";
+import type { DrawingText } from "../../worker/drawing-text.js";
+import type { JobAction } from "../backend.js";
+import { checked } from "./checked.js";
+
+export interface JobApiParts {
+  readonly queue: JobQueue;
+  readonly machines: CustomMachines;
+  readonly drawings: {
+    /** Resolves with the drawing's id when it is stored. */
+    add(drawing: DrawingText): Promise<string>;
+    read(id: string): Promise<DrawingText>;
+  };
+}
+
+/** The size of text is only estimated by its length, because it is not encoded. */
+const sizeOf = (drawing: DrawingText): number =>
+  typeof drawing === "string" ? drawing.length : drawing.byteLength;
+
+export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
+  const actions: Readonly<Record<JobAction, (id: string) => Job | Promise<Job>>> = {
+    start: async (id) => {
+      await queue.plotterSettled(id);
+      return queue.start(id);
+    },
+    recover: async (id) => {
+      await queue.plotterSettled(id);
+      return queue.recover(id);
+    },
+    pause: (id) => queue.pause(id),
+    resume: (id) => queue.resume(id),
+    cancel: (id) => queue.cancel(id),
+    requeue: (id) => queue.requeue(id),
+    "emergency-stop": (id) => queue.emergencyStop(id),
+    "check-place": (id) => queue.checkPlace(id),
+  };
+  return {
+    addJob: async (job: Omit<NewJob, "drawing" | "drawingId">, drawing: DrawingText): Promise<Job> => {
+      if (sizeOf(drawing) === 0) throw new PlotwrightError("bad-file", "The file is empty.");
+      // The schema requires a drawing or its id. Here the drawing is a separate argument.
+      const wanted = checked(newJobSchema, { ...job, drawingId: "sent" });
+      const { copies = 1, settings, name, plotterId, from } = wanted;
+      const id = await drawings.add(drawing);
+      const first = await queue.add({
+        name,
+        plotterId,
+        from,
+        settings: machines.withMachine(settings),
+        drawing: { id, bytes: sizeOf(drawing) },
+      });
+      for (let copy = 1; copy < copies; copy++) queue.duplicate(first.id);
+      return first;
+    },
+    patchJob: (id: string, patch: JobPatch): Promise<Job> => {
+      const { settings, ...others } = checked(jobPatchSchema, patch);
+      return queue.patch(id, {
+        ...others,
+        ...(settings === undefined ? {} : { settings: machines.withMachine(settings) }),
+      });
+    },
+    actOnJob: (id: string, action: JobAction): Job | Promise<Job> => actions[action](id),
+    changeJob: (id: string, change: JobChange): Promise<Job> =>
+      queue.change(id, checked(jobChangeSchema, change)),
+    movePlace: (id: string, by: MovePlace): Job => queue.movePlace(id, checked(movePlaceSchema, by)),
+    moveJob: (id: string, beforeId: string | null): void => queue.move(id, beforeId),
+    duplicateJob: (id: string): Job => queue.duplicate(id),
+    removeJob: (id: string): Promise<void> => queue.remove(id),
+    isRunning: (id: string): boolean => queue.isRunning(id),
+    jobDrawing: (id: string): Promise<DrawingText> => drawings.read(queue.drawingOf(id)),
+    setQueue: (plotterId: string, settings: QueueSettings): QueueSettings =>
+      queue.saveSettings(checked(queueSettingsSchema, settings), plotterId),
+  };
+};

@@ -1,0 +1,134 @@
+/** The user's actions that put a drawing on the paper, and what follows from them. */
+import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
+import type { Job } from "../../src/schema/index.js";
+import type { Backend } from "../backend/backend.js";
+import { contentOf, type DrawingText } from "../worker/drawing-text.js";
+import type { PlanFault } from "../worker/protocol.js";
+import type { createNotices } from "./notices.js";
+import { forOtherDrawing } from "./other-drawing.js";
+import { openedSettings } from "./plotter-sync.js";
+import type { OpenDrawing, PageState, PageStore } from "./store.js";
+import { stateText } from "./text.js";
+import type { createUndo } from "./undo.js";
+
+const HEAD_LENGTH = 4_096;
+
+const headOf = (content: DrawingText): string => {
+  const head = content.slice(0, HEAD_LENGTH);
+  return typeof head === "string" ? head : new TextDecoder().decode(head);
+};
+
+interface DrawingParts {
+  readonly store: PageStore;
+  readonly backend: Pick<Backend, "sample" | "jobDrawing">;
+  readonly notices: ReturnType<typeof createNotices>;
+  readonly undo: ReturnType<typeof createUndo>;
+  attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
+  replan(): void;
+  /** Shows the plotter's own heights and pens again, without an undo step. */
+  followPlotter(): void;
+}
+
+export const createDrawingActions = (parts: DrawingParts) => {
+  const { store, backend, notices, undo, attempt, replan, followPlotter } = parts;
+  let nextDrawing = 1;
+  /** The drawing before the one being opened, to return to if the new file can't be read. */
+  let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
+  /** A drawing that has just been opened, until its page size is known. */
+  let unplacedKey: string | null = null;
+
+  const openDrawing = (name: string, text: DrawingText, jobId: string | null = null): void => {
+    notices.clearErrors();
+    const { drawing, planned, settings } = store.getState();
+    const isOther = jobId === null && name !== drawing?.name;
+    const key = `drawing-${nextDrawing++}`;
+    if (drawing && planned) lastGood = { drawing, settings };
+    unplacedKey = isOther ? key : null;
+    store.setState({
+      drawing: { key, name, text, jobId, sourceId: jobId },
+      // A file that was edited and opened again keeps its layer settings and its place.
+      settings: isOther ? forOtherDrawing(settings) : settings,
+      planned: null,
+      fault: null,
+      pageView: "prepare",
+    });
+    // After a job, the plotter's own heights and pens apply again.
+    if (jobId === null) followPlotter();
+    replan();
+  };
+
+  /** Called when the drawing's page size is known. Places a drawing that was just opened, as one undo step. */
+  const placeForPage = (drawingKey: string, page: PaperSize): void => {
+    lastGood = null;
+    if (drawingKey !== unplacedKey) return;
+    unplacedKey = null;
+    const { settings } = store.getState();
+    const prepare = placedForPage(settings.prepare, page, findMachine(settings));
+    if (prepare !== settings.prepare) undo.changeSettings("place for page", (now) => ({ ...now, prepare }));
+  };
+
+  /** Returns to the previous drawing if the one just opened can't be read. False: there is none to return to. */
+  const wentBack = ({ stage, message }: PlanFault): boolean => {
+    const { drawing: unread } = store.getState();
+    if (stage !== "import" || !lastGood || !unread) return false;
+    store.setState({ ...lastGood, planned: null, fault: null });
+    lastGood = null;
+    replan();
+    notices.notify("error", stateText.cannotRead(unread.name, message));
+    return true;
+  };
+
+  /** Shows the drawing of the last visit. The settings were restored before. */
+  const restoreDrawing = (kept: Omit<OpenDrawing, "key">): void => {
+    store.setState({ drawing: { key: `drawing-${nextDrawing++}`, ...kept }, planned: null, fault: null });
+    replan();
+  };
+
+  const showJobSettings = (job: Job): void => {
+    const settings = openedSettings(store.getState(), job);
+    const isJobs = JSON.stringify(settings) === JSON.stringify(job.settings);
+    store.setState(({ drawing }) => ({
+      settings,
+      drawing: drawing && { ...drawing, jobId: isJobs ? job.id : null },
+    }));
+    replan();
+  };
+
+  return {
+    openDrawing,
+    placeForPage,
+    wentBack,
+    restoreDrawing,
+    /**
+     * If the restored drawing is a job's, its settings come from the job: another tab may have stored others meanwhile.
+     */
+    takeJobSettings: (): void => {
+      const { drawing, jobs, settings } = store.getState();
+      if (!drawing || drawing.jobId === null) return;
+      const job = jobs.find(({ id }) => id === drawing.jobId);
+      if (!job) store.setState({ drawing: { ...drawing, jobId: null } });
+      else if (JSON.stringify(job.settings) !== JSON.stringify(settings)) showJobSettings(job);
+    },
+    openFile: async (file: File): Promise<void> => {
+      const text = await file.arrayBuffer().then(contentOf, () => null);
+      if (text === null) notices.notify("error", stateText.unreadable(file.name));
+      else if (headOf(text).includes("\0")) notices.notify("error", stateText.notText(file.name));
+      else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, text);
+    },
+    openPasted: (text: string): void => {
+      if (/<svg[\s>]/i.test(text)) openDrawing(stateText.pastedName, text);
+      else notices.notify("error", stateText.pasteNothing);
+    },
+    openSample: async (name: string, title: string): Promise<void> => {
+      const svg = await attempt("sample", () => backend.sample(name));
+      if (svg !== null) openDrawing(title, svg);
+    },
+    openJob: async (job: Job): Promise<void> => {
+      const text = await attempt(`open ${job.id}`, () => backend.jobDrawing(job.id));
+      if (text === null) return;
+      undo.clear();
+      openDrawing(job.name, text, job.id);
+      showJobSettings(job);
+    },
+  };
+};

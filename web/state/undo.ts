@@ -1,0 +1,64 @@
+/** Changes of settings and presets by the user, each of which can be undone. */
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { PageStore, UndoStep } from "./store.js";
+
+const UNDO_DEPTH = 100;
+/** Changes of the same thing within this time are one undo step, so that dragging a slider is one step. */
+const COALESCE_MS = 800;
+
+interface UndoParts {
+  readonly store: PageStore;
+  nowMs(): number;
+  setSettings(settings: PlotSettings): void;
+  /** Called after each change by the user, with the state before it. */
+  changed(before: UndoStep): void;
+}
+
+export const createUndo = ({ store, nowMs, setSettings, changed }: UndoParts) => {
+  let lastChange = { what: "", atMs: -Infinity };
+
+  /** Stores the state for undo. `what` names the thing that is about to change. */
+  const noteStep = (what: string): UndoStep => {
+    const { settings, presets, undoStack } = store.getState();
+    const before = { settings, presets };
+    const isSame = what === lastChange.what && nowMs() - lastChange.atMs < COALESCE_MS;
+    lastChange = { what, atMs: nowMs() };
+    store.setState({
+      undoStack: isSame ? undoStack : [...undoStack, before].slice(-UNDO_DEPTH),
+      redoStack: [],
+    });
+    return before;
+  };
+
+  const step = (from: "undoStack" | "redoStack", to: "undoStack" | "redoStack"): void => {
+    const state = store.getState();
+    const target = state[from].at(-1);
+    if (!target) return;
+    lastChange = { what: "", atMs: -Infinity };
+    const { settings, presets } = state;
+    store.setState({
+      [from]: state[from].slice(0, -1),
+      [to]: [...state[to], { settings, presets }],
+      presets: target.presets,
+    });
+    if (target.settings !== settings) setSettings(target.settings);
+    changed(state);
+  };
+
+  return {
+    noteStep,
+    clear: (): void => store.setState({ undoStack: [], redoStack: [] }),
+    changeSettings: (what: string, change: (settings: PlotSettings) => PlotSettings): void => {
+      const before = noteStep(what);
+      setSettings(change(before.settings));
+      changed(before);
+    },
+    changePresets: (what: string, change: (step: UndoStep) => UndoStep["presets"]): void => {
+      const before = noteStep(what);
+      store.setState({ presets: change(before) });
+      changed(before);
+    },
+    undo: (): void => step("undoStack", "redoStack"),
+    redo: (): void => step("redoStack", "undoStack"),
+  };
+};
