@@ -40,13 +40,15 @@ afterEach(async () => {
 /** `plotwright plot ARGS`, with what it prints. */
 function plot(...args: string[]): { child: ChildProcess; err: () => string; ended: Promise<unknown> } {
   const main = join(ROOT, "dist/server/main.js");
-  const all = ["plot", ...args, "--device", board.path, "--data", dir, "--no-fit", "--margin", "0"];
+  const all = ["plot", ...args, "--device", board.path, "--data", dir];
   const child = fork(main, all, { execArgv: [], stdio: "pipe" });
   children.push(child);
   let text = "";
   child.stderr?.on("data", (data: Buffer) => (text += data.toString()));
   return { child, err: () => text, ended: once(child, "exit").then(([code]) => code as unknown) };
 }
+const plotLoops = () => plot(join(dir, "loops.svg"), "--no-fit", "--margin", "0");
+
 async function penDownMm(): Promise<number> {
   const { drawn } = await board.report();
   return drawnMm({
@@ -58,16 +60,16 @@ describe("plotwright plot that is killed in the middle of a line", () => {
   it(
     "is resumed where the board stopped, by plot --resume",
     async () => {
-      const whole = plot(join(dir, "loops.svg"));
+      const whole = plotLoops();
       expect([await whole.ended, whole.err()]).toEqual([0, expect.stringMatching(/Done: loops\.svg/)]);
       const wholeMm = await penDownMm();
 
-      const killed = plot(join(dir, "loops.svg"));
+      const killed = plotLoops();
       await expect.poll(penDownMm, { timeout: LIMIT_MS }).toBeGreaterThan(wholeMm + KILLED_AT_MM);
       killed.child.kill("SIGKILL");
       await killed.ended;
 
-      const again = plot(join(dir, "loops.svg"));
+      const again = plotLoops();
       expect(await again.ended).toBe(5);
       expect(again.err()).toMatch(/loops\.svg was interrupted at \d+ %\. .*--resume .*--restart/);
 
