@@ -45,17 +45,17 @@ const WAITING = { maxWorkers: 3 };
 
 /** The files that take longest, the slowest first. */
 const SLOWEST = [
-  "test/e2e/without-server-samples.test.ts",
   "test/e2e/accessibility.test.ts",
   "test/e2e/without-server.test.ts",
   "test/e2e/both-backends.test.ts",
+  "test/e2e/without-server-samples.test.ts",
   "test/e2e/site.test.ts",
   "test/server/shared-queue.alone.test.ts",
   "test/cli/reference.test.ts",
   "test/e2e/machine.test.ts",
   "test/e2e/layers.test.ts",
-  "test/serial/pen-flight-faults.test.ts",
   "test/serial/plot-faults.test.ts",
+  "test/serial/pen-flight-faults.test.ts",
 ];
 
 /** Starts the slowest files first, so that no worker has one left at the end while the others have nothing to do. */
