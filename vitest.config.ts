@@ -43,12 +43,15 @@ const SHARED = { isolate: false };
 /** Tests that also wait (for a board, a browser, a process) keep two cores busy only with a third worker. */
 const WAITING = { maxWorkers: 3 };
 
+/** Tests on a board in real time need little processor time: 80 s for all. With 5 workers they take 60 s, with 3 90 s. */
+const MOSTLY_WAITING = { maxWorkers: 5 };
+
 /** The files that take longest, the slowest first. */
 const SLOWEST = [
+  "test/e2e/without-server-samples.test.ts",
   "test/e2e/accessibility.test.ts",
   "test/e2e/without-server.test.ts",
   "test/e2e/both-backends.test.ts",
-  "test/e2e/without-server-samples.test.ts",
   "test/e2e/site.test.ts",
   "test/server/shared-queue.alone.test.ts",
   "test/cli/reference.test.ts",
@@ -124,7 +127,7 @@ export default defineConfig({
       {
         test: {
           ...COMMON,
-          ...WAITING,
+          ...MOSTLY_WAITING,
           name: "real-time",
           include: REAL_TIME,
           exclude: LOAD,

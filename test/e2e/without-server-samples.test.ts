@@ -1,23 +1,21 @@
 /** The samples, plotted by the page without a server: the board ends with the steps of a plot by the library. */
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { cases } from "../support/full-run.js";
 import { plotting } from "../support/live-plot.js";
 import { done, storedJob, strokesOf, useSerialPages } from "../support/serial-page.js";
 
-/** The samples take 10 to 20 minutes each on a real board. `npm test` plots the first one. */
+/** The samples take 10 to 20 minutes each on a real board. */
 const BOARD_SPEED = 100;
 const SAMPLES = [
   ["Hello paper", "hello-paper"],
   ["Whirling triangles", "whirling-triangles"],
   ["Flower meadow", "flower-meadow"],
 ] as const;
-const PLOTTED = SAMPLES.slice(0, cases(SAMPLES.length, 1));
 
 const startPages = useSerialPages();
 
 describe("the page without a server", () => {
-  it.each(PLOTTED)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
+  it.each(SAMPLES)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
     const pages = await startPages(BOARD_SPEED);
     const page = await pages.openPage();
     await page.getByRole("button", { name: title }).click();

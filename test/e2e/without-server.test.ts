@@ -5,7 +5,7 @@ import { historyPanel, statusCard } from "../support/page-actions.js";
 import { done, expectState, useSerialPages } from "../support/serial-page.js";
 import { startTabbedBrowser } from "../support/tabbed-browser.js";
 
-const HIDDEN_S = IS_FULL ? 360 : 10;
+const HIDDEN_S = IS_FULL ? 360 : 20;
 
 const startPages = useSerialPages();
 
