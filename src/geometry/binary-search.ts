@@ -6,7 +6,7 @@ export function firstWhere(from: number, end: number, isTrue: (i: number) => boo
   let low = from;
   let high = end;
   while (low < high) {
-    const middle = (low + high) >>> 1;
+    const middle = Math.floor((low + high) / 2);
     if (isTrue(middle)) high = middle;
     else low = middle + 1;
   }
