@@ -57,6 +57,7 @@ const SLOWEST = [
   "test/cli/reference.test.ts",
   "test/e2e/machine.test.ts",
   "test/e2e/layers.test.ts",
+  "test/serial/hidden-tab.test.ts",
   "test/serial/plot-faults.test.ts",
   "test/serial/pen-flight-faults.test.ts",
 ];
@@ -131,7 +132,7 @@ export default defineConfig({
           name: "real-time",
           include: REAL_TIME,
           exclude: LOAD,
-          globalSetup: ["test/support/built.ts"],
+          globalSetup: ["test/support/built.ts", "test/support/built-site.ts"],
           ...limits(120_000),
         },
       },
