@@ -10,8 +10,8 @@ import {
   moveJobSchema,
   movePlaceSchema,
   newJobSchema,
-  type Job,
 } from "../../src/schema/index.js";
+import { jobActions } from "../../host/queue/job-actions.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
 import { parseWith } from "./errors.js";
@@ -98,7 +98,7 @@ function addJobRoutes(router: Router, parts: JobParts): void {
   });
 }
 
-/** Orders the queue, and queues jobs again. */
+/** Orders the queue, and adds copies of jobs. */
 function addQueueRoutes(router: Router, { queue }: JobParts): void {
   router.post("/:id/move", small, (request, response) => {
     queue.move(request.params.id, parseWith(moveJobSchema, request.body).beforeId);
@@ -108,31 +108,11 @@ function addQueueRoutes(router: Router, { queue }: JobParts): void {
   router.post("/:id/duplicate", (request, response) => {
     response.status(201).json(queue.duplicate(request.params.id));
   });
-
-  router.post("/:id/requeue", (request, response) => {
-    response.json(queue.requeue(request.params.id));
-  });
 }
 
-/** Starts, holds and ends plots, and changes them while they run. */
+/** Acts on jobs, and changes plots while they run. */
 function addPlottingRoutes(router: Router, queue: JobQueue): void {
-  const actions: Readonly<Record<string, (id: string) => Job | Promise<Job>>> = {
-    pause: (id) => queue.pause(id),
-    resume: (id) => queue.resume(id),
-    cancel: (id) => queue.cancel(id),
-    "emergency-stop": (id) => queue.emergencyStop(id),
-    "check-place": (id) => queue.checkPlace(id),
-    // Shortly after its start the server is still looking for boards, so these two wait until it knows.
-    start: async (id) => {
-      await queue.plotterSettled(id);
-      return queue.start(id);
-    },
-    recover: async (id) => {
-      await queue.plotterSettled(id);
-      return queue.recover(id);
-    },
-  };
-  for (const [name, act] of Object.entries(actions)) {
+  for (const [name, act] of Object.entries(jobActions(queue))) {
     router.post(`/:id/${name}`, async (request, response) => {
       response.json(await act(request.params["id"]));
     });

@@ -14,6 +14,7 @@ import {
   type QueueSettings,
 } from "../../../src/schema/index.js";
 import type { CustomMachines } from "../../../host/custom-machines.js";
+import { jobActions } from "../../../host/queue/job-actions.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { DrawingText } from "../../worker/drawing-text.js";
 import type { JobAction } from "../backend.js";
@@ -34,22 +35,7 @@ const sizeOf = (drawing: DrawingText): number =>
   typeof drawing === "string" ? drawing.length : drawing.byteLength;
 
 export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
-  const actions: Readonly<Record<JobAction, (id: string) => Job | Promise<Job>>> = {
-    start: async (id) => {
-      await queue.plotterSettled(id);
-      return queue.start(id);
-    },
-    recover: async (id) => {
-      await queue.plotterSettled(id);
-      return queue.recover(id);
-    },
-    pause: (id) => queue.pause(id),
-    resume: (id) => queue.resume(id),
-    cancel: (id) => queue.cancel(id),
-    requeue: (id) => queue.requeue(id),
-    "emergency-stop": (id) => queue.emergencyStop(id),
-    "check-place": (id) => queue.checkPlace(id),
-  };
+  const actions: Readonly<Record<JobAction, (id: string) => Job | Promise<Job>>> = jobActions(queue);
   return {
     addJob: async (job: Omit<NewJob, "drawing" | "drawingId">, drawing: DrawingText): Promise<Job> => {
       if (sizeOf(drawing) === 0) throw new PlotwrightError("bad-file", "The file is empty.");
