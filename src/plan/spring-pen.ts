@@ -58,7 +58,7 @@ export function swingPen(
   const axisX = new SpringAxis(xHz, damping);
   const axisY = new SpringAxis(yHz, damping);
   const state = newMotionState();
-  const { runs, startS, durationS } = trajectory;
+  const { runs, startS, durationS, ax, ay, jx, jy } = trajectory;
   let [lastVx, lastVy] = [0, 0];
   let tS = 0;
   const wait = (untilS: number, stroke: number, alongMm: number): void => {
@@ -79,9 +79,9 @@ export function swingPen(
       axisX.rate += lastVx - state.vx;
       axisY.rate += lastVy - state.vy;
       for (let i = 1; i <= steps; i++) {
-        blockState(trajectory, k, (i - 0.5) * dt, state);
-        axisX.advance(dt, state.ax);
-        axisY.advance(dt, state.ay);
+        const middle = (i - 0.5) * dt;
+        axisX.advance(dt, ax[k] + (jx ? middle * jx[k] : 0));
+        axisY.advance(dt, ay[k] + (jy ? middle * jy[k] : 0));
         blockState(trajectory, k, i * dt, state);
         tS = startS[k] + i * dt;
         const { alongMm } = state;

@@ -10,17 +10,28 @@ import { buildProgram } from "../../server/cli/program.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
 import { addSettingOptions, settingsFromOptions } from "../../server/cli/settings-options.js";
 import { PlotRecord } from "../../server/cli/plot-record.js";
+import type { PlanOutput } from "../../server/cli/plan.js";
+import type { PlanThreadInput } from "../../server/cli/plan-thread.js";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { machineById } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { cliReference } from "../../scripts/cli-reference.js";
-import { SharedDatabase, send, share, sharedJobsOf, stateOf } from "../server/support/shared-servers.js";
+import { send, stateOf } from "../server/support/shared-servers.js";
 import { CaughtIo, cliWith, type CliRun } from "./support.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
 vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
 // Ignores any board connected to this computer.
 vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
+// Plans in this thread: to start one for each line takes longer than its plan. plan.test.ts has the thread.
+vi.mock("../../server/cli/plan-thread.js", async () => {
+  const { runPlan } = await import("../../server/cli/plan.js");
+  const runPlanInThread = ({ file, settings, options }: PlanThreadInput, io: PlanOutput): Promise<void> =>
+    new Promise((resolve) => {
+      resolve(runPlan(file, settings, options, { out: (text) => io.out(text), begin: () => undefined }));
+    });
+  return { runPlanInThread };
+});
 
 const LIMIT_MS = 120_000;
 const startedIn = process.cwd();
@@ -90,7 +101,7 @@ const NOT_RUN: Readonly<Record<string, string>> = {
   "serve --open": "it would open a browser: it has a test below",
   "add --url": "every line of add has it, and it has a test below",
   "queue --url": "every line of queue has it, and it has a test below",
-  "serve --shared-queue": "it needs a PostgreSQL database: it has a test below",
+  "serve --shared-queue": "it needs a PostgreSQL database: it has a test in test/server/shared-begin.test.ts",
 };
 
 /** A value for each option that takes one and has no default or choices; some for one command only. */
@@ -283,26 +294,6 @@ describe("serve", () => {
         code: 0,
         out: `plotwright is at ${readFileSync(opened, "utf8")}\n`,
       });
-    },
-    LIMIT_MS,
-  );
-
-  it(
-    "--shared-queue shows the jobs of that database",
-    async () => {
-      const database = await SharedDatabase.open();
-      const io = new CaughtIo();
-      const running = cliWith(io, "serve", "--shared-queue", database.url, ...additionsOf("serve"));
-      try {
-        await expect.poll(() => io.outText + io.errText).toMatch(/plotwright is at/);
-        const url = /plotwright is at (\S+)/.exec(io.outText)?.[1] ?? "";
-        await share({ url }, "fern", { machine: "axidraw-v3-a3" });
-        expect((await sharedJobsOf({ url })).map(({ name }) => name)).toEqual(["fern"]);
-      } finally {
-        io.interrupt();
-        await running;
-        await database.close();
-      }
     },
     LIMIT_MS,
   );

@@ -1,6 +1,7 @@
 /** Hold and emergency stop: what they leave on the paper, and where the motors end. */
 import { describe, expect, it } from "vitest";
 import { MOTION_MODES, type MotionMode } from "../../src/internal.js";
+import { cases } from "../support/full-run.js";
 import { drawnMm, DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
 
 /**
@@ -25,7 +26,7 @@ describe("a hold at any instant", () => {
     async (mode) => {
       const random = seeded(MOTION_MODES.indexOf(mode) + 7);
       const undisturbedMm = await wholeMm(mode);
-      for (let i = 0; i < 70; i++) {
+      for (let i = 0; i < cases(350, 50); i++) {
         const { world, board, run } = await plotting(mode);
         await world.advance(0.05 + 12.4 * random());
         const beforeS = world.nowS();
@@ -68,7 +69,7 @@ describe("an emergency stop at any instant", () => {
     async (mode, firmware) => {
       const random = seeded(MOTION_MODES.indexOf(mode) + 41);
       const undisturbedMm = await wholeMm(mode, firmware);
-      for (let i = 0; i < 34; i++) {
+      for (let i = 0; i < cases(170, 25); i++) {
         const { world, board, run } = await plotting(mode, DRAWING, firmware);
         await world.advance(0.05 + 12.4 * random());
         const beforeS = world.nowS();

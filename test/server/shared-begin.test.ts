@@ -1,6 +1,7 @@
 /** A shared job begins only if all servers know that it does; a plotter without a known model is asked for it. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { PlotwrightServer } from "../../server/index.js";
+import { CaughtIo, cliWith } from "../cli/support.js";
 import { temporaryFolder } from "../support/server-process.js";
 import {
   MACHINE,
@@ -11,6 +12,7 @@ import {
   noticesOf,
   send,
   share,
+  sharedJobsOf,
   sharedOf,
   startOf,
   stateOf,
@@ -133,5 +135,24 @@ describe("a shared job that was cancelled in the middle", () => {
     await expect.poll(async () => (await elm()).state).toBe("done");
     await database.restore();
     await expect.poll(() => sharedOf(server, "elm")).toMatchObject({ state: "stored", hasBegun: true });
+  });
+});
+
+describe("plotwright serve --shared-queue", () => {
+  it("shows the jobs of that database", { timeout: 120_000 }, async () => {
+    const own = temporaryFolder("shared-serve");
+    const io = new CaughtIo();
+    const where = ["--port", "0", "--no-mdns", "--device", "virtual", "--data", own.path];
+    const running = cliWith(io, "serve", "--shared-queue", database.url, ...where);
+    try {
+      await expect.poll(() => io.outText + io.errText).toMatch(/plotwright is at/);
+      const url = /plotwright is at (\S+)/.exec(io.outText)?.[1] ?? "";
+      await share({ url }, "sedge", { machine: "axidraw-v3-a3" });
+      expect((await sharedJobsOf({ url })).map(({ name }) => name)).toContain("sedge");
+    } finally {
+      io.interrupt();
+      await running;
+      own.remove();
+    }
   });
 });

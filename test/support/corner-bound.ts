@@ -74,19 +74,20 @@ export function leastLoss(corner: CornerCase): number {
 function dualBound({ speed, accel, deviation, turn }: CornerCase, mu: number): number {
   const weight = mu - Math.tan(turn / 2);
   const step = turn / 2 / ANGLES;
-  const cost = (rho: number, angle: number): number =>
-    speed - rho * Math.cos(angle) + weight * rho * Math.sin(angle);
+  const stepCos = Math.cos(step);
   const radius = (i: number): number => (speed * i) / RADII;
   let at = Float64Array.from({ length: RADII + 1 }, (_, i) => (speed - radius(i)) ** 2 / 2 / accel);
   for (let k = 0; k < ANGLES; k++) {
     const next = new Float64Array(RADII + 1).fill(Infinity);
+    const angle = (k + 0.5) * step;
+    const perRho = Math.cos(angle) - weight * Math.sin(angle);
     for (let j = 0; j <= RADII; j++) {
       // Between neighbouring angles speed changes by less than this.
       for (let i = Math.max(0, j - 24); i <= Math.min(RADII, j + 24); i++) {
         const [r0, r1] = [radius(i), radius(j)];
-        const way = Math.sqrt(r0 * r0 + r1 * r1 - 2 * r0 * r1 * Math.cos(step));
-        const middle = cost((r0 + r1) / 2, (k + 0.5) * step);
-        next[j] = Math.min(next[j], at[i] + (way * middle) / accel);
+        const length = Math.sqrt(r0 * r0 + r1 * r1 - 2 * r0 * r1 * stepCos);
+        const cost = speed - ((r0 + r1) / 2) * perRho;
+        next[j] = Math.min(next[j], at[i] + (length * cost) / accel);
       }
     }
     at = next;

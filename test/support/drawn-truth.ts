@@ -87,14 +87,25 @@ interface Nearest {
 }
 
 function nearest(rail: readonly Piece[], px: number, py: number): Nearest {
-  let found: Nearest = { stroke: -1, alongMm: 0, awayMm: Infinity };
-  for (const { stroke, startMm, lengthMm, x, y, dx, dy } of rail) {
+  let found: Piece | null = null;
+  let foundShare = 0;
+  // Squares: this runs for every point that a board has drawn, and Math.hypot is slow.
+  let away2 = Infinity;
+  for (const piece of rail) {
+    const { lengthMm, x, y, dx, dy } = piece;
     const along = lengthMm > 0 ? ((px - x) * dx + (py - y) * dy) / (lengthMm * lengthMm) : 0;
     const share = Math.min(1, Math.max(0, along));
-    const awayMm = Math.hypot(x + share * dx - px, y + share * dy - py);
-    if (awayMm < found.awayMm) found = { stroke, alongMm: startMm + share * lengthMm, awayMm };
+    const awayX = x + share * dx - px;
+    const awayY = y + share * dy - py;
+    const piece2 = awayX * awayX + awayY * awayY;
+    if (piece2 >= away2) continue;
+    away2 = piece2;
+    found = piece;
+    foundShare = share;
   }
-  return found;
+  const awayMm = Math.sqrt(away2);
+  if (!found) return { stroke: -1, alongMm: 0, awayMm };
+  return { stroke: found.stroke, alongMm: found.startMm + foundShare * found.lengthMm, awayMm };
 }
 
 function united(intervals: readonly Interval[]): Interval[] {

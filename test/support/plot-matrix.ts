@@ -2,20 +2,9 @@
  * The samples, plotted by every firmware in every mode on virtual boards: the board's acceptance figures, and
  * the table of docs/ebb.md.
  */
-import { readFileSync } from "node:fs";
-import path from "node:path";
-import {
-  DEFAULT_MOTION,
-  DEFAULT_PEN,
-  DEFAULT_PREPARE,
-  importSvg,
-  machineById,
-  plan,
-  prepare,
-  type StrokeSet,
-} from "../../src/index.js";
+import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type StrokeSet } from "../../src/index.js";
 import { compareFirmware, motionForFirmware, type MotionMode } from "../../src/internal.js";
-import { ROOT } from "../../scripts/setup.mjs";
+import { sampleStrokes } from "./sample-strokes.js";
 import { SegmentGrid } from "./segment-grid.js";
 import { FastBoard } from "./virtual-plots.js";
 
@@ -67,8 +56,7 @@ export interface MatrixRow {
 
 const MACHINE = machineById("axidraw-v3");
 const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: SegmentGrid } => {
-  const text = readFileSync(path.join(ROOT, "samples", `${sample}.svg`), "utf8");
-  const { strokes } = prepare(importSvg(text), DEFAULT_PREPARE);
+  const strokes = sampleStrokes(sample);
   const grid = new SegmentGrid(0.5);
   for (let i = 0; i + 1 < strokes.offsets.length; i++) {
     grid.addPolyline(strokes.xy, 2 * strokes.offsets[i], 2 * strokes.offsets[i + 1]);

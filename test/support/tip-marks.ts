@@ -57,7 +57,6 @@ export function tipMarks(
   let lateMm = 0;
   let index = 0;
   let next = 0;
-  const late = new Set<number>();
   const begun = new Set<number>();
   const broken = new Set<number>();
   const endS = commands.boardS[commands.count];
@@ -67,17 +66,15 @@ export function tipMarks(
     const share = spanS > 0 ? (boardS - commands.boardS[index]) / spanS : 0;
     const planS = commands.planS[index] + share * (commands.planS[index + 1] - commands.planS[index]);
     while (next < strokes.length && strokes[next].startS <= planS) next++;
-    const touches = tip.touches(boardS);
-    const at = stateAt(trajectory, planS);
-    if (at.stroke >= 0) {
-      if (touches) begun.add(next);
-      else if (begun.has(next)) broken.add(next);
-      else {
-        late.add(next);
-        lateMm = Math.max(lateMm, at.alongMm);
-      }
-    } else if (touches) {
-      const last = strokes[next - 1];
+    const last = strokes[next - 1];
+    const isOnStroke = last !== undefined && planS < last.endS;
+    if (tip.touches(boardS) === isOnStroke) {
+      if (isOnStroke) begun.add(next);
+    } else if (isOnStroke) {
+      if (begun.has(next)) broken.add(next);
+      else lateMm = Math.max(lateMm, stateAt(trajectory, planS).alongMm);
+    } else {
+      const at = stateAt(trajectory, planS);
       const beyond = last ? distance([at.x, at.y], last.to) : Infinity;
       const before = strokes[next] ? distance([at.x, at.y], strokes[next].from) : Infinity;
       strayMm = Math.max(strayMm, Math.min(beyond, before));

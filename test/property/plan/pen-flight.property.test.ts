@@ -2,7 +2,7 @@
  * Pens that land in flight: no mark beside a stroke, and none missing, whatever the servo does. The servo here is not
  * the planner's: its speed, its frames and the height at which the tip touches are its own.
  */
-import { readFileSync, readdirSync } from "node:fs";
+import { readdirSync } from "node:fs";
 import path from "node:path";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
@@ -11,11 +11,8 @@ import { motionForFirmware } from "../../../src/drivers/ebb/protocol/firmware-mo
 import {
   DEFAULT_MOTION,
   DEFAULT_PEN,
-  DEFAULT_PREPARE,
-  importSvg,
   machineById,
   plan,
-  prepare,
   type MachineProfile,
   type MotionSettings,
   type PenSettings,
@@ -24,6 +21,7 @@ import {
 import { MOTION_MODES, type PenOverlap } from "../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { cases, IS_FULL } from "../../support/full-run.js";
+import { sampleStrokes } from "../../support/sample-strokes.js";
 import { SPRINGS, swinging } from "../../support/swinging.js";
 import { tipMarks, type TipMarks, type TipServo } from "../../support/tip-marks.js";
 
@@ -203,11 +201,9 @@ describe("random drawings", { timeout: TIMEOUT_MS }, () => {
 
 const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
 /** Moonrise takes longer than all the others together: only the full run has it here. */
-const samples = readdirSync(FOLDER).filter(
-  (name) => name.endsWith(".svg") && (IS_FULL || name !== "moonrise.svg"),
-);
-const sampleStrokes = (file: string): StrokeSet =>
-  prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes;
+const samples = readdirSync(FOLDER)
+  .flatMap((name) => (name.endsWith(".svg") ? name.slice(0, -4) : []))
+  .filter((name) => IS_FULL || name !== "moonrise");
 const STATED: TipServo = { speed: 1, phaseMs: 23, contact: 0.5 };
 /** As slow and as fast as the pen's settings allow for; the full run also has them with the other contact. */
 const EXTREMES: readonly TipServo[] = [
@@ -217,8 +213,8 @@ const EXTREMES: readonly TipServo[] = [
   { speed: 0.8, phaseMs: 23, contact: 0.45 },
 ].slice(0, cases(4, 2));
 
-describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
-  const strokes = sampleStrokes(file);
+describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (name) => {
+  const strokes = sampleStrokes(name);
   const safe = planned({ strokes, pen: penOf("safe") });
 
   it.each(EXTREMES)(
@@ -249,13 +245,13 @@ describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
 
 describe("the check itself", () => {
   it("finds a planner that assumes the tip to be clear at 30 % of the way", () => {
-    const strokes = sampleStrokes("flower-meadow.svg");
+    const strokes = sampleStrokes("flower-meadow");
     const marks = marksOf({ strokes, pen: penOf("fast", { contactPct: 30 }) }, STATED);
     expect(marks.strayMm).toBeGreaterThan(SAFE_MM);
   });
 
   it("finds nothing where the carriage waits for the pen", () => {
-    const strokes = sampleStrokes("hello-paper.svg");
+    const strokes = sampleStrokes("hello-paper");
     const marks = marksOf({ strokes, pen: penOf("off") }, STATED);
     expect(marks.strayMm).toBeLessThan(1e-9);
     expect([marks.lateMm, marks.brokenCount]).toEqual([0, 0]);
@@ -263,7 +259,7 @@ describe("the check itself", () => {
 });
 
 it("draws moonrise in 5 000 s safely and in 4 300 s fast", () => {
-  const strokes = sampleStrokes("moonrise.svg");
+  const strokes = sampleStrokes("moonrise");
   const [safe, fast] = (["safe", "fast"] as const).map(
     (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine: unmeasured }).totalS,
   );

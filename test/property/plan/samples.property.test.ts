@@ -1,20 +1,14 @@
 /** The properties of random drawings, checked on the samples of plotwright: sampled every few milliseconds. */
-import { readFileSync, readdirSync } from "node:fs";
+import { readdirSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
-import {
-  DEFAULT_PEN,
-  DEFAULT_PREPARE,
-  importSvg,
-  plan,
-  prepare,
-  type Trajectory,
-} from "../../../src/index.js";
+import { DEFAULT_PEN, plan, type Trajectory } from "../../../src/index.js";
 import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../../../src/internal.js";
+import { sampleStrokes } from "../../support/sample-strokes.js";
 import { worstOf } from "../../support/trajectory-checks.js";
 
 const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
-const samples = readdirSync(FOLDER).filter((name) => name.endsWith(".svg"));
+const samples = readdirSync(FOLDER).flatMap((name) => (name.endsWith(".svg") ? name.slice(0, -4) : []));
 const draw = { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
 const travel = { speedMmPerS: 150, accelMmPerS2: 1_000, cornerMm: 0.5, jerkMmPerS3: 20_000 };
 const WAYS = MOTION_MODES.flatMap((mode) => [
@@ -22,8 +16,8 @@ const WAYS = MOTION_MODES.flatMap((mode) => [
   { name: `${mode}, fitted`, mode, fit: DEFAULT_FIT },
 ]);
 
-describe.each(samples)("the sample %s", (file) => {
-  const { strokes } = prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE);
+describe.each(samples)("the sample %s", (name) => {
+  const strokes = sampleStrokes(name);
 
   it.each(WAYS)("is drawn within all limits and without a gap in mode $name", ({ mode, fit }) => {
     const trajectory = plan(strokes, { mode, draw, travel, fit }, DEFAULT_PEN);
@@ -43,9 +37,9 @@ describe.each(samples)("the sample %s", (file) => {
   });
 });
 
-describe.each(samples)("the corner curves of %s", (file) => {
+describe.each(samples)("the corner curves of %s", (name) => {
   it("take at most 2 % longer than a plan whose velocity jumps", () => {
-    const { strokes } = prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE);
+    const strokes = sampleStrokes(name);
     const drawS = (mode: MotionMode) =>
       total(drawnDurations(plan(strokes, { mode, draw, travel, fit: null }, DEFAULT_PEN)));
     expect(drawS("blend") / drawS("junction")).toBeLessThan(1.02);
@@ -53,13 +47,13 @@ describe.each(samples)("the corner curves of %s", (file) => {
 });
 
 describe.each([
-  { file: "harmonograph.svg", fewer: 5 },
-  { file: "three-colour-hills.svg", fewer: 2.7 },
-  { file: "flower-meadow.svg", fewer: 1.4 },
-  { file: "moonrise.svg", fewer: 1 },
-])("merging $file", ({ file, fewer }) => {
+  { name: "harmonograph", fewer: 5 },
+  { name: "three-colour-hills", fewer: 2.7 },
+  { name: "flower-meadow", fewer: 1.4 },
+  { name: "moonrise", fewer: 1 },
+])("merging $name", ({ name, fewer }) => {
   it("leaves fewer blocks and takes at most 1 % more time", () => {
-    const { strokes } = prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE);
+    const strokes = sampleStrokes(name);
     const drawn = (fit: typeof DEFAULT_FIT | null) =>
       drawnDurations(plan(strokes, { mode: "blend", draw, travel, fit }, DEFAULT_PEN));
     const [plain, merged] = [drawn(null), drawn(DEFAULT_FIT)];

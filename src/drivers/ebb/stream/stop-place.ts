@@ -91,12 +91,12 @@ export function placeOfCounters(
   steps2: number,
   boardS: number,
 ): StreamPlace | null {
-  const nearest = new NearestTick(features, steps1, steps2, boardS);
+  const nearest = new NearestTick(features, steps1, steps2, boardS, SAME_STEPS);
   for (const command of commands) {
     const before = stateBefore(command, commands);
     if (before && passes(command, before, steps1, steps2)) nearest.search(command, before, NO_STEPS);
   }
-  return nearest.command && nearest.offSteps <= SAME_STEPS ? placeIn(nearest.command, nearest.boardS) : null;
+  return nearest.command && placeIn(nearest.command, nearest.boardS);
 }
 
 /** Whether the counters are between those at a command's start and end: a fast check that excludes most commands. */
@@ -133,7 +133,6 @@ function placeIn({ number, stream, index, startS, endS }: InFlight, boardS: numb
 class NearestTick {
   command: InFlight | null = null;
   boardS = 0;
-  offSteps = Infinity;
   private offS = Infinity;
 
   constructor(
@@ -141,6 +140,8 @@ class NearestTick {
     private readonly steps1: number,
     private readonly steps2: number,
     private readonly stopS: number,
+    /** Of the nearest tick so far; at first the max that counts. The search skips the ticks that are farther off. */
+    private offSteps = Infinity,
   ) {}
 
   /** `missing`: steps of the command's plan that are not in the counters. */
