@@ -7,9 +7,6 @@ const REAL_TIME = ["test/serial/**/*.test.ts"];
 /** Keeps a server as busy as it may be while a board plots: nothing else runs then. */
 const LOAD = ["test/serial/load.test.ts"];
 
-/** Tests of functions. */
-const FUNCTIONS = ["test/unit/**/*.test.ts", "test/property/**/*.test.ts", "test/architecture/**/*.test.ts"];
-
 /** Tests of the command line that replace modules (vi.mock), so each file has a process of its own. */
 const COMMANDS = ["hand-commands", "plot", "reference", "stdin"].map((name) => `test/cli/${name}.test.ts`);
 
@@ -84,20 +81,10 @@ export default defineConfig({
         test: {
           ...COMMON,
           ...WAITING,
-          name: "functions",
-          include: FUNCTIONS,
-          exclude: PROCESSES,
-          ...limits(60_000),
-          ...SHARED,
-        },
-      },
-      {
-        test: {
-          ...COMMON,
-          ...WAITING,
+          // One project for all of them: each project transforms and loads the product again.
           name: "together",
           include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
-          exclude: [...FUNCTIONS, ...COMMANDS, ...PROCESSES, ...REAL_TIME, ...LEFT_OUT],
+          exclude: [...COMMANDS, ...PROCESSES, ...REAL_TIME, ...LEFT_OUT],
           ...limits(60_000),
           ...SHARED,
         },

@@ -37,7 +37,7 @@ const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
  * The projects of vitest.config.ts that may run in parallel with each other and with the checks, and those that run
  * alone after them.
  */
-const SHARED_RUN = ["functions", "together", "commands", "processes"];
+const SHARED_RUN = ["together", "commands", "processes"];
 const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? [["real-time"], ["load"]] : [];
 
 /**
