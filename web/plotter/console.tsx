@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState, type FormEvent, type KeyboardEvent } from "react";
 import { activeJob, currentPlotter } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
 import { consoleText } from "./console-text.js";
 import { useHand } from "./use-hand.js";
@@ -100,9 +101,7 @@ const CommandLine = ({ onSend }: { onSend(line: string): Promise<void> }) => {
         onChange={(event) => setLine(event.target.value)}
         onKeyDown={onKeyDown}
       />
-      <button type="submit" className="button">
-        {words.send}
-      </button>
+      <Button type="submit">{words.send}</Button>
     </form>
   );
 };

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { movesText } from "./hand-text.js";
+import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
@@ -62,9 +63,9 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
           onChange={setY}
         />
       </div>
-      <button type="submit" className="button" disabled={isOff}>
+      <Button type="submit" disabled={isOff}>
         {words.walk}
-      </button>
+      </Button>
     </form>
   );
 };
@@ -89,16 +90,14 @@ const Moves = ({ isOff }: { isOff: boolean }) => {
   return (
     <div className="button-grid">
       {moves.map(([label, hint, run]) => (
-        <button
+        <Button
           key={label}
-          type="button"
-          className="button"
           title={hint}
           disabled={isOff || (label === words.frame && box === null)}
           onClick={() => void run()}
         >
           {label}
-        </button>
+        </Button>
       ))}
     </div>
   );

@@ -1,5 +1,6 @@
 import { useRef, useState, type KeyboardEvent } from "react";
 import { jogText } from "./hand-text.js";
+import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
@@ -54,16 +55,15 @@ export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
     <div className="jog">
       <div className="jog-pad" role="group" aria-label={words.title} onKeyDown={onKeyDown}>
         {DIRECTIONS.map(([name, x, y]) => (
-          <button
+          <Button
             key={name}
-            type="button"
-            className="button jog-button"
+            className="jog-button"
             aria-label={name === "home" ? words.home : words.by(words.directions[name], step)}
             disabled={isOff}
             onClick={() => go(x, y)}
           >
             {name === "home" ? <Icon name="home" /> : <Arrow x={x} y={y} />}
-          </button>
+          </Button>
         ))}
       </div>
       <Segments<StepMm>

@@ -1,6 +1,7 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
 import { machinesText } from "./machines-text.js";
 import { saveFile } from "../ui/save-file.js";
@@ -75,25 +76,24 @@ interface RowButtonsProps {
 const RowButtons = ({ machine, isOwn, onEdit, onCopy, onRemove }: RowButtonsProps) => (
   <span className="row-links">
     {isOwn && (
-      <button type="button" className="link" aria-label={words.editNamed(machine.name)} onClick={onEdit}>
+      <Button kind="link" aria-label={words.editNamed(machine.name)} onClick={onEdit}>
         {words.edit}
-      </button>
+      </Button>
     )}
-    <button type="button" className="link" aria-label={words.copyNamed(machine.name)} onClick={onCopy}>
+    <Button kind="link" aria-label={words.copyNamed(machine.name)} onClick={onCopy}>
       {words.copy}
-    </button>
-    <button
-      type="button"
-      className="link"
+    </Button>
+    <Button
+      kind="link"
       aria-label={words.saveNamed(machine.name)}
       onClick={() => saveFile(`${machine.id}.json`, fileOf(machine), "application/json")}
     >
       {words.save}
-    </button>
+    </Button>
     {isOwn && (
-      <button type="button" className="link" aria-label={words.removeNamed(machine.name)} onClick={onRemove}>
+      <Button kind="link" aria-label={words.removeNamed(machine.name)} onClick={onRemove}>
         {words.remove}
-      </button>
+      </Button>
     )}
   </span>
 );
@@ -146,17 +146,10 @@ const Editor = ({ first, onDone }: { first: MachineProfile; onDone(): void }) =>
         </ul>
       )}
       <div className="button-row">
-        <button
-          type="button"
-          className="button button-primary"
-          disabled={problems.length > 0}
-          onClick={() => void save()}
-        >
+        <Button kind="primary" disabled={problems.length > 0} onClick={() => void save()}>
           {words.saveMachine}
-        </button>
-        <button type="button" className="button" onClick={onDone}>
-          {words.back}
-        </button>
+        </Button>
+        <Button onClick={onDone}>{words.back}</Button>
       </div>
     </>
   );

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { wizardText } from "./wizard-text.js";
+import { Button } from "../ui/button.js";
 import { saveFile } from "../ui/save-file.js";
 import { TextField } from "../ui/text-field.js";
 import { fileOf, freeId, problemsOf } from "./profile.js";
@@ -48,17 +49,15 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
         </p>
       )}
       <div className="button-row">
-        <button type="submit" className="button button-primary" disabled={problems.length > 0}>
+        <Button type="submit" kind="primary" disabled={problems.length > 0}>
           {words.save}
-        </button>
-        <button
-          type="button"
-          className="button"
+        </Button>
+        <Button
           disabled={problems.length > 0}
           onClick={() => saveFile(`${named.id}.json`, fileOf(named), "application/json")}
         >
           {words.saveFile}
-        </button>
+        </Button>
       </div>
     </form>
   );

@@ -2,6 +2,7 @@ import { useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import { stepsPerMmMeasured } from "../../src/internal.js";
 import { wizardText } from "./wizard-text.js";
+import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberField } from "../ui/number-field.js";
 import { TakeOrSkip } from "./take-or-skip.js";
@@ -21,13 +22,9 @@ export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
   return (
     <>
       <p>{words.squareHint(sizeMm)}</p>
-      <button
-        type="button"
-        className="button button-primary"
-        onClick={() => void hand.square(sizeMm, settingsWith(profile))}
-      >
+      <Button kind="primary" onClick={() => void hand.square(sizeMm, settingsWith(profile))}>
         {words.drawSquare}
-      </button>
+      </Button>
       <div className="field-pair">
         <NumberField
           label={words.measuredX}
