@@ -7,7 +7,6 @@ import { machinesText } from "./machines-text.js";
 import { saveFile } from "../ui/save-file.js";
 import { copyOf, fileOf, freeId, parseMachineFile, problemsOf } from "./profile.js";
 import { ProfileForm } from "./profile-form.js";
-import { useHand } from "./use-hand.js";
 import "./machines.css";
 
 const words = machinesText;
@@ -29,8 +28,7 @@ export const MachinesDialog = () => {
 const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
   const chosen = usePageState((state) => state.settings.machine);
   const made = usePageState((state) => state.machines).filter(({ builtIn }) => !builtIn);
-  const { chooseMachine } = useActions();
-  const hand = useHand();
+  const { chooseMachine, removeMachine } = useActions();
   const taken = [...MACHINES, ...made].map(({ id }) => id);
   return (
     <>
@@ -51,7 +49,7 @@ const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
               isOwn={made.some(({ id }) => id === machine.id)}
               onEdit={() => onEdit(machine)}
               onCopy={() => onEdit(copyOf(machine, words.copyName(machine.name), taken))}
-              onRemove={() => void hand.removeMachine(machine)}
+              onRemove={() => void removeMachine(machine)}
             />
           </li>
         ))}
@@ -126,14 +124,10 @@ const ImportButton = ({ onRead }: { onRead(profile: MachineProfile): void }) => 
 
 const Editor = ({ first, onDone }: { first: MachineProfile; onDone(): void }) => {
   const [profile, setProfile] = useState(first);
-  const { chooseMachine } = useActions();
-  const hand = useHand();
+  const { saveMachine } = useActions();
   const problems = problemsOf(profile);
   const save = async (): Promise<void> => {
-    const saved = await hand.saveMachine(profile);
-    if (!saved) return;
-    chooseMachine(saved);
-    onDone();
+    if (await saveMachine(profile)) onDone();
   };
   return (
     <>

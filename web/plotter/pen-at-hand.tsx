@@ -7,7 +7,6 @@ import { SettingField } from "../ui/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
 import { servoFollower } from "./servo-follow.js";
 import { penText } from "./text.js";
-import { useHand } from "./use-hand.js";
 import "./pen-at-hand.css";
 
 const words = penText;
@@ -97,14 +96,14 @@ const isFirstPlot = (state: PageState): boolean => {
 
 const HomeButtons = ({ onHome }: { onHome?(): void }) => {
   const isOff = usePageState((state) => !isReady(state));
-  const { home, motorsOff } = useActions();
+  const { moveByHand, motorsOff } = useActions();
   return (
     <div className="button-grid">
       <Button
         disabled={isOff}
         onClick={() => {
           onHome?.();
-          void home();
+          void moveByHand({ kind: "home" });
         }}
       >
         {words.home}
@@ -203,8 +202,8 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
 };
 
 const TestLine = ({ onDraw }: { onDraw?(): void }) => {
+  const { moveByHand } = useActions();
   const isOff = usePageState((state) => !isReady(state));
-  const hand = useHand();
   return (
     <Button
       className="test-line"
@@ -212,7 +211,7 @@ const TestLine = ({ onDraw }: { onDraw?(): void }) => {
       disabled={isOff}
       onClick={() => {
         onDraw?.();
-        void hand.testLine();
+        void moveByHand({ kind: "test-line" });
       }}
     >
       {words.testLine}

@@ -3,7 +3,6 @@ import type { MachineProfile } from "../../src/index.js";
 import { DIRECTIONS, machineTurned, type Direction } from "../../src/internal.js";
 import { useActions } from "../state/use-store.js";
 import { wizardText } from "./wizard-text.js";
-import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
 import { Button } from "../ui/button.js";
 
@@ -18,13 +17,14 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [draft, setDraft] = useState(profile);
   const [xWent, setXWent] = useState<Direction>("right");
   const [fault, setFault] = useState<string | null>(null);
-  const hand = useHand();
-  const { motorsOff } = useActions();
+  const { motorsOff, moveByHand } = useActions();
   const [isMoving, setMoving] = useState(false);
   // Sets home before each move: with a wrong profile, the carriage may be on the wrong side of the last home.
   const jog = async (x: number, y: number): Promise<void> => {
     setMoving(true);
-    if (await hand.setHome()) await hand.jog(x, y, settingsWith(draft));
+    if (await moveByHand({ kind: "set-home" })) {
+      await moveByHand({ kind: "jog", dxMm: x, dyMm: y }, settingsWith(draft));
+    }
     setMoving(false);
   };
 
@@ -50,7 +50,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
 
   if (asked === "middle") {
     const begin = async (): Promise<void> => {
-      if (await hand.setHome()) setAsked("x");
+      if (await moveByHand({ kind: "set-home" })) setAsked("x");
     };
     return (
       <>

@@ -7,7 +7,6 @@ import { saveFile } from "../ui/save-file.js";
 import { TextField } from "../ui/text-field.js";
 import { fileOf, freeId, problemsOf } from "./profile.js";
 import { ReachFields } from "./profile-form.js";
-import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
@@ -15,8 +14,7 @@ const words = wizardText;
 /** Asks for reach and name, then saves the machine and chooses it. */
 export const NameStep = ({ profile, onNext }: StepProps) => {
   const made = usePageState((state) => state.machines);
-  const { chooseMachine } = useActions();
-  const hand = useHand();
+  const { saveMachine } = useActions();
   const [draft, setDraft] = useState(profile);
   const named: MachineProfile = {
     ...draft,
@@ -27,10 +25,8 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
   };
   const problems = problemsOf(named);
   const save = async (): Promise<void> => {
-    const saved = await hand.saveMachine(named);
-    if (!saved) return;
-    chooseMachine(saved);
-    onNext(saved);
+    const saved = await saveMachine(named);
+    if (saved) onNext(saved);
   };
   return (
     <form
