@@ -16,10 +16,15 @@ import {
   type VirtualMachine,
   machineOf,
 } from "../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS, type CommandAnswer, type PlotSettings } from "../../src/schema/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  type CommandAnswer,
+  type HandMove,
+  type PlotSettings,
+} from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import { connect, type Connection } from "./connection.js";
-import { moveByHand, type HandMove } from "./hand-moves.js";
+import { moveByHand } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
 import { initialState, UNKNOWN, type PlotterOptions, type PlotterState } from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";

@@ -1,6 +1,6 @@
 /** Declares the single commands to the machine: pen, manual moves, a raw line, info. */
 import { InvalidArgumentError, type Command } from "commander";
-import type { HandMove } from "../../host/plotter/hand-moves.js";
+import type { HandMove } from "../../src/schema/index.js";
 import { length } from "./lengths.js";
 import {
   runAlign,

@@ -17,7 +17,7 @@ import type { DrawingFiles } from "../storage/drawing-files.js";
 import type { MachineFiles } from "../storage/machine-files.js";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
 import { bytesOf } from "./drawing-routes.js";
-import { parseWith } from "./errors.js";
+import { parseWith } from "../../host/parse-with.js";
 
 export interface JobParts {
   readonly queue: JobQueue;

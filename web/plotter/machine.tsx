@@ -4,6 +4,7 @@ import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { plotterText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -27,9 +28,7 @@ export const MachinePanel = () => {
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
       {isMine && plotter?.kind === "virtual" && mayConnect && (
-        <button type="button" className="button" onClick={() => void connectPlotter(plotter.id)}>
-          {words.connect}
-        </button>
+        <Button onClick={() => void connectPlotter(plotter.id)}>{words.connect}</Button>
       )}
       {isMine && <PenAtHand />}
     </section>
@@ -63,9 +62,9 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
         {isMine && <DialogLink name="ringing">{words.ringing}</DialogLink>}
         {isMine && <DialogLink name="console">{words.console}</DialogLink>}
         {plotter && (
-          <button type="button" className="link" onClick={() => void saveLog(plotter.id)}>
+          <Button kind="link" onClick={() => void saveLog(plotter.id)}>
             {words.log}
-          </button>
+          </Button>
         )}
       </p>
     </section>
@@ -75,9 +74,9 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
 const DialogLink = ({ name, children }: { name: DialogName; children: string }) => {
   const store = usePageStore();
   return (
-    <button type="button" className="link" onClick={() => store.setState({ openDialog: name })}>
+    <Button kind="link" onClick={() => store.setState({ openDialog: name })}>
       {children}
-    </button>
+    </Button>
   );
 };
 
