@@ -41,13 +41,13 @@ const move = (name: string, about: string, body: ZodType): ApiRoute =>
 export const HAND_MOVE_ROUTES: readonly ApiRoute[] = [
   move(
     "home",
-    "Raises the pen and moves home, to the limit switches if the machine has them",
+    "Lifts the pen and moves home, to the limit switches if the machine has them",
     handMoveRequestSchema,
   ),
   move("walk", "Moves to a position in mm from home, pen up", walkRequestSchema),
   move("jog", "Moves by a distance in mm, pen up", jogRequestSchema),
   move("set-home", "Makes the current position home", handMoveRequestSchema),
-  move("cycle-pen", "Lowers the pen and raises it again", handMoveRequestSchema),
+  move("cycle-pen", "Lowers the pen and lifts it again", handMoveRequestSchema),
   move("frame", "Moves around a job's drawing or a box and back, pen up", frameRequestSchema),
   move("test-line", "Draws a line of 20 mm near the current position", handMoveRequestSchema),
   move("test-patch", "Draws a small test pattern at the current position", handMoveRequestSchema),

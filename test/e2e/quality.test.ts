@@ -96,7 +96,7 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
   it("shapes a motion or softens it, not both", async () => {
     await section().getByRole("radio", { name: "Gentle" }).check();
     expect(await motionOfJob()).toMatchObject({ mode: "scurve", shaper: "none" });
-    await section().getByLabel("Against swinging").selectOption("zv");
+    await section().getByLabel("Reduce ringing").selectOption("zv");
     expect(await motionOfJob()).toMatchObject({ mode: "blend", shaper: "zv" });
     expect(test.complaints).toEqual([]);
   });

@@ -25,7 +25,7 @@ const START = `${GRBL.name} does not use these settings, because its controller 
 describe("a plan for a Grbl", () => {
   it("names the shaper that it does not use, and draws the same", () => {
     const { warnings, ...job } = planned(SHAPED);
-    expect(warnings).toEqual([`${START}Against swinging.`]);
+    expect(warnings).toEqual([`${START}Reduce ringing.`]);
     expect(job.lines()).toEqual(planned({}).lines());
   });
 
