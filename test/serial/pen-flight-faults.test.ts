@@ -1,6 +1,6 @@
 /**
  * kill -9 of a plotting process and an unplugged cable while the pen moves in flight, over a real pseudo-terminal, with
- * a servo that differs from what the planner takes it for. PLOTWRIGHT_FAULTS=20, or the full run: 20 times each.
+ * a servo that deviates from the planner's assumptions. PLOTWRIGHT_FAULTS=20, or the full run: 20 times each.
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";

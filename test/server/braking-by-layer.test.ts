@@ -1,4 +1,4 @@
-/** A stop in the middle of a stroke uses the acceleration of that stroke's layer, whatever the others have. */
+/** A stop in the middle of a stroke uses the acceleration of that stroke's layer, not of other layers. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PEN, plan, stateAt, type Place, type StrokeSet, type Trajectory } from "../../src/index.js";
 import { comeToRest } from "../../src/internal.js";

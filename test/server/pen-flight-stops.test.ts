@@ -1,6 +1,6 @@
 /**
- * Holds and emergency stops while the pen moves in flight: what they leave on the paper, drawn by a servo that differs
- * from what the planner takes it for.
+ * Holds and emergency stops while the pen moves in flight: the marks that they leave on the paper if the servo deviates
+ * from the planner's assumptions.
  */
 import { describe, expect, it } from "vitest";
 import type { PenOverlap } from "../../src/internal.js";

@@ -1,6 +1,6 @@
 /**
- * Holds and emergency stops in shaped motion, by what the pen of a swinging machine leaves on the paper: the virtual
- * board has the springs and the servo, and the pen stays on the paper until the servo has lifted it.
+ * Holds and emergency stops in shaped motion: the marks that a swinging machine's pen leaves on the paper. The virtual
+ * board simulates springs and servo, and the pen stays on the paper until the servo has lifted it.
  */
 import { describe, expect, it } from "vitest";
 import { stateAt, VirtualBoard, type StrokeSet, type Trajectory } from "../../src/index.js";
@@ -17,7 +17,7 @@ import { inQuality, SPRINGS, swinging } from "../support/swinging.js";
 
 /** A gap or a doubled stretch that is invisible, mm. */
 const UNSEEN_MM = 0.05;
-/** What is farther from the drawing than this is a mark beside it, mm. */
+/** Lines farther than this from the drawing are marks beside it, mm. */
 const BESIDE_MM = 0.08;
 /** Time between a stop and resuming, s: the pen is at rest by then. */
 const RESUMED_AFTER_S = 1;

@@ -57,9 +57,9 @@ const ANGLES = 40;
 /** The minimum loss, s, within about 1 %; below 0 where the short cut saves more than the turn costs. */
 export function leastLoss(corner: CornerCase): number {
   const { speed, accel, deviation, turn } = corner;
-  const least = Math.tan(turn / 2);
+  const minMu = Math.tan(turn / 2);
   const scale = (speed * speed) / (2 * accel * deviation);
-  const bound = (share: number): number => dualBound(corner, least + scale * share * share);
+  const bound = (share: number): number => dualBound(corner, minMu + scale * share * share);
   // Concave in μ: ternary search.
   let [low, high] = [0, 2];
   for (let i = 0; i < 24; i++) {

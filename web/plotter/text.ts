@@ -4,7 +4,7 @@ export const plotterText = {
   virtual: "Virtual board: no plotter plugged in",
   virtualHint: "Plots run on the virtual board, not on paper. Plug in a plotter: it is found automatically.",
   homeHint:
-    "Home is where the carriage was when the motors were switched on, because there are no end switches. With the motors off, push it into the corner by hand.",
+    "Home is where the carriage was when the motors were switched on, because there are no limit switches. With the motors off, push it into the corner by hand.",
   position: "Pen at",
   unknown: "not known",
   pen: "Pen",
