@@ -182,7 +182,7 @@ describe("two browsers and a watcher", () => {
     for (const page of pages()) await historyPanel(page).getByText("Cancelled", { exact: true }).waitFor();
   });
 
-  it("a device that is not paired is told how to pair", async () => {
+  it("a device that is not paired shows how to pair", async () => {
     const page = await browser.newPage({ viewport: VIEWPORT });
     await page.goto(server.url);
     await page.getByRole("heading", { name: "Pair this device" }).waitFor();

@@ -103,7 +103,7 @@ describe.each(["2.8.1", "3.0.3"])("the pen of a swinging machine, firmware %s", 
       if (count > 50) console.info(firmware, count, what, most);
       expect(most.gapMm).toBeLessThan(UNSEEN_MM);
       expect(most.overlapMm).toBeLessThan(UNSEEN_MM);
-      // Motors that stop dead make the pen swing by v/ω, off the line at corners and in curves.
+      // A sudden stop of the motors makes the pen swing by v/ω, off the line at corners and in curves.
       if (what === "a hold") expect(most.besideMm).toBeLessThan(UNSEEN_MM);
       else expect(most.besideShare).toBeLessThan(1);
     },

@@ -70,7 +70,10 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: 
 export const cutOffS = ({ untilS }: Frame, style: Style): number =>
   style === "drawn" || style === "travel" ? (untilS ?? Infinity) : Infinity;
 
-/** Draws up to `pieceCount` pieces, removes them from `tasks` and returns their number. `draw` returns false if it can't draw now. */
+/**
+ * Draws up to `pieceCount` pieces, removes them from `tasks` and returns their number. `draw` returns false if it can't
+ * draw now.
+ */
 export const drawSome = <B extends Boxed>(
   tasks: Task<B>[],
   pieceCount: number,

@@ -32,7 +32,7 @@ describe("a plan for a Grbl", () => {
   it("names all other settings that it does not use, and draws the same", () => {
     const { warnings, ...job } = planned(CHANGED);
     expect(warnings).toEqual([
-      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Rises at, Move while the pen lifts.`,
+      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Lifting speed, Move while the pen lifts.`,
     ]);
     expect(job.lines()).toEqual(planned({}).lines());
   });

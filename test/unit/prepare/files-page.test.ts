@@ -1,4 +1,4 @@
-/** Placing a file's page on the paper if the user has not chosen a position, and turning it to fit the machine's reach. */
+/** Placing a file's page on the paper if the user has chosen no position, and turning it to fit the machine's reach. */
 import { describe, expect, it } from "vitest";
 import {
   DEFAULT_PREPARE,
