@@ -43,7 +43,7 @@ export function port(text: string): number {
   return value;
 }
 
-/** Of an option that takes several names: the ones before it, and this one. */
+/** Collects the values of an option that takes several names. */
 export function hostNames(text: string, before: readonly string[] = []): string[] {
   if (!/^[\w.-]+$/.test(text)) {
     throw new InvalidArgumentError("It must be a name without http:// and port, such as studio.local.");

@@ -17,7 +17,7 @@ const PATIENCE_MS = 120_000;
 const LINES = "lines";
 const OTHER = "other";
 const OTHER_SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100"><path d="M10 10h80v80" fill="none" stroke="#0a0"/></svg>`;
-/** Of the pen's mark (--desk-accent). */
+/** Colour of the pen's mark (--desk-accent). */
 const PEN_COLOR = 0xd2452c;
 
 let test: PageTest;

@@ -38,7 +38,7 @@ export async function expectShareOnCanvas(page: Page, { progress }: Job, canvasN
   await expect.poll(distance).toBeLessThan(0.15);
 }
 
-/** Watch shows the job, which does not move, in that state and at its position. */
+/** Expects that Watch shows the job, which does not move, in that state and at its position. */
 export async function expectPartlyDrawn(page: Page, job: Job, state: string): Promise<void> {
   const { name, progress, stats, remainingS } = job;
   expect(progress).toBeGreaterThan(0.2);

@@ -53,7 +53,7 @@ export class LocalName {
   #probeCount = 0;
   /** The announced records; null while the server has no name. */
   #records: readonly DnsRecord[] | null = null;
-  /** Of the next probe or announcement. */
+  /** For the next probe or announcement. */
   #timer: NodeJS.Timeout | undefined;
   #isClosed = false;
   #hasFailed = false;
