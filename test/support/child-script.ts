@@ -1,4 +1,4 @@
-/** Scripts for processes of their own: each is one JavaScript file with all of the project's modules that it imports. */
+/** Scripts for child processes: each is one JavaScript file with all of the project's modules that it imports. */
 import { mkdirSync, renameSync } from "node:fs";
 import path from "node:path";
 import { buildSync } from "esbuild";
