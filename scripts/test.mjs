@@ -13,7 +13,11 @@ import { findBrowser, installBrowser } from "./find-browser.mjs";
 import { failedFiles, failuresIn, passedCountIn, readReport, withSecondAttempt } from "./test-report.mjs";
 import { ROOT, checkNode, ensureBuild, ensureDependencies, nodeModule } from "./setup.mjs";
 
-const typesOf = (folder) => [nodeModule("typescript", "bin", "tsc"), "-p", `${folder}/tsconfig.json`];
+const typesOf = (folder) => [
+  nodeModule("@typescript", "native", "bin", "tsc"),
+  "-p",
+  `${folder}/tsconfig.json`,
+];
 
 /** The longest first: it runs beside the build. */
 const CHECKS = [
