@@ -89,7 +89,7 @@ beforeAll(() => {
     JSON.stringify({ compilerOptions: { ...options, skipLibCheck: true } }),
   );
   for (const { file, code } of examples) writeFileSync(path.join(folder, file), code);
-  compilerOutput = runNode(path.join(ROOT, "node_modules/@typescript/native/bin/tsc"), "-p", ".").stdout;
+  compilerOutput = runNode(path.join(ROOT, "node_modules/typescript/bin/tsc"), "-p", ".").stdout;
 });
 
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
