@@ -1,7 +1,7 @@
 /** The docstrings of the fields of the schemas, for the HTTP reference: schemas have none when the program runs. */
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
-import ts from "typescript";
+import ts from "typescript-6";
 
 /** By type and path: "Job.stats" for the field `stats` of `jobSchema`. */
 export function fieldDocs(folder: string): ReadonlyMap<string, string> {

@@ -1,7 +1,7 @@
 /** Writes docs/library-reference.md: the docstrings of the public library, in the order of src/index.ts. */
 import path from "node:path";
 import prettier from "prettier";
-import ts from "typescript";
+import ts from "typescript-6";
 import { rangeInWords, type Setting } from "../src/internal.js";
 
 const ROOT = path.join(import.meta.dirname, "..");

@@ -17,7 +17,7 @@ const typesOf = (folder) => [nodeModule("typescript", "bin", "tsc"), "-p", `${fo
 
 /** The longest first: it runs beside the build. */
 const CHECKS = [
-  { name: "lint", args: [nodeModule("eslint", "bin", "eslint.js"), ".", "--max-warnings", "0"] },
+  { name: "lint", args: [nodeModule("oxlint", "bin", "oxlint"), "--deny-warnings"] },
   // One program with all code, and one without the types of Node and DOM. The build checks server without DOM; the lint
   // rules keep Node out of web.
   { name: "types", args: typesOf("test") },

@@ -6,6 +6,7 @@ import {
   EBB_COMMAND,
   foreignCommands,
   foreignKinds,
+  foreignPrivateMembers,
   GRBL_COMMAND,
   importsBetweenDrivers,
   plannedElsewhere,
@@ -60,6 +61,28 @@ const CASES: readonly Case[] = [
     bad: { "src/drivers/grbl/deep/job.ts": 'import type { Leg } from "../../ebb/compile/leg.js";' },
     found: ["src/drivers/grbl/deep/job.ts imports src/drivers/ebb/compile/leg"],
     good: { "src/drivers/registry.ts": 'import * as ebb from "./ebb/controller.js";' },
+  },
+  {
+    name: "a private member in the other layer's form",
+    check: foreignPrivateMembers,
+    bad: {
+      "src/plan/a.ts": "class A { #speed = 1; }",
+      "host/a.ts": "class A { constructor(private readonly b: number) {} private static c = 1; }",
+      "server/a.ts": "class A { private b() {} private get c() { return 1; } }",
+      "web/a.tsx": "class A { private b = <p />; }",
+    },
+    found: [
+      "src/plan/a.ts: #speed",
+      "host/a.ts: private readonly b: number",
+      "host/a.ts: private static c = 1;",
+      "server/a.ts: private b() {}",
+      "server/a.ts: private get c() { return 1; }",
+      "web/a.tsx: private b = <p />;",
+    ],
+    good: {
+      "src/plan/a.ts": 'class A { private speed = "#1"; }',
+      "server/a.ts": "class A { #b = 1; private constructor(readonly c: number) {} }",
+    },
   },
   {
     name: "a static import of a plug-in",

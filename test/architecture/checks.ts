@@ -1,6 +1,6 @@
 /** The architecture's checks as functions of sources, so that tests can run them on bad ones too. */
 import path from "node:path";
-import ts from "typescript";
+import ts from "typescript-6";
 
 /** Texts by their paths from the project's root, with forward slashes. */
 export type Sources = Readonly<Record<string, string>>;
@@ -89,6 +89,26 @@ export const foreignKinds = (sources: Sources): string[] =>
     // The page's form for the fields of an EiBotBoard.
     "web/plotter/profile.ts",
   ]);
+
+/** Private members that are not `private name` in src, or `#name` elsewhere. Private constructors have one form only. */
+export const foreignPrivateMembers = (sources: Sources): string[] =>
+  Object.entries(sources).flatMap(([file, text]) => {
+    const found: string[] = [];
+    const isInSrc = file.startsWith("src/");
+    const visit = (node: ts.Node): void => {
+      if (isInSrc && ts.isPrivateIdentifier(node)) found.push(`${file}: ${node.text}`);
+      if (!isInSrc && !ts.isConstructorDeclaration(node) && isPrivate(node)) {
+        found.push(`${file}: ${node.getText()}`);
+      }
+      ts.forEachChild(node, visit);
+    };
+    visit(parsed(file, text));
+    return found;
+  });
+
+const isPrivate = (node: ts.Node): boolean =>
+  ts.canHaveModifiers(node) &&
+  (ts.getModifiers(node) ?? []).some(({ kind }) => kind === ts.SyntaxKind.PrivateKeyword);
 
 const driverOf = (file: string): string | undefined => /^src\/drivers\/([^/]+)\//.exec(file)?.[1];
 

@@ -8,6 +8,7 @@ import {
   findCycle,
   foreignCommands,
   foreignKinds,
+  foreignPrivateMembers,
   importsBetweenDrivers,
   importsOf,
   inside as importsInside,
@@ -258,6 +259,10 @@ describe("the boundaries", () => {
 
   it("let no driver use another one", () => {
     expect(importsBetweenDrivers(SOURCES)).toEqual([]);
+  });
+
+  it("write private members in one way in src, and in another in host, server and web", () => {
+    expect(foreignPrivateMembers(SOURCES)).toEqual([]);
   });
 
   it("leave planning and compiling to planJob and the drivers", () => {

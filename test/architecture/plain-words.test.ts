@@ -1,8 +1,8 @@
 import { readdirSync, readFileSync } from "node:fs";
+import path from "node:path";
 import { describe, expect, it } from "vitest";
-import { oddWordsIn } from "../../scripts/lint/plain-words.mjs";
+import { oddPhrasesIn } from "./plain-words.js";
 
-/** The Markdown files of the project: ESLint checks the same words in the code. */
 const DOCUMENTS = [
   "README.md",
   "ARCHITECTURE.md",
@@ -14,14 +14,36 @@ const DOCUMENTS = [
     .map((name) => `docs/${name}`),
 ];
 
-const phrasesIn = (text: string): string[] => [...oddWordsIn(text)].map(({ phrase }) => phrase);
+const CODE = ["src", "host", "server", "web", "test", "scripts", "bench"];
+
+/** The list of odd words itself. */
+const EXEMPT = path.join("test", "architecture", "plain-words.ts");
+
+const codeIn = (folder: string): string[] =>
+  readdirSync(folder, { recursive: true, encoding: "utf8" })
+    .filter((name) => /\.(tsx?|mjs)$/.test(name))
+    .map((name) => path.join(folder, name))
+    .filter((file) => file !== EXEMPT);
+
+const adviceFor = (file: string): string[] =>
+  oddPhrasesIn(readFileSync(file, "utf8")).map(
+    ({ phrase, plain, line }) => `${file}:${line}: instead of "${phrase}": ${plain}`,
+  );
 
 describe("the plain words", () => {
   it.each(DOCUMENTS)("are used in %s", (file) => {
-    expect(phrasesIn(readFileSync(file, "utf8"))).toEqual([]);
+    expect(adviceFor(file)).toEqual([]);
+  });
+
+  it.each(CODE)("are used in the comments, names and messages of %s", (folder) => {
+    const files = codeIn(folder);
+    expect(files.length).toBeGreaterThan(0);
+    expect(files.flatMap(adviceFor)).toEqual([]);
   });
 
   it("exclude an odd phrase, also over two lines of a comment", () => {
-    expect(phrasesIn("/**\n * The plot is gone on\n * with.\n */")).toEqual(["gone on\n * with"]);
+    expect(oddPhrasesIn("/**\n * The plot is gone on\n * with.\n */")).toEqual([
+      { phrase: "gone on\n * with", plain: "resumed", line: 2 },
+    ]);
   });
 });

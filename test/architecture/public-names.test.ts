@@ -1,7 +1,7 @@
 /** Every public name is in docs/library.md, whose examples test/packaging runs, and in the reference, with a docstring. */
 import { readFileSync } from "node:fs";
 import path from "node:path";
-import ts from "typescript";
+import ts from "typescript-6";
 import { beforeAll, describe, expect, it } from "vitest";
 import { libraryReference, type LibraryReference } from "../../scripts/library-reference.js";
 

@@ -53,14 +53,14 @@ describe.each([0.5, 0.02])("a virtual board at %d of real time", (virtualSpeed) 
     const held = (): Promise<void> => new Promise((resolve) => run.onHeld((isHeld) => isHeld && resolve()));
     await world.advance(5 / virtualSpeed);
     const first = held();
-    run.pause();
+    await world.run(run.pause());
     await world.run(first);
-    run.resume();
+    await world.run(run.resume());
     await world.advance(4 / virtualSpeed);
     const second = held();
     await world.run(run.emergencyStop());
     await world.run(second);
-    run.resume();
+    await world.run(run.resume());
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });

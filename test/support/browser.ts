@@ -14,7 +14,7 @@ const FEATURES_OFF = [
   "WebUIOmniboxPopup",
   "WebUIOmniboxAimPopup",
   "WebUIOmniboxFullPopup",
-  // A process in advance for a page that a test does not open.
+  // A spare process for the next page, which tests rarely open.
   "SpareRendererForSitePerProcess",
   // From Playwright's list.
   "AimEnabled",

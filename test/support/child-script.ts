@@ -9,8 +9,8 @@ const FOLDER = path.join(ROOT, "node_modules", ".cache", "plotwright-tests");
 const built = new Set<string>();
 
 /**
- * The file to run for `name`.ts in test/support, or in `folder`. It starts in a third of the processor time that it takes to compile and
- * load the modules one by one.
+ * The file to run for `name`.ts in test/support, or in `folder`. Starting it takes a third of the processor time that
+ * compiling and loading the modules one by one would take.
  */
 export function childScript(name: string, folder = path.join(ROOT, "test", "support")): string {
   const file = path.join(FOLDER, `${name}.mjs`);

@@ -53,7 +53,7 @@ const PlaceTool = () => {
   );
 };
 
-/** Zooms a sheet. `className`: of the buttons that a small screen hides. */
+/** The buttons that zoom a sheet. `className`: for the buttons that a small screen hides. */
 export const ZoomTools = ({ stage, className }: { stage: RefObject<Stage | null>; className?: string }) => (
   <>
     <IconButton

@@ -267,7 +267,7 @@ export class SvgPainter {
   }
 }
 
-/** What letters ask for that the font is not: another family, bold, italic. */
+/** Styles that letters request and the font does not have: another family, bold, italic. */
 function otherFaces(letters: readonly PlacedLetter[], { face }: TextFont): ReadonlySet<string> {
   const wanted = new Set<string>();
   if (face === undefined) return wanted;

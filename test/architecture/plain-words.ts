@@ -1,8 +1,7 @@
-/**
- * Lint rule `plain-words`: comments and messages are in plain, modern English. Each entry has an odd or archaic phrase
- * as a regular expression, and its replacement. The rule checks the whole text of a file, including names and strings.
- */
-export const ODD_WORDS = [
+/** Comments, messages and documents are in plain, modern English. */
+
+/** Odd or archaic phrases as regular expressions, and their replacements. */
+const ODD_WORDS = [
   { odd: "manieth", plain: "Nth" },
   { odd: "gone on with", plain: "resumed" },
   { odd: "go(?:es|ing)? on with", plain: "resume, continue" },
@@ -41,23 +40,18 @@ export const ODD_WORDS = [
   { odd: "whilst|amongst|betwixt|withal", plain: "while, among, between" },
 ];
 
-/** Finds every odd phrase: `{ index, phrase, plain }`, in the order of ODD_WORDS. A phrase may span lines. */
-export function* oddWordsIn(text) {
-  for (const { odd, plain } of ODD_WORDS) {
-    const pattern = new RegExp(`\\b(?:${odd.replaceAll(" ", "[\\s*/]+")})\\b`, "gi");
-    for (const { 0: phrase, index } of text.matchAll(pattern)) yield { index, phrase, plain };
-  }
+export interface OddPhrase {
+  readonly phrase: string;
+  readonly plain: string;
+  readonly line: number;
 }
 
-/** @type {import("eslint").Rule.RuleModule} */
-export const plainWords = {
-  meta: { type: "suggestion", schema: [] },
-  create: ({ sourceCode, report }) => ({
-    Program() {
-      for (const { index, phrase, plain } of oddWordsIn(sourceCode.text)) {
-        const message = `Use plain English instead of "${phrase}": ${plain}.`;
-        report({ loc: sourceCode.getLocFromIndex(index), message });
-      }
-    },
-  }),
-};
+/** Every odd phrase in a text, also in names and strings. A phrase may span lines. */
+export const oddPhrasesIn = (text: string): OddPhrase[] =>
+  ODD_WORDS.flatMap(({ odd, plain }) => {
+    const pattern = new RegExp(`\\b(?:${odd.replaceAll(" ", "[\\s*/]+")})\\b`, "gi");
+    return [...text.matchAll(pattern)].map(({ 0: phrase, index }) => {
+      const line = text.slice(0, index).split("\n").length;
+      return { phrase, plain, line };
+    });
+  });

@@ -1,2 +1,0 @@
-/** Every odd phrase in a text, at `index`; `plain`: what to write instead. */
-export function oddWordsIn(text: string): Iterable<{ index: number; phrase: string; plain: string }>;
