@@ -212,7 +212,7 @@ export class PlotterDriver {
     return machineOf(settings).controller.kind === machineOf(this.#settings).controller.kind;
   }
 
-  /** Connects again, by the driver of these settings. Rejects if none answers; the next attempt uses the settings of before. */
+  /** Reconnects with the driver of these settings. If that fails, rejects and restores the previous settings. */
   async #connectFor(settings: PlotSettings): Promise<void> {
     await this.#connecting;
     if (this.#run || this.#movingByHand) return;

@@ -47,7 +47,7 @@ export const declareInfo: Declare = (command, { io }) => {
 };
 
 export const declareRaw: Declare = (command, { io }) => {
-  addHandOptions(command.argument("<line>", "as the board takes it, for example QM")).action(
+  addHandOptions(command.argument("<line>", "a command of the board, for example QM")).action(
     (line: string, options: HandOptions) => runRaw(line, handSettingsFromOptions(options), options, io),
   );
 };

@@ -34,13 +34,13 @@ export interface HandMoveParts {
 /** Each manual move by its kind: what it does, and the body of its route. */
 const MOVES = {
   home: [
-    "Raises the pen and moves home, to the limit switches if the machine has them",
+    "Lifts the pen and moves home, to the limit switches if the machine has them",
     handMoveRequestSchema,
   ],
   walk: ["Moves to a position in mm from home, pen up", walkRequestSchema],
   jog: ["Moves by a distance in mm, pen up", jogRequestSchema],
   "set-home": ["Makes the current position home", handMoveRequestSchema],
-  "cycle-pen": ["Lowers the pen and raises it again", handMoveRequestSchema],
+  "cycle-pen": ["Lowers the pen and lifts it again", handMoveRequestSchema],
   frame: ["Moves around a job's drawing or a box and back, pen up", frameRequestSchema],
   "test-line": ["Draws a line of 20 mm near the current position", handMoveRequestSchema],
   "test-patch": ["Draws a small test pattern at the current position", handMoveRequestSchema],

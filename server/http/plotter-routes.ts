@@ -53,7 +53,7 @@ export const PLOTTER_ROUTES: readonly ApiRoute[] = [
     },
   ),
   route("get", "/plotters/:id/log", "Returns the commands and replies of the connection", "text"),
-  route("post", "/plotters/:id/pen", "Raises or lowers the pen", plotterSchema, { body: penRequestSchema }),
+  route("post", "/plotters/:id/pen", "Lifts or lowers the pen", plotterSchema, { body: penRequestSchema }),
   route(
     "post",
     "/plotters/:id/motors-off",

@@ -93,7 +93,7 @@ const CodesNote = ({ row }: RowProps) => {
   return <p className="note">{words.codes(codes.join(", "))}</p>;
 };
 
-/** The values that apply where the layer has no setting of its own: the common settings, and the codes in its name. */
+/** The values that apply if the layer has no custom setting: the common settings, and the codes in its name. */
 const useInherited = (row: PreparedLayer) => {
   const settings = usePageState((state) => state.settings);
   const bare = {

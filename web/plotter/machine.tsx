@@ -16,7 +16,7 @@ import { SettingsGroup } from "../ui/settings-group.js";
 const words = plotterText;
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
-/** What the plotter is doing, and the pen at hand. */
+/** The plotter's state, and the controls that every plot needs. */
 export const MachinePanel = () => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
@@ -35,7 +35,7 @@ export const MachinePanel = () => {
   );
 };
 
-/** What a plotter needs more rarely. `children`: how the pen is lifted, which the pens' folder has. */
+/** Controls that are needed less often. `children`: the settings for lifting the pen, which are in the folder pens. */
 export const MachineSetUp = ({ children }: { children: ReactNode }) => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);

@@ -14,7 +14,7 @@ const words = penText;
 const STEPS = ["home", "heights", "mark"] as const;
 type Step = (typeof STEPS)[number];
 
-/** Home, heights and a test line: what every plot begins with. Before the first plot they are numbered steps. */
+/** Home, heights and a test line, which every plot needs first. Before the first plot they are numbered steps. */
 export const PenAtHand = () => {
   const isFirst = usePageState(isFirstPlot);
   return isFirst ? (
@@ -28,14 +28,14 @@ export const PenAtHand = () => {
   );
 };
 
-/** Only the step that comes next has its help, and home folds to a line once it is done, so that the queue stays in sight. */
+/** Only the next step shows its help, and a finished home step folds to one line, so that the queue stays visible. */
 const FirstPlot = () => {
   const { changeView } = useActions();
   const [done, setDone] = useState<readonly Step[]>([]);
   const [isHomeAgain, setHomeAgain] = useState(false);
   const note = (step: Step): void => setDone([...done.filter((other) => other !== step), step]);
   const next = STEPS.find((step) => !done.includes(step)) ?? "plot";
-  // The test line tells how the heights are, so its help stays beside it.
+  // The test line shows whether the heights are right, so its help stays beside it.
   const helped = done.at(-1) === "mark" ? "mark" : next;
   const isHomeFolded = done.includes("home") && !isHomeAgain;
   const step = (name: Step, content: ReactNode): ReactNode => (
@@ -63,7 +63,7 @@ const FirstPlot = () => {
           isHomeFolded ? (
             <p className="step-line">
               {words.homeDone}
-              {/* Takes the focus of the button that it stands for. */}
+              {/* Takes over the focus of the button that it replaces. */}
               <Button kind="link" autoFocus onClick={() => setHomeAgain(true)}>
                 {words.homeAgain}
               </Button>
