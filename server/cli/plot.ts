@@ -7,7 +7,8 @@ import { PlotwrightError } from "../../src/index.js";
 import { machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
-import { WorkerPlanner } from "../planning/planner.js";
+import type { OpenPlanner } from "../../host/planning/open-planner.js";
+import { openPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { JournalEntry, PlotStart } from "../../host/plotter/types.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
@@ -107,7 +108,7 @@ async function plotOne(
   const stop = new AbortController();
   const forget = io.onInterrupt(() => stop.abort());
   try {
-    const planner = await WorkerPlanner.open(
+    const planner = await openPlanner(
       { path, settings, machine: machineOf(settings), only, limits: OWN_PLANNING_LIMITS },
       stop.signal,
     );
@@ -132,7 +133,7 @@ async function plotOne(
 
 async function onPlotter(
   plotter: PlotterPort,
-  planner: WorkerPlanner,
+  planner: OpenPlanner,
   { name, settings, from, sent }: Plot,
   { begin, record }: { readonly begin: () => void; readonly record: PlotRecord },
   options: PlotCommandOptions,

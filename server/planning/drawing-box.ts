@@ -1,7 +1,7 @@
 /** The bounding box of a drawing's strokes on the machine, as placed by its settings. */
 import { machineOf } from "../../src/internal.js";
 import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
-import { WorkerPlanner } from "./planner.js";
+import { openPlanner } from "./planner.js";
 
 /** Throws the errors of import and prepare; `bad-file` for a drawing without strokes. */
 export async function drawingBoxMm(
@@ -9,7 +9,7 @@ export async function drawingBoxMm(
   settings: PlotSettings,
   only?: readonly string[],
 ): Promise<BoxMm> {
-  const planner = await WorkerPlanner.open({ path, settings, machine: machineOf(settings), only });
+  const planner = await openPlanner({ path, settings, machine: machineOf(settings), only });
   try {
     const { xy } = planner.strokes;
     let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];

@@ -6,7 +6,7 @@ import type { DrawingFiles } from "../storage/drawing-files.js";
 import { lane } from "../../host/planning/lane.js";
 import type { Planning } from "../../host/planning/planning.js";
 import { OWN_PLANNING_LIMITS } from "./planning-limits.js";
-import { WorkerPlanner, measureDrawing } from "./planner.js";
+import { measureDrawing, openPlanner } from "./planner.js";
 
 export type { Planning } from "../../host/planning/planning.js";
 
@@ -36,6 +36,6 @@ export function createPlanning(files: DrawingFiles): Planning {
       return turn(requester, () => measureDrawing(wanted, firmware, requester.signal));
     },
     open: (drawing, settings, signal) =>
-      WorkerPlanner.open({ ...input(drawing, settings), limits: OWN_PLANNING_LIMITS }, signal),
+      openPlanner({ ...input(drawing, settings), limits: OWN_PLANNING_LIMITS }, signal),
   };
 }

@@ -4,7 +4,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { runPlanInThread } from "../../server/cli/plan-thread.js";
-import { measureDrawing, WorkerPlanner } from "../../server/planning/planner.js";
+import { measureDrawing, openPlanner } from "../../server/planning/planner.js";
 import { PLANNING_LIMITS } from "../../server/planning/planning-limits.js";
 import { PlotwrightError } from "../../src/index.js";
 import { ERROR_TABLE, machineOf } from "../../src/internal.js";
@@ -32,7 +32,7 @@ beforeAll(() => {
 });
 afterAll(() => rmSync(dir, { recursive: true, force: true }));
 
-function input(text: string, settings = DEFAULT_PLOT_SETTINGS): Parameters<typeof WorkerPlanner.open>[0] {
+function input(text: string, settings = DEFAULT_PLOT_SETTINGS): Parameters<typeof openPlanner>[0] {
   const path = join(dir, "a.svg");
   writeFileSync(path, text);
   return { path, settings, machine: machineOf(settings) };
@@ -53,7 +53,7 @@ const TOO_MUCH = ["too-large", expect.stringContaining("more memory than is avai
 describe("a planner", () => {
   it("cancels reading a file that takes too long", async () => {
     const limits = { ...PLANNING_LIMITS, importS: 1 };
-    const { code, message } = await failure(WorkerPlanner.open({ ...input(SLOW_TO_READ), limits }));
+    const { code, message } = await failure(openPlanner({ ...input(SLOW_TO_READ), limits }));
     expect(code).toBe("bad-file");
     expect(message).toMatch(/^This file takes too long to read: more than 1 s/);
   }, 60_000);
@@ -61,7 +61,7 @@ describe("a planner", () => {
   it("limits the reading time separately from the time that the user allows for ordering", async () => {
     const limits = { ...PLANNING_LIMITS, importS: 1 };
     const slow = { ...input(SLOW_TO_READ, ORDERED), limits };
-    expect((await failure(WorkerPlanner.open(slow))).message).toMatch(/too long to read/);
+    expect((await failure(openPlanner(slow))).message).toMatch(/too long to read/);
   }, 60_000);
 
   it("lets ordering take as long as the user allows", async () => {
@@ -69,7 +69,7 @@ describe("a planner", () => {
     // Less than ordering takes: without the user's limit it would be cancelled. A busy computer needs most of it.
     const limits = { ...PLANNING_LIMITS, prepareS: 1.9 };
     const unordered = await failure(
-      WorkerPlanner.open({
+      openPlanner({
         ...input(SLOW_TO_ORDER, { ...settings, prepare: { ...settings.prepare, orderS: 0 } }),
         limits: { ...limits, prepareS: 0 },
       }),
@@ -94,13 +94,13 @@ describe("a planner", () => {
   it("fails with its own error if memory would run out", async () => {
     const limits = { ...PLANNING_LIMITS, heapMb: 64 };
     const groups = `0\nSECTION\n2\nENTITIES\n0\nMTEXT\n${"3\nabc\n".repeat(2_000_000)}0\nENDSEC\n0\nEOF\n`;
-    const error = await failure(WorkerPlanner.open({ ...input(groups), limits }));
+    const error = await failure(openPlanner({ ...input(groups), limits }));
     expect([error.code, error.message]).toEqual(TOO_MUCH);
   }, 60_000);
 
   it("fails if the process grows too large", async () => {
     const limits = { ...PLANNING_LIMITS, growthMb: 20 };
-    const error = await failure(WorkerPlanner.open({ ...input(SLOW_TO_READ), limits }));
+    const error = await failure(openPlanner({ ...input(SLOW_TO_READ), limits }));
     expect([error.code, error.message]).toEqual(TOO_MUCH);
   }, 60_000);
 });
