@@ -88,23 +88,14 @@ export class BlendPlanner {
   private lookAhead(path: RunPath, accel: number): void {
     const { segmentCount: n, length } = path;
     const { corners } = this;
-    const { sine, maxSpeed, vIn, vOut, change } = corners;
+    const { vIn, vOut, change } = corners;
     const twoA = 2 * accel;
     vIn[0] = vOut[0] = change[0] = 0;
     vIn[n] = vOut[n] = change[n] = 0;
     let left = 0;
     for (let i = n - 1; i > 0; i--) {
-      const v = maxSpeed[i];
-      const q = 2 * sine[i] * v;
-      const behind = left + twoA * length[i];
-      // `solve` begins with the same check; without it here, planning takes 5 % longer.
-      if (v * (v + q) <= behind) {
-        vIn[i] = vOut[i] = v;
-        change[i] = q;
-      } else {
-        // No limit from before the corner is known yet.
-        corners.solve(i, Infinity, behind, accel);
-      }
+      // No limit from before the corner is known yet.
+      corners.solve(i, Infinity, left + twoA * length[i], accel);
       left = vIn[i] * (vIn[i] - change[i]);
     }
     left = 0;

@@ -114,9 +114,6 @@ export class SoftLine {
     const left = this.left[i];
     const along = dx * bx + dy * by;
     const rest = left * left - dx * dx - dy * dy;
-    const deep = (half * s) / 2;
-    // room ≥ deep, compared in squares. Usually true; without this check planning takes 5 % longer.
-    if (rest >= deep * deep + (half * along) / 2) return half;
     const inwards = along / (2 * s);
     const room = Math.sqrt(Math.max(0, rest + inwards * inwards)) - inwards;
     return Math.min((2 * room) / s, half);

@@ -17,7 +17,16 @@ import {
   waitForPlotButton,
   waitForSamples,
 } from "../support/page-actions.js";
-import { DESK, inStates, LOOKS, PHONE, planned, SCHEMES, type Look, type Scheme } from "../support/in-states.js";
+import {
+  DESK,
+  inStates,
+  LOOKS,
+  PHONE,
+  planned,
+  SCHEMES,
+  type Look,
+  type Scheme,
+} from "../support/in-states.js";
 import { PAGE_STATES } from "../support/page-states.js";
 import type { PageState } from "../support/page-states/page-state.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";

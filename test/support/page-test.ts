@@ -94,7 +94,7 @@ export class PageTest {
     if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
   }
 
-  /** Looks at the drawing that way. */
+  /** Selects a view of the drawing. */
   async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
     const looks = this.page.getByRole("group", { name: "Colour by" });
     await looks.getByRole("radio", { name, exact: true }).check();
