@@ -1,7 +1,7 @@
 /** The page without a server in a browser that does not let it use a plotter, or stores nothing. */
 import { chromium, type Browser, type Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { browserOptions, launchBrowser } from "../support/browser.js";
+import { browserOptions, launchBrowser, PLAIN } from "../support/browser.js";
 import {
   dropFile,
   historyPanel,
@@ -36,7 +36,7 @@ afterEach(async () => {
 /** A page of the app's origin, without the app. */
 async function openOrigin(from: Browser, options: StaticAppOptions = {}): Promise<void> {
   app = await startStaticApp(1, options);
-  const context = await from.newContext({ viewport: { width: 1440, height: 900 } });
+  const context = await from.newContext({ ...PLAIN, viewport: { width: 1024, height: 700 } });
   page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
   page.on("dialog", (dialog) => void dialog.accept());

@@ -3,7 +3,7 @@ import type { Browser, Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { MachineProfile } from "../../src/index.js";
 import { machineListSchema, snapshotSchema, type Plotter } from "../../src/schema/index.js";
-import { launchBrowser } from "../support/browser.js";
+import { launchBrowser, PLAIN } from "../support/browser.js";
 import { ruledSheet } from "../support/drawings.js";
 import {
   chooseSample,
@@ -26,7 +26,7 @@ let page: Page;
 beforeAll(async () => {
   browser = await launchBrowser();
   server = await startServerProcess({ dataDir: data.path, virtualSpeed: 2 });
-  page = await (await browser.newContext({ viewport: { width: 900, height: 600 } })).newPage();
+  page = await browser.newPage({ ...PLAIN, viewport: { width: 900, height: 600 } });
   await page.goto(server.url);
   await chooseSample(page);
 });

@@ -4,7 +4,7 @@
  */
 import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
-import { launchBrowser } from "../support/browser.js";
+import { launchBrowser, PLAIN } from "../support/browser.js";
 import { ruledSheet } from "../support/drawings.js";
 import {
   chooseSample,
@@ -49,7 +49,7 @@ afterAll(async () => {
 
 /** A watcher has nothing to lay out. */
 async function pairedPage(path: string, laysOut = true): Promise<Page> {
-  const context: BrowserContext = await browser.newContext({ viewport: VIEWPORT });
+  const context: BrowserContext = await browser.newContext({ ...PLAIN, viewport: VIEWPORT });
   const page = await context.newPage();
   await page.goto(`${server.url}${path}`);
   await page.waitForURL(`${server.url}/`);
@@ -183,7 +183,7 @@ describe("two browsers and a watcher", () => {
   });
 
   it("a device that is not paired shows how to pair", async () => {
-    const page = await browser.newPage({ viewport: VIEWPORT });
+    const page = await browser.newPage({ ...PLAIN, viewport: VIEWPORT });
     await page.goto(server.url);
     await page.getByRole("heading", { name: "Pair this device" }).waitFor();
     expect(await page.getByText("can’t be reached").count()).toBe(0);

@@ -7,7 +7,8 @@ import type { Page } from "playwright-core";
  * of the sheet alone: nothing else can be used then.
  */
 export async function seriousFindings(page: Page): Promise<string[]> {
-  await page.evaluate(axe.source);
+  // Once for each load of a page: reading the source takes as long as a small check.
+  if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(axe.source);
   const violations = await page.evaluate(async () => {
     const tool = (window as unknown as { axe: typeof axe }).axe;
     const results = await tool.run(document.querySelector("dialog:modal") ?? document, {

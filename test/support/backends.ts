@@ -1,6 +1,7 @@
 /** Starts the page with either backend in the same way, so that one test can run against both. */
 import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
+import { PLAIN } from "./browser.js";
 import { startServerProcess, temporaryFolder } from "./server-process.js";
 import { startStaticApp } from "./static-app.js";
 
@@ -24,7 +25,7 @@ const VIRTUAL_SPEED = 10;
 const SPEED_AFTER_KILL = 50;
 
 export async function startPage(backend: BackendName, browser: Browser): Promise<StartedPage> {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
+  const context = await browser.newContext({ ...PLAIN, viewport: { width: 1024, height: 700 } });
   const open = async (url: string): Promise<Page> => {
     const page = await context.newPage();
     page.on("dialog", (dialog) => void dialog.accept());

@@ -1,9 +1,12 @@
 /** Chromium for the tests that need a real one. */
-import { chromium, type Browser, type LaunchOptions } from "playwright-core";
+import { chromium, type Browser, type BrowserContextOptions, type LaunchOptions } from "playwright-core";
 import { findBrowser } from "../../scripts/find-browser.mjs";
 
 /** How long the page may take to show something: it is slow if the computer is busy. */
 const PATIENCE_MS = 90_000;
+
+/** For a test's pages: without animations and without storing the page for offline use. Both cost time. */
+export const PLAIN: BrowserContextOptions = { reducedMotion: "reduce", serviceWorkers: "block" };
 
 /**
  * Features of the browser that are switched off. Chromium obeys only the last list on its command line, so this one

@@ -1,6 +1,7 @@
 /** Brings the page into its states (page-states.ts) for a screen size, light and dark. */
 import type { Browser, BrowserContext, Page } from "playwright-core";
-import { chooseSample } from "./page-actions.js";
+import { PLAIN } from "./browser.js";
+import { chooseSample, nextFrames } from "./page-actions.js";
 import type { PageState } from "./page-states/page-state.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
@@ -16,13 +17,13 @@ export const TABLET: Look = { name: "tablet", width: 1024, height: 768 };
 export const PHONE: Look = { name: "phone", width: 390, height: 844 };
 export const LOOKS: readonly Look[] = [DESK, WIDE, TABLET, PHONE];
 
-const SCHEMES = ["light", "dark"] as const;
+export const SCHEMES = ["light", "dark"] as const;
 export type Scheme = (typeof SCHEMES)[number];
 
 type LookAtIt = (page: Page, state: PageState, scheme: Scheme) => Promise<void>;
 
 /**
- * Brings the page into each of the states and calls `lookAtIt`, light and dark. States that leave nothing
+ * Brings the page into each of the states and calls `lookAtIt` in each of the colour schemes. States that leave nothing
  * behind share one page; each of the others has its own server.
  */
 export async function inStates(
@@ -30,11 +31,18 @@ export async function inStates(
   states: readonly PageState[],
   look: Look,
   lookAtIt: LookAtIt,
+  schemes: readonly Scheme[] = SCHEMES,
 ): Promise<void> {
   const passing = states.filter(({ isPassing }) => isPassing);
   const lasting = states.filter(({ isPassing }) => !isPassing);
   const groups = [passing, ...lasting.map((state) => [state])].filter((group) => group.length > 0);
-  for (const group of groups) await inGroup(browser, group, look, lookAtIt);
+  for (const group of groups) await inGroup(browser, group, look, lookAtIt, schemes);
+}
+
+/** Waits until the last change has been planned, if the page shows a plan at all. */
+export async function planned(page: Page): Promise<void> {
+  await nextFrames(page);
+  await page.locator(".plot-time-value[data-stale]").waitFor({ state: "detached" });
 }
 
 async function inGroup(
@@ -42,6 +50,7 @@ async function inGroup(
   states: readonly PageState[],
   { width, height }: Look,
   lookAtIt: LookAtIt,
+  schemes: readonly Scheme[],
 ): Promise<void> {
   const data = temporaryFolder("page-state");
   const { device, isPairing, isFirstVisit, virtualSpeed = 20 } = states[0];
@@ -58,16 +67,12 @@ async function inGroup(
     await server.stop();
     server = await open(port);
   };
-  // Colour transitions have ended when the check runs.
-  const reducedMotion = "reduce" as const;
   const contexts: BrowserContext[] = [];
   const openOther = async (path = "/"): Promise<Page> => {
     const context = await browser.newContext({
       viewport: { width, height },
       hasTouch: width < 760,
-      reducedMotion,
-      // Storing the page for offline use costs time.
-      serviceWorkers: "block",
+      ...PLAIN,
     });
     contexts.push(context);
     const other = await context.newPage();
@@ -79,8 +84,10 @@ async function inGroup(
     if (!isFirstVisit) await chooseSample(page);
     for (const state of states) {
       await state.reach({ page, server, restart, openOther });
-      for (const colorScheme of SCHEMES) {
-        await page.emulateMedia({ colorScheme, reducedMotion });
+      // The plan under way is a state of its own, which is not a passing one.
+      if (state.isPassing) await planned(page);
+      for (const colorScheme of schemes) {
+        await page.emulateMedia({ colorScheme });
         await lookAtIt(page, state, colorScheme);
       }
       await page.keyboard.press("Escape");

@@ -3,7 +3,7 @@ import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-c
 import { importSvg, prepare, type StrokeSet } from "../../src/index.js";
 import { prepareSettingsOf } from "../../src/internal.js";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
-import { launchBrowser } from "./browser.js";
+import { launchBrowser, PLAIN } from "./browser.js";
 import {
   chooseSample,
   dropFile,
@@ -15,12 +15,10 @@ import {
 } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
-/** A desktop without CSS transitions and offline storage of the page, which cost time and are not tested here. */
-const PLAIN: BrowserContextOptions = {
+const DESKTOP: BrowserContextOptions = {
+  ...PLAIN,
   viewport: { width: 1440, height: 900 },
   colorScheme: "light",
-  reducedMotion: "reduce",
-  serviceWorkers: "block",
 };
 
 export class PageTest {
@@ -57,7 +55,7 @@ export class PageTest {
     prepareData(data.path);
     const browser = await launchBrowser();
     const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50, args });
-    const context = await browser.newContext({ ...PLAIN, ...options });
+    const context = await browser.newContext({ ...DESKTOP, ...options });
     const test = new PageTest(browser, server, await context.newPage(), data.remove);
     await test.page.goto(server.url);
     return test;

@@ -8,7 +8,7 @@ import { importDrawing, type StrokeSet } from "../../src/index.js";
 import { machineOf, prepareJob } from "../../src/internal.js";
 import { ENDED_STATES, jobSchema, type Job, type PlotSettings } from "../../src/schema/index.js";
 import { storedRecords } from "./backends.js";
-import { launchBrowser } from "./browser.js";
+import { launchBrowser, PLAIN } from "./browser.js";
 import { compareDrawn } from "./drawn-truth.js";
 import { FAKE_SERIAL_SCRIPT } from "./fake-serial-script.js";
 import { dropFile, plotBar, statusCard, waitForPlan } from "./page-actions.js";
@@ -22,7 +22,7 @@ const MAX_OFF_MM = 0.05;
 const MAX_INTERRUPTIONS = 4;
 
 async function newContext(browser: Browser): Promise<TabbedBrowser> {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const context = await browser.newContext({ ...PLAIN, viewport: { width: 900, height: 600 } });
   return { context, close: () => context.close() };
 }
 
