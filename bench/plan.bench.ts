@@ -122,19 +122,19 @@ function samples(): Record<string, string | number>[] {
  */
 function growth(): Record<string, string | number>[] {
   const sizes = [100_000, 1_000_000];
-  const most = Math.max(...sizes);
+  const maxSegments = Math.max(...sizes);
   const motion: MotionSettings = { ...DEFAULT_MOTION, mode: "blend", fit: null };
   const times = best(
     sizes.map((segments) => {
       const drawing = scribble(segments, segments / 1000);
-      return () => Array.from({ length: most / segments }, () => plan(drawing, motion, DEFAULT_PEN));
+      return () => Array.from({ length: maxSegments / segments }, () => plan(drawing, motion, DEFAULT_PEN));
     }),
   );
   return sizes.map((segments, i) => ({
     segments,
-    plans: most / segments,
+    plans: maxSegments / segments,
     "processor ms": Math.round(times[i]!),
-    "ns/segment": Math.round((1e6 * times[i]!) / most),
+    "ns/segment": Math.round((1e6 * times[i]!) / maxSegments),
   }));
 }
 

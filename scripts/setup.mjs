@@ -110,6 +110,7 @@ const BUILD_INPUTS = [
   "host",
   "server",
   "web",
+  "scripts/bundle.mjs",
   "scripts/licences.mjs",
   "scripts/licences",
   "tsconfig.json",

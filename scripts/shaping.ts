@@ -52,7 +52,7 @@ interface Variant {
   readonly motion: MotionSettings;
   /** u = q + (2ζ/ω) q′ + q″/ω² of the plan. */
   readonly isInverse?: boolean;
-  /** Another system's rules, instead of ours. */
+  /** Another system's rules, instead of plotwright's. */
   readonly runs?: WritesRuns;
 }
 

@@ -1,7 +1,15 @@
 #!/usr/bin/env node
 /** The executable: reads the arguments, runs the command and sets the exit code. */
+import { setFlagsFromString } from "node:v8";
 import { processIo } from "./cli/io.js";
 import { runCli } from "./cli/program.js";
 import { packageVersion } from "./storage/package-files.js";
+
+/**
+ * V8 compiles a WebAssembly function again, optimized, after this many bytes of its code have run. With the default,
+ * which is 1000 times smaller, this takes most of the processor time of a start, and SQLite has too little to do to
+ * benefit from it.
+ */
+setFlagsFromString("--wasm-tiering-budget=2000000000");
 
 process.exitCode = await runCli(process.argv.slice(2), processIo(), packageVersion());

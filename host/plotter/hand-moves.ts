@@ -1,33 +1,11 @@
 /**
- * Manual moves of an idle plotter: their types, and how the machine performs them. Every move begins with the pen up and
+ * How a machine performs the manual moves of an idle plotter. Every move begins with the pen up and
  * stays within the machine. If the carriage's position is unknown, it is assumed to be at home.
  */
 import { planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import { type Machine, machineOf } from "../../src/internal.js";
-import type { BoxMm, PlotSettings } from "../../src/schema/index.js";
+import type { BoxMm, HandMove, PlotSettings } from "../../src/schema/index.js";
 import { testPatch } from "./test-patch.js";
-
-export type HandMove =
-  /** To a position, mm from home. */
-  | { readonly kind: "walk"; readonly xMm: number; readonly yMm: number }
-  /** By a distance in mm. May go beyond home, since this is how the user finds home. */
-  | { readonly kind: "jog"; readonly dxMm: number; readonly dyMm: number }
-  /** To the limit switches if the machine has them, otherwise to the set home. */
-  | { readonly kind: "home" }
-  /** Makes the current position home. */
-  | { readonly kind: "set-home" }
-  /** Lowers the pen and lifts it again, to check the heights. */
-  | { readonly kind: "cycle-pen" }
-  /** Moves around a box with the pen up, and back. */
-  | { readonly kind: "frame"; readonly boxMm: BoxMm }
-  /** Draws a line near the current position, and comes back. */
-  | { readonly kind: "test-line" }
-  /** Draws a small pattern at the current position, and comes back. */
-  | { readonly kind: "test-patch" }
-  /** Draws a square for measuring at the current position, and comes back. */
-  | { readonly kind: "square"; readonly sizeMm: number }
-  /** A raw servo position, 1/12 µs. */
-  | { readonly kind: "servo"; readonly pos: number };
 
 /** Rejects with `out-of-bounds` before anything moves, or with the board's error. */
 export async function moveByHand(plotter: Machine, move: HandMove, settings: PlotSettings): Promise<void> {

@@ -3,10 +3,10 @@ import { findMachine, type Springs } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   type CommandAnswer,
+  type HandMove,
   type Plotter,
   type PlotSettings,
 } from "../../src/schema/index.js";
-import type { HandMove } from "./hand-moves.js";
 import { PlotterDriver } from "./plotter-driver.js";
 import type { PlotterOptions } from "./plotter-state.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";

@@ -16,10 +16,15 @@ import {
   type VirtualMachine,
   machineOf,
 } from "../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS, type CommandAnswer, type PlotSettings } from "../../src/schema/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  type CommandAnswer,
+  type HandMove,
+  type PlotSettings,
+} from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import { connect, type Connection } from "./connection.js";
-import { moveByHand, type HandMove } from "./hand-moves.js";
+import { moveByHand } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
 import { initialState, UNKNOWN, type PlotterOptions, type PlotterState } from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";
@@ -207,7 +212,7 @@ export class PlotterDriver {
     return machineOf(settings).controller.kind === machineOf(this.#settings).controller.kind;
   }
 
-  /** Connects again, by the driver of these settings. Rejects if none answers; the next attempt uses the settings of before. */
+  /** Reconnects with the driver of these settings. If that fails, rejects and restores the previous settings. */
   async #connectFor(settings: PlotSettings): Promise<void> {
     await this.#connecting;
     if (this.#run || this.#movingByHand) return;

@@ -1,6 +1,5 @@
 /** A plotter as the queue, the routes and the command line use it. */
-import type { CommandAnswer, Plotter, PlotSettings } from "../../src/schema/index.js";
-import type { HandMove } from "./hand-moves.js";
+import type { CommandAnswer, HandMove, Plotter, PlotSettings } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import type { LivePlotRun, PlotStart } from "./types.js";
 

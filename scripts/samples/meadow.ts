@@ -42,7 +42,7 @@ function leaf(base: Point, angle: number, lengthMm: number, fullness: number, ri
   return rib ? [outline, `M${pair(base)}L${pair(polar(base, angle, lengthMm * 0.8))}`] : [outline];
 }
 
-/** Fern: pairs of leaflets that shorten towards the tip, each with a few leaflets of its own. */
+/** Fern: pairs of leaflets that shorten towards the tip, each with a few smaller leaflets. */
 function fern(random: Random, x: number, heightMm: number, lean: number): string[] {
   const frond = stem(x, GROUND_MM, heightMm, lean, lean * 0.9);
   const paths = [frond.path];

@@ -28,7 +28,7 @@ export const PAGE_GROUPS: readonly PageGroup[] = [
       page("docs/ports.md", "USB ports by system"),
       page("docs/troubleshooting.md", "Troubleshooting"),
       page("docs/upgrade.md", "Upgrade"),
-      page("docs/which-program.md", "Which program for what"),
+      page("docs/which-program.md", "Choosing a program"),
     ],
   },
   {

@@ -26,7 +26,7 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "plan",
-    about: "show what a plot would be, without a board",
+    about: "show the time, distance and commands of a plot, without a board",
     examples: [
       "plotwright plan drawing.svg --paper A4 --margin 1cm",
       "plotwright plan drawing.svg --json",
@@ -124,7 +124,7 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "ringing",
-    about: "write the sheet that shows how the machine swings, and read it",
+    about: "write the ringing sheet, which shows how the machine swings, or evaluate it",
     examples: [
       "plotwright ringing ringing.svg",
       "plotwright ringing --ripples 5 --at 30.1",
@@ -152,7 +152,7 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "logs",
-    about: "print the logs, to send with a question",
+    about: "print the logs, for a support request",
     examples: ["plotwright logs --out plotwright.log"],
     load: async () => (await server()).declareLogs,
   },

@@ -1,6 +1,6 @@
 /** Declares the single commands to the machine: pen, manual moves, a raw line, info. */
 import { InvalidArgumentError, type Command } from "commander";
-import type { HandMove } from "../../host/plotter/hand-moves.js";
+import type { HandMove } from "../../src/schema/index.js";
 import { length } from "./lengths.js";
 import {
   runAlign,
@@ -47,7 +47,7 @@ export const declareInfo: Declare = (command, { io }) => {
 };
 
 export const declareRaw: Declare = (command, { io }) => {
-  addHandOptions(command.argument("<line>", "as the board takes it, for example QM")).action(
+  addHandOptions(command.argument("<line>", "a command of the board, for example QM")).action(
     (line: string, options: HandOptions) => runRaw(line, handSettingsFromOptions(options), options, io),
   );
 };

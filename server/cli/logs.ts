@@ -1,4 +1,4 @@
-/** `plotwright logs`: all logs as one text, to send with a question. */
+/** `plotwright logs`: all logs as one text, for a support request. */
 import { defaultDataDir } from "../storage/data-dir.js";
 import { bundleText, readLog } from "../storage/log-book.js";
 import { mustBeDataFolder, writeOut } from "./files.js";

@@ -1,8 +1,7 @@
 /** Runs the single commands to the machine: pen, manual moves, a raw line, info. */
-import type { PlotSettings } from "../../src/schema/index.js";
+import type { HandMove, PlotSettings } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
-import type { HandMove } from "../../host/plotter/hand-moves.js";
 import { openPlotter } from "../plotter/open-plotter.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { withDrawingFile } from "./files.js";

@@ -20,9 +20,10 @@ export const addDevice = (command: Command): Command =>
   command
     .option("--device <path>", "serial port of the board, or virtual (default: the first board found)")
     .addOption(
-      new Option("--virtual-speed <factor>", "how fast the virtual board runs (default: 1)").argParser(
-        positive,
-      ),
+      new Option(
+        "--virtual-speed <factor>",
+        "speed of the virtual board; 1 is real time (default: 1)",
+      ).argParser(positive),
     );
 
 export const addData = (command: Command): Command =>
@@ -42,7 +43,7 @@ export function port(text: string): number {
   return value;
 }
 
-/** Of an option that takes several names: the ones before it, and this one. */
+/** Collects the values of an option that takes several names. */
 export function hostNames(text: string, before: readonly string[] = []): string[] {
   if (!/^[\w.-]+$/.test(text)) {
     throw new InvalidArgumentError("It must be a name without http:// and port, such as studio.local.");
@@ -64,7 +65,7 @@ export function springs(text: string): Springs {
   const areFrequencies = [xHz, yHz].every((hz) => isAllowed(SPRINGS_TABLE.xHz, hz));
   if (!areFrequencies || !isAllowed(SPRINGS_TABLE.damping, damping) || rest.length > 0) {
     throw new InvalidArgumentError(
-      `It must be two frequencies, ${rangeInWords(SPRINGS_TABLE.xHz)}, and the damping if you like: 15,25,0.05.`,
+      `It must be two frequencies, ${rangeInWords(SPRINGS_TABLE.xHz)}, and optionally the damping: 15,25,0.05.`,
     );
   }
   return { xHz, yHz, damping };

@@ -14,7 +14,7 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
     .option("--copies <number>", "number of times to plot each", copies, 1)
     .option(
       "--paper-s <seconds>",
-      "time to wait for new paper between two plots, instead of for Enter",
+      "time to wait for new paper between two plots, instead of waiting for Enter",
       seconds,
     )
     .option("--resume", "resume the plot that a crash interrupted")

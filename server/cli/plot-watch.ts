@@ -108,7 +108,7 @@ class Control {
   waitsFor({ penName, layerName }: PlotWait): void {
     this.#held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
-    this.#io.err(`\nInsert ${what}. Enter resumes, Ctrl-C cancels.\n`);
+    this.#io.err(`\nPut in ${what}. Enter resumes, Ctrl-C cancels.\n`);
   }
 
   resume(): void {

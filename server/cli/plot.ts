@@ -45,7 +45,8 @@ export async function runPlot(
   io: CliIo,
 ): Promise<number> {
   const jobs = files.flatMap((file) => Array<string>(options.copies).fill(file));
-  if (jobs.length === 0) throw new PlotwrightError("bad-setting", "Which drawing? plotwright plot FILE.svg");
+  if (jobs.length === 0)
+    throw new PlotwrightError("bad-setting", "No drawing was given. Use plotwright plot FILE.svg.");
   if (jobs.length > 1 && options.paperS === undefined && !io.hasKeyboard) {
     throw new PlotwrightError(
       "bad-setting",

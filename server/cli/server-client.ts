@@ -7,7 +7,7 @@ export const DEFAULT_URL = "http://127.0.0.1:9080";
 
 export interface ServerOptions {
   readonly url: string;
-  /** For a server on another computer; created there under "Share". */
+  /** For a server on another computer; created on its page under Sharing, Access. */
   readonly key?: string;
 }
 
@@ -61,7 +61,7 @@ async function ask<T>(
   const { code, message } = fault.data.error;
   const hint =
     response.status === 403 && key === undefined
-      ? " Or give an access key, with --key or in PLOTWRIGHT_KEY; it is made on the server's page, under Share."
+      ? " Or give an access key, with --key or in PLOTWRIGHT_KEY; make one on the server's page, under Sharing, Access."
       : "";
   throw new PlotwrightError(code, `The server at ${url} refused it: ${message}${hint}`);
 }

@@ -30,7 +30,7 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
   sub("install", "write the unit and start it; options of serve after --")
     .argument("[serve-options...]")
     .option("--user <name>", "with --system: the user that runs the server")
-    .option("--print", "only show what would be written")
+    .option("--print", "print the unit without writing it")
     .action((serveArgs: string[], options: ServiceOptions) => {
       if (options.user !== undefined && options.system !== true) {
         throw new PlotwrightError("bad-setting", "--user: add --system; without it the service runs as you.");
@@ -53,7 +53,7 @@ function addServe(command: Command): Command {
     .option("--host <address>", "address to listen on (default: 127.0.0.1; all with --lan)")
     .option("--lan", "listen on the network; other devices have to be paired")
     .option("--no-mdns", "with --lan: do not announce plotwright.local")
-    .option("--pair-always", "ask for pairing on this computer too")
+    .option("--pair-always", "require pairing on this computer too")
     .option("--cert <file>", "certificate (PEM): serve https")
     .option("--key <file>", "the certificate's key (PEM)")
     .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses", hostNames)
@@ -63,9 +63,9 @@ function addServe(command: Command): Command {
         "Hz at which the virtual board's pen swings, and the damping (15,25,0.05); default: not at all",
       ).argParser(springs),
     )
-    .option("--watch <folder>", "queue the drawings that are put there")
+    .option("--watch <folder>", "queue each drawing that is saved in this folder")
     .addOption(
-      new Option("--shared-queue <url>", "share jobs with other servers by a PostgreSQL database").env(
+      new Option("--shared-queue <url>", "share jobs with other servers through a PostgreSQL database").env(
         "PLOTWRIGHT_SHARED_QUEUE",
       ),
     )

@@ -4,7 +4,7 @@ import { z } from "zod";
 import { accessEntrySchema, newKeySchema } from "../../src/schema/index.js";
 import type { Access } from "../security/access.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
-import { parseWith } from "./errors.js";
+import { parseWith } from "../../host/parse-with.js";
 
 export const ACCESS_ROUTES: readonly ApiRoute[] = [
   route("get", "/access", "Lists sessions and keys", z.object({ entries: z.array(accessEntrySchema) })),

@@ -53,7 +53,7 @@ function whyNot({ headers }: Request, role: Role | null): string {
   if (role !== null) return "This device may only watch. To operate, pair it with the link for operating.";
   return headers.authorization === undefined
     ? "Pair this device first: open the link or scan the QR code that the server shows on its own computer."
-    : "This access key is not valid: it may have been revoked. Make another one on the server's page, under Share.";
+    : "This access key is not valid: it may have been revoked. Make another one on the server's page, under Sharing, Access.";
 }
 
 /** Whether a job is on a plotter now. */

@@ -1,18 +1,8 @@
 /** Answers every error as `{ error: { code, message } }` with its status in ERROR_TABLE. */
 import type { ErrorRequestHandler, RequestHandler } from "express";
-import type { ZodType } from "zod";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { ERROR_TABLE } from "../../src/internal.js";
-import { firstFault } from "../../src/schema/index.js";
 import { isDiskFault } from "../../host/disk-fault.js";
-
-/** Parses a request's body or query; throws `bad-setting` that names the first invalid field. */
-export function parseWith<T>(schema: ZodType<T>, value: unknown): T {
-  const result = schema.safeParse(value);
-  if (result.success) return result.data;
-  const { path, words } = firstFault(result.error);
-  throw new PlotwrightError("bad-setting", `${path === "" ? "The request" : path}: ${words}.`);
-}
 
 export const notFound: RequestHandler = (request) => {
   throw new PlotwrightError("not-found", `There is nothing at ${request.method} ${request.path}.`);

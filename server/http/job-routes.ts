@@ -14,7 +14,7 @@ import {
 import { jobActions } from "../../host/queue/job-actions.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
-import { parseWith } from "./errors.js";
+import { parseWith } from "../../host/parse-with.js";
 import { addJob, requesterOf, type JobParts } from "./new-job.js";
 
 /** Small enough to be parsed in this thread, which also streams to the board. */

@@ -4,7 +4,7 @@ import { PlotwrightError } from "../../src/index.js";
 import { machineListSchema, machineProfileSchema } from "../../src/schema/index.js";
 import type { MachineFiles } from "../storage/machine-files.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
-import { parseWith } from "./errors.js";
+import { parseWith } from "../../host/parse-with.js";
 
 export const MACHINE_ROUTES: readonly ApiRoute[] = [
   route("get", "/machines", "Lists the machine profiles", machineListSchema),

@@ -17,7 +17,7 @@ import type { DrawingFiles } from "../storage/drawing-files.js";
 import type { MachineFiles } from "../storage/machine-files.js";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
 import { bytesOf } from "./drawing-routes.js";
-import { parseWith } from "./errors.js";
+import { parseWith } from "../../host/parse-with.js";
 
 export interface JobParts {
   readonly queue: JobQueue;
@@ -81,9 +81,9 @@ function settingsIn(query: unknown): PlotSettings {
 
 /** Identifies the client; planning is aborted when it disconnects before the answer. */
 export function requesterOf(request: Request, response: Response): Requester {
-  const gone = new AbortController();
+  const disconnected = new AbortController();
   response.on("close", () => {
-    if (!response.writableFinished) gone.abort();
+    if (!response.writableFinished) disconnected.abort();
   });
-  return { client: request.socket.remoteAddress, signal: gone.signal };
+  return { client: request.socket.remoteAddress, signal: disconnected.signal };
 }

@@ -17,8 +17,8 @@ import type { PlotterRegistry, PlotterUse } from "../../host/plotter/plotter-reg
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
-import { parseWith } from "./errors.js";
-import { findFreePlotter, findPlotter } from "./find-plotter.js";
+import { parseWith } from "../../host/parse-with.js";
+import { findFreePlotter, findPlotter } from "../../host/queue/find-plotter.js";
 
 export const PLOTTER_ROUTES: readonly ApiRoute[] = [
   route(
@@ -53,7 +53,7 @@ export const PLOTTER_ROUTES: readonly ApiRoute[] = [
     },
   ),
   route("get", "/plotters/:id/log", "Returns the commands and replies of the connection", "text"),
-  route("post", "/plotters/:id/pen", "Raises or lowers the pen", plotterSchema, { body: penRequestSchema }),
+  route("post", "/plotters/:id/pen", "Lifts or lowers the pen", plotterSchema, { body: penRequestSchema }),
   route(
     "post",
     "/plotters/:id/motors-off",

@@ -10,7 +10,7 @@ import type { OperatorLock } from "../security/operator-lock.js";
 import { route, type ApiRoute } from "./api-route.js";
 import { roleOf } from "./auth.js";
 import type { Browsers } from "./browser.js";
-import { parseWith } from "./errors.js";
+import { parseWith } from "../../host/parse-with.js";
 import type { EventHub } from "./events.js";
 
 export interface StateParts {

@@ -1,6 +1,6 @@
 /**
- * Starts the worker thread whose file is in the folder of the starting module, compiled (.js) or as source
- * (.ts). A source file is bundled first with all its packages, once per process: if every thread compiled and
+ * Starts the worker thread whose file is in the folder of the starting module, built (.js) or as source (.ts).
+ * The build puts the files of worker threads beside its chunks (scripts/bundle.mjs). A source file is bundled first with all its packages, once per process: if every thread compiled and
  * resolved hundreds of modules itself, it would take seconds to start. The bundle is stored below node_modules.
  */
 import { createHash, randomBytes } from "node:crypto";

@@ -100,9 +100,9 @@ export class OperatorLock {
     if (this.#lapse !== null) clearTimeout(this.#lapse);
     this.#lapse = null;
     if (this.#isClosed || this.#operator === null || this.#streams.has(this.#operator.id)) return;
-    const gone = this.#operator;
+    const holder = this.#operator;
     this.#lapse = setTimeout(
-      () => this.#give(null, `${gone.name} has disconnected`),
+      () => this.#give(null, `${holder.name} has disconnected`),
       this.#parts.lapseMs ?? LAPSE_MS,
     );
     this.#lapse.unref();

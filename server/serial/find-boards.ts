@@ -1,4 +1,3 @@
-import { SerialPort } from "serialport";
 import { usbIds, type UsbId } from "../../src/internal.js";
 import type { FoundBoard } from "../../host/plotter/devices.js";
 
@@ -6,6 +5,7 @@ export type { FoundBoard } from "../../host/plotter/devices.js";
 
 /** All boards on USB with these ids, sorted by path; default: those that some driver knows. */
 export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<readonly FoundBoard[]> {
+  const { SerialPort } = await import("serialport");
   const ports = await SerialPort.list();
   return ports
     .filter((port) =>

@@ -1,5 +1,5 @@
 /** A serial port as a `Transport`. Its errors say what to do. */
-import { SerialPort } from "serialport";
+import type { SerialPort } from "serialport";
 import { PlotwrightError, type Transport } from "../../src/index.js";
 
 /** A Grbl needs this rate; an EiBotBoard is a USB device and ignores it. */
@@ -7,6 +7,8 @@ const BAUD_RATE = 115_200;
 
 /** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`. */
 export async function openSerial(path: string): Promise<Transport> {
+  // Loaded here, because a server with a virtual board never needs it.
+  const { SerialPort } = await import("serialport");
   const port = new SerialPort({ path, baudRate: BAUD_RATE, autoOpen: false, lock: true });
   await new Promise<void>((resolve, reject) => {
     port.open((error) => (error ? reject(openError(path, error)) : resolve()));

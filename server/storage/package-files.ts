@@ -1,11 +1,12 @@
-/** Paths of files in the package, found both from the sources (server/) and from the build (dist/server/). */
+/** Paths of files in the package, found both from the sources (server/) and from the build (dist/). */
 import { existsSync, readFileSync } from "node:fs";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 export function packagePath(path: string): string {
-  const above = fileURLToPath(new URL("../..", import.meta.url));
-  return join(existsSync(join(above, "package.json")) ? above : join(above, ".."), path);
+  let folder = dirname(fileURLToPath(import.meta.url));
+  while (!existsSync(join(folder, "package.json"))) folder = dirname(folder);
+  return join(folder, path);
 }
 
 export function packageVersion(): string {

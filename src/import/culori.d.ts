@@ -1,4 +1,4 @@
-/** Only what color.ts uses: the package has no types of its own. */
+/** Only what color.ts uses: the package includes no types. */
 declare module "culori/css" {}
 declare module "culori/fn" {
   interface CssColor {

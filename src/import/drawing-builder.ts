@@ -59,7 +59,7 @@ export class DrawingBuilder {
   private readonly strokeWidth = new ColumnBuffer(Float32Array);
   private readonly dash = new ColumnBuffer(Int32Array);
   private readonly clip = new ColumnBuffer(Int32Array);
-  /** Of the shapes that are drawn slower. */
+  /** Speed factors of the shapes that are drawn slower. */
   private readonly speedFactors = new Map<number, number>();
   /**
    * How much of the file has been drawn, 0 … 1. Coordinates are most of a large drawing, so memory for the

@@ -123,9 +123,9 @@ const queuesSchema = z.record(z.string(), queueSettingsSchema);
 /** Jobs: first the queue in order, then the history, newest first. */
 export const snapshotSchema = z.object({
   version: z.string(),
-  /** Of the first plotter. */
+  /** Queue settings of the first plotter. */
   queue: queueSettingsSchema.default({ runOn: false }),
-  /** Of every plotter, by its id. */
+  /** Queue settings of every plotter, by its id. */
   queues: queuesSchema.default({}),
   /** Null: the first browser that acts becomes the operator. */
   operator: operatorSchema.nullable().default(null),
@@ -155,7 +155,7 @@ export const serverEventSchema = z.discriminatedUnion("type", [
     plotterId: z.string(),
     settings: plotterSettingsSchema,
   }),
-  /** Of the first plotter; a `queues` event with all of them follows. */
+  /** Queue settings of the first plotter; a `queues` event with all of them follows. */
   z.object({ type: z.literal("queue"), queue: queueSettingsSchema }),
   z.object({ type: z.literal("queues"), queues: queuesSchema }),
   z.object({ type: z.literal("operator"), operator: operatorSchema.nullable() }),

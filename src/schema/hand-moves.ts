@@ -43,6 +43,28 @@ export type SquareRequest = z.infer<typeof squareRequestSchema>;
 export const servoRequestSchema = z.object({ pos: z.int().min(1).max(65_535), settings });
 export type ServoRequest = z.infer<typeof servoRequestSchema>;
 
+/** A manual move as data: its kind is the last part of the route above. */
+export const handMoveSchema = z.discriminatedUnion("kind", [
+  /** To the limit switches if the machine has them, otherwise to the set home. */
+  z.object({ kind: z.literal("home") }),
+  /** Makes the current position home. */
+  z.object({ kind: z.literal("set-home") }),
+  /** Lowers the pen and lifts it again, to check the heights. */
+  z.object({ kind: z.literal("cycle-pen") }),
+  /** Draws a line near the current position, and comes back. */
+  z.object({ kind: z.literal("test-line") }),
+  /** Draws a small pattern at the current position, and comes back. */
+  z.object({ kind: z.literal("test-patch") }),
+  walkRequestSchema.omit({ settings: true }).extend({ kind: z.literal("walk") }),
+  /** May go beyond home, since this is how the user finds home. */
+  jogRequestSchema.omit({ settings: true }).extend({ kind: z.literal("jog") }),
+  /** Moves around a box with the pen up, and back. */
+  z.object({ kind: z.literal("frame"), boxMm: boxMmSchema }),
+  squareRequestSchema.omit({ settings: true }).extend({ kind: z.literal("square") }),
+  servoRequestSchema.omit({ settings: true }).extend({ kind: z.literal("servo") }),
+]);
+export type HandMove = z.infer<typeof handMoveSchema>;
+
 /** …/command: one line to the board, as typed in a console. */
 export const commandRequestSchema = z.object({
   line: z

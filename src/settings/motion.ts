@@ -142,7 +142,7 @@ export const MOTION_TABLE = {
   },
   shaper: {
     kind: "choice",
-    label: "Against swinging",
+    label: "Reduce ringing",
     about: "input shaper against the machine's swinging; needs its measured frequencies",
     flag: "--shaper",
     default: "none",

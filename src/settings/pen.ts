@@ -50,14 +50,14 @@ export const PEN_TABLE = {
 /** Rates of lift and drop, if set. The default is the page's initial value. */
 export const LIFT_RATE = {
   ...rate,
-  label: "Rises at",
+  label: "Lifting speed",
   about: "how fast the pen rises",
   default: 60,
 } as const satisfies NumberSetting;
 export const DROP_RATE = {
   ...rate,
-  label: "Sinks at",
-  about: "how fast the pen sinks",
+  label: "Lowering speed",
+  about: "how fast the pen is lowered",
   default: 60,
 } as const satisfies NumberSetting;
 
@@ -85,7 +85,7 @@ export const OVERLAP_TABLE = {
   },
   fullHeightMm: {
     kind: "number",
-    label: "Full height from",
+    label: "Full lift for travels from",
     about: "travels at least this long lift the pen to its full height, shorter ones only clear of the paper",
     flag: "--pen-full-height",
     default: 20,
@@ -118,7 +118,7 @@ export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undef
 export interface PenSettings extends ValuesOf<typeof PEN_TABLE>, ValuesOf<typeof OVERLAP_TABLE> {
   /** How fast the pen rises; null or left out: as fast as the servo can. */
   readonly liftPctPerS?: number | null | undefined;
-  /** How fast the pen sinks; null or left out: as fast as the servo can. */
+  /** How fast the pen is lowered; null or left out: as fast as the servo can. */
   readonly dropPctPerS?: number | null | undefined;
   /** By layer id: heights and waits of that layer. */
   readonly layers?: Readonly<Record<string, LayerPen>> | undefined;

@@ -72,7 +72,7 @@ export const HATCH_TABLE = {
   },
   cross: {
     kind: "switch",
-    label: "A second set across",
+    label: "Hatch in both directions",
     about: "hatch in both directions",
     flag: "--hatch-cross",
     default: false,
@@ -270,7 +270,7 @@ export const PREPARE_TABLE = {
   },
   orderS: {
     kind: "number",
-    label: "Search for",
+    label: "Search time",
     about: "how long the search for the best order may take",
     flag: "--order-s",
     default: 9,
@@ -281,7 +281,7 @@ export const PREPARE_TABLE = {
   },
   spread: {
     kind: "choice",
-    label: "Against wet ink",
+    label: "Let ink dry",
     about: "draw neighbouring strokes at different times, so that ink dries",
     flag: "--spread",
     default: "none",

@@ -4,7 +4,7 @@ import type { SettingsTable } from "./setting.js";
 export const STREAM_TABLE = {
   sendAheadMs: {
     kind: "number",
-    label: "Sent ahead",
+    label: "Motion sent ahead",
     about:
       "motion sent ahead of the pen; with less, stops are faster, but the pen may pause when the computer is busy",
     flag: "--send-ahead-ms",

@@ -1,8 +1,8 @@
-/** The architecture's checks find what they look for: each is run on sources with one fault, and without it. */
+/** Each architecture check detects its fault: it is run on sources with the fault and without it. */
 import { describe, expect, it } from "vitest";
 import {
-  circleOfFiles,
-  circleOfFolders,
+  cycleOfFiles,
+  cycleOfFolders,
   EBB_COMMAND,
   foreignCommands,
   foreignKinds,
@@ -80,7 +80,7 @@ const CASES: readonly Case[] = [
   },
   ...["src", "server", "web"].map((folder) => ({
     name: `a circle of files in ${folder}`,
-    check: (sources: Sources) => circleOfFiles(folder, sources),
+    check: (sources: Sources) => cycleOfFiles(folder, sources),
     bad: {
       [`${folder}/a/one.ts`]: 'import { two } from "./two.js";',
       [`${folder}/a/two.ts`]: 'import type { Three } from "../b/three.js";',
@@ -95,7 +95,7 @@ const CASES: readonly Case[] = [
   })),
   ...["src", "server"].map((folder) => ({
     name: `a circle of folders in ${folder}, although no files make one`,
-    check: (sources: Sources) => circleOfFolders(folder, sources),
+    check: (sources: Sources) => cycleOfFolders(folder, sources),
     bad: {
       [`${folder}/a/one.ts`]: 'import { three } from "../b/deep/three.js";',
       [`${folder}/a/two.ts`]: "export const two = 2;",

@@ -180,14 +180,14 @@ export function findCycle(imports: readonly Import[]): string[] {
 export const inside = (folder: string, sources: Sources): Import[] =>
   importsOf(sources).filter(({ from, to }) => from.startsWith(`${folder}/`) && to.startsWith(`${folder}/`));
 
-export const circleOfFiles = (folder: string, sources: Sources): string[] =>
+export const cycleOfFiles = (folder: string, sources: Sources): string[] =>
   findCycle(inside(folder, sources));
 
 /**
- * A circle of folders, deep ones too: "src/drivers/ebb/compile/leg" counts as "src/drivers/ebb/compile". A file
- * beside folders counts as itself.
+ * A cycle among folders, including nested ones: "src/drivers/ebb/compile/leg" counts as "src/drivers/ebb/compile".
+ * A file beside folders counts as itself.
  */
-export function circleOfFolders(folder: string, sources: Sources): string[] {
+export function cycleOfFolders(folder: string, sources: Sources): string[] {
   const folders = Object.keys(sources).map((file) => path.posix.dirname(file));
   const isLeaf = (one: string): boolean => !folders.some((other) => other.startsWith(`${one}/`));
   const nodeOf = (file: string): string => {

@@ -3,8 +3,8 @@ import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
 import {
-  circleOfFiles,
-  circleOfFolders,
+  cycleOfFiles,
+  cycleOfFolders,
   findCycle,
   foreignCommands,
   foreignKinds,
@@ -72,7 +72,7 @@ const importsIn = (folder: string): Import[] =>
 /** "src/plan/corner" → "plan"; "src/units" → "units". */
 const layerOf = (file: string): string => (file.split("/")[1] ?? "").replace(/\.ts$/, "");
 
-/** "web/queue/jobs.tsx" → "web/queue"; web itself counts as a folder of its own. */
+/** "web/queue/jobs.tsx" → "web/queue"; web itself counts as a folder. */
 const folderOf = (file: string): string => file.split("/").slice(0, 2).join("/");
 
 describe("the layers of src", () => {
@@ -96,8 +96,8 @@ describe("the layers of src", () => {
   });
 
   it("have no import cycle among their files or folders, however long", () => {
-    expect(circleOfFiles("src", SOURCES)).toEqual([]);
-    expect(circleOfFolders("src", SOURCES)).toEqual([]);
+    expect(cycleOfFiles("src", SOURCES)).toEqual([]);
+    expect(cycleOfFolders("src", SOURCES)).toEqual([]);
   });
 
   it("use nothing of Node, server, web or test", () => {
@@ -150,7 +150,7 @@ describe("host", () => {
     const level = (file: string): number =>
       ["host", "host/planning", "host/plotter", "host/queue"].indexOf(path.posix.dirname(file));
     expect(inside.filter(({ from, to }) => level(from) < level(to)).map(write)).toEqual([]);
-    expect(circleOfFiles("host", SOURCES)).toEqual([]);
+    expect(cycleOfFiles("host", SOURCES)).toEqual([]);
   });
 
   it("keeps zod out of what the planner's thread loads", () => {
@@ -170,8 +170,8 @@ describe("the folders of server", () => {
   };
 
   it("have no import cycle among their files or folders", () => {
-    expect(circleOfFiles("server", SOURCES)).toEqual([]);
-    expect(circleOfFolders("server", SOURCES)).toEqual([]);
+    expect(cycleOfFiles("server", SOURCES)).toEqual([]);
+    expect(cycleOfFolders("server", SOURCES)).toEqual([]);
   });
 
   it("are layers, each of which imports only those below it", () => {
@@ -203,7 +203,7 @@ describe("the folders of web", () => {
   const inside = importsInside("web", SOURCES);
 
   it("have no cycles among their files", () => {
-    expect(circleOfFiles("web", SOURCES)).toEqual([]);
+    expect(cycleOfFiles("web", SOURCES)).toEqual([]);
   });
 
   it("use host only in the backend without a server", () => {

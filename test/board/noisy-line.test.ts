@@ -1,6 +1,6 @@
 /**
- * Lines that belong to no command arrive in mid-plot: the plot continues without a pause and ends where it
- * should.
+ * If lines that belong to no command arrive in mid-plot, the plot continues without a pause and ends at the right
+ * position.
  */
 import { describe, expect, it } from "vitest";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";

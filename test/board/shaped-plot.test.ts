@@ -1,4 +1,4 @@
-/** Shaped plots on virtual boards of every generation: true to the step, in time, and how smooth. */
+/** Shaped plots on virtual boards of every generation are exact to the step, on time, and smooth. */
 import { describe, expect, it } from "vitest";
 import { commandLine, DEFAULT_PEN, plan, type PenSettings } from "../../src/index.js";
 import { sampleStrokes } from "../support/sample-strokes.js";
@@ -25,7 +25,7 @@ describe("a shaped plot", () => {
     "of $name on firmware $firmware, springs $springs.xHz Hz",
     ({ firmware, jump, springs, strokes }) => {
       const machine = swinging(springs);
-      // Each pen move in flight cuts a command too, so where reversals do, the carriage waits for the pen here.
+      // Pen moves in flight cut commands. Before 3.0 reversals do too, so there the carriage waits for the pen.
       const pen: PenSettings = firmware === "3.0.3" ? DEFAULT_PEN : { ...DEFAULT_PEN, overlap: "off" };
       const trajectory = plan(strokes, inQuality("fast", springs), pen, { machine });
       const fast = new FastBoard(firmware, machine, pen);

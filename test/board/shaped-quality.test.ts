@@ -1,6 +1,7 @@
 /**
- * What a step of quality is worth on a board: time in motion, and how far the pen of a virtual board with springs draws
- * beside the drawing, against the default (A = 500, V = 50, δ = 0.025, not shaped) on the same board. Medians over drawings.
+ * The benefit of each quality on a board: time in motion, and the distance between the drawing and the line of a
+ * virtual board's pen on springs, compared with the default (A = 500, V = 50, δ = 0.025, not shaped) on the same
+ * board. Medians over drawings.
  * quality.test.ts has the same for the plans.
  */
 import { describe, expect, it } from "vitest";
@@ -31,7 +32,7 @@ interface Played {
   readonly rmsMm: number;
 }
 
-/** @param springs what the pen swings on */
+/** @param springs the springs on which the pen swings */
 function played(
   strokes: StrokeSet,
   motion: MotionSettings,

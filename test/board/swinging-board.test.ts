@@ -18,7 +18,7 @@ const played = (motion: typeof DEFAULT_MOTION, firmware: string, isSwinging: boo
   return { trajectory, firstWrong, lines, board: fast.board };
 };
 
-/** How far the lines are from the drawing at most, mm. */
+/** Max. distance of the lines from the drawing, mm. */
 const largestError = (lines: readonly { xy: Float64Array }[]): number => {
   const asked = new SegmentGrid(1);
   for (let s = 0; s + 1 < strokes.offsets.length; s++)

@@ -83,7 +83,7 @@ const READY: Readonly<Record<string, RegExp>> = { serve: /plotwright is at/, boa
 /** As systemctl reports that a service does not run. */
 const CODES: Readonly<Record<string, number>> = { "plotwright service status": 3 };
 
-/** These have all settings, with the same code. Each setting runs with `plan`, in a test of its own. */
+/** These have all settings, with the same code. Each setting runs with `plan`, in a separate test. */
 const TAKE_DRAWINGS = ["plan", "plot", "add", "frame"];
 /** Options that a test cannot run, and why. `service` has options only in its own commands. */
 const NOT_RUN: Readonly<Record<string, string>> = {

@@ -1,4 +1,4 @@
-/** What people type: a word that is not a command, and lengths with units. */
+/** Typed arguments: words that are not commands, lengths with units, unusable files. */
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -185,7 +185,7 @@ describe("a file that cannot be used", () => {
     '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm"><path d="M1 1H9" stroke="red"/></svg>';
   const drawing = file("line.svg", LINE);
 
-  it("is said to be empty once, with the reasons", async () => {
+  it("is reported as empty once, with the reasons", async () => {
     const empty = file(
       "empty.svg",
       '<svg xmlns="http://www.w3.org/2000/svg"><image width="5" height="5"/></svg>',

@@ -1,4 +1,4 @@
-/** The ways to look at a drawing, and what can be done with one of its strokes. */
+/** The views of a drawing, and the actions on one of its strokes. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { colorCounts, nextFrames, openView, statusCard } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
@@ -22,7 +22,7 @@ const canvas = () => test.page.getByRole("img", { name: "Preview", exact: true }
 
 /** How many pixels of the canvas are much more blue than red, and the other way round. */
 async function blueAndRed(): Promise<readonly [blue: number, red: number]> {
-  // Away from the canvas, so that nothing is told about the stroke under the pointer.
+  // Away from the canvas, so that no tooltip for a stroke appears.
   await test.page.mouse.move(700, 20);
   await test.drawn();
   let [blue, red] = [0, 0];
@@ -133,7 +133,7 @@ describe("a stroke", () => {
 
 describe("what the margins cut off", () => {
   const note = () => test.page.locator(".cut-off-note");
-  /** In the left margin, whose lines are drawn nowhere else: how many pixels are darker than paper and grid. */
+  /** Number of pixels in the left margin that are darker than paper and grid. The margin's lines appear nowhere else. */
   const ghostPixels = async (): Promise<number> => {
     await test.page.mouse.move(700, 20);
     await test.drawn();

@@ -1,4 +1,4 @@
-/** A plot that was killed half way: Watch says how far it is, and shows what is drawn and what is left apart. */
+/** A plot that was killed half way: Watch shows its progress, and the drawn part in another colour than the rest. */
 import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";

@@ -11,7 +11,7 @@ const MIXED = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://ww
   <g inkscape:groupmode="layer" inkscape:label="1-black" id="black"><path stroke="#000000" d="M10 10H190"/></g>
   <g inkscape:groupmode="layer" inkscape:label="2-blue" id="blue"><path stroke="#800080" d="M10 140H60"/>
   ${Array.from({ length: 44 }, (_, k) => `<path stroke="#0000e0" d="M10 ${20 + 2 * k}H60"/>`).join("")}</g></svg>`;
-/** Over a megabyte: stored as it was read, not as text. */
+/** Over a megabyte: stored as bytes, not as text. */
 const LARGE = `<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="60mm" viewBox="0 0 90 60">
   <!--${"x".repeat(1_200_000)}--><path fill="none" stroke="#000" d="M10 10H80V50"/></svg>`;
 

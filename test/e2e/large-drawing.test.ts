@@ -1,4 +1,4 @@
-/** A drawing too large to be drawn in one go: the view is complete in the end, both from afar and close up. */
+/** A drawing too large to be drawn in one part: the picture is complete in the end, zoomed out and zoomed in. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { colorCounts, waitForPicture } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
@@ -49,7 +49,7 @@ beforeAll(async () => {
   await test.look("Ink");
   await test.drop("waves", SVG);
   const box = (await canvas().boundingBox())!;
-  // Between rulers, tools and legend, as stage.ts lays the paper out.
+  // Between rulers, tools and legend, where stage.ts places the paper.
   middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 114) / 2 };
 });
 

@@ -126,8 +126,8 @@ describe("layers on the page", () => {
     // 200 mm at 5 mm/s.
     expect(job.stats!.durationS).toBeGreaterThan(40);
     expect(await planTime()).not.toBe(before);
-    await test.page.getByRole("button", { name: "Draw it as for all" }).click();
-    await test.page.getByRole("button", { name: "Speed as for all" }).click();
+    await test.page.getByRole("button", { name: "Reset “Draw it” to the common value" }).click();
+    await test.page.getByRole("button", { name: "Reset “Speed” to the common value" }).click();
     const again = await test.queue();
     expect(again.settings.motion.layers ?? {}).toEqual({});
     expect(await drawnOrder(again)).toEqual(["sun", "sea", "sand"]);

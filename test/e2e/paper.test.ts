@@ -1,4 +1,4 @@
-/** The size on the paper, the machine's reach, and lengths in inches: as a user meets them. */
+/** The size on the paper, the machine's reach, and lengths in inches, on the page. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { dropFile, plotBar } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
@@ -6,7 +6,7 @@ import { PageTest } from "../support/page-test.js";
 const svgOf = (width: number, height: number, d: string): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" width="${width}mm" height="${height}mm" viewBox="0 0 ${width} ${height}">
     <path d="${d}" fill="none" stroke="#000"/></svg>`;
-/** 60 × 40 mm, which paper and margins let grow to 267 × 178 mm. */
+/** 60 × 40 mm, or 267 × 178 mm when fitted to the paper inside its margins. */
 const FLAG = svgOf(60, 40, "M0 0L60 40M60 0L0 40");
 /** A ruler of 279 mm on A4. */
 const RULER = svgOf(297, 210, "M9 100H288M9 95V105M288 95V105");
@@ -134,7 +134,7 @@ describe("a length", () => {
     expect(await drawn()).toMatch(/^Drawn .* in, /);
     await test.field("Margin").fill("0.5");
     await test.planned();
-    // The kept settings are written a moment after the last change.
+    // The settings are stored shortly after the last change.
     await test.page.waitForFunction(() =>
       localStorage.getItem("plotwright.page.v1")?.includes('"marginMm":12.7'),
     );

@@ -1,4 +1,4 @@
-/** What belongs to the plotter is the same on every screen, and a first plot takes few clicks. */
+/** The plotter's own settings are the same on every screen, and a first plot takes few clicks. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Snapshot } from "../../src/schema/index.js";
@@ -38,7 +38,7 @@ describe("settings that a browser stored before the server did", () => {
       }, OLD_BROWSER);
       await page.reload();
       await expect.poll(storedPen).toMatchObject({ upPct: 66, downPct: 41 });
-      // The model follows by a request of its own.
+      // The model is sent by a separate request.
       await expect.poll(async () => (await state()).plotters[0].machine).toBe("axidraw-se-a3");
       const { plotterSettings } = await state();
       expect(plotterSettings["main"].presets.map(({ name }) => name)).toEqual(["Brush"]);

@@ -1,4 +1,4 @@
-/** A plot that waits for a pen, and one that is opened again: the page shows how far it is, never all of it drawn. */
+/** A plot that waits for a pen, or was reopened: the page shows its progress, and never all of it as drawn. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Job } from "../../src/schema/index.js";
 import { combOf, expectPartlyDrawn, expectShareOnCanvas, SHARP } from "../support/half-drawn.js";

@@ -54,7 +54,7 @@ async function onScreen(what: "paper" | "ink"): Promise<Box> {
       for (let i = 0; i < data.length; i += 4) {
         const x = (i / 4) % width;
         const y = Math.floor(i / 4 / width);
-        // Rulers stand at two edges, tools and legend at a third.
+        // Rulers are at two edges, tools and legend at a third.
         if (x < 26 || y < 26 || y > bitmap.height - 112) continue;
         const isIt = isPaper
           ? Math.min(data[i], data[i + 1], data[i + 2]) > 249

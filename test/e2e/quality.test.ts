@@ -1,4 +1,4 @@
-/** Quality: one choice of three sets speed, acceleration and corners together, and the numbers stay reachable. */
+/** Quality: a choice of three sets speed, acceleration and corners together; the numbers can still be edited. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { motionOfQuality, type Quality } from "../../src/internal.js";
 import { seriousFindings } from "../support/axe.js";
@@ -43,7 +43,7 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     await test.page.keyboard.press("Escape");
   });
 
-  it("sets the limits that a step stands for, from the plotter's springs", async () => {
+  it("sets the limits of the chosen quality, computed from the plotter's springs", async () => {
     const { page } = test;
     await chooseMeasuredPlotter(page, test.server.url);
     // Normal stays Normal: that of this machine.
@@ -59,7 +59,7 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     expect(new Set(times).size).toBe(3);
   });
 
-  it("is Custom once a number was changed, until a step is chosen again", async () => {
+  it("is Custom once a number was changed, until a quality is chosen again", async () => {
     await section().getByText("Details", { exact: true }).click();
     const speed = section().getByRole("group", { name: "Pen down" }).getByLabel("Speed", { exact: true });
     await speed.fill("33");
@@ -96,7 +96,7 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
   it("shapes a motion or softens it, not both", async () => {
     await section().getByRole("radio", { name: "Gentle" }).check();
     expect(await motionOfJob()).toMatchObject({ mode: "scurve", shaper: "none" });
-    await section().getByLabel("Against swinging").selectOption("zv");
+    await section().getByLabel("Reduce ringing").selectOption("zv");
     expect(await motionOfJob()).toMatchObject({ mode: "blend", shaper: "zv" });
     expect(test.complaints).toEqual([]);
   });

@@ -1,6 +1,6 @@
 /**
- * The strokes' pixels in Chromium: in one part and in many, near and far, by the graphics card and by our own
- * code.
+ * The strokes' pixels in Chromium: in one part and in many, near and far, with the graphics card and in
+ * software.
  */
 import path from "node:path";
 import type { Browser, Page } from "playwright-core";

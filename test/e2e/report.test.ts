@@ -1,4 +1,4 @@
-/** What of a file is not drawn: listed on the page, and marked on the paper. */
+/** The page lists the parts of a file that are not drawn, and marks them on the paper. */
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import {

@@ -1,4 +1,4 @@
-/** The view of the simulated pen: what it would draw on the machine's springs, beside what was asked. */
+/** The view of the simulated pen: the line that it would draw on the machine's springs, beside the planned line. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { planJob } from "../../src/index.js";
 import { machineOf, penError } from "../../src/internal.js";

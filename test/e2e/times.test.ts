@@ -1,4 +1,4 @@
-/** Times in the queue and in Watch: in words, with the day where it is not today, none while nothing moves. */
+/** Times in the queue and in Watch: durations in words, the day if it is not today, no end time while nothing moves. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { queuePanel, statusCard } from "../support/page-actions.js";

@@ -1,5 +1,5 @@
 /**
- * Several browsers on one server at once: the same view, one operator, watchers, and one that loses its
+ * Several browsers on one server: the same view, one operator, watchers, and a browser that loses its
  * network.
  */
 import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
@@ -132,7 +132,7 @@ describe("two browsers and a watcher", () => {
     const jobCount = await queuePanel(ben).getByRole("listitem").count();
     await plotButton(ben).click();
     await question.getByRole("button", { name: "Not now" }).click();
-    // A slider, too: what it was moved to does not stay beside what the plotter has.
+    // A slider too: it returns to the plotter's value.
     const height = (page: Page): Locator => page.getByLabel("Height up", { exact: true });
     const before = await height(ben).inputValue();
     await height(ben).fill("71");
@@ -182,7 +182,7 @@ describe("two browsers and a watcher", () => {
     for (const page of pages()) await historyPanel(page).getByText("Cancelled", { exact: true }).waitFor();
   });
 
-  it("a device that is not paired is told how to pair", async () => {
+  it("a device that is not paired shows how to pair", async () => {
     const page = await browser.newPage({ viewport: VIEWPORT });
     await page.goto(server.url);
     await page.getByRole("heading", { name: "Pair this device" }).waitFor();

@@ -1,4 +1,4 @@
-/** Watch: the plot under way has a view of its own, and what is laid out in Prepare stays as it is. */
+/** Watch: the running plot has a separate view, and the drawing laid out in Prepare stays unchanged. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { ruledSheet } from "../support/drawings.js";
@@ -17,7 +17,7 @@ const PATIENCE_MS = 120_000;
 const LINES = "lines";
 const OTHER = "other";
 const OTHER_SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100"><path d="M10 10h80v80" fill="none" stroke="#0a0"/></svg>`;
-/** Of the pen's mark (--desk-accent). */
+/** Colour of the pen's mark (--desk-accent). */
 const PEN_COLOR = 0xd2452c;
 
 let test: PageTest;
@@ -131,7 +131,7 @@ describe("the queue", { timeout: PATIENCE_MS }, () => {
     const row = queuePanel(page).getByRole("listitem");
     await row.getByText("×3").waitFor();
     expect(await row.count()).toBe(1);
-    // The plotter's panel stands before the queue, and only a row in sight fetches its picture.
+    // The plotter's panel is above the queue, and only a visible row fetches its thumbnail.
     await row.scrollIntoViewIfNeeded();
     await row.locator(".thumb img").waitFor();
     const more = row.getByRole("button", { name: `More for ${OTHER}` });

@@ -54,7 +54,13 @@ describe("the installed package", () => {
         ...["dist", "docs", "package.json", "samples"],
       ].sort(),
     );
-    expect(readdirSync(path.join(installed, "dist")).sort()).toEqual(["host", "server", "src", "web"]);
+    expect(readdirSync(path.join(installed, "dist")).sort()).toEqual([
+      "chunks",
+      "host",
+      "server",
+      "src",
+      "web",
+    ]);
     expect(existsSync(path.join(installed, "dist", "web", "index.html"))).toBe(true);
   });
 
@@ -77,12 +83,43 @@ describe("the installed package", () => {
     }
   });
 
+  it("has the licence of every package that is built into the library and the server", () => {
+    const text = readFileSync(path.join(installed, "dist", "chunks", "licences.txt"), "utf8");
+    const code = readdirSync(path.join(installed, "dist", "chunks"))
+      .filter((name) => name.endsWith(".js"))
+      .map((name) => readFileSync(path.join(installed, "dist", "chunks", name), "utf8"))
+      .join("\n");
+    const packages = new Set(
+      [...code.matchAll(/^\/\/ node_modules\/((?:@[^/]+\/)?[^/]+)\//gm)].map(([, name]) => name),
+    );
+    expect([...packages]).toEqual(expect.arrayContaining(["culori", "css-tree", "domutils"]));
+    for (const name of packages) {
+      const section = text.split("\n\n\n").find((one) => one.startsWith(`${name} `));
+      expect([name, section]).toEqual([name, expect.stringMatching(/permi(t|ssion)/i)]);
+    }
+  });
+
   it("has every file that its README links to", () => {
     const readme = readFileSync(path.join(installed, "README.md"), "utf8");
     const links = [...readme.matchAll(/\]\(([^)#]+)[^)]*\)/g)].map((match) => match[1] ?? "");
     const own = links.filter((link) => !/^https?:/.test(link));
     expect(own.length).toBeGreaterThan(5);
     expect(own.filter((link) => !existsSync(path.join(installed, link)))).toEqual([]);
+  });
+
+  it("has one PlotwrightError class for all its entries", () => {
+    const program = `
+      import { PlotwrightError, importSvg } from "plotwright";
+      import { createServer } from "plotwright/server";
+      import { requestBoard } from "plotwright/web-serial";
+      const errors = [];
+      try { importSvg("no drawing"); } catch (error) { errors.push(error); }
+      await createServer({ dataDir: "package.json" }).catch((error) => errors.push(error));
+      await requestBoard().catch((error) => errors.push(error));
+      console.log(errors.map((error) => error instanceof PlotwrightError).join(" "));
+    `;
+    writeFileSync(path.join(app, "errors.js"), program);
+    expect(succeed(process.execPath, ["errors.js"], app).trim()).toBe("true true true");
   });
 
   it("prints its version by npx plotwright --version", () => {

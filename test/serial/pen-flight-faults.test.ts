@@ -1,6 +1,6 @@
 /**
  * kill -9 of a plotting process and an unplugged cable while the pen moves in flight, over a real pseudo-terminal, with
- * a servo that differs from what the planner takes it for. PLOTWRIGHT_FAULTS=20, or the full run: 20 times each.
+ * a servo that deviates from the planner's assumptions. PLOTWRIGHT_FAULTS=20, or the full run: 20 times each.
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
@@ -115,7 +115,7 @@ describe.concurrent("a pen in flight", () => {
     async (name, interrupt, firstCase) => {
       const random = seeded(name.length);
       const wrong: unknown[] = [];
-      const most = { gapMm: 0, overlapMm: 0, besideMm: 0 };
+      const max = { gapMm: 0, overlapMm: 0, besideMm: 0 };
       for (let i = 0; i < COUNT; i++) {
         const one = caseOf(firstCase + i);
         const { motion, pen } = penSettings(one.overlap);
@@ -125,11 +125,11 @@ describe.concurrent("a pen in flight", () => {
         if (gapMm > UNSEEN_MM || overlapMm > UNSEEN_MM || besideMm > 1) {
           wrong.push({ ...one, afterS, gapMm, overlapMm, awayMm });
         }
-        most.gapMm = Math.max(most.gapMm, gapMm);
-        most.overlapMm = Math.max(most.overlapMm, overlapMm);
-        most.besideMm = Math.max(most.besideMm, awayMm);
+        max.gapMm = Math.max(max.gapMm, gapMm);
+        max.overlapMm = Math.max(max.overlapMm, overlapMm);
+        max.besideMm = Math.max(max.besideMm, awayMm);
       }
-      if (COUNT > 10) console.info(name, COUNT, most);
+      if (COUNT > 10) console.info(name, COUNT, max);
       expect(wrong).toEqual([]);
     },
   );

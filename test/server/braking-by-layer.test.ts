@@ -1,4 +1,4 @@
-/** A stop in the middle of a stroke uses the acceleration of that stroke's layer, whatever the others have. */
+/** A stop in the middle of a stroke uses the acceleration of that stroke's layer, not of other layers. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PEN, plan, stateAt, type Place, type StrokeSet, type Trajectory } from "../../src/index.js";
 import { comeToRest } from "../../src/internal.js";
@@ -34,10 +34,10 @@ const MOTION = {
   layers: { slow: { accelMmPerS2: ACCEL.slow }, quick: { accelMmPerS2: ACCEL.quick } },
 };
 
-const mostAccel = ({ blockCount, ax, ay }: Trajectory): number => {
-  let most = 0;
-  for (let k = 0; k < blockCount; k++) most = Math.max(most, Math.hypot(ax[k], ay[k]));
-  return most;
+const maxAccelOf = ({ blockCount, ax, ay }: Trajectory): number => {
+  let max = 0;
+  for (let k = 0; k < blockCount; k++) max = Math.max(max, Math.hypot(ax[k], ay[k]));
+  return max;
 };
 
 describe("a stop in the middle of a stroke", () => {
@@ -52,18 +52,18 @@ describe("a stop in the middle of a stroke", () => {
       const lastBlock = runs.firstBlock[run + 1] - 1;
       const fromS = runs.startS[run];
       const untilS = trajectory.startS[lastBlock] + trajectory.durationS[lastBlock];
-      let most = 0;
+      let max = 0;
       for (let i = 1; i < 60; i++) {
         const tS = fromS + ((untilS - fromS) * i) / 60;
         const { alongMm } = stateAt(trajectory, tS);
         const { limits } = brakingAt(settings, STROKES, { stroke, alongMm }, "2.8.1");
         const stop = comeToRest(trajectory, tS, limits, null);
-        most = Math.max(most, mostAccel(stop.trajectory));
+        max = Math.max(max, maxAccelOf(stop.trajectory));
         const end = stateAt(trajectory, stop.planS);
         expect(Math.hypot(stop.trajectory.endX - end.x, stop.trajectory.endY - end.y)).toBeLessThan(1e-9);
       }
-      expect(most).toBeLessThanOrEqual(1.001 * ACCEL[layer]);
-      expect(most).toBeGreaterThan(0.95 * ACCEL[layer]);
+      expect(max).toBeLessThanOrEqual(1.001 * ACCEL[layer]);
+      expect(max).toBeGreaterThan(0.95 * ACCEL[layer]);
     },
   );
 
@@ -79,6 +79,6 @@ describe("a stop in the middle of a stroke", () => {
     const travel = [...runs.stroke].findIndex((stroke, run) => stroke < 0 && run > 0);
     const tS = runs.startS[travel] + 0.1;
     const stop = comeToRest(trajectory, tS, brakingAt(settings, STROKES, null, "2.8.1").limits, null);
-    expect(mostAccel(stop.trajectory)).toBeLessThanOrEqual(1.001 * MOTION.travel.accelMmPerS2);
+    expect(maxAccelOf(stop.trajectory)).toBeLessThanOrEqual(1.001 * MOTION.travel.accelMmPerS2);
   });
 });

@@ -1,6 +1,6 @@
 /**
  * A database that is emptied or damaged: no drawing is lost, jobs are restored from the backup, and the user
- * is told.
+ * is notified.
  */
 import {
   copyFileSync,

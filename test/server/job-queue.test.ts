@@ -292,7 +292,7 @@ describe("the queue", () => {
     const broken = await plotter.nextRun();
     await settled();
     broken.record({ place: { stroke: 3, alongMm: 4.5 } });
-    broken.fail(new Error("A mistake of ours."));
+    broken.fail(new Error("A programming error."));
     await settled();
     expect(queue.get(id)).toMatchObject({ state: "interrupted", place: { strokeIndex: 3, alongMm: 4.5 } });
   });

@@ -1,4 +1,4 @@
-/** Connections that others hold open: a client that may stop the plot must always get one. */
+/** Even if others hold connections open, a client that may stop the plot must always get one. */
 import { once } from "node:events";
 import { request as httpRequest } from "node:http";
 import { connect, type Socket } from "node:net";

@@ -1,4 +1,4 @@
-/** Bodies and names made to trouble the server: each gets an answer, and none is stored unchanged. */
+/** Malicious bodies and names: each gets an answer, and none is stored unchanged. */
 import { gzipSync } from "node:zlib";
 import { request as httpRequest } from "node:http";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";

@@ -1,6 +1,6 @@
 /**
- * Holds and emergency stops while the pen moves in flight: what they leave on the paper, drawn by a servo that differs
- * from what the planner takes it for.
+ * Holds and emergency stops while the pen moves in flight: the marks that they leave on the paper if the servo deviates
+ * from the planner's assumptions.
  */
 import { describe, expect, it } from "vitest";
 import type { PenOverlap } from "../../src/internal.js";
@@ -50,7 +50,7 @@ describe.each(TRIED)("a pen in flight, %s, on firmware %s", (overlap, firmware, 
     { timeout: 600_000 },
     async (what, count, leadS) => {
       const random = seeded(31 * (1 + CASES.findIndex(([a, b]) => a === overlap && b === firmware)) + leadS);
-      const most = { gapMm: 0, overlapMm: 0, awayMm: 0 };
+      const max = { gapMm: 0, overlapMm: 0, awayMm: 0 };
       for (const [index, servo] of servos.entries()) {
         const whole = await undisturbed(overlap, firmware, servo);
         for (let i = index; i < count; i += servos.length) {
@@ -65,15 +65,15 @@ describe.each(TRIED)("a pen in flight, %s, on firmware %s", (overlap, firmware, 
           expect(await world.run(run.finished)).toEqual({ kind: "done" });
           expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
           const { gapMm, overlapMm, awayMm } = marksOn(board.drawn());
-          most.gapMm = Math.max(most.gapMm, gapMm - whole.gapMm);
-          most.overlapMm = Math.max(most.overlapMm, overlapMm - whole.overlapMm);
-          most.awayMm = Math.max(most.awayMm, awayMm);
+          max.gapMm = Math.max(max.gapMm, gapMm - whole.gapMm);
+          max.overlapMm = Math.max(max.overlapMm, overlapMm - whole.overlapMm);
+          max.awayMm = Math.max(max.awayMm, awayMm);
         }
       }
-      if (count > 10) console.info(overlap, firmware, what, most);
-      expect(most.gapMm).toBeLessThan(UNSEEN_MM);
-      expect(most.overlapMm).toBeLessThan(UNSEEN_MM);
-      expect(most.awayMm).toBeLessThan(BESIDE_MM[overlap] + UNSEEN_MM / 2);
+      if (count > 10) console.info(overlap, firmware, what, max);
+      expect(max.gapMm).toBeLessThan(UNSEEN_MM);
+      expect(max.overlapMm).toBeLessThan(UNSEEN_MM);
+      expect(max.awayMm).toBeLessThan(BESIDE_MM[overlap] + UNSEEN_MM / 2);
     },
   );
 });

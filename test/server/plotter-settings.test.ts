@@ -49,8 +49,8 @@ describe("the settings of a plotter", () => {
     const wanted = settingsWith(72);
     const response = await call("PUT", "/plotters/virtual/settings", wanted);
     expect([response.status, await response.json()]).toEqual([200, wanted]);
-    const told = await events.find("plotter-settings", () => true);
-    expect(told).toMatchObject({ plotterId: "virtual", settings: wanted });
+    const event = await events.find("plotter-settings", () => true);
+    expect(event).toMatchObject({ plotterId: "virtual", settings: wanted });
     events.close();
     expect(await stored("virtual")).toEqual(wanted);
     const state = snapshotSchema.parse(await (await call("GET", "/state")).json());

@@ -1,4 +1,4 @@
-/** Plug-ins of a whole server: each is there when an option asks for it, and nowhere otherwise. */
+/** Plug-ins of a whole server: each is loaded only if an option requests it. */
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -28,7 +28,7 @@ const get = async (path: string): Promise<[number, string]> => {
     : [answer.status, apiErrorSchema.parse(await answer.json()).error.message];
 };
 
-describe("a plug-in that is not asked for", () => {
+describe("a plug-in that is not requested", () => {
   it("has no routes, is not in the OpenAPI document, and the answer says what to do", async () => {
     await open({ webhooks: false });
     expect(await get("/webhooks")).toEqual([404, "Webhooks are switched off on this server."]);
@@ -40,7 +40,7 @@ describe("a plug-in that is not asked for", () => {
   }, 30_000);
 });
 
-describe("a plug-in that is asked for", () => {
+describe("a requested plug-in", () => {
   it("has its routes, in the OpenAPI document too", async () => {
     await open({});
     expect(await get("/webhooks")).toEqual([200, '{"webhooks":[]}']);
@@ -48,7 +48,7 @@ describe("a plug-in that is asked for", () => {
     expect((JSON.parse(text) as { paths: object }).paths).toHaveProperty(["/api/v1/webhooks/{id}"]);
   }, 30_000);
 
-  it("and can't start keeps the server from starting, and everything else is closed", async () => {
+  it("that fails to start prevents the server from starting, and everything else is closed", async () => {
     await expect(open({ watchDir: join(dataDir, "none") })).rejects.toMatchObject({ code: "bad-setting" });
     // The data folder is free again.
     await open({});

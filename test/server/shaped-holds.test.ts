@@ -1,6 +1,6 @@
 /**
- * Holds and emergency stops in shaped motion: the pen stops without swinging, and goes on where it stopped.
- * swinging-stops.test.ts has what they leave on the paper.
+ * Holds and emergency stops in shaped motion: the pen stops without swinging, and resumes where it stopped.
+ * swinging-stops.test.ts tests the marks on the paper.
  */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";

@@ -1,5 +1,5 @@
 /**
- * Two servers that share jobs by a PostgreSQL database (PGlite: PostgreSQL in this process, behind a socket),
+ * Two servers that share jobs through a PostgreSQL database (PGlite: PostgreSQL in this process, behind a socket),
  * each with a virtual plotter; one is killed during a job.
  */
 import { once } from "node:events";

@@ -1,6 +1,6 @@
 /**
- * Holds and emergency stops in shaped motion, by what the pen of a swinging machine leaves on the paper: the virtual
- * board has the springs and the servo, and the pen stays on the paper until the servo has lifted it.
+ * Holds and emergency stops in shaped motion: the marks that a swinging machine's pen leaves on the paper. The virtual
+ * board simulates springs and servo, and the pen stays on the paper until the servo has lifted it.
  */
 import { describe, expect, it } from "vitest";
 import { stateAt, VirtualBoard, type StrokeSet, type Trajectory } from "../../src/index.js";
@@ -17,7 +17,7 @@ import { inQuality, SPRINGS, swinging } from "../support/swinging.js";
 
 /** A gap or a doubled stretch that is invisible, mm. */
 const UNSEEN_MM = 0.05;
-/** What is farther from the drawing than this is a mark beside it, mm. */
+/** Lines farther than this from the drawing are marks beside it, mm. */
 const BESIDE_MM = 0.08;
 /** Time between a stop and resuming, s: the pen is at rest by then. */
 const RESUMED_AFTER_S = 1;
@@ -83,7 +83,7 @@ describe.each(["2.8.1", "3.0.3"])("the pen of a swinging machine, firmware %s", 
       const count = what === "a hold" ? HOLDS : EMERGENCY_STOPS;
       const whole: DrawnTruth[] = [];
       for (const springs of SPRINGS) whole.push(await (await plotting(firmware, springs)).finish());
-      const most = { gapMm: 0, overlapMm: 0, besideMm: 0, besideShare: 0 };
+      const max = { gapMm: 0, overlapMm: 0, besideMm: 0, besideShare: 0 };
       for (let i = 0; i < count; i++) {
         const springs = SPRINGS[i % SPRINGS.length];
         const { world, run, trajectory, finish } = await plotting(firmware, springs);
@@ -95,17 +95,17 @@ describe.each(["2.8.1", "3.0.3"])("the pen of a swinging machine, firmware %s", 
         const undisturbed = whole[i % SPRINGS.length];
         const besideMm = awayMm - undisturbed.awayMm;
         const swingMm = inQuality("fast", springs).draw.speedMmPerS / (2 * Math.PI * springs.xHz);
-        most.gapMm = Math.max(most.gapMm, gapMm - undisturbed.gapMm);
-        most.overlapMm = Math.max(most.overlapMm, overlapMm - undisturbed.overlapMm);
-        most.besideMm = Math.max(most.besideMm, besideMm);
-        most.besideShare = Math.max(most.besideShare, besideMm / swingMm);
+        max.gapMm = Math.max(max.gapMm, gapMm - undisturbed.gapMm);
+        max.overlapMm = Math.max(max.overlapMm, overlapMm - undisturbed.overlapMm);
+        max.besideMm = Math.max(max.besideMm, besideMm);
+        max.besideShare = Math.max(max.besideShare, besideMm / swingMm);
       }
-      if (count > 50) console.info(firmware, count, what, most);
-      expect(most.gapMm).toBeLessThan(UNSEEN_MM);
-      expect(most.overlapMm).toBeLessThan(UNSEEN_MM);
-      // Motors that stop dead make the pen swing by v/ω, off the line at corners and in curves.
-      if (what === "a hold") expect(most.besideMm).toBeLessThan(UNSEEN_MM);
-      else expect(most.besideShare).toBeLessThan(1);
+      if (count > 50) console.info(firmware, count, what, max);
+      expect(max.gapMm).toBeLessThan(UNSEEN_MM);
+      expect(max.overlapMm).toBeLessThan(UNSEEN_MM);
+      // A sudden stop of the motors makes the pen swing by v/ω, off the line at corners and in curves.
+      if (what === "a hold") expect(max.besideMm).toBeLessThan(UNSEEN_MM);
+      else expect(max.besideShare).toBeLessThan(1);
     },
   );
 });

@@ -5,6 +5,33 @@ import { findBrowser } from "../../scripts/find-browser.mjs";
 /** How long the page may take to show something: it is slow if the computer is busy. */
 const PATIENCE_MS = 90_000;
 
+/**
+ * Features of the browser that are switched off. Chromium obeys only the last list on its command line, so this one
+ * replaces Playwright's list and repeats what matters here.
+ */
+const FEATURES_OFF = [
+  // Two hidden pages for the address bar, loaded with each window. They cost as much as the page that is tested.
+  "WebUIOmniboxPopup",
+  "WebUIOmniboxAimPopup",
+  "WebUIOmniboxFullPopup",
+  // A process in advance for a page that a test does not open.
+  "SpareRendererForSitePerProcess",
+  // From Playwright's list.
+  "AimEnabled",
+  "AvoidUnnecessaryBeforeUnloadCheckSync",
+  "DestroyProfileOnBrowserClose",
+  "HttpsFirstBalancedModeAutoEnable",
+  "HttpsUpgrades",
+  "LensOverlay",
+  "MediaRouter",
+  "NetworkTimeServiceQuerying",
+  "OptimizationHints",
+  "PaintHolding",
+  "PreconnectToSearch",
+  "TcpPortRandomizationWin",
+  "ThirdPartyStoragePartitioning",
+];
+
 /** Throws, with advice, if no browser is installed: a browser test is never skipped. */
 export async function browserOptions(): Promise<LaunchOptions> {
   const executablePath = await findBrowser();
@@ -14,7 +41,8 @@ export async function browserOptions(): Promise<LaunchOptions> {
     );
   }
   // As on a computer without a graphics card: drawn by the processor, which is faster than an emulated card.
-  const args = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
+  const args = [`--disable-features=${FEATURES_OFF.join(",")}`];
+  if (process.getuid?.() === 0) args.push("--no-sandbox");
   return { executablePath, args, timeout: 120_000 };
 }
 

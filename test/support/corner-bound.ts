@@ -57,9 +57,9 @@ const ANGLES = 40;
 /** The minimum loss, s, within about 1 %; below 0 where the short cut saves more than the turn costs. */
 export function leastLoss(corner: CornerCase): number {
   const { speed, accel, deviation, turn } = corner;
-  const least = Math.tan(turn / 2);
+  const minMu = Math.tan(turn / 2);
   const scale = (speed * speed) / (2 * accel * deviation);
-  const bound = (share: number): number => dualBound(corner, least + scale * share * share);
+  const bound = (share: number): number => dualBound(corner, minMu + scale * share * share);
   // Concave in μ: ternary search.
   let [low, high] = [0, 2];
   for (let i = 0; i < 24; i++) {
@@ -84,9 +84,9 @@ function dualBound({ speed, accel, deviation, turn }: CornerCase, mu: number): n
       // Between neighbouring angles speed changes by less than this.
       for (let i = Math.max(0, j - 24); i <= Math.min(RADII, j + 24); i++) {
         const [r0, r1] = [radius(i), radius(j)];
-        const way = Math.sqrt(r0 * r0 + r1 * r1 - 2 * r0 * r1 * Math.cos(step));
+        const distance = Math.sqrt(r0 * r0 + r1 * r1 - 2 * r0 * r1 * Math.cos(step));
         const middle = cost((r0 + r1) / 2, (k + 0.5) * step);
-        next[j] = Math.min(next[j], at[i] + (way * middle) / accel);
+        next[j] = Math.min(next[j], at[i] + (distance * middle) / accel);
       }
     }
     at = next;

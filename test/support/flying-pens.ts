@@ -37,7 +37,7 @@ export const STATED_SERVO = { speed: 1, phaseMs: 11, contact: 0.5 } as const;
 export interface FlyingServo {
   readonly speed: number;
   readonly phaseMs: number;
-  /** Share of the way from down to up below which the tip touches. */
+  /** Share of the distance from down to up below which the tip touches. */
   readonly contact: number;
 }
 

@@ -1,4 +1,4 @@
-/** Whether the page shows how far a plot is: its text, and the drawn part of the sheet apart from the rest. */
+/** Checks that the page shows a plot's progress: in its text, and as the drawn part of the sheet. */
 import type { Page } from "playwright-core";
 import { expect } from "vitest";
 import type { Job } from "../../src/schema/index.js";
@@ -22,7 +22,7 @@ export const combOf = (first: string, second: string): string =>
 
 const colorOf = (hex: string): number => Number.parseInt(hex.slice(1), 16);
 
-/** Of what the canvas shows of the drawing, the share that is in the lines' own colour. Null: it shows none of it. */
+/** The share of the drawing's visible pixels that have the lines' own colour; null if the drawing is not visible. */
 async function drawnShare(page: Page, canvasName: string): Promise<number | null> {
   await waitForPicture(page);
   const counts = await colorCounts(page.getByRole("img", { name: canvasName, exact: true }));
@@ -31,14 +31,14 @@ async function drawnShare(page: Page, canvasName: string): Promise<number | null
   return drawn + left > 1_000 ? drawn / (drawn + left) : null;
 }
 
-/** The canvas shows as much drawn as the job is. */
+/** Expects the drawn share on the canvas to equal the job's progress. */
 export async function expectShareOnCanvas(page: Page, { progress }: Job, canvasName: string): Promise<void> {
   const distance = async (): Promise<number> =>
     Math.abs(((await drawnShare(page, canvasName)) ?? Infinity) - progress);
   await expect.poll(distance).toBeLessThan(0.15);
 }
 
-/** Watch shows the job, which does not move, in that state and at its position. */
+/** Expects that Watch shows the job, which does not move, in that state and at its position. */
 export async function expectPartlyDrawn(page: Page, job: Job, state: string): Promise<void> {
   const { name, progress, stats, remainingS } = job;
   expect(progress).toBeGreaterThan(0.2);

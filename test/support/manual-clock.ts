@@ -60,7 +60,7 @@ export class ManualClock implements Clock {
     await settle();
     while (!done) {
       const next = this.timers[0];
-      if (!next) throw new Error("the work waits for something that no timer brings");
+      if (!next) throw new Error("the work is not done, and no timer is pending");
       if (next.dueS > untilS) throw new Error(`the work is not done after ${limitS} s`);
       await this.advance(Math.max(0, next.dueS - this.timeS));
     }

@@ -6,7 +6,7 @@ import { openTab, waitForPlan } from "./page-actions.js";
 export const SPRINGS = { xHz: 15, yHz: 25, damping: 0.05 };
 const MEASURED = { ...machineById("axidraw-v3"), id: "measured", name: "Measured plotter", springs: SPRINGS };
 
-/** Needs a drawing on the paper, which lies there again afterwards. */
+/** Needs a drawing on the paper, and restores it afterwards. */
 export async function chooseMeasuredPlotter(page: Page, serverUrl: string): Promise<void> {
   await page.request.put(`${serverUrl}/api/v1/machines/${MEASURED.id}`, { data: MEASURED });
   await page.reload();

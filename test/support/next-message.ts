@@ -3,7 +3,7 @@ import type { ChildProcess } from "node:child_process";
 /** Longer than a busy computer needs to start a process. */
 const WITHIN_MS = 120_000;
 
-/** The next message of a child process that is wanted. Rejects if the process ends first, and after two minutes. */
+/** The child's next message that `isWanted` accepts. Rejects if the child ends first, and after two minutes. */
 export function nextMessage<T>(
   child: ChildProcess,
   isWanted: (message: T) => boolean = () => true,

@@ -31,7 +31,7 @@ export const historyPanel = (page: Page): Locator => page.getByRole("region", { 
 export const openView = (page: Page, name: "Prepare" | "Watch"): Promise<void> =>
   page.getByRole("group", { name: "View" }).getByRole("button", { name, exact: true }).click();
 
-/** On a phone's width the columns are tabs; on a desk everything stands side by side and there is nothing to do. */
+/** Opens a tab on a phone. Does nothing on a desktop, where all columns are visible. */
 export async function openTab(page: Page, name: "Set up" | "Queue" | "Plotter"): Promise<void> {
   const tab = page.getByRole("navigation", { name: "Panels" }).getByRole("button", { name, exact: true });
   if (await tab.isVisible()) await tab.click();

@@ -15,7 +15,7 @@ import {
 } from "./page-actions.js";
 import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
 
-/** A desktop without what costs time and is not tested here: CSS transitions, and storing the page for offline use. */
+/** A desktop without CSS transitions and offline storage of the page, which cost time and are not tested here. */
 const PLAIN: BrowserContextOptions = {
   viewport: { width: 1440, height: 900 },
   colorScheme: "light",
@@ -96,7 +96,7 @@ export class PageTest {
     if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
   }
 
-  /** Looks at the drawing that way. */
+  /** Selects a view of the drawing. */
   async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
     const looks = this.page.getByRole("group", { name: "Colour by" });
     await looks.getByRole("radio", { name, exact: true }).check();

@@ -67,9 +67,9 @@ function fromHost(bytes: Buffer): void {
     toHost(Buffer.from(foreignAnswer));
     return;
   }
-  const heard = bytes.subarray(0, bytesUntilDeaf);
-  bytesUntilDeaf -= heard.length;
-  board.receive(refusing > 0 ? heard.map(changed) : heard);
+  const received = bytes.subarray(0, bytesUntilDeaf);
+  bytesUntilDeaf -= received.length;
+  board.receive(refusing > 0 ? received.map(changed) : received);
   if (!board.accepting) terminal?.pause();
 }
 

@@ -6,7 +6,7 @@ import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
 import { childScript } from "./child-script.js";
 import { hasEnded, nextMessage } from "./next-message.js";
 
-/** Then a board's process that does not end by itself is killed. */
+/** After this time a board's process that has not ended is killed. */
 const CLOSED_WITHIN_MS = 10_000;
 
 export type ToBoard =

@@ -81,7 +81,7 @@ export class SegmentGrid {
 
 /** The largest distance from any of the points (x, y, x, y …) to the grid's segments. */
 export function farthest(points: Iterable<readonly [number, number]>, grid: SegmentGrid): number {
-  let most = 0;
-  for (const [x, y] of points) most = Math.max(most, grid.distance(x, y, most));
-  return most;
+  let maxMm = 0;
+  for (const [x, y] of points) maxMm = Math.max(maxMm, grid.distance(x, y, maxMm));
+  return maxMm;
 }

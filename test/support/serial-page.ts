@@ -107,7 +107,7 @@ export class SerialPages {
     expect((await storedJob(page)).state).toBe("done");
   }
 
-  /** What of the lines is missing on the paper, and what is drawn twice, in mm. */
+  /** Lengths of the lines that are missing on the paper, and that are drawn twice, mm. */
   async combFaults(
     page: Page,
     lines: number,

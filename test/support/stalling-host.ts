@@ -1,7 +1,7 @@
 import type { Clock, Transport } from "../../src/index.js";
 
 /**
- * A host that stalls now and then, like a process under SIGSTOP, a garbage collection or a busy machine: the
+ * A host that stalls from time to time, like a process under SIGSTOP, a garbage collection or a busy machine: the
  * board continues, but no timer fires and no byte is read until the host continues too.
  */
 export class StallingHost {

@@ -1,7 +1,7 @@
 /**
- * A Chromium whose tabs are hidden when another one is in front, as a user's are. Playwright shows the pages of its own
- * contexts as visible and focused at all times, and starts Chromium without the throttling of hidden tabs. Here Chromium
- * is started as it is, and Playwright connects to it without its defaults.
+ * A Chromium whose tabs are hidden when another one is in front, as a user's are. Playwright reports the pages of its
+ * contexts as visible and focused at all times, and disables the throttling of hidden tabs. Here Chromium starts with its
+ * usual settings, and Playwright connects to it.
  */
 import { spawn } from "node:child_process";
 import { once } from "node:events";

@@ -1,6 +1,6 @@
 /**
- * What a pen really draws, by a simulated servo: it does not know the planner's assumptions, only which pen commands
- * the board gets, and when. The tip touches below a height, wherever the carriage is.
+ * The line that a pen draws, according to a simulated servo. The servo gets only the pen commands and their times, not
+ * the planner's assumptions. Below a given height the tip touches the paper, wherever the carriage is.
  */
 import { commandLine } from "../../src/drivers/ebb/compile/compile.js";
 import type { CommandStream } from "../../src/drivers/ebb/compile/command-stream.js";
@@ -14,7 +14,7 @@ export interface TipServo {
   readonly speed: number;
   /** When its frames begin, 0 … 24. */
   readonly phaseMs: number;
-  /** Share of the way from down to up below which the tip touches. */
+  /** Share of the distance from down to up below which the tip touches. */
   readonly contact: number;
 }
 

@@ -1,6 +1,6 @@
 /**
- * Samples a trajectory at many times inside every block, and reports the worst values. It does not depend on
- * how the planner works: only on the columns, the formula of a block, and the drawing.
+ * Samples a trajectory at many times inside every block, and reports the worst values. It depends
+ * only on the columns, the formula of a block, and the drawing, not on how the planner works.
  */
 import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type { MotionLimits } from "../../src/internal.js";

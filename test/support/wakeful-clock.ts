@@ -1,10 +1,9 @@
 /**
  * A clock that stops while its process is not scheduled. Used for a virtual board: a real one is never
- * descheduled, so time that the machine took from the virtual one must not count as time in which its host
- * sent nothing. Used for time limits too: a computer that suspends the program says nothing about the
- * program.
+ * descheduled, so time in which the virtual one was suspended must not count as time in which its host
+ * sent nothing. Also used for time limits, which must not fail because the computer suspended the program.
  *
- * A heartbeat every few ms detects it: a late one means that the whole process slept.
+ * A heartbeat every few ms detects this: a late one means that the whole process was suspended.
  */
 import type { Clock } from "../../src/index.js";
 import { nodeClock } from "../../server/serial/node-clock.js";

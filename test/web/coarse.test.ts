@@ -59,7 +59,7 @@ describe("a drawing in few pieces", () => {
   });
 });
 
-describe("the pieces in sight", () => {
+describe("the visible pieces", () => {
   const boxes = boxPieces(draw);
   const whole: PieceRange = [0, draw.count];
   const has = (ranges: readonly PieceRange[], i: number): boolean =>

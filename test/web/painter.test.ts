@@ -89,11 +89,11 @@ class Card implements SceneRenderer {
 }
 
 const start = (card: Card, count: number) => {
-  const told: [number, boolean][] = [];
-  const painter = new Painter(card.clock, ({ view }, isWhole) => told.push([view.offsetX, isWhole]));
+  const pictures: [number, boolean][] = [];
+  const painter = new Painter(card.clock, ({ view }, isWhole) => pictures.push([view.offsetX, isWhole]));
   painter.setRenderer(card);
   painter.setScene(sceneOf(count));
-  return { painter, told };
+  return { painter, pictures };
 };
 /** Runs all pending work to its end. */
 const settle = async (): Promise<void> => {
@@ -103,23 +103,23 @@ const settle = async (): Promise<void> => {
 describe("the painter", () => {
   it("draws a small drawing completely and at once", async () => {
     const card = new Card(50);
-    const { painter, told } = start(card, 2_000);
+    const { painter, pictures } = start(card, 2_000);
     painter.show(frame(1));
     await settle();
     expect(card.shown).toEqual([{ offsetX: 1, detail: "whole", pieces: 2_000 }]);
-    expect(told).toEqual([[1, true]]);
+    expect(pictures).toEqual([[1, true]]);
   });
 
   it("shows a large drawing coarse first, and then all of it", async () => {
     const card = new Card(300);
-    const { painter, told } = start(card, 1_000_000);
+    const { painter, pictures } = start(card, 1_000_000);
     painter.show(frame(1));
     await settle();
     expect(card.shown).toEqual([
       { offsetX: 1, detail: "coarse", pieces: 40_000 },
       { offsetX: 1, detail: "whole", pieces: 1_000_000 },
     ]);
-    expect(told).toEqual([
+    expect(pictures).toEqual([
       [1, false],
       [1, true],
     ]);
@@ -177,16 +177,16 @@ describe("the painter", () => {
 
   it("draws the last frame again when the card was lost and is back", async () => {
     const card = new Card(100);
-    const { painter, told } = start(card, 100_000);
+    const { painter, pictures } = start(card, 100_000);
     card.clock.onTurn = (turn) => {
       if (turn === 3) painter.setRenderer(null);
     };
     painter.show(frame(1));
     await settle();
-    expect(told).toEqual([]);
+    expect(pictures).toEqual([]);
     painter.show(frame(2));
     await settle();
-    expect(told).toEqual([]);
+    expect(pictures).toEqual([]);
     const other = new Card(100, card.clock);
     painter.setRenderer(other);
     await settle();

@@ -25,7 +25,7 @@ const frames = fc.record({
   heightMm: fc.double({ min: 1, max: 400, noNaN: true }),
   turnDeg: fc.oneof(fc.constantFrom(0, 90, -45), fc.double({ min: -180, max: 180, noNaN: true })),
 });
-const way = fc.double({ min: -600, max: 600, noNaN: true });
+const offsetMm = fc.double({ min: -600, max: 600, noNaN: true });
 const ORIGIN = { x: 0, y: 0 };
 const OPPOSITE: Record<CornerPart, CornerPart> = { nw: "se", ne: "sw", sw: "ne", se: "nw" };
 
@@ -57,7 +57,7 @@ describe("grabbing the drawing", () => {
 describe("dragging", () => {
   it("by a corner keeps the proportions, the opposite corner, and a minimum size", () => {
     fc.assert(
-      fc.property(frames, fc.constantFrom(...CORNER_PARTS), way, way, (start, part, dx, dy) => {
+      fc.property(frames, fc.constantFrom(...CORNER_PARTS), offsetMm, offsetMm, (start, part, dx, dy) => {
         const end = draggedFrame(start, part, ORIGIN, dx, dy);
         expect(end.widthMm / end.heightMm).toBeCloseTo(start.widthMm / start.heightMm, 6);
         expect(Math.max(end.widthMm, end.heightMm)).toBeGreaterThan(1.99);

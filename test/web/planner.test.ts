@@ -39,7 +39,7 @@ class WorkerByHand implements WorkerLike {
 const setUp = () => {
   const workers: WorkerByHand[] = [];
   const timers: { callback: () => void; isOn: boolean }[] = [];
-  const heard: string[] = [];
+  const calls: string[] = [];
   const planner = new Planner(
     () => {
       const worker = new WorkerByHand();
@@ -57,17 +57,17 @@ const setUp = () => {
     },
     {
       onImported: () => undefined,
-      onPlanned: (result) => heard.push(result.drawingKey),
-      onExported: (format, text) => heard.push(`${format} ${text}`),
-      onExportFailed: (message) => heard.push(`not saved: ${message}`),
-      onFault: (fault: PlanFault) => heard.push(`fault ${fault.message}`),
+      onPlanned: (result) => calls.push(result.drawingKey),
+      onExported: (format, text) => calls.push(`${format} ${text}`),
+      onExportFailed: (message) => calls.push(`not saved: ${message}`),
+      onFault: (fault: PlanFault) => calls.push(`fault ${fault.message}`),
     },
   );
   const lastOf = <T>(list: readonly T[]): T => list[list.length - 1];
   return {
     planner,
     workers,
-    heard,
+    calls,
     timers,
     worker: () => lastOf(workers),
     asked: () => lastOf(lastOf(workers).asked),
@@ -92,17 +92,17 @@ describe("the planner", () => {
   });
 
   it("passes on only the newest plan", () => {
-    const { planner, worker, heard } = setUp();
+    const { planner, worker, calls } = setUp();
     planner.request(taskOf({ key: "a", text: "" }));
     planner.request(taskOf({ key: "b", text: "" }));
     const [first, second] = worker().asked;
     worker().reply({ type: "planned", id: first.id, planned: planned("a") });
     worker().reply({ type: "planned", id: second.id, planned: planned("b") });
-    expect(heard).toEqual(["b"]);
+    expect(calls).toEqual(["b"]);
   });
 
   it("ends a worker that is busy with an outdated request, and asks a new one", () => {
-    const { planner, workers, runTimers, asked, worker, heard } = setUp();
+    const { planner, workers, runTimers, asked, worker, calls } = setUp();
     planner.request(taskOf({ key: "huge", text: "huge" }));
     planner.request(taskOf({ key: "small", text: "small" }));
     runTimers();
@@ -110,7 +110,7 @@ describe("the planner", () => {
     expect(workers[0].isEnded).toBe(true);
     expect(asked()).toMatchObject({ drawingKey: "small", text: "small" });
     worker().reply({ type: "planned", id: asked().id, planned: planned("small") });
-    expect(heard).toEqual(["small"]);
+    expect(calls).toEqual(["small"]);
   });
 
   it("lets a worker that has started on the newest request finish", () => {
@@ -145,16 +145,16 @@ describe("the planner", () => {
   });
 
   it("asks for the prepared drawing as text, and passes it on", () => {
-    const { planner, worker, heard } = setUp();
+    const { planner, worker, calls } = setUp();
     planner.request(taskOf({ key: "a", text: "a" }));
     planner.export("svg", "3.0.3");
     expect(worker().exports).toEqual(["svg"]);
     worker().reply({ type: "exported", format: "svg", text: "<svg/>" });
-    expect(heard).toEqual(["svg <svg/>"]);
+    expect(calls).toEqual(["svg <svg/>"]);
   });
 
   it("ends a worker that reads a file for too long, and reports it; not one that has read it", () => {
-    const { planner, workers, timers, heard } = setUp();
+    const { planner, workers, timers, calls } = setUp();
     planner.request(taskOf({ key: "a", text: "<svg/>" }));
     workers[0].reply({ type: "started", id: 1 });
     workers[0].reply({ type: "imported", id: 1, drawingKey: "a", page: { widthMm: 9, heightMm: 9 } });
@@ -164,16 +164,16 @@ describe("the planner", () => {
     workers[0].reply({ type: "started", id: 2 });
     timers[1].callback();
     expect(workers[0].isEnded).toBe(true);
-    expect(heard).toEqual(["a", expect.stringContaining("fault This file takes too long to read")]);
+    expect(calls).toEqual(["a", expect.stringContaining("fault This file takes too long to read")]);
     planner.request(taskOf({ key: "c", text: "<svg/>" }));
     expect(workers[1].asked.map(({ drawingKey }) => drawingKey)).toEqual(["c"]);
   });
 
   it("reports that the worker died, and starts another for the next request", () => {
-    const { planner, workers, worker, heard } = setUp();
+    const { planner, workers, worker, calls } = setUp();
     planner.request(taskOf({ key: "a", text: "a" }));
     worker().onerror?.({ message: "out of memory" } as ErrorEvent);
-    expect(heard).toEqual(["fault out of memory"]);
+    expect(calls).toEqual(["fault out of memory"]);
     planner.request(taskOf({ key: "a", text: "a" }));
     expect(workers).toHaveLength(2);
     expect(worker().asked[0].text).toBe("a");

@@ -8,8 +8,8 @@ const asked = (path: string, more: { method?: string; mode?: string } = {}, page
 describe("the service worker", () => {
   it("answers for the page and its files", () => {
     expect(asked("/", { mode: "navigate" })).toBe("page");
-    expect(asked("/assets/index-abc.js")).toBe("kept");
-    expect(asked("/icon.svg")).toBe("kept");
+    expect(asked("/assets/index-abc.js")).toBe("cached");
+    expect(asked("/icon.svg")).toBe("cached");
   });
 
   it("never answers for the API, whatever the request", () => {
@@ -34,7 +34,7 @@ describe("the service worker", () => {
     const page = `${HERE}plots/app/`;
     expect(asked("/plots/app/?from=docs", { mode: "navigate" }, page)).toBe("page");
     expect(asked("/plots/app/index.html", { mode: "navigate" }, page)).toBe("page");
-    expect(asked("/plots/app/assets/index-abc.js", {}, page)).toBe("kept");
+    expect(asked("/plots/app/assets/index-abc.js", {}, page)).toBe("cached");
     for (const path of ["/", "/plots/", "/plots/docs/index.html"]) {
       expect(asked(path, { mode: "navigate" }, page)).toBeNull();
     }

@@ -3,6 +3,7 @@ import type { Shortcut } from "./shortcuts.js";
 import { shortcutsText } from "./text.js";
 import { previewText } from "../preview/text.js";
 import { aboutText } from "./about-text.js";
+import { Button } from "../ui/button.js";
 import { Dialog } from "../ui/dialog.js";
 import "./sheets.css";
 
@@ -27,9 +28,9 @@ export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => 
       </dl>
       <p className="note">{previewText.hint}</p>
       <p className="note">{words.fields}</p>
-      <button type="button" className="link" onClick={() => store.setState({ openDialog: "about" })}>
+      <Button kind="link" onClick={() => store.setState({ openDialog: "about" })}>
         {aboutText.title}
-      </button>
+      </Button>
     </Dialog>
   );
 };

@@ -1,4 +1,5 @@
 import { useActions } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { appName } from "../ui/text.js";
 import { pairingText } from "./text.js";
 import "./pairing.css";
@@ -19,9 +20,9 @@ export const Pairing = () => {
         ))}
       </ol>
       <p className="note">{words.terminal}</p>
-      <button type="button" className="button button-primary" onClick={() => void meet()}>
+      <Button kind="primary" onClick={() => void meet()}>
         {words.retry}
-      </button>
+      </Button>
     </main>
   );
 };

@@ -1,6 +1,7 @@
 import { activeJob, otherOperator, shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stripsText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { errorText } from "../ui/text.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
@@ -9,7 +10,7 @@ const PenWait = lazyPart(async () => (await import("../queue/pen-wait.js")).PenW
 
 /** Messages over the paper, visible with any panel: about the server, another operator, a pen change. */
 export const Strips = () => (
-  <div className="strips">
+  <div>
     <LinkStrip />
     <PenStrip />
     <div role="status">
@@ -28,9 +29,9 @@ const LinkStrip = () => {
   return (
     <p className="strip">
       <span>{words.outdated}</span>
-      <button type="button" className="button button-small" onClick={() => location.reload()}>
+      <Button kind="small" onClick={() => location.reload()}>
         {errorText.reload}
-      </button>
+      </Button>
     </p>
   );
 };
@@ -57,9 +58,9 @@ const OperatorStrip = () => {
   return (
     <p className="strip">
       <span>{words.operating(other.name)}</span>
-      <button type="button" className="button button-small" onClick={() => void takeOver()}>
+      <Button kind="small" onClick={() => void takeOver()}>
         {words.takeOver}
-      </button>
+      </Button>
     </p>
   );
 };
@@ -73,9 +74,9 @@ const ServerNotices = () => {
   return notices.slice(-3).map(({ id, message }) => (
     <p key={id} className="strip strip-bad" role="alert">
       <span>{message}</span>
-      <button type="button" className="button button-small" onClick={() => void dismissServerNotice(id)}>
+      <Button kind="small" onClick={() => void dismissServerNotice(id)}>
         {words.read}
-      </button>
+      </Button>
     </p>
   ));
 };

@@ -1,4 +1,5 @@
 import type { PageState } from "../state/store.js";
+import { Button } from "../ui/button.js";
 import { Dialog } from "../ui/dialog.js";
 import { takeOverText } from "./text.js";
 
@@ -10,12 +11,10 @@ export const TakeOver = ({ question }: { question: NonNullable<PageState["takeOv
     <p>{words.operating(question.operator)}</p>
     <p className="note">{words.hint}</p>
     <div className="button-row">
-      <button type="button" className="button button-primary" onClick={() => question.answer(true)}>
+      <Button kind="primary" onClick={() => question.answer(true)}>
         {words.takeOver}
-      </button>
-      <button type="button" className="button" onClick={() => question.answer(false)}>
-        {words.keep}
-      </button>
+      </Button>
+      <Button onClick={() => question.answer(false)}>{words.keep}</Button>
     </div>
   </Dialog>
 );

@@ -1,10 +1,11 @@
 import { currentPlotter, mayOperate, shownView } from "../state/store.js";
 import { THEMES, type Theme } from "../state/persist.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
+import { IconButton } from "../ui/button.js";
 import { appName } from "../ui/text.js";
 import { historyText, shortcutsText, studioLink, themeText, viewText } from "./text.js";
 import { plotterText } from "../plotter/text.js";
-import { Icon, type IconName } from "../ui/icon.js";
+import type { IconName } from "../ui/icon.js";
 import { MachineState } from "../plotter/machine-state.js";
 
 const THEME_ICON: Record<Theme, IconName> = { auto: "auto", light: "sun", dark: "moon" };
@@ -60,26 +61,8 @@ const UndoButtons = () => {
   const { undo, redo } = useActions();
   return (
     <>
-      <button
-        type="button"
-        className="tool"
-        aria-label={historyText.undo}
-        title={historyText.undo}
-        disabled={!canUndo}
-        onClick={undo}
-      >
-        <Icon name="undo" />
-      </button>
-      <button
-        type="button"
-        className="tool"
-        aria-label={historyText.redo}
-        title={historyText.redo}
-        disabled={!canRedo}
-        onClick={redo}
-      >
-        <Icon name="redo" />
-      </button>
+      <IconButton kind="tool" icon="undo" label={historyText.undo} disabled={!canUndo} onClick={undo} />
+      <IconButton kind="tool" icon="redo" label={historyText.redo} disabled={!canRedo} onClick={redo} />
     </>
   );
 };
@@ -90,15 +73,12 @@ const StudioButton = () => {
   const isMine = usePageState(mayOperate);
   if (!isMine || !features.sharing) return null;
   return (
-    <button
-      type="button"
-      className="tool"
-      aria-label={studioLink}
-      title={studioLink}
+    <IconButton
+      kind="tool"
+      icon="share"
+      label={studioLink}
       onClick={() => store.setState({ openDialog: "studio" })}
-    >
-      <Icon name="share" />
-    </button>
+    />
   );
 };
 
@@ -127,15 +107,12 @@ const PlotterSwitch = () => {
 const HelpButton = () => {
   const store = usePageStore();
   return (
-    <button
-      type="button"
-      className="tool tool-keys"
-      aria-label={shortcutsText.title}
-      title={shortcutsText.title}
+    <IconButton
+      kind="tool"
+      icon="help"
+      label={shortcutsText.title}
       onClick={() => store.setState({ openDialog: "keys" })}
-    >
-      <Icon name="help" />
-    </button>
+    />
   );
 };
 
@@ -145,14 +122,11 @@ const ThemeButton = () => {
   const label = `${themeText.label}: ${themeText[theme]}`;
   const next = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length] ?? "auto";
   return (
-    <button
-      type="button"
-      className="tool"
-      aria-label={label}
-      title={label}
+    <IconButton
+      kind="tool"
+      icon={THEME_ICON[theme]}
+      label={label}
       onClick={() => changeView({ theme: next })}
-    >
-      <Icon name={THEME_ICON[theme]} />
-    </button>
+    />
   );
 };

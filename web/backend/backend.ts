@@ -5,9 +5,9 @@
 import type { MachineProfile } from "../../src/index.js";
 import type {
   AccessEntry,
-  BoxMm,
   CommandAnswer,
   Device,
+  HandMove,
   Job,
   JobChange,
   JobPatch,
@@ -102,7 +102,10 @@ export interface Backend {
   setPlotterMachine(id: string, machine: string): Promise<Plotter>;
   movePen(id: string, request: PenRequest): Promise<Plotter>;
   motorsOff(id: string): Promise<Plotter>;
-  home(id: string, settings: PlotSettings): Promise<Plotter>;
+  /** With the speeds and the machine of `settings`. */
+  moveByHand(id: string, move: HandMove, settings: PlotSettings): Promise<Plotter>;
+  /** A line for the board, as typed. */
+  command(id: string, line: string): Promise<CommandAnswer>;
   /** Lets the user choose a port, and connects to it. Needs `features.asksForPort` and a click. */
   connect(id: string): Promise<Plotter>;
   /** The log of commands and replies of the plotter's connection. */
@@ -117,24 +120,8 @@ export interface Backend {
   /** The SVG of a drawing, for a thumbnail; null if it is not SVG or is larger than `maxBytes`. */
   svgOf(source: DrawingSource, maxBytes: number): Promise<string | null>;
 
-  /** Parts that the first view does not need. They are loaded on the first call. */
-  hand(): Promise<HandBackend>;
+  /** A part that the first view does not need. It is loaded on the first call. */
   studio(): Promise<StudioBackend>;
-}
-
-/** Manual moves, with the speeds and the machine of `settings`. */
-export interface HandBackend {
-  walk(plotterId: string, settings: PlotSettings, xMm: number, yMm: number): Promise<Plotter>;
-  jog(plotterId: string, settings: PlotSettings, dxMm: number, dyMm: number): Promise<Plotter>;
-  setHome(plotterId: string, settings: PlotSettings): Promise<Plotter>;
-  cyclePen(plotterId: string, settings: PlotSettings): Promise<Plotter>;
-  testLine(plotterId: string, settings: PlotSettings): Promise<Plotter>;
-  testPatch(plotterId: string, settings: PlotSettings): Promise<Plotter>;
-  frameBox(plotterId: string, settings: PlotSettings, boxMm: BoxMm): Promise<Plotter>;
-  square(plotterId: string, settings: PlotSettings, sizeMm: number): Promise<Plotter>;
-  servo(plotterId: string, settings: PlotSettings, pos: number): Promise<Plotter>;
-  /** A line for the board, as typed. */
-  command(plotterId: string, line: string): Promise<CommandAnswer>;
 }
 
 /** Plotters, access, webhooks, and the queue that several servers share. */

@@ -3,6 +3,7 @@ import { DRAWING_EXTENSIONS } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { ExportPanel } from "./export.js";
 import { drawingText, reportText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingsGroup } from "../ui/settings-group.js";
@@ -100,14 +101,13 @@ const Report = () => {
           <li key={code + message}>
             {message}
             {boxes.length > 0 && (
-              <button
-                type="button"
-                className="link"
+              <Button
+                kind="link"
                 aria-pressed={noteBoxes === boxes}
                 onClick={() => store.setState({ noteBoxes: noteBoxes === boxes ? [] : boxes })}
               >
                 {reportText.show}
-              </button>
+              </Button>
             )}
           </li>
         ))}

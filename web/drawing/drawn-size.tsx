@@ -1,5 +1,6 @@
 import { canBePaper, findMachine, isEmptyBox, isOnFilesPage, onFilesPage } from "../../src/internal.js";
 import { useActions, usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { formatNumber, formatSize } from "../ui/format.js";
 import { drawnSizeText } from "./text.js";
 import type { Planned } from "../worker/protocol.js";
@@ -34,9 +35,8 @@ const UseFilesPage = ({ planned }: { planned: Planned }) => {
   const isOnIt = usePageState((state) => isOnFilesPage(state.settings.prepare, page));
   if (isOnIt || !canBePaper(page)) return null;
   return (
-    <button
-      type="button"
-      className="link"
+    <Button
+      kind="link"
       onClick={() =>
         changeSettings("file's page", (settings) => ({
           ...settings,
@@ -45,6 +45,6 @@ const UseFilesPage = ({ planned }: { planned: Planned }) => {
       }
     >
       {words.useFilesPage}
-    </button>
+    </Button>
   );
 };

@@ -3,6 +3,7 @@ import { useState } from "react";
 import { boardFirmware } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { saveText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { EXPORT_FORMATS, type ExportFormat } from "../worker/protocol.js";
 
@@ -28,14 +29,13 @@ export const ExportList = () => {
         <li key={format}>
           <div className="export-head">
             <strong>{WORDS[format].title}</strong>
-            <button
-              type="button"
-              className="button button-small"
+            <Button
+              kind="small"
               aria-label={words.save(WORDS[format].title)}
               onClick={() => exportAs(format, firmware)}
             >
               {words.saveShort}
-            </button>
+            </Button>
           </div>
           <p className="note">{WORDS[format].hint}</p>
           {format === "commands" && (

@@ -1,6 +1,7 @@
 import { HATCH_TABLE, PREPARE_TABLE } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
 import { fillText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePrepareChange } from "./use-prepare-change.js";
@@ -70,13 +71,7 @@ const NothingToFill = () => {
       <p className="note note-error" role="status">
         {words.nothingToFill}
       </p>
-      <button
-        type="button"
-        className="button"
-        onClick={() => change("hatch outlines", { hatchOutlines: true })}
-      >
-        {words.fillOutlines}
-      </button>
+      <Button onClick={() => change("hatch outlines", { hatchOutlines: true })}>{words.fillOutlines}</Button>
     </>
   );
 };

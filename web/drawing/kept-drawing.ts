@@ -52,13 +52,13 @@ export const browserDrawings = (): DrawingStorage => {
     opened ??= openDatabase();
     return (await opened).transaction(TABLE, mode).objectStore(TABLE);
   };
-  /** Resolves when it is stored: whether there is room shows only at the end of the transaction. */
+  /** Resolves when the change is stored. Only the end of the transaction shows whether there was room. */
   const change = async (make: (table: IDBObjectStore) => void): Promise<void> => {
     const changed = await table("readwrite");
     return new Promise((resolve, reject) => {
       const { transaction } = changed;
       transaction.oncomplete = () => resolve();
-      transaction.onabort = () => reject(transaction.error ?? new Error("The browser keeps no data."));
+      transaction.onabort = () => reject(transaction.error ?? new Error("The browser does not store data."));
       make(changed);
     });
   };
@@ -68,7 +68,7 @@ export const browserDrawings = (): DrawingStorage => {
       try {
         await change((drawings) => drawings.put(drawing, KEY));
       } catch (error) {
-        // No room for this one: an older drawing must not come back in its place.
+        // There is no room for this drawing. Delete the older one, so that the next visit does not restore it instead.
         await change((drawings) => drawings.delete(KEY));
         throw error;
       }

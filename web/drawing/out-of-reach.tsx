@@ -10,6 +10,7 @@ import { paperBoxOf } from "../preview/frame.js";
 import type { Planned } from "../worker/protocol.js";
 import type { PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { formatCount, formatSize } from "../ui/format.js";
 import { reachText } from "./text.js";
 
@@ -55,9 +56,7 @@ export const OutOfReach = () => {
         {!doesTurnHelp && ` ${words.whatToDo}`}
       </p>
       {doesTurnHelp && (
-        <button
-          type="button"
-          className="button"
+        <Button
           onClick={() => {
             const { xMm, yMm, widthMm, heightMm } = frameMm;
             const frame = { x0: xMm, y0: yMm, x1: xMm + widthMm, y1: yMm + heightMm };
@@ -68,7 +67,7 @@ export const OutOfReach = () => {
           }}
         >
           {words.turn}
-        </button>
+        </Button>
       )}
     </div>
   );

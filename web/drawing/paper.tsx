@@ -9,9 +9,9 @@ import {
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { paperText } from "./text.js";
+import { IconButton } from "../ui/button.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatSize } from "../ui/format.js";
-import { Icon } from "../ui/icon.js";
 import { SettingField } from "../ui/setting-field.js";
 import { placeOfFrame, wholeTurn } from "../scene/placing.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -105,15 +105,12 @@ export const PaperPanel = () => {
           value={angleDeg}
           onChange={(value) => turnTo("rotate", value)}
         />
-        <button
-          type="button"
-          className="button button-icon"
-          title={words.rotateQuarter}
-          aria-label={words.rotateQuarter}
+        <IconButton
+          kind="icon"
+          icon="again"
+          label={words.rotateQuarter}
           onClick={() => turnTo("quarter", angleDeg + 90)}
-        >
-          <Icon name="again" />
-        </button>
+        />
       </div>
       <Segments
         label={words.unit}

@@ -4,6 +4,7 @@ import { boxAround, snapLinesOf } from "../scene/placing.js";
 import { frameNow } from "../preview/frame.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { placeText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { orientedPaper } from "../../src/internal.js";
 import { usePrepareChange } from "./use-prepare-change.js";
@@ -81,9 +82,9 @@ const Aligning = ({ place, set }: AligningProps) => {
   return (
     <div className="align-buttons">
       {(["across", "down", "fill"] as const).map((where) => (
-        <button key={where} type="button" className="button button-small" onClick={() => align(where)}>
+        <Button key={where} kind="small" onClick={() => align(where)}>
           {words.align[where]}
-        </button>
+        </Button>
       ))}
     </div>
   );

@@ -23,9 +23,9 @@ import {
 } from "./layer-settings.js";
 import { usePageState } from "../state/use-store.js";
 import { layersText } from "./text.js";
+import { Button, IconButton } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { Icon } from "../ui/icon.js";
-import { IconButton } from "../ui/icon-button.js";
 import { OwnNumber } from "../ui/own-number.js";
 import { useChange } from "../ui/use-change.js";
 
@@ -51,20 +51,24 @@ export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) =>
       <StopChoice row={row} />
       {rows.length > 1 && (
         <div className="button-row">
-          <button
-            type="button"
-            className="button button-small"
+          <Button
+            kind="small"
             onClick={() => change(`solo ${row.id}`, (settings) => showOnly(settings, rows, row.id))}
           >
             <Icon name="eye" />
             {words.onlyThis}
-          </button>
+          </Button>
           <span className="spacer" />
-          <IconButton icon="up" label={words.earlier} isOff={index === 0} onClick={() => onMove(index - 1)} />
+          <IconButton
+            icon="up"
+            label={words.earlier}
+            disabled={index === 0}
+            onClick={() => onMove(index - 1)}
+          />
           <IconButton
             icon="down"
             label={words.later}
-            isOff={index === rows.length - 1}
+            disabled={index === rows.length - 1}
             onClick={() => onMove(index + 1)}
           />
         </div>
@@ -89,7 +93,7 @@ const CodesNote = ({ row }: RowProps) => {
   return <p className="note">{words.codes(codes.join(", "))}</p>;
 };
 
-/** The values that apply where the layer has no setting of its own: the common settings, and the codes in its name. */
+/** The values that apply if the layer has no custom setting: the common settings, and the codes in its name. */
 const useInherited = (row: PreparedLayer) => {
   const settings = usePageState((state) => state.settings);
   const bare = {

@@ -5,6 +5,7 @@ import type { Planned } from "../worker/protocol.js";
 import { inWantedOrder, isLayerShown, moveLayer, showAll } from "./layer-settings.js";
 import { usePageState } from "../state/use-store.js";
 import { layersText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { Icon } from "../ui/icon.js";
 import { LayerRow } from "./layer-row.js";
@@ -60,18 +61,13 @@ export const LayerList = () => {
       {(hasHidden || layerOrder.length > 0) && (
         <div className="layer-links">
           {hasHidden && (
-            <button
-              type="button"
-              className="link"
-              onClick={() => change("all layers", (now) => showAll(now, rows))}
-            >
+            <Button kind="link" onClick={() => change("all layers", (now) => showAll(now, rows))}>
               {words.everything}
-            </button>
+            </Button>
           )}
           {layerOrder.length > 0 && (
-            <button
-              type="button"
-              className="link"
+            <Button
+              kind="link"
               onClick={() =>
                 change("file order", (now) => ({
                   ...now,
@@ -80,7 +76,7 @@ export const LayerList = () => {
               }
             >
               {words.fileOrder}
-            </button>
+            </Button>
           )}
         </div>
       )}

@@ -4,6 +4,7 @@ import { layerColor } from "../scene/color-map.js";
 import { isLayerShown, setLayerPen, showLayer } from "./layer-settings.js";
 import { usePageState } from "../state/use-store.js";
 import { layersText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { formatCount } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { LayerDetails } from "./layer-details.js";
@@ -74,9 +75,9 @@ export const LayerRow = (props: LayerRowProps) => {
 const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readonly name: string }) => {
   const drag = useRowDrag(list, row.id, onMove);
   return (
-    <button
-      type="button"
-      className="tool layer-grip"
+    <Button
+      kind="tool"
+      className="layer-grip"
       aria-label={words.drag(name)}
       title={words.dragHint}
       onKeyDown={(event) => {
@@ -88,7 +89,7 @@ const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readon
       {...drag}
     >
       <Icon name="grip" />
-    </button>
+    </Button>
   );
 };
 

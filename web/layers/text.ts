@@ -12,7 +12,7 @@ export const layersText = {
     "The lines of this layer have several colours, but one pen draws them all. To draw each colour with its own pen, choose “Layers from: Colours”.",
   show: (name: string) => `Draw ${name}`,
   drag: (name: string) => `Drag ${name} to its place, or press arrow up or down`,
-  dragHint: "Drag to change the order, or arrow up and down",
+  dragHint: "Drag to change the order, or press arrow up or down",
   detailsOf: "Settings of",
   everything: "All on",
   onlyThis: "Draw only this layer",
@@ -30,7 +30,7 @@ export const layersText = {
   hatchAngle: "Angle of the lines",
   stopBefore: "Stop before this layer",
   stops: { auto: "Automatic", yes: "Always", no: "Never" },
-  reset: (label: string) => `${label} as for all`,
+  reset: (label: string) => `Reset “${label}” to the common value`,
   codes: (codes: string) => `Its name asks for ${codes}. Your settings here override it.`,
   code: {
     skip: "no drawing",

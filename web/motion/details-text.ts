@@ -10,7 +10,7 @@ export const detailsText = {
     "For a plotter that is heavier along one axis, pen up and down. Empty: no limit besides those above.",
   noLimit: (label: string) => `${label}: no limit`,
   mode: "Corners",
-  shaper: "Against swinging",
+  shaper: "Reduce ringing",
   shapers: {
     none: "Off",
     zv: "ZV, the shortest",

@@ -190,7 +190,7 @@ const Refinements = ({ motion }: { motion: MotionSettings }) => {
   const change = useMotionChange();
   const { ease, fit } = motion;
   return (
-    <div className="subgroup refinements">
+    <div className="subgroup">
       <Switch
         label={words.ease}
         isOn={Boolean(ease)}

@@ -2,6 +2,7 @@ import { QUALITIES, qualityOf, type Quality } from "../../src/internal.js";
 import { withQuality } from "../state/motion-of-machine.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { motionText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatInUnit, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -77,16 +78,15 @@ const Swing = () => {
   return (
     <div className="swing" data-measured={springs !== null || undefined}>
       <p className="note">{note}</p>
-      <button
-        type="button"
-        className={springs === null ? "button button-small" : "link"}
+      <Button
+        kind={springs === null ? "small" : "link"}
         onClick={() => store.setState({ openDialog: "ringing" })}
       >
         {springs === null ? words.measure : words.measureAgain}
-      </button>
-      <button type="button" className="link" onClick={() => changeView({ colorBy: "swing" })}>
+      </Button>
+      <Button kind="link" onClick={() => changeView({ colorBy: "swing" })}>
         {words.showSwing}
-      </button>
+      </Button>
     </div>
   );
 };

@@ -6,6 +6,7 @@ import { alignmentJob, CORNERS, type Corner } from "./alignment-mark.js";
 import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-settings.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { pensText } from "./text.js";
+import { Button, IconButton } from "../ui/button.js";
 import { Segments, Select, type ChoiceOption } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
@@ -34,16 +35,14 @@ export const PenList = () => {
       </ul>
       <div className="pen-buttons">
         <FromColors />
-        <button
-          type="button"
-          className="button"
+        <Button
           onClick={() =>
             change("add pen", (settings) => addPen(settings, { name: words.newName(pens.length + 1) }))
           }
         >
           <Icon name="plus" />
           {words.add}
-        </button>
+        </Button>
       </div>
       {pens.length > 0 && (
         <Segments
@@ -68,13 +67,9 @@ const FromColors = () => {
   const isDone = JSON.stringify(withPens.layerPens) === JSON.stringify(settings.layerPens);
   if (isDone) return null;
   return (
-    <button
-      type="button"
-      className="button"
-      onClick={() => change("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}
-    >
+    <Button onClick={() => change("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}>
       {words.fromColors}
-    </button>
+    </Button>
   );
 };
 
@@ -97,9 +92,9 @@ const ShowInPens = () => {
   const { changeView } = useActions();
   if (!hasPens || colorBy === "pen") return null;
   return (
-    <button type="button" className="link" onClick={() => changeView({ colorBy: "pen" })}>
+    <Button kind="link" onClick={() => changeView({ colorBy: "pen" })}>
       {words.showInPens}
-    </button>
+    </Button>
   );
 };
 
@@ -133,16 +128,14 @@ const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
           }}
         />
         <span className="layer-count">{facts.join(" · ")}</span>
-        <button
-          type="button"
-          className="tool layer-more"
-          aria-label={words.edit(pen.name)}
-          title={words.edit(pen.name)}
+        <IconButton
+          kind="tool"
+          icon="chevron"
+          label={words.edit(pen.name)}
+          className="layer-more"
           aria-expanded={isOpen}
           onClick={onToggle}
-        >
-          <Icon name="chevron" />
-        </button>
+        />
       </div>
       {isOpen && <PenDetails pen={pen} />}
     </>
@@ -190,14 +183,13 @@ const PenDetails = ({ pen }: { pen: PlotPen }) => {
         onChange={(offsetYMm) => set({ offsetYMm })}
       />
       <Mark pen={pen} />
-      <button
-        type="button"
-        className="button button-small"
+      <Button
+        kind="small"
         onClick={() => change(`remove ${pen.id}`, (settings) => removePen(settings, pen.id))}
       >
         <Icon name="close" />
         {words.remove(pen.name)}
-      </button>
+      </Button>
     </div>
   );
 };
@@ -216,16 +208,14 @@ const Mark = ({ pen }: { pen: PlotPen }) => {
         options={CORNERS.map((value): ChoiceOption<Corner> => ({ value, label: words.corners[value] }))}
         onChange={(value) => setCorner(value)}
       />
-      <button
-        type="button"
-        className="button"
+      <Button
         disabled={isBusy}
         onClick={() =>
           void plotJob(alignmentJob(store.getState().settings, pen, corner, words.markName(pen.name)))
         }
       >
         {words.plotMark}
-      </button>
+      </Button>
     </>
   );
 };

@@ -1,9 +1,9 @@
 import { useEffect, useRef, useState, type FormEvent, type KeyboardEvent } from "react";
 import { activeJob, currentPlotter } from "../state/store.js";
-import { usePageState } from "../state/use-store.js";
+import { useBackend, usePageState, usePageStore } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
 import { consoleText } from "./console-text.js";
-import { useHand } from "./use-hand.js";
 import "./console.css";
 
 const words = consoleText;
@@ -42,7 +42,8 @@ export const Console = () => {
 };
 
 const useConversation = () => {
-  const hand = useHand();
+  const backend = useBackend();
+  const store = usePageStore();
   const [lines, setLines] = useState<readonly Line[]>([]);
   const nextId = useRef(0);
   const add = (kind: Line["kind"], contents: readonly string[]): void => {
@@ -52,7 +53,7 @@ const useConversation = () => {
   const send = async (line: string): Promise<void> => {
     add("sent", [line]);
     try {
-      const { replies, note } = await hand.command(line);
+      const { replies, note } = await backend.command(currentPlotter(store.getState())?.id ?? "", line);
       add("reply", replies.length > 0 ? replies : [words.noReply]);
       if (note !== null) add("note", [note]);
     } catch (error) {
@@ -100,9 +101,7 @@ const CommandLine = ({ onSend }: { onSend(line: string): Promise<void> }) => {
         onChange={(event) => setLine(event.target.value)}
         onKeyDown={onKeyDown}
       />
-      <button type="submit" className="button">
-        {words.send}
-      </button>
+      <Button type="submit">{words.send}</Button>
     </form>
   );
 };

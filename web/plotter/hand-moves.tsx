@@ -1,12 +1,13 @@
 import { useState } from "react";
+import type { HandMove } from "../../src/schema/index.js";
 import { activeJob, currentPlotter } from "../state/store.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, usePageState } from "../state/use-store.js";
 import { movesText } from "./hand-text.js";
+import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
 import { drawnBoxMm } from "./drawn-box.js";
-import { useHand } from "./use-hand.js";
 import "./hand-moves.css";
 
 const words = movesText;
@@ -14,15 +15,14 @@ const MAX_MM = 5_000;
 
 /** Jog pad, moves to a position, and small moves that prepare a plot. Disabled during a plot. */
 export const HandMoves = () => {
-  const hand = useHand();
-  const { home } = useActions();
+  const { moveByHand } = useActions();
   const hasJob = usePageState((state) => activeJob(state) !== null);
   const connection = usePageState((state) => currentPlotter(state)?.connection ?? "absent");
   const isOff = hasJob || (connection !== "idle" && connection !== "busy");
   return (
     <div className="hand-moves">
       {hasJob && <p className="note">{words.heldOff}</p>}
-      <JogPad isOff={isOff} jog={hand.jog} home={home} />
+      <JogPad isOff={isOff} move={moveByHand} />
       <Walk isOff={isOff} />
       <Moves isOff={isOff} />
       <NudgeSettings isOff={isOff} />
@@ -31,7 +31,7 @@ export const HandMoves = () => {
 };
 
 const Walk = ({ isOff }: { isOff: boolean }) => {
-  const hand = useHand();
+  const { moveByHand } = useActions();
   const [xMm, setX] = useState(0);
   const [yMm, setY] = useState(0);
   return (
@@ -39,7 +39,7 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
       className="walk"
       onSubmit={(event) => {
         event.preventDefault();
-        void hand.walk(xMm, yMm);
+        void moveByHand({ kind: "walk", xMm, yMm });
       }}
     >
       <div className="field-pair">
@@ -62,43 +62,33 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
           onChange={setY}
         />
       </div>
-      <button type="submit" className="button" disabled={isOff}>
+      <Button type="submit" disabled={isOff}>
         {words.walk}
-      </button>
+      </Button>
     </form>
   );
 };
 
 const Moves = ({ isOff }: { isOff: boolean }) => {
-  const hand = useHand();
-  const store = usePageStore();
-  const box = usePageState(drawnBoxMm);
-  const moves = [
-    [words.setHome, words.setHomeHint, () => hand.setHome()],
-    [words.cyclePen, words.cyclePenHint, () => hand.cyclePen()],
-    [
-      words.frame,
-      words.frameHint,
-      () => {
-        const now = drawnBoxMm(store.getState());
-        return now ? hand.frameBox(now) : Promise.resolve(null);
-      },
-    ],
-    [words.testPatch, words.testPatchHint, () => hand.testPatch()],
-  ] as const;
+  const { moveByHand } = useActions();
+  const boxMm = usePageState(drawnBoxMm);
+  const moves: readonly (readonly [label: string, hint: string, move: HandMove | null])[] = [
+    [words.setHome, words.setHomeHint, { kind: "set-home" }],
+    [words.cyclePen, words.cyclePenHint, { kind: "cycle-pen" }],
+    [words.frame, words.frameHint, boxMm && { kind: "frame", boxMm }],
+    [words.testPatch, words.testPatchHint, { kind: "test-patch" }],
+  ];
   return (
     <div className="button-grid">
-      {moves.map(([label, hint, run]) => (
-        <button
+      {moves.map(([label, hint, move]) => (
+        <Button
           key={label}
-          type="button"
-          className="button"
           title={hint}
-          disabled={isOff || (label === words.frame && box === null)}
-          onClick={() => void run()}
+          disabled={isOff || move === null}
+          onClick={() => move && void moveByHand(move)}
         >
           {label}
-        </button>
+        </Button>
       ))}
     </div>
   );

@@ -1,5 +1,7 @@
 import { useRef, useState, type KeyboardEvent } from "react";
+import type { HandMove } from "../../src/schema/index.js";
 import { jogText } from "./hand-text.js";
+import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
@@ -32,17 +34,18 @@ const MAX_WAITING = 2;
 
 interface JogPadProps {
   readonly isOff: boolean;
-  jog(dxMm: number, dyMm: number): Promise<unknown>;
-  home(): Promise<unknown>;
+  move(move: HandMove): Promise<unknown>;
 }
 
 /** Eight directions and a step, by finger, mouse or the arrow keys. */
-export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
+export const JogPad = ({ isOff, move }: JogPadProps) => {
   const [step, setStep] = useState<StepMm>("10");
-  const move = useTaskQueue();
+  const queue = useTaskQueue();
   const go = (x: number, y: number): void => {
     const stepMm = Number(step);
-    if (!isOff) move(() => (x === 0 && y === 0 ? home() : jog(x * stepMm, y * stepMm)));
+    const isHome = x === 0 && y === 0;
+    const wanted: HandMove = isHome ? { kind: "home" } : { kind: "jog", dxMm: x * stepMm, dyMm: y * stepMm };
+    if (!isOff) queue(() => move(wanted));
   };
   const onKeyDown = (event: KeyboardEvent): void => {
     const direction = KEY_DIRECTIONS[event.key];
@@ -54,16 +57,15 @@ export const JogPad = ({ isOff, jog, home }: JogPadProps) => {
     <div className="jog">
       <div className="jog-pad" role="group" aria-label={words.title} onKeyDown={onKeyDown}>
         {DIRECTIONS.map(([name, x, y]) => (
-          <button
+          <Button
             key={name}
-            type="button"
-            className="button jog-button"
+            className="jog-button"
             aria-label={name === "home" ? words.home : words.by(words.directions[name], step)}
             disabled={isOff}
             onClick={() => go(x, y)}
           >
             {name === "home" ? <Icon name="home" /> : <Arrow x={x} y={y} />}
-          </button>
+          </Button>
         ))}
       </div>
       <Segments<StepMm>

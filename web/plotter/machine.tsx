@@ -4,6 +4,7 @@ import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { plotterText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -15,7 +16,7 @@ import { SettingsGroup } from "../ui/settings-group.js";
 const words = plotterText;
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
-/** What the plotter is doing, and the pen at hand. */
+/** The plotter's state, and the controls that every plot needs. */
 export const MachinePanel = () => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
@@ -27,16 +28,14 @@ export const MachinePanel = () => {
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
       {isMine && plotter?.kind === "virtual" && mayConnect && (
-        <button type="button" className="button" onClick={() => void connectPlotter(plotter.id)}>
-          {words.connect}
-        </button>
+        <Button onClick={() => void connectPlotter(plotter.id)}>{words.connect}</Button>
       )}
       {isMine && <PenAtHand />}
     </section>
   );
 };
 
-/** What a plotter needs more rarely. `children`: how the pen is lifted, which the pens' folder has. */
+/** Controls that are needed less often. `children`: the settings for lifting the pen, which are in the folder pens. */
 export const MachineSetUp = ({ children }: { children: ReactNode }) => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
@@ -63,9 +62,9 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
         {isMine && <DialogLink name="ringing">{words.ringing}</DialogLink>}
         {isMine && <DialogLink name="console">{words.console}</DialogLink>}
         {plotter && (
-          <button type="button" className="link" onClick={() => void saveLog(plotter.id)}>
+          <Button kind="link" onClick={() => void saveLog(plotter.id)}>
             {words.log}
-          </button>
+          </Button>
         )}
       </p>
     </section>
@@ -75,9 +74,9 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
 const DialogLink = ({ name, children }: { name: DialogName; children: string }) => {
   const store = usePageStore();
   return (
-    <button type="button" className="link" onClick={() => store.setState({ openDialog: name })}>
+    <Button kind="link" onClick={() => store.setState({ openDialog: name })}>
       {children}
-    </button>
+    </Button>
   );
 };
 

@@ -1,12 +1,12 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
 import { machinesText } from "./machines-text.js";
 import { saveFile } from "../ui/save-file.js";
 import { copyOf, fileOf, freeId, parseMachineFile, problemsOf } from "./profile.js";
 import { ProfileForm } from "./profile-form.js";
-import { useHand } from "./use-hand.js";
 import "./machines.css";
 
 const words = machinesText;
@@ -28,8 +28,7 @@ export const MachinesDialog = () => {
 const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
   const chosen = usePageState((state) => state.settings.machine);
   const made = usePageState((state) => state.machines).filter(({ builtIn }) => !builtIn);
-  const { chooseMachine } = useActions();
-  const hand = useHand();
+  const { chooseMachine, removeMachine } = useActions();
   const taken = [...MACHINES, ...made].map(({ id }) => id);
   return (
     <>
@@ -50,7 +49,7 @@ const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
               isOwn={made.some(({ id }) => id === machine.id)}
               onEdit={() => onEdit(machine)}
               onCopy={() => onEdit(copyOf(machine, words.copyName(machine.name), taken))}
-              onRemove={() => void hand.removeMachine(machine)}
+              onRemove={() => void removeMachine(machine)}
             />
           </li>
         ))}
@@ -75,25 +74,24 @@ interface RowButtonsProps {
 const RowButtons = ({ machine, isOwn, onEdit, onCopy, onRemove }: RowButtonsProps) => (
   <span className="row-links">
     {isOwn && (
-      <button type="button" className="link" aria-label={words.editNamed(machine.name)} onClick={onEdit}>
+      <Button kind="link" aria-label={words.editNamed(machine.name)} onClick={onEdit}>
         {words.edit}
-      </button>
+      </Button>
     )}
-    <button type="button" className="link" aria-label={words.copyNamed(machine.name)} onClick={onCopy}>
+    <Button kind="link" aria-label={words.copyNamed(machine.name)} onClick={onCopy}>
       {words.copy}
-    </button>
-    <button
-      type="button"
-      className="link"
+    </Button>
+    <Button
+      kind="link"
       aria-label={words.saveNamed(machine.name)}
       onClick={() => saveFile(`${machine.id}.json`, fileOf(machine), "application/json")}
     >
       {words.save}
-    </button>
+    </Button>
     {isOwn && (
-      <button type="button" className="link" aria-label={words.removeNamed(machine.name)} onClick={onRemove}>
+      <Button kind="link" aria-label={words.removeNamed(machine.name)} onClick={onRemove}>
         {words.remove}
-      </button>
+      </Button>
     )}
   </span>
 );
@@ -126,14 +124,10 @@ const ImportButton = ({ onRead }: { onRead(profile: MachineProfile): void }) => 
 
 const Editor = ({ first, onDone }: { first: MachineProfile; onDone(): void }) => {
   const [profile, setProfile] = useState(first);
-  const { chooseMachine } = useActions();
-  const hand = useHand();
+  const { saveMachine } = useActions();
   const problems = problemsOf(profile);
   const save = async (): Promise<void> => {
-    const saved = await hand.saveMachine(profile);
-    if (!saved) return;
-    chooseMachine(saved);
-    onDone();
+    if (await saveMachine(profile)) onDone();
   };
   return (
     <>
@@ -146,17 +140,10 @@ const Editor = ({ first, onDone }: { first: MachineProfile; onDone(): void }) =>
         </ul>
       )}
       <div className="button-row">
-        <button
-          type="button"
-          className="button button-primary"
-          disabled={problems.length > 0}
-          onClick={() => void save()}
-        >
+        <Button kind="primary" disabled={problems.length > 0} onClick={() => void save()}>
           {words.saveMachine}
-        </button>
-        <button type="button" className="button" onClick={onDone}>
-          {words.back}
-        </button>
+        </Button>
+        <Button onClick={onDone}>{words.back}</Button>
       </div>
     </>
   );

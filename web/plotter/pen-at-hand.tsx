@@ -2,11 +2,11 @@ import { useMemo, useState, type ReactNode } from "react";
 import { OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import { activeJob, currentPlotter, isReady, otherOperator, type PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
 import { servoFollower } from "./servo-follow.js";
 import { penText } from "./text.js";
-import { useHand } from "./use-hand.js";
 import "./pen-at-hand.css";
 
 const words = penText;
@@ -14,7 +14,7 @@ const words = penText;
 const STEPS = ["home", "heights", "mark"] as const;
 type Step = (typeof STEPS)[number];
 
-/** Home, heights and a test line: what every plot begins with. Before the first plot they are numbered steps. */
+/** Home, heights and a test line, which every plot needs first. Before the first plot they are numbered steps. */
 export const PenAtHand = () => {
   const isFirst = usePageState(isFirstPlot);
   return isFirst ? (
@@ -28,14 +28,14 @@ export const PenAtHand = () => {
   );
 };
 
-/** Only the step that comes next has its help, and home folds to a line once it is done, so that the queue stays in sight. */
+/** Only the next step shows its help, and a finished home step folds to one line, so that the queue stays visible. */
 const FirstPlot = () => {
   const { changeView } = useActions();
   const [done, setDone] = useState<readonly Step[]>([]);
   const [isHomeAgain, setHomeAgain] = useState(false);
   const note = (step: Step): void => setDone([...done.filter((other) => other !== step), step]);
   const next = STEPS.find((step) => !done.includes(step)) ?? "plot";
-  // The test line tells how the heights are, so its help stays beside it.
+  // The test line shows whether the heights are right, so its help stays beside it.
   const helped = done.at(-1) === "mark" ? "mark" : next;
   const isHomeFolded = done.includes("home") && !isHomeAgain;
   const step = (name: Step, content: ReactNode): ReactNode => (
@@ -48,15 +48,14 @@ const FirstPlot = () => {
     <section className="pen-at-hand first-plot" aria-label={words.firstPlot}>
       <header>
         <h3>{words.firstPlot}</h3>
-        <button
-          type="button"
-          className="link"
+        <Button
+          kind="link"
           aria-label={words.hideHint}
           title={words.hideHint}
           onClick={() => changeView({ hidesFirstPlot: true })}
         >
           {words.hide}
-        </button>
+        </Button>
       </header>
       <ol>
         {step(
@@ -64,10 +63,10 @@ const FirstPlot = () => {
           isHomeFolded ? (
             <p className="step-line">
               {words.homeDone}
-              {/* Takes the focus of the button that it stands for. */}
-              <button type="button" className="link" autoFocus onClick={() => setHomeAgain(true)}>
+              {/* Takes over the focus of the button that it replaces. */}
+              <Button kind="link" autoFocus onClick={() => setHomeAgain(true)}>
                 {words.homeAgain}
-              </button>
+              </Button>
             </p>
           ) : (
             <HomeButtons
@@ -97,23 +96,21 @@ const isFirstPlot = (state: PageState): boolean => {
 
 const HomeButtons = ({ onHome }: { onHome?(): void }) => {
   const isOff = usePageState((state) => !isReady(state));
-  const { home, motorsOff } = useActions();
+  const { moveByHand, motorsOff } = useActions();
   return (
     <div className="button-grid">
-      <button
-        type="button"
-        className="button"
+      <Button
         disabled={isOff}
         onClick={() => {
           onHome?.();
-          void home();
+          void moveByHand({ kind: "home" });
         }}
       >
         {words.home}
-      </button>
-      <button type="button" className="button" disabled={isOff} onClick={() => void motorsOff()}>
+      </Button>
+      <Button disabled={isOff} onClick={() => void motorsOff()}>
         {words.motorsOff}
-      </button>
+      </Button>
     </div>
   );
 };
@@ -164,9 +161,7 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
           if (isFollowing && !isOthers) follow({ isUp: which === "upPct", pct });
         }}
       />
-      <button
-        type="button"
-        className="button"
+      <Button
         disabled={!isFollowing}
         onClick={() => {
           onTry?.();
@@ -174,7 +169,7 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
         }}
       >
         {which === "upPct" ? words.up : words.down}
-      </button>
+      </Button>
     </div>
   );
   const touch = (contactPct: number): void => {
@@ -195,14 +190,9 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
               onChange={(contactPct) => change({ contactPct })}
               onSlide={touch}
             />
-            <button
-              type="button"
-              className="button"
-              disabled={!isFollowing}
-              onClick={() => touch(pen.contactPct)}
-            >
+            <Button disabled={!isFollowing} onClick={() => touch(pen.contactPct)}>
               {words.touch}
-            </button>
+            </Button>
           </div>
           <p className="note">{words.touchHint}</p>
         </>
@@ -212,20 +202,19 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
 };
 
 const TestLine = ({ onDraw }: { onDraw?(): void }) => {
+  const { moveByHand } = useActions();
   const isOff = usePageState((state) => !isReady(state));
-  const hand = useHand();
   return (
-    <button
-      type="button"
-      className="button test-line"
+    <Button
+      className="test-line"
       title={words.testLineHint}
       disabled={isOff}
       onClick={() => {
         onDraw?.();
-        void hand.testLine();
+        void moveByHand({ kind: "test-line" });
       }}
     >
       {words.testLine}
-    </button>
+    </Button>
   );
 };

@@ -1,8 +1,8 @@
 import type { Job, PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { nudgeText } from "./hand-text.js";
+import { IconButton } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
-import { IconButton } from "../ui/icon-button.js";
 import { usePenChange } from "../ui/use-change.js";
 import "./nudge.css";
 
@@ -27,9 +27,14 @@ const Nudge = ({ heights, isOff = false, onChange }: NudgeProps) => (
       return (
         <div key={which} className="nudge-row">
           <span>{label}</span>
-          <IconButton icon="minus" label={words.less(label)} isOff={isOff} onClick={() => move(-STEP_PCT)} />
+          <IconButton
+            icon="minus"
+            label={words.less(label)}
+            disabled={isOff}
+            onClick={() => move(-STEP_PCT)}
+          />
           <output>{formatNumber(pct, 1)} %</output>
-          <IconButton icon="plus" label={words.more(label)} isOff={isOff} onClick={() => move(STEP_PCT)} />
+          <IconButton icon="plus" label={words.more(label)} disabled={isOff} onClick={() => move(STEP_PCT)} />
         </div>
       );
     })}

@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
 import { presetsText } from "./text.js";
-import { Icon } from "../ui/icon.js";
+import { Button, IconButton } from "../ui/button.js";
 import { TextField } from "../ui/text-field.js";
 
 const words = presetsText;
@@ -16,18 +16,13 @@ export const PresetList = () => {
       <ul className="preset-list">
         {presets.map((preset) => (
           <li key={preset.name}>
-            <button type="button" className="button" onClick={() => takePreset(preset)}>
-              {preset.name}
-            </button>
-            <button
-              type="button"
-              className="button button-icon"
-              aria-label={words.remove(preset.name)}
-              title={words.remove(preset.name)}
+            <Button onClick={() => takePreset(preset)}>{preset.name}</Button>
+            <IconButton
+              kind="icon"
+              icon="close"
+              label={words.remove(preset.name)}
               onClick={() => removePreset(preset.name)}
-            >
-              <Icon name="close" />
-            </button>
+            />
           </li>
         ))}
       </ul>
@@ -49,9 +44,9 @@ const SavePreset = () => {
       }}
     >
       <TextField label={words.name} isLabelInside maxLength={60} value={name} onChange={setName} />
-      <button type="submit" className="button" disabled={name.trim() === ""}>
+      <Button type="submit" disabled={name.trim() === ""}>
         {words.save}
-      </button>
+      </Button>
     </form>
   );
 };

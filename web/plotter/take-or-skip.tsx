@@ -1,4 +1,5 @@
 import { wizardText } from "./wizard-text.js";
+import { Button } from "../ui/button.js";
 
 interface TakeOrSkipProps {
   readonly label: string;
@@ -10,11 +11,9 @@ interface TakeOrSkipProps {
 /** The buttons at the end of an optional step of the wizard. */
 export const TakeOrSkip = ({ label, isOff, onTake, onSkip }: TakeOrSkipProps) => (
   <div className="button-row">
-    <button type="button" className="button button-primary" disabled={isOff} onClick={onTake}>
+    <Button kind="primary" disabled={isOff} onClick={onTake}>
       {label}
-    </button>
-    <button type="button" className="button" onClick={onSkip}>
-      {wizardText.skip}
-    </button>
+    </Button>
+    <Button onClick={onSkip}>{wizardText.skip}</Button>
   </div>
 );

@@ -2,9 +2,9 @@
 export const plotterText = {
   title: "Plotter",
   virtual: "Virtual board: no plotter plugged in",
-  virtualHint: "Plots run on a simulated board. Plug in a plotter: it is found automatically.",
+  virtualHint: "Plots run on the virtual board, not on paper. Plug in a plotter: it is found automatically.",
   homeHint:
-    "Home is where the carriage was when the motors were switched on, because there are no end switches. With the motors off, push it into the corner by hand.",
+    "Home is where the carriage was when the motors were switched on, because there are no limit switches. With the motors off, push it into the corner by hand.",
   position: "Pen at",
   unknown: "not known",
   pen: "Pen",
@@ -26,7 +26,7 @@ export const plotterText = {
   console: "Console",
   rest: "Plotter set-up",
   connect: "Connect a plotter…",
-  connectHint: "Plots run on a simulated board until you connect a plotter by USB.",
+  connectHint: "Plots run on the virtual board, not on paper, until you connect a plotter by USB.",
   log: "Save the connection log",
   held: "Paused",
   interrupted: "Interrupted",

@@ -3,8 +3,8 @@ import type { MachineProfile } from "../../src/index.js";
 import { DIRECTIONS, machineTurned, type Direction } from "../../src/internal.js";
 import { useActions } from "../state/use-store.js";
 import { wizardText } from "./wizard-text.js";
-import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
+import { Button } from "../ui/button.js";
 
 const words = wizardText;
 const MOVE_MM = 20;
@@ -17,13 +17,14 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [draft, setDraft] = useState(profile);
   const [xWent, setXWent] = useState<Direction>("right");
   const [fault, setFault] = useState<string | null>(null);
-  const hand = useHand();
-  const { motorsOff } = useActions();
+  const { motorsOff, moveByHand } = useActions();
   const [isMoving, setMoving] = useState(false);
   // Sets home before each move: with a wrong profile, the carriage may be on the wrong side of the last home.
   const jog = async (x: number, y: number): Promise<void> => {
     setMoving(true);
-    if (await hand.setHome()) await hand.jog(x, y, settingsWith(draft));
+    if (await moveByHand({ kind: "set-home" })) {
+      await moveByHand({ kind: "jog", dxMm: x, dyMm: y }, settingsWith(draft));
+    }
     setMoving(false);
   };
 
@@ -49,18 +50,16 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
 
   if (asked === "middle") {
     const begin = async (): Promise<void> => {
-      if (await hand.setHome()) setAsked("x");
+      if (await moveByHand({ kind: "set-home" })) setAsked("x");
     };
     return (
       <>
         <p>{words.middleHint}</p>
         <div className="button-row">
-          <button type="button" className="button" onClick={() => void motorsOff()}>
-            {words.motorsOff}
-          </button>
-          <button type="button" className="button button-primary" onClick={() => void begin()}>
+          <Button onClick={() => void motorsOff()}>{words.motorsOff}</Button>
+          <Button kind="primary" onClick={() => void begin()}>
             {words.inTheMiddle}
-          </button>
+          </Button>
         </div>
       </>
     );
@@ -70,20 +69,18 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
       <>
         <p>{words.checkHint}</p>
         <div className="button-row">
-          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(MOVE_MM, 0)}>
+          <Button disabled={isMoving} onClick={() => void jog(MOVE_MM, 0)}>
             {words.moveRight}
-          </button>
-          <button type="button" className="button" disabled={isMoving} onClick={() => void jog(0, MOVE_MM)}>
+          </Button>
+          <Button disabled={isMoving} onClick={() => void jog(0, MOVE_MM)}>
             {words.moveNearer}
-          </button>
+          </Button>
         </div>
         <div className="button-row">
-          <button type="button" className="button button-primary" onClick={() => onNext(draft)}>
+          <Button kind="primary" onClick={() => onNext(draft)}>
             {words.itDoes}
-          </button>
-          <button type="button" className="button" onClick={() => setAsked("x")}>
-            {words.askAgain}
-          </button>
+          </Button>
+          <Button onClick={() => setAsked("x")}>{words.askAgain}</Button>
         </div>
       </>
     );
@@ -95,14 +92,13 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
           {fault}
         </p>
       )}
-      <button
-        type="button"
-        className="button button-primary"
+      <Button
+        kind="primary"
         disabled={isMoving}
         onClick={() => void (asked === "x" ? jog(MOVE_MM, 0) : jog(0, MOVE_MM))}
       >
         {asked === "x" ? words.moveFirst : words.moveSecond}
-      </button>
+      </Button>
       <Answers question={words.whichWay} onAnswer={answer} onSlanted={slanted} />
     </>
   );
@@ -124,14 +120,14 @@ const Answers = ({ question, onAnswer, onSlanted }: AnswersProps) => (
     <legend>{question}</legend>
     <div className="button-grid">
       {DIRECTIONS.map((direction) => (
-        <button key={direction} type="button" className="button" onClick={() => onAnswer(direction)}>
+        <Button key={direction} onClick={() => onAnswer(direction)}>
           {words.directions[direction]}
-        </button>
+        </Button>
       ))}
     </div>
-    <button type="button" className="link" onClick={onSlanted}>
+    <Button kind="link" onClick={onSlanted}>
       {words.slanted}
-    </button>
+    </Button>
     <p className="note">{words.notAtAll}</p>
   </fieldset>
 );

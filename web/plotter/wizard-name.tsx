@@ -2,11 +2,11 @@ import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { wizardText } from "./wizard-text.js";
+import { Button } from "../ui/button.js";
 import { saveFile } from "../ui/save-file.js";
 import { TextField } from "../ui/text-field.js";
 import { fileOf, freeId, problemsOf } from "./profile.js";
 import { ReachFields } from "./profile-form.js";
-import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
@@ -14,8 +14,7 @@ const words = wizardText;
 /** Asks for reach and name, then saves the machine and chooses it. */
 export const NameStep = ({ profile, onNext }: StepProps) => {
   const made = usePageState((state) => state.machines);
-  const { chooseMachine } = useActions();
-  const hand = useHand();
+  const { saveMachine } = useActions();
   const [draft, setDraft] = useState(profile);
   const named: MachineProfile = {
     ...draft,
@@ -26,10 +25,8 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
   };
   const problems = problemsOf(named);
   const save = async (): Promise<void> => {
-    const saved = await hand.saveMachine(named);
-    if (!saved) return;
-    chooseMachine(saved);
-    onNext(saved);
+    const saved = await saveMachine(named);
+    if (saved) onNext(saved);
   };
   return (
     <form
@@ -48,17 +45,15 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
         </p>
       )}
       <div className="button-row">
-        <button type="submit" className="button button-primary" disabled={problems.length > 0}>
+        <Button type="submit" kind="primary" disabled={problems.length > 0}>
           {words.save}
-        </button>
-        <button
-          type="button"
-          className="button"
+        </Button>
+        <Button
           disabled={problems.length > 0}
           onClick={() => saveFile(`${named.id}.json`, fileOf(named), "application/json")}
         >
           {words.saveFile}
-        </button>
+        </Button>
       </div>
     </form>
   );

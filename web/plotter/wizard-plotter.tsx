@@ -5,6 +5,7 @@ import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { PortSelect } from "../studio/port-select.js";
 import { wizardText } from "./wizard-text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import type { StepProps } from "./wizard-step.js";
 
@@ -45,14 +46,13 @@ export const PlotterStep = ({ profile, onNext }: StepProps) => {
         onChange={setLike}
       />
       <p className="note">{words.likeHint}</p>
-      <button
-        type="button"
-        className="button button-primary"
+      <Button
+        kind="primary"
         disabled={!isReady}
         onClick={() => onNext({ ...base, id: profile.id, name: profile.name })}
       >
         {words.next}
-      </button>
+      </Button>
     </>
   );
 };

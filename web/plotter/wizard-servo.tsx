@@ -1,11 +1,11 @@
 import { useId, useMemo, useState } from "react";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { useActions } from "../state/use-store.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
 import { wizardText } from "./wizard-text.js";
 import { ServoPin } from "./profile-form.js";
 import { TakeOrSkip } from "./take-or-skip.js";
 import { servoFollower } from "./servo-follow.js";
-import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
@@ -22,15 +22,16 @@ export const ServoStep = ({ profile, ...props }: StepProps) =>
 
 /** The pen follows two sliders, which set the ends of the servo's range. */
 const EbbServoStep = ({ profile, settingsWith, onNext }: StepProps & { readonly profile: EbbMachine }) => {
+  const { moveByHand } = useActions();
   const [draft, setDraft] = useState(profile);
-  const hand = useHand();
   const follow = useMemo(
     () =>
       servoFollower(
-        ({ pos, settings }: { pos: number; settings: PlotSettings }) => hand.servo(pos, settings),
+        ({ pos, settings }: { pos: number; settings: PlotSettings }) =>
+          moveByHand({ kind: "servo", pos }, settings),
         (delayMs, callback) => void setTimeout(callback, delayMs),
       ),
-    [hand],
+    [moveByHand],
   );
   const take = (which: "servoPosAt0Pct" | "servoPosAt100Pct", pos: number): void => {
     setDraft(withController(draft, { [which]: pos }));

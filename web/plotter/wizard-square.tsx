@@ -1,11 +1,12 @@
 import { useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import { stepsPerMmMeasured } from "../../src/internal.js";
+import { useActions } from "../state/use-store.js";
 import { wizardText } from "./wizard-text.js";
+import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberField } from "../ui/number-field.js";
 import { TakeOrSkip } from "./take-or-skip.js";
-import { useHand } from "./use-hand.js";
 import type { StepProps } from "./wizard-step.js";
 
 const words = wizardText;
@@ -13,7 +14,7 @@ const SQUARE_MM = 100;
 
 /** A square is drawn and measured with a ruler. Its real size gives the steps per mm. */
 export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
-  const hand = useHand();
+  const { moveByHand } = useActions();
   const sizeMm = Math.min(SQUARE_MM, Math.floor(Math.min(profile.widthMm, profile.heightMm) / 2));
   const [xMm, setX] = useState(sizeMm);
   const [yMm, setY] = useState(sizeMm);
@@ -21,13 +22,12 @@ export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
   return (
     <>
       <p>{words.squareHint(sizeMm)}</p>
-      <button
-        type="button"
-        className="button button-primary"
-        onClick={() => void hand.square(sizeMm, settingsWith(profile))}
+      <Button
+        kind="primary"
+        onClick={() => void moveByHand({ kind: "square", sizeMm }, settingsWith(profile))}
       >
         {words.drawSquare}
-      </button>
+      </Button>
       <div className="field-pair">
         <NumberField
           label={words.measuredX}

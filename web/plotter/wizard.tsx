@@ -1,6 +1,7 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { wizardText } from "./wizard-text.js";
@@ -49,9 +50,9 @@ export const Wizard = () => {
         <Step key={index} profile={profile} settingsWith={settingsWith} onNext={onNext} />
       </div>
       {index > 0 && (
-        <button type="button" className="link" onClick={() => setIndex(index - 1)}>
+        <Button kind="link" onClick={() => setIndex(index - 1)}>
           {words.back}
-        </button>
+        </Button>
       )}
     </Sheet>
   );

@@ -1,7 +1,8 @@
 import type { RefObject } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
 import { previewText } from "./text.js";
-import { Icon, type IconName } from "../ui/icon.js";
+import { Button, IconButton } from "../ui/button.js";
+import { Icon } from "../ui/icon.js";
 import { placeOfFrame } from "../scene/placing.js";
 import type { Stage } from "./stage.js";
 
@@ -14,20 +15,18 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
   const { changeView } = useActions();
   return (
     <div className="preview-tools">
-      <button
-        type="button"
-        className="tool tool-wide"
+      <Button
+        kind="tool"
+        className="tool-wide"
         aria-pressed={showTravel}
         onClick={() => changeView({ showTravel: !showTravel })}
       >
         <Icon name="travel" />
         {words.travel}
-      </button>
+      </Button>
       <PlaceTool />
       <span className="tool-gap" />
-      <Tool icon="minus" isZoom label={words.zoomOut} onClick={() => stage.current?.zoomBy(1 / ZOOM_STEP)} />
-      <Tool icon="plus" isZoom label={words.zoomIn} onClick={() => stage.current?.zoomBy(ZOOM_STEP)} />
-      <Tool icon="fit" label={words.fitPaper} onClick={() => stage.current?.fit()} />
+      <ZoomTools stage={stage} className="tool-zoom" />
     </div>
   );
 };
@@ -38,11 +37,10 @@ const PlaceTool = () => {
   const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);
   const { changeSettings } = useActions();
   return (
-    <button
-      type="button"
-      className="tool"
-      aria-label={words.place}
-      title={words.place}
+    <IconButton
+      kind="tool"
+      icon="place"
+      label={words.place}
       aria-pressed={isPlaced}
       disabled={!frame}
       onClick={() =>
@@ -51,27 +49,27 @@ const PlaceTool = () => {
           prepare: { ...settings.prepare, place: isPlaced || !frame ? null : placeOfFrame(frame) },
         }))
       }
-    >
-      <Icon name="place" />
-    </button>
+    />
   );
 };
 
-interface ToolProps {
-  readonly icon: IconName;
-  readonly label: string;
-  readonly isZoom?: boolean;
-  onClick(): void;
-}
-
-const Tool = ({ icon, label, isZoom, onClick }: ToolProps) => (
-  <button
-    type="button"
-    className={isZoom ? "tool tool-zoom" : "tool"}
-    aria-label={label}
-    title={label}
-    onClick={onClick}
-  >
-    <Icon name={icon} />
-  </button>
+/** Zooms a sheet. `className`: of the buttons that a small screen hides. */
+export const ZoomTools = ({ stage, className }: { stage: RefObject<Stage | null>; className?: string }) => (
+  <>
+    <IconButton
+      kind="tool"
+      icon="minus"
+      label={words.zoomOut}
+      className={className}
+      onClick={() => stage.current?.zoomBy(1 / ZOOM_STEP)}
+    />
+    <IconButton
+      kind="tool"
+      icon="plus"
+      label={words.zoomIn}
+      className={className}
+      onClick={() => stage.current?.zoomBy(ZOOM_STEP)}
+    />
+    <IconButton kind="tool" icon="fit" label={words.fitPaper} onClick={() => stage.current?.fit()} />
+  </>
 );

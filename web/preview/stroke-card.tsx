@@ -1,8 +1,8 @@
 import { useMemo } from "react";
 import { activeJob, isReady, mayOperate, selectedStroke } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { Button, IconButton } from "../ui/button.js";
 import { formatCount, formatLength, formatMoment, formatNumber } from "../ui/format.js";
-import { IconButton } from "../ui/icon-button.js";
 import { layerLooks } from "./looks.js";
 import { strokeFigures } from "./stroke.js";
 import { strokeText } from "./text.js";
@@ -56,14 +56,9 @@ const PlotFromHere = ({ strokeIndex }: { strokeIndex: number }) => {
   const { plotDrawing } = useActions();
   return (
     <>
-      <button
-        type="button"
-        className="button"
-        disabled={isOff}
-        onClick={() => void plotDrawing({ strokeIndex, alongMm: 0 })}
-      >
+      <Button disabled={isOff} onClick={() => void plotDrawing({ strokeIndex, alongMm: 0 })}>
         {words.plotFrom}
-      </button>
+      </Button>
       <p className="note">{words.plotFromHint}</p>
     </>
   );

@@ -50,10 +50,7 @@ export class StrokesInWorker implements Strokes {
   /** Draws on the page, after the worker has failed. */
   #instead: Strokes | null = null;
 
-  /**
-   * `put` shows a picture. `onPage` is called if the worker fails before its first picture: the canvas is unused
-   * then.
-   */
+  /** `put` shows a picture. `onPage` is called if the worker fails before it has used the canvas. */
   constructor(
     worker: DrawWorkerLike,
     put: (bitmap: ImageBitmap) => void,

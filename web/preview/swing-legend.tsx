@@ -2,6 +2,7 @@ import { useEffect } from "react";
 import { ASKED_COLOR } from "../scene/renderer.js";
 import type { Swing } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import type { Planned } from "../worker/protocol.js";
 import { simulatePen } from "./simulate-pen.js";
@@ -77,9 +78,9 @@ const Springs = ({ swing: { springs, isAssumed } }: { swing: Swing }) => {
   return (
     <p className="swing-springs">
       {words.assumed(x, y)}{" "}
-      <button type="button" className="link" onClick={() => store.setState({ openDialog: "ringing" })}>
+      <Button kind="link" onClick={() => store.setState({ openDialog: "ringing" })}>
         {words.measure}
-      </button>
+      </Button>
     </p>
   );
 };

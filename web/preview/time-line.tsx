@@ -2,8 +2,8 @@ import { lazy, Suspense } from "react";
 import { drawnUntilS } from "./drawn-until.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { timeLineText } from "./text.js";
+import { IconButton } from "../ui/button.js";
 import { formatMoment } from "../ui/format.js";
-import { Icon } from "../ui/icon.js";
 import { PLAY_RATES, type Player } from "./player.js";
 
 const words = timeLineText;
@@ -37,9 +37,12 @@ const PlayButton = ({ player }: { player: Player }) => {
   const isPlaying = usePageState((state) => state.isPlaying);
   const label = isPlaying ? words.pause : words.play;
   return (
-    <button type="button" className="tool" aria-label={label} title={label} onClick={() => player.toggle()}>
-      <Icon name={isPlaying ? "pause" : "play"} />
-    </button>
+    <IconButton
+      kind="tool"
+      icon={isPlaying ? "pause" : "play"}
+      label={label}
+      onClick={() => player.toggle()}
+    />
   );
 };
 
@@ -100,15 +103,12 @@ const GraphButton = () => {
   const showGraph = usePageState((state) => state.view.showGraph);
   const { changeView } = useActions();
   return (
-    <button
-      type="button"
-      className="tool"
-      aria-label={words.graph}
-      title={words.graph}
+    <IconButton
+      kind="tool"
+      icon="graph"
+      label={words.graph}
       aria-pressed={showGraph}
       onClick={() => changeView({ showGraph: !showGraph })}
-    >
-      <Icon name="graph" />
-    </button>
+    />
   );
 };

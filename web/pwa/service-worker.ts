@@ -1,6 +1,6 @@
 /**
  * Caches the page's own files, so that the page opens without the server and can say that it can't be reached. Never
- * caches anything of the API. A new version takes over only after all of its files are fetched.
+ * caches API responses. A new version takes over only after all of its files are fetched.
  */
 import { cachesToDrop, ruleFor } from "./shell-rules.js";
 
@@ -8,7 +8,7 @@ import { cachesToDrop, ruleFor } from "./shell-rules.js";
 const SHELL = JSON.parse("__SHELL__") as { readonly version: string; readonly files: readonly string[] };
 const PREFIX = "plotwright-";
 const CACHE = `${PREFIX}${SHELL.version}`;
-/** After this the cached page is shown. For a server that is switched off the network may wait a minute. */
+/** If the server takes longer, the cached page is shown: a request to a server that is off may take a minute to fail. */
 const PATIENCE_MS = 4_000;
 
 /** The used part of a service worker's scope, which the DOM's types do not have. */
@@ -34,8 +34,8 @@ scope.addEventListener("install", (event) => event.waitUntil(fetchShell()));
 scope.addEventListener("activate", (event) => event.waitUntil(takeOver()));
 scope.addEventListener("fetch", (event) => {
   const rule = ruleFor(event.request, PAGE);
-  if (rule === "page") event.respondWith(pageOrKept(event.request));
-  if (rule === "kept") event.respondWith(keptOrFetched(event.request));
+  if (rule === "page") event.respondWith(pageOrCached(event.request));
+  if (rule === "cached") event.respondWith(cachedOrFetched(event.request));
 });
 
 async function fetchShell(): Promise<void> {
@@ -51,9 +51,9 @@ async function takeOver(): Promise<void> {
   await scope.clients.claim();
 }
 
-async function pageOrKept(request: Request): Promise<Response> {
+async function pageOrCached(request: Request): Promise<Response> {
   const fetched = fetch(request);
-  // If it fails after the stored page was shown, there is no one to notify.
+  // If it fails after the cached page was shown, nothing is left to do.
   fetched.catch(() => undefined);
   const late = new Promise<null>((resolve) => setTimeout(() => resolve(null), PATIENCE_MS));
   try {
@@ -66,6 +66,6 @@ async function pageOrKept(request: Request): Promise<Response> {
   return (await cache.match(PAGE)) ?? fetched;
 }
 
-async function keptOrFetched(request: Request): Promise<Response> {
+async function cachedOrFetched(request: Request): Promise<Response> {
   return (await caches.match(request)) ?? fetch(request);
 }

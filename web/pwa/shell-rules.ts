@@ -9,18 +9,18 @@ export interface Asked {
 
 /**
  * "page": the page itself: from the server, or from the cache if the server does not answer.
- * "kept": a file whose name has a hash, or an icon: from the cache if it is there.
- * null: not handled. Above all the API: an old answer would be wrong about what the plotter does.
+ * "cached": a file whose name has a hash, or an icon: from the cache if it is there.
+ * null: not handled. This includes the API, because an old response would show a wrong state of the plotter.
  *
  * `page`: the page's address, which ends with "/".
  */
-export const ruleFor = ({ method, url, mode }: Asked, page: string): "page" | "kept" | null => {
+export const ruleFor = ({ method, url, mode }: Asked, page: string): "page" | "cached" | null => {
   const { origin, pathname } = new URL(url);
   if (method !== "GET" || !`${origin}${pathname}`.startsWith(page)) return null;
   const file = `${origin}${pathname}`.slice(page.length);
   if (mode === "navigate") return file === "" || file === "index.html" ? "page" : null;
-  const isKept = file.startsWith("assets/") || /^[\w.-]+\.(svg|png|webmanifest)$/.test(file);
-  return isKept ? "kept" : null;
+  const isCached = file.startsWith("assets/") || /^[\w.-]+\.(svg|png|webmanifest)$/.test(file);
+  return isCached ? "cached" : null;
 };
 
 /**

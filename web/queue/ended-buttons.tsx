@@ -2,6 +2,7 @@ import type { Job } from "../../src/schema/index.js";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { queueText } from "./text.js";
+import { Button } from "../ui/button.js";
 
 const words = queueText;
 
@@ -14,39 +15,34 @@ export const EndedButtons = ({ job }: { job: Job }) => {
   if (!isMine) return null;
   if (job.state === "queued") {
     return (
-      <button
-        type="button"
-        className="button button-primary"
+      <Button
+        kind="primary"
         disabled={isOff || !isFree}
         aria-label={words.startNamed(job.name)}
         onClick={() => void actOnJob(job.id, "start")}
       >
         {words.start}
-      </button>
+      </Button>
     );
   }
   return (
     <div className="button-row ended-buttons">
       {canGoOn(job) && (
-        <button
-          type="button"
-          className="button"
+        <Button
           disabled={isOff || !isFree}
           aria-label={words.goOnNamed(job.name)}
           onClick={() => void actOnJob(job.id, "recover")}
         >
           {words.goOn}
-        </button>
+        </Button>
       )}
-      <button
-        type="button"
-        className="button"
+      <Button
         disabled={isOff}
         aria-label={words.againNamed(job.name)}
         onClick={() => void actOnJob(job.id, "requeue")}
       >
         {words.again}
-      </button>
+      </Button>
     </div>
   );
 };

@@ -3,6 +3,7 @@ import type { Job } from "../../src/schema/index.js";
 import { mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { queueText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
 import { canGoOn, EndedButtons } from "./ended-buttons.js";
@@ -26,9 +27,9 @@ export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
         ))}
       </ul>
       {restCount > 0 && (
-        <button type="button" className="link" onClick={() => setShownCount(shownCount + SHOWN_FIRST)}>
+        <Button kind="link" onClick={() => setShownCount(shownCount + SHOWN_FIRST)}>
           {words.showMore(restCount)}
-        </button>
+        </Button>
       )}
     </>
   );

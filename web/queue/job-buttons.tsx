@@ -3,6 +3,7 @@ import type { Job } from "../../src/schema/index.js";
 import { mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { jobText, queueText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import "./jobs.css";
 
@@ -21,9 +22,9 @@ export const JobButtons = ({ job }: { job: Job }) => {
   return (
     <div className="button-row job-buttons">
       {(isMine || job.state === "plotting") && <MainButton job={job} isOff={isOff} />}
-      <button type="button" className="button" disabled={isOff} onClick={() => setAsking(true)}>
+      <Button disabled={isOff} onClick={() => setAsking(true)}>
         {queueText.cancel}
-      </button>
+      </Button>
       {job.state === "plotting" && <StopButton job={job} isOff={isOff} />}
     </div>
   );
@@ -50,15 +51,14 @@ const MainButton = ({ job, isOff }: ButtonProps) => {
   const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
   const isPenChange = job.wait !== null && job.state === "paused";
   return (
-    <button
-      type="button"
-      className={job.state === "plotting" ? "button" : "button button-primary"}
+    <Button
+      kind={job.state === "plotting" ? "plain" : "primary"}
       disabled={isOff || busy === `${action} ${job.id}`}
       onClick={() => void actOnJob(job.id, action)}
     >
       <Icon name={action === "pause" ? "pause" : "play"} />
       {isPenChange ? words.continue : label}
-    </button>
+    </Button>
   );
 };
 
@@ -68,15 +68,14 @@ const StopButton = ({ job, isOff }: ButtonProps) => {
     ({ plotters }) => plotters.find(({ id }) => id === job.plotterId)?.emergencyStopMs ?? null,
   );
   return (
-    <button
-      type="button"
-      className="button button-danger"
+    <Button
+      kind="danger"
       disabled={isOff}
       title={words.stopNowHint(takesMs)}
       onClick={() => void actOnJob(job.id, "emergency-stop")}
     >
       {words.stopNow}
-    </button>
+    </Button>
   );
 };
 
@@ -86,17 +85,13 @@ const AskToCancel = ({ job, onKeep }: { job: Job; onKeep(): void }) => {
     <div className="ask" role="alertdialog" aria-label={queueText.cancel}>
       <p>{words.confirmCancel(job.name)}</p>
       <div className="button-row">
-        <button
-          type="button"
-          className="button button-danger"
-          onClick={() => void actOnJob(job.id, "cancel")}
-        >
+        <Button kind="danger" onClick={() => void actOnJob(job.id, "cancel")}>
           {words.cancelPlot}
-        </button>
+        </Button>
         {/* Has the focus, so that a key pressed twice does not cancel the plot. */}
-        <button type="button" className="button" autoFocus onClick={onKeep}>
+        <Button autoFocus onClick={onKeep}>
           {words.keepPlotting}
-        </button>
+        </Button>
       </div>
     </div>
   );

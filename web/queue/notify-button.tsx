@@ -1,6 +1,7 @@
 import { useState } from "react";
 import { useActions } from "../state/use-store.js";
 import { notifyText } from "./text.js";
+import { Button } from "../ui/button.js";
 
 const words = notifyText;
 
@@ -16,8 +17,8 @@ export const NotifyButton = () => {
     if (answer === "denied") notify("error", words.denied);
   };
   return (
-    <button type="button" className="link notify-link" onClick={() => void ask()}>
+    <Button kind="link" className="notify-link" onClick={() => void ask()}>
       {words.ask}
-    </button>
+    </Button>
   );
 };

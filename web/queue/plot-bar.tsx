@@ -6,6 +6,7 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { CutOffNote } from "./cut-off-note.js";
 import { plotText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { NumberField } from "../ui/number-field.js";
@@ -82,18 +83,17 @@ const Buttons = () => {
   const isOff = !canQueue || !isLinked || !isMine || isUnreached || isSending;
   return (
     <div className="plot-buttons">
-      <button
-        type="button"
-        className="button button-primary"
+      <Button
+        kind="primary"
         disabled={isOff || isActive || isAbsent}
         aria-busy={isSending}
         onClick={() => void plotDrawing()}
       >
         {words.plot}
-      </button>
-      <button type="button" className="button" disabled={isOff} onClick={() => void queueDrawing(copies)}>
+      </Button>
+      <Button disabled={isOff} onClick={() => void queueDrawing(copies)}>
         {copies === 1 ? words.addToQueue : words.addCopies(copies)}
-      </button>
+      </Button>
       <SaveToJob isOff={isOff} />
       <div className="copies">
         <NumberField
@@ -147,14 +147,9 @@ const SaveToJob = ({ isOff }: { isOff: boolean }) => {
   const { saveToJob } = useActions();
   if (job?.state !== "queued") return null;
   return (
-    <button
-      type="button"
-      className="button save-to-job"
-      disabled={isOff}
-      onClick={() => void saveToJob(job.id)}
-    >
+    <Button className="save-to-job" disabled={isOff} onClick={() => void saveToJob(job.id)}>
       {words.saveToJob(job.name)}
-    </button>
+    </Button>
   );
 };
 

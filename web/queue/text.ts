@@ -63,7 +63,7 @@ export const queueText = {
   later: "Move later",
   laterNamed: (name: string) => `Move later: ${name}`,
   drag: (name: string) => `Drag ${name} to its place, or press arrow up or down`,
-  dragHint: "Drag, or arrow up and down",
+  dragHint: "Drag, or press arrow up or down",
   duplicate: "Duplicate",
   duplicateNamed: (name: string) => `Duplicate ${name}`,
   remove: "Remove",

@@ -2,9 +2,9 @@ import type { RefObject } from "react";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { plotText, queueText } from "./text.js";
+import { Button, IconButton } from "../ui/button.js";
 import { formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { IconButton } from "../ui/icon-button.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
 import type { Copies } from "./copies.js";
 import { JobName } from "./job-head.js";
@@ -75,7 +75,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
       <IconButton
         icon="play"
         label={words.startNamed(name)}
-        isOff={isOff || !isFree}
+        disabled={isOff || !isFree}
         onClick={() => void actOnJob(job.id, "start")}
       />
       <RowMenu label={words.more(name)}>
@@ -114,9 +114,9 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
         )}
       </RowMenu>
       {rowIds.length > 1 && (
-        <button
-          type="button"
-          className="button button-icon button-small drag-handle"
+        <Button
+          kind="smallIcon"
+          className="drag-handle"
           aria-label={words.drag(name)}
           title={words.dragHint}
           disabled={isOff}
@@ -129,7 +129,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
           {...drag}
         >
           <Icon name="grip" />
-        </button>
+        </Button>
       )}
     </>
   );

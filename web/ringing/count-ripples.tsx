@@ -11,6 +11,7 @@ import {
 import { activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ringingText } from "./ringing-text.js";
+import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { CountAxis, frequencyOf, NO_READING, type Reading } from "./count-axis.js";
@@ -63,17 +64,12 @@ const PlotSheet = () => {
   const { plotJob } = useActions();
   const job = sheetJob(settings, words.jobName);
   return (
-    <section className="ringing-plot">
+    <section>
       <h3>{words.plotTitle}</h3>
       <p className="note">{words.plotHint(SHEET_MM)}</p>
-      <button
-        type="button"
-        className="button button-primary"
-        disabled={job === null || isPlotting}
-        onClick={() => job && void plotJob(job)}
-      >
+      <Button kind="primary" disabled={job === null || isPlotting} onClick={() => job && void plotJob(job)}>
         {isPlotting ? words.plotting : words.plot}
-      </button>
+      </Button>
       {job === null && <p className="note note-error">{words.noRoom(SHEET_MM)}</p>}
     </section>
   );
@@ -86,14 +82,13 @@ const StoreButton = ({ springs }: { springs: Springs | null }) => {
     springs !== null && known !== null && same(springs.xHz, known.xHz) && same(springs.yHz, known.yHz);
   return (
     <div className="button-row">
-      <button
-        type="button"
-        className="button button-primary"
+      <Button
+        kind="primary"
         disabled={springs === null || isStored}
         onClick={() => springs && void store(springs)}
       >
         {words.save}
-      </button>
+      </Button>
       {known && (
         <p className="note" role="status">
           {words.saved(formatNumber(known.xHz, 1), formatNumber(known.yHz, 1))}

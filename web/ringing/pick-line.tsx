@@ -4,6 +4,7 @@ import type { Job } from "../../src/schema/index.js";
 import { usePageState, usePageStore, useActions } from "../state/use-store.js";
 import type { PageStore } from "../state/store.js";
 import { ringingText } from "./ringing-text.js";
+import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import { checkJobs, sheetPlace, type SheetJob } from "./ringing-job.js";
 import { SheetPicture } from "./sheet-picture.js";
@@ -49,17 +50,12 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
   };
   return (
     <>
-      <section className="ringing-plot">
+      <section>
         <h3>{words.pickTitle}</h3>
         <p className="note">{words.pickHint}</p>
-        <button
-          type="button"
-          className="button button-primary"
-          disabled={place === null || at !== null}
-          onClick={plot}
-        >
+        <Button kind="primary" disabled={place === null || at !== null} onClick={plot}>
           {at === null ? words.plotChecks : words.plottingCheck(at + 1, checks.length)}
-        </button>
+        </Button>
         {hasStopped && (
           <p className="note note-error" role="alert">
             {words.stopped}

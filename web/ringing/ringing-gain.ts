@@ -1,4 +1,4 @@
-/** What measuring brings: a test figure, planned as before and in each quality, and drawn by a simulated pen. */
+/** The benefit of measuring: a test figure, planned as before and in each quality, drawn by a simulated pen. */
 import {
   DEFAULT_MOTION,
   DEFAULT_PEN,

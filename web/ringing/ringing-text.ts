@@ -34,7 +34,7 @@ export const ringingText = {
   fieldFor: (label: string, axis: string) => `${label}, ${axis}`,
   result: (hz: string) => `${hz} Hz`,
   noResult: "not counted yet",
-  gainTitle: "What it brings",
+  gainTitle: "What you gain",
   gainHint: "A star, two circles and a zigzag, calculated for your plotter with a pen that swings like this:",
   gainNames: {
     before: "As before",
@@ -42,7 +42,7 @@ export const ringingText = {
     normal: "Normal",
     fast: "Fast",
   },
-  gainHeads: { quality: "Quality", time: "Pen down", off: "Off the line, at most" },
+  gainHeads: { quality: "Quality", time: "Pen down", off: "Max. distance from the line" },
   seconds: (s: string, change: string) => (change === "" ? `${s} s` : `${s} s (${change})`),
   save: "Store with this plotter",
   saved: (x: string, y: string) => `Stored: ${x} Hz along x, ${y} Hz along y.`,

@@ -59,11 +59,7 @@ export const RipplePicture = ({ axis }: { readonly axis: Axis }) => {
       })}
       <path className="ripple-ruler" d={`M${at(first, ruler)}L${at(last, ruler)}`} />
       {crests.slice(1).map((mm, i) => (
-        <text
-          key={mm}
-          {...text(CORNER.along + (mm - RIPPLE_MM / 2) * MM, ruler - 5)}
-          className="ripple-number"
-        >
+        <text key={mm} {...text(CORNER.along + (mm - RIPPLE_MM / 2) * MM, ruler - 5)}>
           {i + 1}
         </text>
       ))}

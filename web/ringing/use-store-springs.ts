@@ -1,6 +1,5 @@
 import { findMachine, type Springs } from "../../src/internal.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { useHand } from "../plotter/use-hand.js";
 import { measuredMachine } from "./measured-machine.js";
 import { ringingText } from "./ringing-text.js";
 
@@ -11,14 +10,10 @@ import { ringingText } from "./ringing-text.js";
 export const useStoreSprings = (): ((springs: Springs) => Promise<boolean>) => {
   const machine = usePageState(({ settings }) => findMachine(settings));
   const machines = usePageState((state) => state.machines);
-  const hand = useHand();
-  const { chooseMachine } = useActions();
+  const { saveMachine } = useActions();
   return async (springs) => {
     if (machine === null) return false;
-    const saved = await hand.saveMachine(
-      measuredMachine(machine, springs, machines, ringingText.machineName),
-    );
-    if (saved) chooseMachine(saved);
-    return saved !== null;
+    const measured = measuredMachine(machine, springs, machines, ringingText.machineName);
+    return (await saveMachine(measured)) !== null;
   };
 };

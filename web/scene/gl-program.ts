@@ -4,8 +4,8 @@
  *   line              mm x0 y0 x1 y1           scale             device px a mm
  *   time              s                        offset, viewport  device px
  *   speed             share of the top speed   radius            device px, of the narrowest line
- *   share             of speed, of time        widthMm           of a full alpha in the palette; 0: all are as narrow
- *   cutOffS           s: the pen has come so far, and the piece that it is on ends there
+ *   share             of speed, of time        widthMm           of a full alpha in the palette; 0: all are equally narrow
+ *   cutOffS           s: the time that the pen has reached; the piece under it ends there
  *   colorBy           0 speed, 1 order, 2 layer, 3 plain
  */
 

@@ -43,7 +43,7 @@ export const boxPieces = ({ count, bytes }: Pieces): PieceBoxes => {
   return { piecesABox, mm };
 };
 
-/** Of the pieces `from` … `to` − 1: those whose box, enlarged by `reachPx`, is in the frame. In order, none empty. */
+/** The ranges of pieces within `from` … `to` − 1 whose box, enlarged by `reachPx`, is in the frame. In order, none empty. */
 export const rangesInSight = (
   { piecesABox, mm }: PieceBoxes,
   [from, to]: PieceRange,

@@ -1,4 +1,4 @@
-/** The interface of the stroke renderers: WebGL2 if there is a graphics card, else our own code on the processor. */
+/** The interface of the stroke renderers: WebGL2 if there is a graphics card, otherwise in software. */
 import type { ColorMode } from "./color-mode.js";
 import type { Pieces } from "./pieces.js";
 import type { Scene } from "./scene.js";

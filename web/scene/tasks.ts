@@ -54,7 +54,7 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: 
   const widestMm = Math.max(frame.lineMm, ...(frame.layerWidthsMm ?? []));
   const reachPx = lineWidthPx(frame, widestMm) / 2 + EDGE_PX;
   const done = until(draw);
-  // The piece that the pen is on is drawn up to the pen only, and pale behind it.
+  // The piece under the pen is drawn up to the pen's position, and pale from there.
   const pale = frame.untilS === null ? done : Math.max(0, done - 1);
   const inSight = (of: B, range: PieceRange, style: Style): Task<B>[] =>
     rangesInSight(of.boxes, range, frame, reachPx).map(([from, to]) => ({ of, style, from, to }));
@@ -70,7 +70,10 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: 
 export const cutOffS = ({ untilS }: Frame, style: Style): number =>
   style === "drawn" || style === "travel" ? (untilS ?? Infinity) : Infinity;
 
-/** Draws about so many more of the pieces and takes off what is done; returns how many. `draw` says false while it can't. */
+/**
+ * Draws up to `pieceCount` pieces, removes them from `tasks` and returns their number. `draw` returns false if it can't
+ * draw now.
+ */
 export const drawSome = <B extends Boxed>(
   tasks: Task<B>[],
   pieceCount: number,

@@ -84,6 +84,16 @@ export const createActions = (deps: ActionDeps) => {
     },
   });
 
+  /** Sets the machine in this page's settings and on the plotter, which uses it for moves by hand. */
+  const chooseMachine = (profile: MachineProfile | null): void => {
+    if (profile) undo.changeSettings("machine", (settings) => withMachine(settings, profile));
+  };
+
+  const loadMachines = async (): Promise<void> => {
+    const machines = await attempt("machines", () => backend.machines());
+    if (machines) store.setState({ machines });
+  };
+
   return {
     notify: notices.notify,
     dismiss: notices.dismiss,
@@ -118,10 +128,7 @@ export const createActions = (deps: ActionDeps) => {
       }
     },
     dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.dismissNotice(id)),
-    /** Sets the machine in this page's settings and on the plotter, which uses it for moves by hand. */
-    chooseMachine: (profile: MachineProfile | null): void => {
-      if (profile) undo.changeSettings("machine", (settings) => withMachine(settings, profile));
-    },
+    chooseMachine,
     /** Shows another plotter with its model, heights, pens and presets. */
     choosePlotter: (id: string): void => {
       store.setState({ plotterId: id });
@@ -129,9 +136,17 @@ export const createActions = (deps: ActionDeps) => {
     },
     followPlotter: (): void => sync.follow(),
     takeOverKept: sync.takeOver,
-    loadMachines: async (): Promise<void> => {
-      const machines = await attempt("machines", () => backend.machines());
-      if (machines) store.setState({ machines });
+    loadMachines,
+    /** Saves a custom machine and chooses it. Null if it failed, and the user has seen why. */
+    saveMachine: async (profile: MachineProfile): Promise<MachineProfile | null> => {
+      const saved = await attempt("machine", () => backend.saveMachine(profile));
+      if (saved) await loadMachines();
+      chooseMachine(saved);
+      return saved;
+    },
+    removeMachine: async ({ id }: MachineProfile): Promise<void> => {
+      await attempt("machine", () => backend.removeMachine(id));
+      await loadMachines();
     },
     savePreset: (name: string): void =>
       undo.changePresets(`save ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),

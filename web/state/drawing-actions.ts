@@ -1,4 +1,4 @@
-/** The user's actions that put a drawing on the paper, and what follows from them. */
+/** The user's actions that put a drawing on the paper. */
 import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";

@@ -1,11 +1,13 @@
 /** Requests about jobs, the queue and the plotter, as functions on the store. */
 import type {
+  HandMove,
   Job,
   JobChange,
   JobPatch,
   JobPlace,
   MovePlace,
   NewJob,
+  Plotter,
   QueueSettings,
 } from "../../src/schema/index.js";
 import type { Backend, JobAction } from "../backend/backend.js";
@@ -84,9 +86,10 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     },
     /** Lets the user choose the port, where the page itself opens it. */
     connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
-    home: async (): Promise<void> => {
+    /** With the page's speeds and machine, or with those of `settings`. Null if it failed, and the user has seen why. */
+    moveByHand: async (move: HandMove, settings = store.getState().settings): Promise<Plotter | null> => {
       const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("home", () => backend.home(id, store.getState().settings));
+      return id ? attempt(move.kind, () => backend.moveByHand(id, move, settings)) : null;
     },
     /**
      * Plots a job that is not the drawing on the paper: at once, or after the running plot. Null: it could not be

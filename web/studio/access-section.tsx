@@ -1,6 +1,7 @@
 import { useState } from "react";
 import type { AccessEntry, Role } from "../../src/schema/index.js";
 import { studioText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
@@ -45,14 +46,9 @@ const EntryRow = ({ entry, onRevoke }: { entry: AccessEntry; onRevoke(): void })
         {words.kinds[entry.kind]}, {words.roles[entry.role]}, {words.seen(formatWhen(entry.lastSeenAt))}
       </span>
     </span>
-    <button
-      type="button"
-      className="button button-small"
-      aria-label={words.revokeNamed(entry.name)}
-      onClick={onRevoke}
-    >
+    <Button kind="small" aria-label={words.revokeNamed(entry.name)} onClick={onRevoke}>
       {words.revoke}
-    </button>
+    </Button>
   </li>
 );
 
@@ -88,9 +84,9 @@ const NewKeyForm = ({ onAdd }: { onAdd(name: string, role: Role): Promise<void> 
         ]}
         onChange={setRole}
       />
-      <button type="submit" className="button" disabled={name.trim() === ""}>
+      <Button type="submit" disabled={name.trim() === ""}>
         {words.makeKey}
-      </button>
+      </Button>
     </form>
   );
 };

@@ -1,6 +1,7 @@
 import { useState } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
 import { studioText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { isCameraUrl } from "./camera-url.js";
 
@@ -40,9 +41,9 @@ export const CameraSection = () => {
         options={EVERY_S.map((s) => ({ value: String(s), label: s === 0 ? words.cameraStream : `${s} s` }))}
         onChange={(s) => changeView({ cameraEveryS: Number(s) })}
       />
-      <button type="submit" className="button" disabled={!isGood || wanted === cameraUrl}>
+      <Button type="submit" disabled={!isGood || wanted === cameraUrl}>
         {wanted === "" ? words.cameraOff : words.cameraShow}
-      </button>
+      </Button>
     </form>
   );
 };

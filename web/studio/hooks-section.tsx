@@ -1,6 +1,7 @@
 import { useState } from "react";
 import { WEBHOOK_EVENTS, type Webhook, type WebhookEvent } from "../../src/schema/index.js";
 import { studioText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
 import { Secret } from "./access-section.js";
@@ -50,14 +51,9 @@ const HookRow = ({ hook, onRemove }: { hook: Webhook; onRemove(): void }) => (
       )}
       {hook.pendingCount > 0 && <span className="note">{words.pending(hook.pendingCount)}</span>}
     </span>
-    <button
-      type="button"
-      className="button button-small"
-      aria-label={words.removeHookNamed(hook.name)}
-      onClick={onRemove}
-    >
+    <Button kind="small" aria-label={words.removeHookNamed(hook.name)} onClick={onRemove}>
       {words.removePlotter}
-    </button>
+    </Button>
   </li>
 );
 
@@ -108,9 +104,9 @@ const NewHookForm = ({ onAdded }: { onAdded(secret: string): void }) => {
           </label>
         ))}
       </fieldset>
-      <button type="submit" className="button" disabled={!isWhole}>
+      <Button type="submit" disabled={!isWhole}>
         {words.addHook}
-      </button>
+      </Button>
     </form>
   );
 };

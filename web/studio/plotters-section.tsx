@@ -2,6 +2,7 @@ import { useState } from "react";
 import { ENDED_STATES, type Plotter } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
 import { studioText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { TextField } from "../ui/text-field.js";
 import { PortSelect, portChoices } from "./port-select.js";
@@ -51,16 +52,15 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
       />
       <PortSelect plotter={plotter} />
       {plotter.boardName !== null && <span className="note">{words.boardName(plotter.boardName)}</span>}
-      <button
-        type="button"
-        className="button button-small"
+      <Button
+        kind="small"
         aria-label={words.removePlotterNamed(plotter.name)}
         title={isInUse ? words.inUse : undefined}
         disabled={isLast || isInUse}
         onClick={() => void studio.removePlotter(plotter.id)}
       >
         {words.removePlotter}
-      </button>
+      </Button>
     </li>
   );
 };
@@ -93,9 +93,9 @@ const NewPlotterForm = () => {
         options={portChoices(answer ?? [], null)}
         onChange={setDevice}
       />
-      <button type="submit" className="button" disabled={name.trim() === ""}>
+      <Button type="submit" disabled={name.trim() === ""}>
         {words.addPlotter}
-      </button>
+      </Button>
     </form>
   );
 };

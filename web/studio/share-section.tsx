@@ -2,6 +2,7 @@ import type { Pairing } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { studioText } from "./text.js";
 import { useAsked, useStudio } from "./use-studio.js";
+import { Button } from "../ui/button.js";
 
 const words = studioText;
 
@@ -63,9 +64,9 @@ const PairingCard = ({ title, hint, url, qrSvg }: PairingCardProps) => {
       />
       <p className="note">{hint}</p>
       <input className="text-field" type="text" readOnly value={url} aria-label={words.linkTo(title)} />
-      <button type="button" className="button button-small" onClick={() => void copy()}>
+      <Button kind="small" onClick={() => void copy()}>
         {words.copy}
-      </button>
+      </Button>
     </section>
   );
 };

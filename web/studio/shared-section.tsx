@@ -4,6 +4,7 @@ import { findMachine } from "../../src/internal.js";
 import type { Plotter, SharedJob, SharedTarget } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { studioText } from "./text.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
@@ -72,14 +73,13 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
         ))}
       </span>
       {action !== null && (
-        <button
-          type="button"
-          className="button button-small"
+        <Button
+          kind="small"
           aria-label={(action === "withdraw" ? words.withdrawNamed : words.giveBackNamed)(job.name)}
           onClick={() => void runAction()}
         >
           {action === "withdraw" ? words.withdraw : words.giveBack}
-        </button>
+        </Button>
       )}
     </li>
   );
@@ -103,14 +103,13 @@ const LeftOut = ({ plotter, machine }: LeftOutProps) => {
     <span className="note left-out">
       {words.modelUnknown(plotter.name)}
       {machine !== null && (
-        <button
-          type="button"
-          className="button button-small"
+        <Button
+          kind="small"
           aria-label={words.isOfModelNamed(machine.name, plotter.name)}
           onClick={() => void studio.patchPlotter(plotter.id, { machine: machine.id })}
         >
           {words.isOfModel(machine.name)}
-        </button>
+        </Button>
       )}
     </span>
   );
@@ -152,9 +151,7 @@ const ShareForm = ({ onSent }: { onSent(): void }) => {
         ]}
         onChange={setTo}
       />
-      <button type="submit" className="button">
-        {words.shareSend(drawing.name)}
-      </button>
+      <Button type="submit">{words.shareSend(drawing.name)}</Button>
     </form>
   );
 };

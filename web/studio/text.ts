@@ -38,7 +38,7 @@ export const studioText = {
   portAuto: "Automatic",
   portVirtual: "Virtual board",
   plotterName: (name: string) => `Name of ${name}`,
-  boardName: (name: string) => `The board calls itself ${name}`,
+  boardName: (name: string) => `The name stored in the board: ${name}`,
   removePlotter: "Remove",
   removePlotterNamed: (name: string) => `Remove ${name}`,
   inUse: "It has jobs. Move or remove them first.",

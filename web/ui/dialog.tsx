@@ -1,4 +1,5 @@
 import { useEffect, useRef, type ReactNode } from "react";
+import { Button } from "./button.js";
 import { errorText } from "./text.js";
 import { Icon } from "./icon.js";
 import "./dialog.css";
@@ -29,9 +30,9 @@ export const Dialog = ({ title, onClose, children }: DialogProps) => {
     >
       <header className="dialog-head">
         <h2>{title}</h2>
-        <button type="button" className="tool" aria-label={errorText.close} onClick={onClose}>
+        <Button kind="tool" aria-label={errorText.close} onClick={onClose}>
           <Icon name="close" />
-        </button>
+        </Button>
       </header>
       {children}
     </dialog>

@@ -1,4 +1,5 @@
 import { Component, type ReactNode } from "react";
+import { Button } from "./button.js";
 import { errorText } from "./text.js";
 
 interface State {
@@ -20,9 +21,9 @@ export class ErrorBoundary extends Component<{ readonly children: ReactNode }, S
         <h1>{errorText.title}</h1>
         <p>{errorText.unexpected}</p>
         <p className="note">{this.state.message}</p>
-        <button type="button" className="button button-primary" onClick={() => location.reload()}>
+        <Button kind="primary" onClick={() => location.reload()}>
           {errorText.reload}
-        </button>
+        </Button>
       </main>
     );
   }

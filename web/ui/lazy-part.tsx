@@ -1,4 +1,5 @@
 import { Component, lazy, Suspense, type ComponentType, type ReactNode } from "react";
+import { Button } from "./button.js";
 import { errorText } from "./text.js";
 
 /**
@@ -32,9 +33,9 @@ class PartBoundary extends Component<{ readonly children: ReactNode }, { readonl
     return (
       <p className="note note-error" role="alert">
         {errorText.partMissing}{" "}
-        <button type="button" className="link" onClick={() => location.reload()}>
+        <Button kind="link" onClick={() => location.reload()}>
           {errorText.reload}
-        </button>
+        </Button>
       </p>
     );
   }

@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState, type ReactNode } from "react";
-import { Icon } from "./icon.js";
+import { IconButton } from "./button.js";
 import "./row-menu.css";
 
 /** A menu with a row's further buttons. Escape, a press outside or a press on a button closes it. */
@@ -28,17 +28,13 @@ export const RowMenu = ({ label, children }: { label: string; children: ReactNod
         opener.current?.focus();
       }}
     >
-      <button
+      <IconButton
         ref={opener}
-        type="button"
-        className="button button-icon button-small"
-        aria-label={label}
+        icon="more"
+        label={label}
         aria-expanded={isOpen}
-        title={label}
         onClick={() => setOpen(!isOpen)}
-      >
-        <Icon name="more" />
-      </button>
+      />
       {isOpen && (
         <div
           ref={list}

@@ -16,7 +16,7 @@ export const fieldText = {
 export const errorText = {
   close: "Close",
   title: "Something went wrong",
-  unexpected: "The page met an error it did not expect. Reload it; the queue is kept.",
+  unexpected: "An unexpected error occurred. Reload the page; the queue is not lost.",
   reload: "Reload",
   partMissing: "This part of the page could not be fetched.",
   notKept:

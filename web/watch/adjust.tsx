@@ -3,6 +3,7 @@ import { NudgeJob } from "../plotter/pen-nudge.js";
 import { jobText } from "../queue/text.js";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatCount, formatNumber } from "../ui/format.js";
 import { watchText } from "./text.js";
@@ -43,23 +44,14 @@ const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place
       </p>
       <div className="button-grid">
         {moves.map(([label, move]) => (
-          <button
-            key={label}
-            type="button"
-            className="button button-small"
-            onClick={() => void movePlace(job.id, move)}
-          >
+          <Button key={label} kind="small" onClick={() => void movePlace(job.id, move)}>
             {label}
-          </button>
+          </Button>
         ))}
       </div>
-      <button
-        type="button"
-        className="button button-small"
-        onClick={() => void actOnJob(job.id, "check-place")}
-      >
+      <Button kind="small" onClick={() => void actOnJob(job.id, "check-place")}>
         {words.checkPlace}
-      </button>
+      </Button>
     </div>
   );
 };
@@ -78,13 +70,12 @@ const LiveChanges = ({ job }: { job: Job }) => {
         options={percents.map((pct) => ({ value: String(pct), label: `${pct} %` }))}
         onChange={(pct) => void changeJob(job.id, { speedPct: Number(pct) })}
       />
-      <button
-        type="button"
-        className="button button-small"
+      <Button
+        kind="small"
         onClick={() => void changeJob(job.id, { pen: settings.pen, motion: settings.motion })}
       >
         {words.applyHeights}
-      </button>
+      </Button>
     </div>
   );
 };

@@ -1,7 +1,7 @@
 import { useEffect } from "react";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { Icon } from "../ui/icon.js";
 import { watchText } from "./text.js";
+import { IconButton } from "../ui/button.js";
 
 const words = watchText;
 
@@ -26,15 +26,12 @@ export const FullScreenButton = () => {
   }, [isFull, store]);
   const label = isFull ? words.endFullScreen : words.fullScreen;
   return (
-    <button
-      type="button"
-      className="tool"
-      aria-label={label}
-      title={label}
+    <IconButton
+      kind="tool"
+      icon="full"
+      label={label}
       aria-pressed={isFull}
       onClick={() => store.setState({ isFullScreen: !isFull })}
-    >
-      <Icon name="full" />
-    </button>
+    />
   );
 };

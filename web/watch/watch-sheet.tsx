@@ -1,17 +1,16 @@
 import type { Desk } from "../preview/backdrop.js";
+import { ZoomTools } from "../preview/preview-tools.js";
 import { Sheet, type SheetKind } from "../preview/sheet.js";
 import type { Stage } from "../preview/stage.js";
 import { previewText } from "../preview/text.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
-import { Icon, type IconName } from "../ui/icon.js";
 import { deskOf } from "../preview/desk.js";
 import { lookOfJob, markerOfJob } from "./watch-look.js";
 import { FullScreenButton } from "./full-screen.js";
 import { watchText } from "./text.js";
 
 const words = watchText;
-const ZOOM_STEP = 1.5;
 /** Height of the tools under the paper. */
 const BELOW_PX = 52;
 
@@ -23,31 +22,13 @@ export const WatchSheet = () => (
         <Nothing />
         <div className="preview-foot">
           <div className="preview-tools">
-            <Tool
-              icon="minus"
-              label={previewText.zoomOut}
-              onClick={() => stage.current?.zoomBy(1 / ZOOM_STEP)}
-            />
-            <Tool icon="plus" label={previewText.zoomIn} onClick={() => stage.current?.zoomBy(ZOOM_STEP)} />
-            <Tool icon="fit" label={previewText.fitPaper} onClick={() => stage.current?.fit()} />
+            <ZoomTools stage={stage} />
             <FullScreenButton />
           </div>
         </div>
       </>
     )}
   </Sheet>
-);
-
-interface ToolProps {
-  readonly icon: IconName;
-  readonly label: string;
-  onClick(): void;
-}
-
-const Tool = ({ icon, label, onClick }: ToolProps) => (
-  <button type="button" className="tool" aria-label={label} title={label} onClick={onClick}>
-    <Icon name={icon} />
-  </button>
 );
 
 const settingsOf = (state: PageState): PageState["settings"] => watchedJob(state)?.settings ?? state.settings;

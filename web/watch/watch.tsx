@@ -1,6 +1,7 @@
 import { useEffect } from "react";
 import { watchedJob } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
 import { Notices } from "../ui/notices.js";
 import { StatusCard } from "./status-card.js";
 import { watchText } from "./text.js";
@@ -50,9 +51,7 @@ const NothingCard = () => {
       </div>
       {!isWatcher && (
         <div className="status-actions">
-          <button type="button" className="button" onClick={() => showView("prepare")}>
-            {words.toPrepare}
-          </button>
+          <Button onClick={() => showView("prepare")}>{words.toPrepare}</Button>
         </div>
       )}
     </section>

@@ -8,7 +8,7 @@ export type DrawRequest =
 
 export interface DrawReply {
   readonly type: "picture";
-  /** Of the frame in this picture. */
+  /** The frame's id. */
   readonly id: number;
   /** False for a coarse picture. The whole one follows, unless another frame is requested. */
   readonly isWhole: boolean;

@@ -1,5 +1,5 @@
 /**
- * The page's end of the planning worker: the latest request wins.
+ * The page's side of the planning worker: the latest request wins.
  *
  * When a request follows another one, the worker first finishes its current stage. If it has not begun the new request
  * after PATIENCE_MS, it is terminated and replaced, so that a huge drawing opened by mistake does not block the next
@@ -44,7 +44,7 @@ export interface PlannerListener {
 }
 
 export interface PlannerDrawing {
-  /** Identifies the text: another text has another key. */
+  /** Identifies the text: different texts have different keys. */
   readonly key: string;
   readonly text: DrawingText;
 }
@@ -52,7 +52,7 @@ export interface PlannerDrawing {
 export interface PlannerTask {
   readonly drawing: PlannerDrawing;
   readonly settings: PlanSettings;
-  /** Of the board that will plot it; null: unknown. */
+  /** Firmware of the board that will plot it; null: unknown. */
   readonly firmware: string | null;
 }
 

@@ -27,7 +27,7 @@ export interface PlanRequest {
   readonly drawingKey: string;
   readonly text: DrawingText | null;
   readonly settings: PlanSettings;
-  /** Of the board that will plot it; null: unknown. */
+  /** Firmware of the board that will plot it; null: unknown. */
   readonly firmware: string | null;
 }
 
@@ -35,7 +35,7 @@ export interface PlanRequest {
 export interface ExportRequest {
   readonly type: "export";
   readonly format: ExportFormat;
-  /** Of the board that the commands are for. */
+  /** Firmware of the board that the commands are for. */
   readonly firmware: string;
 }
 
@@ -45,13 +45,13 @@ export type ExportFormat = (typeof EXPORT_FORMATS)[number];
 /** Requests a copy of a plan's strokes, to simulate the pen on them. */
 export interface StrokesRequest {
   readonly type: "strokes";
-  /** Of the plan. */
+  /** The plan's id. */
   readonly id: number;
 }
 
 export type WorkerRequest = PlanRequest | ExportRequest | StrokesRequest;
 
-/** All that the page shows of one drawing with one set of settings. */
+/** The data that the page shows for one drawing with one set of settings. */
 export interface Planned {
   readonly drawingKey: string;
   readonly settings: PlanSettings;
@@ -86,9 +86,7 @@ export interface Planned {
   readonly scene: Scene;
   /** The mean distance between neighbouring lines, where there are lines. */
   readonly lineGapMm: number;
-  /**
-   * A copy of the scene's pieces, to be transferred to the drawing thread. Made in the worker, to save the page time.
-   */
+  /** A copy of the scene's pieces for the drawing worker. The planning worker makes it, to save the page time. */
   readonly picture: Picture;
   /** The worker's time per stage, ms. */
   readonly tookMs: {

@@ -3,8 +3,8 @@
  *
  * mDNS has no authority that assigns names. A host that wants a name probes for it three times and takes it
  * if no host answers (RFC 6762, 8.1). If two probe at the same time, the one whose records are
- * lexicographically later wins, and the other probes again (8.2). A host that hears another one use its name
- * probes again as well (9). The last name is probed first after a restart, so that every server gets its own
+ * lexicographically later wins, and the other probes again (8.2). A host that receives a claim of its name from
+ * another one probes again as well (9). The last name is probed first after a restart, so that every server gets its own
  * name back after a power cut.
  *
  *   probing ──no host answers─> announced ──another host uses it, or the network changes──> probing
@@ -27,7 +27,7 @@ const PROBE_INTERVAL_MS = 250;
 const YIELD_MS = 1_000;
 /** Time until the next try when nothing can be sent: the network may come up later than the server. */
 const NO_NETWORK_MS = 5_000;
-/** Pauses between announcements (8.3): devices that were asleep or missed one hear the next. */
+/** Pauses between announcements (8.3): devices that were asleep or missed one receive the next. */
 const ANNOUNCE_AFTER_MS = [1_000, 2_000, 4_000];
 
 export interface LocalNameOptions {
@@ -53,7 +53,7 @@ export class LocalName {
   #probeCount = 0;
   /** The announced records; null while the server has no name. */
   #records: readonly DnsRecord[] | null = null;
-  /** Of the next probe or announcement. */
+  /** For the next probe or announcement. */
   #timer: NodeJS.Timeout | undefined;
   #isClosed = false;
   #hasFailed = false;

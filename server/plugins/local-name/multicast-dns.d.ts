@@ -1,4 +1,4 @@
-/** The part of multicast-dns that is used here; the package has no types of its own. */
+/** The part of multicast-dns that is used here; the package includes no types. */
 declare module "multicast-dns" {
   import type { EventEmitter } from "node:events";
 

@@ -206,7 +206,7 @@ export class SharedQueue {
       if (this.#reportedLost.has(id)) continue;
       this.#reportedLost.add(id);
       notice(
-        `"${name}" was taken by ${server}, which can't be reached. It waits there until that server is back. To give it to another server, open Studio, Servers.`,
+        `"${name}" was taken by ${server}, which can't be reached. It waits there until that server is back. To give it to another server, open Sharing, Servers.`,
       );
     }
   }

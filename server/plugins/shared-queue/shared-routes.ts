@@ -4,7 +4,7 @@ import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
 import { newSharedJobSchema, sharedJobSchema } from "../../../src/schema/index.js";
 import { okSchema, route, type ApiRoute } from "../../http/api-route.js";
-import { parseWith } from "../../http/errors.js";
+import { parseWith } from "../../../host/parse-with.js";
 import { readDrawing } from "../../planning/read-drawing.js";
 import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { UploadedDrawings } from "../../storage/uploaded-drawings.js";

@@ -3,7 +3,7 @@ import express, { Router } from "express";
 import { z } from "zod";
 import { newWebhookSchema, webhookSchema } from "../../../src/schema/index.js";
 import { okSchema, route, type ApiRoute } from "../../http/api-route.js";
-import { parseWith } from "../../http/errors.js";
+import { parseWith } from "../../../host/parse-with.js";
 import type { Webhooks } from "./webhooks.js";
 
 export const WEBHOOK_ROUTES: readonly ApiRoute[] = [

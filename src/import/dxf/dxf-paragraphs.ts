@@ -132,7 +132,7 @@ function drawPiece({ format, letters, bar }: Piece, at: Affine, shape: ShapeBuff
   shape.append(one, at);
 }
 
-/** Breaks the paragraph into lines of at most the text's width. A longer word gets a line of its own. */
+/** Breaks the paragraph into lines of at most the text's width. A longer word gets a separate line. */
 function linesOf(paragraph: MtextParagraph, text: DxfParagraphs, font: TextFont, missing: string[]): Line[] {
   const lines: Piece[][] = [[]];
   const room = (): number =>

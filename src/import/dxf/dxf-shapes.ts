@@ -6,7 +6,7 @@ import type { ShapeBuffer } from "../shape-buffer.js";
 /** Steps per span of a spline whose degree cannot be drawn as a Bézier. */
 const STEPS_PER_SPAN = 32;
 
-/** Draws the entity; returns false if its type has no lines of its own. */
+/** Draws the entity; returns false for a type that has no lines. */
 export function drawDxfEntity(entity: DxfEntity, shape: ShapeBuffer, arcTolerance: number): boolean {
   switch (entity.type) {
     case "LINE":

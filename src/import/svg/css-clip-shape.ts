@@ -41,7 +41,7 @@ interface Target {
   readonly box: Box;
   /** Percentages refer to the box. */
   readonly basis: LengthBasis;
-  /** Of arcs, in user units. */
+  /** Tolerance of arcs, in user units. */
   readonly tolerance: number;
 }
 

@@ -110,7 +110,7 @@ function combined({ paths, clips }: Drawing, isLight: (color: number) => boolean
   return region;
 }
 
-/** Of "#rrggbb", 0 … 1, as masks weigh the colours. */
+/** The luminance of "#rrggbb", 0 … 1, with the weights that masks use. */
 function luminance(hex: string): number {
   const [r, g, b] = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
   return 0.2126 * r + 0.7152 * g + 0.0722 * b;

@@ -163,8 +163,8 @@ function layOutRuns(chars: readonly Char[], font: TextFont, pen: Pen, missing: s
 }
 
 /**
- * Includes blanks, as letters without a path. The run is shaped as a whole, so that letters with shifts of their
- * own are still kerned.
+ * Includes blanks, as letters without a path. The run is shaped as a whole, so that letters with separate
+ * shifts are still kerned.
  */
 function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: string[]): LetterOnLine[] {
   const { style } = run[0];

@@ -32,7 +32,7 @@ export interface FontMetrics {
   readonly ascent: number;
   readonly descent: number;
   readonly xHeight: number;
-  /** Of `baseline-shift`: how far a subscript goes down and a superscript up. */
+  /** For `baseline-shift`: how far a subscript goes down and a superscript up. */
   readonly subscript: number;
   readonly superscript: number;
   /** The middles of the lines of text decoration, and their thickness. */

@@ -1,6 +1,6 @@
 /**
- * Pens that land in flight: no mark beside a stroke, and none missing, whatever the servo does. The servo here is not
- * the planner's: its speed, its frames and the height at which the tip touches are its own.
+ * Pens that land in flight leave no mark beside a stroke, and no gap, even if the servo deviates from the planner's
+ * assumptions: in its speed, its frames, and the height at which the tip touches.
  */
 import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
@@ -93,7 +93,7 @@ const arbitraryServo: fc.Arbitrary<TipServo> = fc.record({
   contact: fc.oneof(fc.constantFrom(0.45, 0.55), fc.double({ min: 0.45, max: 0.55, noNaN: true })),
 });
 
-/** A servo that is as stated. */
+/** A servo as the planner assumes it, with its frames at any phase. */
 const arbitraryPhase: fc.Arbitrary<TipServo> = fc
   .double({ min: 0, max: 24, noNaN: true })
   .map((phaseMs) => ({ speed: 1, phaseMs, contact: 0.5 }));
@@ -150,7 +150,7 @@ class Longest {
 }
 
 describe("random drawings", { timeout: TIMEOUT_MS }, () => {
-  it("are drawn without a stray mark and without a late start by a servo that differs: safe", () => {
+  it("are drawn without stray marks and late starts in mode safe, by a servo that deviates", () => {
     const longest = new Longest("random drawings, safe");
     fc.assert(
       fc.property(arbitraryJob("safe"), arbitraryServo, (job, servo) => {
@@ -165,7 +165,7 @@ describe("random drawings", { timeout: TIMEOUT_MS }, () => {
     longest.print();
   });
 
-  it("are drawn within 0.3 mm by a servo that is as stated: fast", () => {
+  it("are drawn within 0.3 mm in mode fast, by a servo that does not deviate", () => {
     const longest = new Longest("random drawings, fast");
     fc.assert(
       fc.property(arbitraryJob("fast"), arbitraryPhase, (job, servo) => {
@@ -231,14 +231,14 @@ describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
     },
   );
 
-  it("is drawn fast by a servo that is as stated", () => {
+  it("is drawn in mode fast by a servo that does not deviate", () => {
     const marks = marksOf({ strokes, pen: penOf("fast") }, STATED);
     expect(marks.strayMm).toBeLessThanOrEqual(FAST_MM);
     expect(marks.lateMm).toBeLessThanOrEqual(FAST_MM);
     expect(marks.brokenCount).toBe(0);
   });
 
-  it("takes less time the more the pen overlaps", () => {
+  it("takes less time with more overlap", () => {
     const [off, safe, fast] = (["off", "safe", "fast"] as const).map(
       (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine: unmeasured }).totalS,
     );
@@ -248,7 +248,7 @@ describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (file) => {
 });
 
 describe("the check itself", () => {
-  it("finds a planner that assumes the tip to be clear at 30 % of the way", () => {
+  it("detects a planner that assumes that the tip is clear at 30 % of the lift", () => {
     const strokes = sampleStrokes("flower-meadow.svg");
     const marks = marksOf({ strokes, pen: penOf("fast", { contactPct: 30 }) }, STATED);
     expect(marks.strayMm).toBeGreaterThan(SAFE_MM);

@@ -17,7 +17,7 @@ const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
 const samples = readdirSync(FOLDER).filter((name) => name.endsWith(".svg"));
 const draw = { speedMmPerS: 50, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
 const travel = { speedMmPerS: 150, accelMmPerS2: 1_000, cornerMm: 0.5, jerkMmPerS3: 20_000 };
-const WAYS = MOTION_MODES.flatMap((mode) => [
+const CASES = MOTION_MODES.flatMap((mode) => [
   { name: mode, mode, fit: null },
   { name: `${mode}, fitted`, mode, fit: DEFAULT_FIT },
 ]);
@@ -25,7 +25,7 @@ const WAYS = MOTION_MODES.flatMap((mode) => [
 describe.each(samples)("the sample %s", (file) => {
   const { strokes } = prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE);
 
-  it.each(WAYS)("is drawn within all limits and without a gap in mode $name", ({ mode, fit }) => {
+  it.each(CASES)("is drawn within all limits and without a gap in mode $name", ({ mode, fit }) => {
     const trajectory = plan(strokes, { mode, draw, travel, fit }, DEFAULT_PEN);
     const allowed = (mode === "junction" ? 0 : draw.cornerMm) + (fit ? fit.toleranceMm : 0);
     const worst = worstOf(trajectory, strokes, draw, travel, allowed);

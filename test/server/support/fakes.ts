@@ -1,5 +1,4 @@
 /** A plotter and a planner without hardware or threads, controlled by the test. */
-import type { HandMove } from "../../../host/plotter/hand-moves.js";
 import type { ManagedPlotter } from "../../../host/plotter/plotter-port.js";
 import type { Planning } from "../../../server/planning/planning.js";
 import type { PlotPlanner } from "../../../host/planning/plot-planner.js";
@@ -12,7 +11,7 @@ import type {
   PlotStart,
 } from "../../../host/plotter/types.js";
 import type { Place } from "../../../src/index.js";
-import type { CommandAnswer, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
+import type { CommandAnswer, HandMove, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
 import { STATS } from "./jobs.js";
 
 export class LedRun implements LivePlotRun {

@@ -1,4 +1,4 @@
-/** A queue with one plotter that the test leads, on a data folder. */
+/** A queue on a data folder, with one plotter that the test controls. */
 import { expect } from "vitest";
 import { DISK_FULL } from "../../../host/disk-fault.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";

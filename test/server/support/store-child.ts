@@ -1,6 +1,6 @@
 /**
  * Changes a store endlessly until it is killed. Reports before each change the expected content ("try"), and
- * after it that it is stored ("done"). Usage: node --import tsx store-child.ts DATA_DIR SEED
+ * after it that it is stored ("done"). Arguments: DATA_DIR SEED
  */
 import { writeSync } from "node:fs";
 import { prepareDataDir } from "../../../server/storage/data-dir.js";

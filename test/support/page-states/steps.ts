@@ -1,4 +1,4 @@
-/** Steps that states of several subjects share. */
+/** Steps shared by states of several subjects. */
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import type { Page } from "playwright-core";

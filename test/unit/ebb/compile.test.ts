@@ -71,7 +71,7 @@ describe("compile", () => {
     expect(() => planJob({ strokes: strokeSetOf([LINE]) }, DEFAULT_JOB, incomplete)).toThrow(refused);
   });
 
-  it("makes no commands of an empty plan", () => {
+  it("writes no commands for an empty plan", () => {
     const stream = compiled([], "2.8.1");
     expect(stream.count).toBe(0);
     expect([...stream.boardS]).toEqual([0]);

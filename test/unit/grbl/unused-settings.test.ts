@@ -25,14 +25,14 @@ const START = `${GRBL.name} does not use these settings, because its controller 
 describe("a plan for a Grbl", () => {
   it("names the shaper that it does not use, and draws the same", () => {
     const { warnings, ...job } = planned(SHAPED);
-    expect(warnings).toEqual([`${START}Against swinging.`]);
+    expect(warnings).toEqual([`${START}Reduce ringing.`]);
     expect(job.lines()).toEqual(planned({}).lines());
   });
 
   it("names all other settings that it does not use, and draws the same", () => {
     const { warnings, ...job } = planned(CHANGED);
     expect(warnings).toEqual([
-      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Rises at, Move while the pen lifts.`,
+      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Lifting speed, Move while the pen lifts.`,
     ]);
     expect(job.lines()).toEqual(planned({}).lines());
   });

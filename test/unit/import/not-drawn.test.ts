@@ -1,5 +1,5 @@
 /**
- * Whatever is not drawn as a browser draws it is in the report: all elements of SVG 1.1 and 2 and of HTML in SVG, and
+ * The report lists everything that is not drawn as in a browser: all elements of SVG 1.1 and 2 and of HTML in SVG, and
  * the properties that may be written on them.
  */
 import { describe, expect, it } from "vitest";
@@ -10,7 +10,7 @@ import { codes, draw, page } from "./support/shapes.js";
 const LINE = '<path d="M10 10H50" stroke="red"/>';
 
 const DRAWN = "a circle ellipse g line path polygon polyline rect svg switch symbol text use";
-/** Browsers draw nothing where these stand; what refers to them is reported or drawn. */
+/** Elements that browsers do not draw in place. Elements that refer to them are reported or drawn. */
 const INVISIBLE = `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
   meshgradient metadata mpath pattern radialGradient script solidcolor stop style symbol title view`;
 const REPORTED: Record<string, string> = {

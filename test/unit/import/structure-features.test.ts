@@ -35,7 +35,7 @@ describe("copies", () => {
       ["M0 0L20 0"],
     ],
     [
-      "of a symbol with a place of its own",
+      "of a symbol with its own position",
       '<symbol id="a" x="5" y="6" viewBox="0 0 10 10"><path d="M0 0h10"/></symbol><use href="#a" x="1" width="20" height="20"/>',
       ["M6 6L26 6"],
     ],

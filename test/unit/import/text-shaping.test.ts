@@ -1,4 +1,4 @@
-/** Letters that a font shapes together, and what a font file says about its own heights. */
+/** Letters that a font shapes together, and the heights stored in a font file. */
 import { describe, expect, it } from "vitest";
 import type { Drawing } from "../../../src/drawing/drawing.js";
 import type { TextFont } from "../../../src/import/text/text-font.js";
@@ -58,7 +58,7 @@ describe("kerning", () => {
   });
 });
 
-describe("letters with shifts of their own", () => {
+describe("letters with separate shifts", () => {
   it("stay as close as the font sets them", () => {
     const lefts = (attributes: string): number[] =>
       [0, 1, 2].map((i) => boxOf(drawn(text("AVA", attributes)), i)[0]);
@@ -119,19 +119,19 @@ describe("a font's own heights", () => {
   });
 });
 
-describe("what a text takes from around it", () => {
-  it("is not a baseline shift", () => {
+describe("properties that a text does not inherit", () => {
+  it("include the baseline shift", () => {
     const grouped = `<g baseline-shift="super" alignment-baseline="hanging">${text("a")}</g>`;
     expect(shapesOf(drawn(grouped))).toEqual(shapesOf(drawn(text("a"))));
     const shifted = text("a", 'baseline-shift="super"');
     expect(shapesOf(drawn(shifted))).toEqual(shapesOf(drawn(text("a"))));
   });
 
-  it("is one writing mode for all of it", () => {
+  it("include a writing mode of one span: the whole text has one", () => {
     expect(shapesOf(drawn(text('<tspan writing-mode="tb">ab</tspan>')))).toEqual(shapesOf(drawn(text("ab"))));
   });
 
-  it("is no position from a textPath, only from the text", () => {
+  it("include the position of a textPath", () => {
     const on = (attributes: string): string[] =>
       shapesOf(
         drawn(
@@ -167,7 +167,7 @@ describe("text as a clip", () => {
   });
 });
 
-describe("what spans of a text ask for and do not get is reported", () => {
+describe("the styles of a text's spans that are not drawn", () => {
   const face = { family: "Plain Sans", isBold: false, isItalic: false };
   const messages = (body: string): string[] =>
     draw(body, { text: "outline", font: { ...font, face } }).warnings.map(({ message }) => message);
@@ -180,11 +180,11 @@ describe("what spans of a text ask for and do not get is reported", () => {
     ['font-weight="bold"', "(bold)"],
     ['font-style="italic"', "(italic)"],
     ['font-family="Courier, monospace"', "(font Courier)"],
-  ])("%s", (attributes, expected) => {
+  ])("are reported: %s", (attributes, expected) => {
     expect(messages(text(`a<tspan ${attributes}>b</tspan>`))).toEqual([expect.stringContaining(expected)]);
   });
 
-  it("but nothing where the font is the one asked for", () => {
+  it("do not include a family that is the font's own", () => {
     expect(messages(text("a", "font-family=\"'plain sans', serif\""))).toEqual([]);
   });
 });

@@ -40,8 +40,8 @@ describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
     for (let tS = 0; tS < trajectory.totalS; tS += 0.002) {
       const { stroke, alongMm, x, y } = stateAt(trajectory, tS);
       if (stroke < 0) continue;
-      const told = pointOfPlace(RETRACED, { stroke, alongMm });
-      farthestMm = Math.max(farthestMm, Math.hypot(told.x - x, told.y - y));
+      const point = pointOfPlace(RETRACED, { stroke, alongMm });
+      farthestMm = Math.max(farthestMm, Math.hypot(point.x - x, point.y - y));
     }
     expect(farthestMm).toBeLessThan(WITHIN_MM);
   });

@@ -154,12 +154,12 @@ describe.each(["blend", "scurve"] as const)("a stroke of nine thousand points, m
     expect(worst.clock).toBeLessThan(1e-9);
     const [first, end] = [t.runs.firstBlock[1], t.runs.firstBlock[2]];
     // A block covers about as much of the drawing as its length.
-    let most = 0;
+    let max = 0;
     for (let k = first; k + 1 < end; k++) {
       const stands = t.alongMm[k + 1] - t.alongMm[k];
-      most = Math.max(most, Math.abs(stands - blockLength(t, k, t.durationS[k])));
+      max = Math.max(max, Math.abs(stands - blockLength(t, k, t.durationS[k])));
     }
-    expect(most).toBeLessThan(0.1);
+    expect(max).toBeLessThan(0.1);
   });
 });
 

@@ -17,7 +17,7 @@ import { SPRINGS, swinging } from "../../support/swinging.js";
 const FAST: PenSettings = { ...DEFAULT_PEN, overlap: "fast" };
 const SAFE: PenSettings = { ...DEFAULT_PEN, overlap: "safe" };
 
-/** A stroke, a short way, a stroke, a long way, a stroke, the way home. */
+/** Three strokes, with a short travel, then a long one, between them; then the travel home. */
 const planned = (pen: PenSettings): Trajectory =>
   plan(
     strokeSetOf([[[0, 0], [5, 0]], [[5, 6], [0, 6]], [[100, 100], [90, 90]]]), // prettier-ignore
@@ -112,7 +112,7 @@ describe("a pen in flight", () => {
         // Before the drop it stops where it can, and the pen goes up from the hop height.
         const [lift, ...more] = penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory);
         expect([lift.up, lift.heightPct, lift.waitS, more]).toEqual([true, 60, 0.25, []]);
-        // Up already.
+        // The pen is already up.
         expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, null).trajectory)).toEqual([]);
       }
     }

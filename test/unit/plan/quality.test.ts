@@ -1,5 +1,5 @@
 /**
- * What a step of quality is worth: time without pen waits, and the simulated pen's distance from the drawing, against
+ * The benefit of each quality: time without pen waits, and the simulated pen's distance from the drawing, compared with
  * the default (A = 500, V = 50, δ = 0.025, not shaped) on the same springs. Medians over drawings of polygons, curves
  * and text; docs/motion.md has all samples.
  */
@@ -56,8 +56,8 @@ describe.each(SPRINGS.slice(0, cases(SPRINGS.length, 1)))("on springs of $xHz an
   }, 120_000);
 });
 
-describe("a step of quality", () => {
-  it("is known by its numbers", () => {
+describe("a quality", () => {
+  it("is recognised by its numbers", () => {
     const [springs] = SPRINGS;
     expect(qualityOf(inQuality("fast", springs), springs)).toBe("fast");
     expect(qualityOf(DEFAULT_MOTION, springs)).toBeNull();

@@ -1,4 +1,4 @@
-/** How a file's page is placed on the paper unless the user has chosen a place, and turned into the machine's reach. */
+/** Placing a file's page on the paper if the user has chosen no position, and turning it to fit the machine's reach. */
 import { describe, expect, it } from "vitest";
 import {
   DEFAULT_PREPARE,

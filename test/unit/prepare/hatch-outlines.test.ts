@@ -21,7 +21,7 @@ describe("filling a drawing without filled shapes", () => {
     const plain = prepare(importSvg(LINES), { ...TRUE_SIZE, hatch: DEFAULT_PREPARE.hatch });
     const filled = prepare(importSvg(LINES), { ...TRUE_SIZE, hatchOutlines: true, joinMm: 0 });
     expect(filled.warnings).toEqual([]);
-    // A square of 40 mm in lines 2 mm apart: 800 mm, a line and some ways between more or less.
+    // A square of 40 mm in lines 2 mm apart: 800 mm, give or take a line and the links between lines.
     expect(Math.abs(filled.drawMm - plain.drawMm - 800)).toBeLessThanOrEqual(50);
   });
 

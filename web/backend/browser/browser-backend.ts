@@ -1,8 +1,6 @@
 /** The page's backend without a server: a worker of the page, or of another tab, operates the plotter. */
-import type { HandMove } from "../../../host/plotter/hand-moves.js";
-import type { PlotSettings, Plotter } from "../../../src/schema/index.js";
 import { contentOf, type DrawingText } from "../../worker/drawing-text.js";
-import { BackendFault, type Backend, type HandBackend, type StudioBackend } from "../backend.js";
+import { BackendFault, type Backend, type StudioBackend } from "../backend.js";
 import { whyNoPort } from "./capabilities.js";
 import { HostClient } from "./host-client.js";
 import { sampleList, sampleText, type SampleFiles } from "./samples.js";
@@ -46,7 +44,8 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
     setPlotterMachine: (id, machine) => remote.patchPlotter(id, { machine }),
     movePen: (id, request) => remote.movePen(id, request),
     motorsOff: (id) => remote.motorsOff(id),
-    home: (id, settings) => remote.moveByHand(id, { kind: "home" }, settings),
+    moveByHand: (id, move, settings) => remote.moveByHand(id, move, settings),
+    command: (id, line) => remote.command(id, line),
     connect: async (id) => {
       await askForPort(client);
       return remote.reconnect(id);
@@ -65,7 +64,6 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
       return text !== null && /<svg[\s>]/i.test(text.slice(0, 20_000)) ? text : null;
     },
 
-    hand: () => Promise.resolve(handOf(client)),
     studio: () => Promise.resolve(studioOf(client)),
   };
 };
@@ -90,23 +88,6 @@ const askForPort = async ({ remote }: HostClient): Promise<void> => {
   } catch {
     throw new BackendFault("no-board", browserText.noneChosen);
   }
-};
-
-const handOf = ({ remote }: HostClient): HandBackend => {
-  const move = (id: string, settings: PlotSettings, wanted: HandMove): Promise<Plotter> =>
-    remote.moveByHand(id, wanted, settings);
-  return {
-    walk: (id, settings, xMm, yMm) => move(id, settings, { kind: "walk", xMm, yMm }),
-    jog: (id, settings, dxMm, dyMm) => move(id, settings, { kind: "jog", dxMm, dyMm }),
-    setHome: (id, settings) => move(id, settings, { kind: "set-home" }),
-    cyclePen: (id, settings) => move(id, settings, { kind: "cycle-pen" }),
-    testLine: (id, settings) => move(id, settings, { kind: "test-line" }),
-    testPatch: (id, settings) => move(id, settings, { kind: "test-patch" }),
-    frameBox: (id, settings, boxMm) => move(id, settings, { kind: "frame", boxMm }),
-    square: (id, settings, sizeMm) => move(id, settings, { kind: "square", sizeMm }),
-    servo: (id, settings, pos) => move(id, settings, { kind: "servo", pos }),
-    command: (id, line) => remote.command(id, line),
-  };
 };
 
 /** Requests that need a server are refused with a message that says so. */

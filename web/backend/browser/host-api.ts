@@ -3,7 +3,7 @@ import { PlotwrightError, type MachineProfile } from "../../../src/index.js";
 import { machineProfileSchema } from "../../../src/schema/index.js";
 import type { Notices } from "../../../host/queue/notices.js";
 import type { JobAction } from "../backend.js";
-import { checked } from "./checked.js";
+import { parseWith } from "../../../host/parse-with.js";
 import { jobApi, type JobApiParts } from "./job-api.js";
 import { plotterApi, type PlotterApiParts } from "./plotter-api.js";
 
@@ -23,7 +23,7 @@ export const hostApi = (parts: HostParts) => {
 
     machines: () => machines.list(),
     saveMachine: (profile: MachineProfile): MachineProfile =>
-      machines.save(checked(machineProfileSchema, profile)),
+      machines.save(parseWith(machineProfileSchema, profile)),
     removeMachine: (id: string): void => machines.remove(id),
 
     /** After this the host's worker stops being the host, and the calling page's worker becomes the host. */

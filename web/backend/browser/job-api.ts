@@ -18,7 +18,7 @@ import { jobActions } from "../../../host/queue/job-actions.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { DrawingText } from "../../worker/drawing-text.js";
 import type { JobAction } from "../backend.js";
-import { checked } from "./checked.js";
+import { parseWith } from "../../../host/parse-with.js";
 
 export interface JobApiParts {
   readonly queue: JobQueue;
@@ -40,7 +40,7 @@ export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
     addJob: async (job: Omit<NewJob, "drawing" | "drawingId">, drawing: DrawingText): Promise<Job> => {
       if (sizeOf(drawing) === 0) throw new PlotwrightError("bad-file", "The file is empty.");
       // The schema requires a drawing or its id. Here the drawing is a separate argument.
-      const wanted = checked(newJobSchema, { ...job, drawingId: "sent" });
+      const wanted = parseWith(newJobSchema, { ...job, drawingId: "sent" });
       const { copies = 1, settings, name, plotterId, from } = wanted;
       const id = await drawings.add(drawing);
       const first = await queue.add({
@@ -54,7 +54,7 @@ export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
       return first;
     },
     patchJob: (id: string, patch: JobPatch): Promise<Job> => {
-      const { settings, ...others } = checked(jobPatchSchema, patch);
+      const { settings, ...others } = parseWith(jobPatchSchema, patch);
       return queue.patch(id, {
         ...others,
         ...(settings === undefined ? {} : { settings: machines.withMachine(settings) }),
@@ -62,14 +62,14 @@ export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
     },
     actOnJob: (id: string, action: JobAction): Job | Promise<Job> => actions[action](id),
     changeJob: (id: string, change: JobChange): Promise<Job> =>
-      queue.change(id, checked(jobChangeSchema, change)),
-    movePlace: (id: string, by: MovePlace): Job => queue.movePlace(id, checked(movePlaceSchema, by)),
+      queue.change(id, parseWith(jobChangeSchema, change)),
+    movePlace: (id: string, by: MovePlace): Job => queue.movePlace(id, parseWith(movePlaceSchema, by)),
     moveJob: (id: string, beforeId: string | null): void => queue.move(id, beforeId),
     duplicateJob: (id: string): Job => queue.duplicate(id),
     removeJob: (id: string): Promise<void> => queue.remove(id),
     isRunning: (id: string): boolean => queue.isRunning(id),
     jobDrawing: (id: string): Promise<DrawingText> => drawings.read(queue.drawingOf(id)),
     setQueue: (plotterId: string, settings: QueueSettings): QueueSettings =>
-      queue.saveSettings(checked(queueSettingsSchema, settings), plotterId),
+      queue.saveSettings(parseWith(queueSettingsSchema, settings), plotterId),
   };
 };

@@ -1,18 +1,13 @@
 /** The methods of the host for plotters: their settings, their connection and manual moves. */
-import { z } from "zod";
-import { PlotwrightError } from "../../../src/index.js";
 import { usbIds } from "../../../src/internal.js";
 import {
-  boxMmSchema,
   commandRequestSchema,
-  jogRequestSchema,
+  handMoveSchema,
   penRequestSchema,
   plotSettingsSchema,
   plotterPatchSchema,
   plotterSettingsSchema,
-  servoRequestSchema,
-  squareRequestSchema,
-  walkRequestSchema,
+  type HandMove,
   type PenRequest,
   type PlotSettings,
   type Plotter,
@@ -20,11 +15,11 @@ import {
   type PlotterSettings,
 } from "../../../src/schema/index.js";
 import type { CustomMachines } from "../../../host/custom-machines.js";
-import type { HandMove } from "../../../host/plotter/hand-moves.js";
 import type { PlotterPort } from "../../../host/plotter/plotter-port.js";
 import type { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
+import { findFreePlotter, findPlotter } from "../../../host/queue/find-plotter.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
-import { checked } from "./checked.js";
+import { parseWith } from "../../../host/parse-with.js";
 
 export interface PlotterApiParts {
   readonly queue: JobQueue;
@@ -37,24 +32,13 @@ export const plotterApi = ({ queue, registry, machines }: PlotterApiParts) => {
     isBusy: (id: string) => queue.isPlotterBusy(id),
     liveJobCount: (id: string) => queue.liveJobCount(id),
   };
-  const plotterOf = (id: string): PlotterPort => {
-    const plotter = registry.ports.get(id);
-    if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
-    return plotter;
-  };
-  /** Throws `busy` while a job is on the plotter. */
-  const freePlotter = (id: string): PlotterPort => {
-    const plotter = plotterOf(id);
-    if (queue.isPlotterBusy(id)) {
-      throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
-    }
-    return plotter;
-  };
+  const plotterOf = (id: string): PlotterPort => findPlotter(registry.ports, id);
+  const freePlotter = (id: string): PlotterPort => findFreePlotter(registry.ports, queue, id);
   return {
     savePlotterSettings: (id: string, settings: PlotterSettings): PlotterSettings =>
-      registry.saveSettings(id, checked(plotterSettingsSchema, settings)),
+      registry.saveSettings(id, parseWith(plotterSettingsSchema, settings)),
     patchPlotter: (id: string, patch: PlotterPatch): Promise<Plotter> =>
-      registry.patch(id, checked(plotterPatchSchema, patch), use),
+      registry.patch(id, parseWith(plotterPatchSchema, patch), use),
     /** Called after the user has allowed the page to use a port: the plotter searches for its board again. */
     reconnect: async (id: string): Promise<Plotter> => {
       if (registry.stored(id)?.device === "auto") await registry.reconnect(id, use);
@@ -68,7 +52,7 @@ export const plotterApi = ({ queue, registry, machines }: PlotterApiParts) => {
     log: (id: string): string => plotterOf(id).log(),
 
     movePen: async (id: string, request: PenRequest): Promise<Plotter> => {
-      const { up, heightPct } = checked(penRequestSchema, request);
+      const { up, heightPct } = parseWith(penRequestSchema, request);
       const plotter = freePlotter(id);
       await plotter.pen(up, heightPct);
       return plotter.snapshot();
@@ -79,22 +63,12 @@ export const plotterApi = ({ queue, registry, machines }: PlotterApiParts) => {
       return plotter.snapshot();
     },
     moveByHand: async (id: string, move: HandMove, settings: PlotSettings): Promise<Plotter> => {
-      const wanted = checked(handMoveSchema, move);
+      const wanted = parseWith(handMoveSchema, move);
       const plotter = freePlotter(id);
-      await plotter.move(wanted, machines.withMachine(checked(plotSettingsSchema, settings)));
+      await plotter.move(wanted, machines.withMachine(parseWith(plotSettingsSchema, settings)));
       return plotter.snapshot();
     },
     command: (id: string, line: string) =>
-      freePlotter(id).command(checked(commandRequestSchema, { line }).line),
+      freePlotter(id).command(parseWith(commandRequestSchema, { line }).line),
   };
 };
-
-const plain = z.object({ kind: z.enum(["home", "set-home", "cycle-pen", "test-line", "test-patch"]) });
-const handMoveSchema: z.ZodType<HandMove> = z.union([
-  plain,
-  walkRequestSchema.omit({ settings: true }).extend({ kind: z.literal("walk") }),
-  jogRequestSchema.omit({ settings: true }).extend({ kind: z.literal("jog") }),
-  squareRequestSchema.omit({ settings: true }).extend({ kind: z.literal("square") }),
-  servoRequestSchema.omit({ settings: true }).extend({ kind: z.literal("servo") }),
-  z.object({ kind: z.literal("frame"), boxMm: boxMmSchema }),
-]);

@@ -6,9 +6,9 @@ export const browserText = {
   failed: (message: string) => `Plotting does not work in this browser: ${message}`,
   needsServer: "This needs plotwright’s server: install it on the computer that the plotter is plugged into.",
   noSerial:
-    "This browser can’t drive a plotter from a page. Open this page in Chrome or Edge on a computer. Here, plots run on a simulated board.",
+    "This browser can’t drive a plotter from a page. Open this page in Chrome or Edge on a computer. Here, plots run on the virtual plotter.",
   insecure:
-    "This page was not opened by https, so the browser does not let it use a plotter. Open it at its https address, or at http://localhost. Until then plots run on a simulated board, and the queue is lost when this tab is closed.",
+    "This page was not opened by https, so the browser does not let it use a plotter. Open it at its https address, or at http://localhost. Until then plots run on the virtual plotter, and the queue is lost when this tab is closed.",
   full: "its storage for this site is full. Remove jobs from the queue and the history, or free space on the disk.",
   onlyHere: (reason: string) =>
     `The last changes are only in this tab, so keep it open. The browser can’t store them: ${reason}`,

@@ -1,6 +1,7 @@
 /** The page's backend with plotwright's server: REST requests and the live event stream. */
 import { z } from "zod";
 import {
+  commandAnswerSchema,
   jobSchema,
   machineListSchema,
   machineProfileSchema,
@@ -50,7 +51,9 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     setPlotterMachine: (id, machine) => ask(plotterSchema, "PATCH", pathOf("plotters", id), { machine }),
     movePen: (id, request) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/pen`, request),
     motorsOff: (id) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/motors-off`),
-    home: (id, settings) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/home`, { settings }),
+    moveByHand: (id, { kind, ...numbers }, settings) =>
+      ask(plotterSchema, "POST", `${pathOf("plotters", id)}/${kind}`, { ...numbers, settings }),
+    command: (id, line) => ask(commandAnswerSchema, "POST", `${pathOf("plotters", id)}/command`, { line }),
     connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
     log: async (id) => (await send("GET", `${pathOf("plotters", id)}/log`)).text(),
 
@@ -71,7 +74,6 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
       return /<svg[\s>]/i.test(file.slice(0, 20_000)) ? file : null;
     },
 
-    hand: async () => (await import("./hand-routes.js")).handRoutes(requests),
     studio: async () => (await import("./studio-routes.js")).studioRoutes(requests),
   };
 };

@@ -2,7 +2,7 @@
  * The carriage and pen of one connected board: their position, and the operations that move them.
  *
  * Positions are absolute steps from home. The board's counters start at 0 whenever its motors are switched on; `origin`
- * is the position at that moment. An AxiDraw has no end switches: home is where the carriage is when the motors are
+ * is the position at that moment. An AxiDraw has no limit switches: home is where the carriage is when the motors are
  * switched on after it was moved by hand.
  */
 import { PlotwrightError } from "../../../errors.js";

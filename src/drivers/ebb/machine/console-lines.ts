@@ -2,14 +2,11 @@
  * Decides which typed lines must not be sent: those that restart the board, hang it, or change how it answers. Commands
  * and numbers are compared as the board reads them, so that "cu,01,0" equals "CU,1,0".
  */
+import { TICKS_PER_S, stepsPerSFromRate } from "../../../units.js";
 import { commandName } from "../protocol/replies.js";
 
 /** Maximum duration of a typed motion, seconds of board time. */
 export const LONGEST_S = 120;
-
-const TICKS_PER_S = 25_000;
-/** A rate of this value is one step per tick. */
-const STEP_EACH_TICK = 2 ** 31;
 
 const TOO_LONG = `it would move for more than ${LONGEST_S} s`;
 
@@ -74,6 +71,6 @@ function longerTicks(parts: number): Rule {
 function stepsTake(steps = 0, rate = 0, changes: readonly (number | undefined)[]): string | null {
   if (steps === 0 || changes.some((change) => change !== undefined && change !== 0)) return null;
   if (rate === 0) return "it would never end: there are steps to make at zero speed";
-  const durationS = (Math.abs(steps) * STEP_EACH_TICK) / Math.abs(rate) / TICKS_PER_S;
+  const durationS = Math.abs(steps) / stepsPerSFromRate(Math.abs(rate));
   return durationS > LONGEST_S ? TOO_LONG : null;
 }

@@ -288,7 +288,7 @@ export class EbbRun implements MachineRun {
     return place;
   }
 
-  /** Motors that stop dead make the pen swing on along the line. */
+  /** After a sudden stop of the motors the pen swings past the stop, along the line. */
   private afterSwing({ stream, planS }: StreamPlace, place: Place | null): Place | null {
     const { springs } = machineOf(this.settings);
     if (!springs || !place) return place;

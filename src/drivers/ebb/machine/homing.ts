@@ -14,7 +14,7 @@ import type { Carriage } from "./carriage.js";
 /** Shorter than the travel of a pressed switch. */
 const SEEK_MM = 1;
 const RELEASE_MM = 0.05;
-/** A switch that is still pressed after this distance is not an end switch. */
+/** A switch that is still pressed after this distance is not a limit switch. */
 const MAX_RELEASE_MM = 10;
 /** Max distance to a switch, as a multiple of the profile's travel. */
 const SLACK = 1.1;

@@ -37,7 +37,6 @@ export interface FirmwareFeatures {
   readonly hasStepQuery: boolean;
   readonly hasGeneralQuery: boolean;
   readonly hasLimitQuery: boolean;
-  readonly hasHome: boolean;
   /** SP,2: lift at once, bypassing the queue. */
   readonly hasImmediateLift: boolean;
   /** ES also stops a running LT. */
@@ -64,7 +63,6 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
       hasStepQuery: false,
       hasGeneralQuery: false,
       hasLimitQuery: false,
-      hasHome: false,
       hasImmediateLift: false,
       stopEndsTimed: true,
       hasFutureSyntax: false,
@@ -73,7 +71,7 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
   ],
   ["2.4.3", { hasStepQuery: true }],
   ["2.5.3", { motion: "steps" }],
-  ["2.6.2", { hasGeneralQuery: true, hasHome: true }],
+  ["2.6.2", { hasGeneralQuery: true }],
   [
     "2.7.0",
     {

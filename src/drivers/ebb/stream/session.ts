@@ -329,8 +329,8 @@ const silentAtStart = (cause: unknown): PlotwrightError =>
   );
 
 function wrongBoard(lastLines: readonly string[]): PlotwrightError {
-  const heard = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]);
-  const received = heard.map((line) => JSON.stringify(line)).join(", ");
+  const lines = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]);
+  const received = lines.map((line) => JSON.stringify(line)).join(", ");
   return new PlotwrightError(
     "no-board",
     "Something answers on this port, but it is not an EiBotBoard: choose another device." +

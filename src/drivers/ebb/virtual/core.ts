@@ -4,7 +4,7 @@
  * One order runs and up to `fifoDepth` wait. A waiting order begins exactly when the previous one ends. An
  * order that arrives later begins on arrival, and if the pen was moving, the gap is an underrun.
  */
-import type { FirmwareFeatures } from "../protocol/firmware.js";
+import { compareFirmware, type FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
@@ -93,6 +93,11 @@ export class BoardCore {
     this.line = recordLine ? lineRecord(machine, springs) : null;
   }
 
+  /** The firmware is this version or a newer one. */
+  isFrom(version: string): boolean {
+    return compareFirmware(this.features.version, version) >= 0;
+  }
+
   get isBusy(): boolean {
     return this.running !== null;
   }
@@ -164,51 +169,38 @@ export class BoardCore {
     if (running === null) return;
     this.settle(running, running.endTick);
     this.running = null;
+    this.startNext();
+  }
+
+  private startNext(): void {
     const next = this.fifo.shift();
     if (next !== undefined) this.start(next);
   }
 
   /** ES. Returns whether moves were dropped, and the steps that were left of them. */
-  stop(): {
-    hit: boolean;
-    waiting1: number;
-    waiting2: number;
-    left1: number;
-    left2: number;
-  } {
+  stop(): { hit: boolean; waiting1: number; waiting2: number; left1: number; left2: number } {
     const running = this.running;
     const { arithmetic, stopEndsTimed } = this.features;
     // Before firmware 3, pen moves and delays continue.
     const isStoppable = (order: Order): boolean =>
       arithmetic === "signed" || (order.kind === "move" && (stopEndsTimed || !order.isTimed));
-    let hit = false;
+    const waiting = this.fifo.find((order) => order.kind === "move" && isStoppable(order));
+    let hit = waiting !== undefined;
     let left: [number, number] = [0, 0];
-    const waiting = this.fifo.filter((order) => order.kind === "move" && isStoppable(order));
-    const waitingSteps = waiting.map((order) => (order.kind === "move" ? order : null));
     if (running !== null && isStoppable(running.order)) {
-      hit = running.move !== null;
+      hit ||= running.move !== null;
       left = this.stepsLeft(running);
       this.settle(running, this.motionTick);
       this.running = null;
     }
-    hit ||= waiting.length > 0;
-    const kept = this.fifo.filter((order) => !isStoppable(order));
-    this.fifo.length = 0;
-    this.fifo.push(...kept);
+    this.fifo.splice(0, this.fifo.length, ...this.fifo.filter((order) => !isStoppable(order)));
     this.lastMove = null;
-    if (this.running === null) {
-      const next = this.fifo.shift();
-      if (next !== undefined) this.start(next);
-    }
-    const finite = (steps: number | undefined): number =>
-      steps !== undefined && Number.isFinite(steps) ? steps : 0;
-    return {
-      hit,
-      waiting1: finite(waitingSteps[0]?.axis1.steps),
-      waiting2: finite(waitingSteps[0]?.axis2.steps),
-      left1: left[0],
-      left2: left[1],
+    if (this.running === null) this.startNext();
+    const stepsOf = (axis: "axis1" | "axis2"): number => {
+      const steps = waiting?.kind === "move" ? waiting[axis].steps : 0;
+      return Number.isFinite(steps) ? steps : 0;
     };
+    return { hit, waiting1: stepsOf("axis1"), waiting2: stepsOf("axis2"), left1: left[0], left2: left[1] };
   }
 
   /** The current step counters. */

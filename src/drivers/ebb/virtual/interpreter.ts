@@ -6,19 +6,17 @@
  */
 import { ebbOf } from "../protocol/ebb-controller.js";
 import { commandName, replyShape } from "../protocol/replies.js";
-import { compareFirmware } from "../protocol/firmware.js";
 import type { BoardCore } from "./core.js";
 import { MotionCommands } from "../model/motion-commands.js";
 import type { Order } from "../model/orders.js";
 import { BoardFault, Parameters } from "../model/parameters.js";
 import { BoardQueries, type BoardInputs } from "./queries.js";
-import { TICKS_PER_S } from "../../../units.js";
+import { TICKS_PER_MS } from "../../../units.js";
 
 const MAX_LINE_BYTES = 255;
 const MS16 = 65_535;
 /** SP moves the servo on RB1; S2 moves others. */
 const STANDARD_PIN = 4;
-const TICKS_PER_MS = TICKS_PER_S / 1_000;
 
 /** The effect of a parsed command. */
 interface Action {
@@ -147,10 +145,6 @@ export class Interpreter {
     else this.hooks.send(`!${fault.code} ${fault.text}\r\n`);
   }
 
-  private has(version: string): boolean {
-    return compareFirmware(this.core.features.version, version) >= 0;
-  }
-
   private commands(): ReadonlyMap<string, Handler> {
     const table: [string, string, Handler][] = [
       ["V", "0.0.0", () => ({ values: () => this.queries.versionText() })],
@@ -196,7 +190,7 @@ export class Interpreter {
       ["PO", "0.0.0", (p) => this.pinOutput(p)],
       ["PD", "0.0.0", (p) => this.pinOutput(p)],
     ];
-    return new Map(table.filter(([, since]) => this.has(since)).map(([name, , run]) => [name, run]));
+    return new Map(table.filter(([, since]) => this.core.isFrom(since)).map(([name, , run]) => [name, run]));
   }
 
   // motors
@@ -222,7 +216,7 @@ export class Interpreter {
   private stop(p: Parameters): Action {
     const disable = p.optionalUint(0, 1);
     const { hit, waiting1, waiting2, left1, left2 } = this.core.stop();
-    if (disable === 1 && this.has("2.8.0")) {
+    if (disable === 1 && this.core.isFrom("2.8.0")) {
       this.core.mode1 = 0;
       this.core.mode2 = 0;
     }
@@ -361,7 +355,7 @@ export class Interpreter {
     };
     const answer = answers[which];
     if (answer === undefined) throw new BoardFault(6, "Err: Invalid parameter value");
-    const echoes = !this.has("3.0.2");
+    const echoes = !this.core.isFrom("3.0.2");
     return { values: () => (echoes ? `${which},${answer}` : `${answer}`) };
   }
 

@@ -1,5 +1,4 @@
 /** The values of the board's replies to queries, as each firmware formats them. */
-import { compareFirmware } from "../protocol/firmware.js";
 import type { BoardCore } from "./core.js";
 
 /** State outside the motion queue that queries report. */
@@ -51,7 +50,7 @@ export class BoardQueries {
   motorsText(): string {
     const { core } = this;
     const flags = [core.isBusy, ...core.motorsMoving()];
-    if (this.isFrom("2.4.4")) flags.push(core.fifo.length > 0);
+    if (this.core.isFrom("2.4.4")) flags.push(core.fifo.length > 0);
     return flags.map(Number).join(",");
   }
 
@@ -90,11 +89,7 @@ export class BoardQueries {
 
   /** Firmware before 3.0 pads numbers with zeros. */
   padded(value: number, digits: number): string {
-    return this.isFrom("3.0.0") ? `${value}` : `${value}`.padStart(digits, "0");
-  }
-
-  private isFrom(version: string): boolean {
-    return compareFirmware(this.core.features.version, version) >= 0;
+    return this.core.isFrom("3.0.0") ? `${value}` : `${value}`.padStart(digits, "0");
   }
 }
 

@@ -41,7 +41,7 @@ export class GrblSession {
   /** Called when the board restarts or stops by itself; all lines sent before are lost. */
   onBreak: (error: PlotwrightError) => void = () => undefined;
   /** Lines received until the next command of the console. */
-  heard: string[] = [];
+  received: string[] = [];
 
   private rxBytes = RX_BYTES;
   private sentBytes = 0;
@@ -81,7 +81,7 @@ export class GrblSession {
       if (i > 0) await tooLate;
     }
     if (this.failure) throw this.failure;
-    if (this.version === null) throw notGrbl(this.heard.slice(-4));
+    if (this.version === null) throw notGrbl(this.received.slice(-4));
     return this.version;
   }
 
@@ -168,8 +168,8 @@ export class GrblSession {
       return;
     }
     this.log.add("received", line);
-    this.heard.push(line);
-    if (this.heard.length > 100) this.heard.shift();
+    this.received.push(line);
+    if (this.received.length > 100) this.received.shift();
     this.version = versionOf(line) ?? this.version;
     this.rxBytes = rxBytesOf(line) ?? this.rxBytes;
     const refused = /^error:(\d+)/.exec(line);
@@ -216,8 +216,8 @@ export class GrblSession {
   private noAnswer(): void {
     if (this.sent.length === 0) return;
     // A device that has answered but is not identified is not a Grbl.
-    const isOther = this.version === null && this.heard.length > 0;
-    this.fail(isOther ? notGrbl(this.heard.slice(-4)) : silent(this.sent[0].line));
+    const isOther = this.version === null && this.received.length > 0;
+    this.fail(isOther ? notGrbl(this.received.slice(-4)) : silent(this.sent[0].line));
   }
 
   private fail(error: PlotwrightError): void {
@@ -250,10 +250,10 @@ const restarted = (): PlotwrightError =>
     "The Grbl restarted during its motion: its reset button was pressed, or its supply failed. Push the carriage to home before you resume.",
   );
 
-function notGrbl(heard: readonly string[]): PlotwrightError {
-  if (heard.length === 0) return silent("its version");
+function notGrbl(received: readonly string[]): PlotwrightError {
+  if (received.length === 0) return silent("its version");
   return new PlotwrightError(
     "no-board",
-    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${heard.join("; ")}.`,
+    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${received.join("; ")}.`,
   );
 }

@@ -1,7 +1,7 @@
-/** Finds the plotter of a request, for routes that read it and routes that move it. */
+/** Finds the plotter of a request. */
 import { PlotwrightError } from "../../src/index.js";
-import type { JobQueue } from "../../host/queue/job-queue.js";
-import type { PlotterPort } from "../../host/plotter/plotter-port.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { JobQueue } from "./job-queue.js";
 
 type Plotters = ReadonlyMap<string, PlotterPort>;
 

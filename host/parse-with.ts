@@ -1,10 +1,10 @@
-/** Checks the arguments of a page's call on the host, as the server's routes check the bodies of requests. */
+/** Checks what a client sent: the body of a request to the server, or the arguments of a page's call. */
 import type { z } from "zod";
-import { PlotwrightError } from "../../../src/index.js";
-import { firstFault } from "../../../src/schema/index.js";
+import { PlotwrightError } from "../src/index.js";
+import { firstFault } from "../src/schema/index.js";
 
 /** Throws `bad-setting` that names the first invalid field. */
-export function checked<T>(schema: z.ZodType<T>, value: unknown): T {
+export function parseWith<T>(schema: z.ZodType<T>, value: unknown): T {
   const result = schema.safeParse(value);
   if (result.success) return result.data;
   const { path, words } = firstFault(result.error);

@@ -1,0 +1,34 @@
+import type { ComponentProps } from "react";
+import { Icon, type IconName } from "./icon.js";
+
+const CLASSES = {
+  plain: "button",
+  primary: "button button-primary",
+  danger: "button button-danger",
+  small: "button button-small",
+  icon: "button button-icon",
+  smallIcon: "button button-icon button-small",
+  tool: "tool",
+  link: "link",
+} as const;
+
+interface ButtonProps extends ComponentProps<"button"> {
+  readonly kind?: keyof typeof CLASSES;
+}
+
+/** A button in one of the page's looks. `className` adds to the look. */
+export const Button = ({ kind = "plain", className, ...props }: ButtonProps) => (
+  <button type="button" className={className ? `${CLASSES[kind]} ${className}` : CLASSES[kind]} {...props} />
+);
+
+interface IconButtonProps extends ButtonProps {
+  readonly icon: IconName;
+  readonly label: string;
+}
+
+/** A button that shows only an icon. */
+export const IconButton = ({ icon, label, kind = "smallIcon", ...props }: IconButtonProps) => (
+  <Button kind={kind} aria-label={label} title={label} {...props}>
+    <Icon name={icon} />
+  </Button>
+);
