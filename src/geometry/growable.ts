@@ -30,6 +30,11 @@ export class PointBuffer {
   clear(): void {
     this.length = 0;
   }
+
+  /** A copy of exactly what was pushed. */
+  toArray(): Float64Array {
+    return this.data.slice(0, this.length);
+  }
 }
 
 /** A copy with twice the length, or with length `needed` if that is more. */
@@ -57,6 +62,10 @@ export class ColumnBuffer<T extends Column> {
   push(value: number): void {
     if (this.length === this.data.length) this.data = grown(this.data);
     this.data[this.length++] = value;
+  }
+
+  toArray(): T {
+    return this.data.slice(0, this.length) as T;
   }
 
   /**
