@@ -100,7 +100,7 @@ export {
 } from "./prepare/pens.js";
 
 // plan
-export { PlaceTimes } from "./plan/place-times.js";
+export { PlaceTimes } from "./plan/place-on-plan.js";
 export type { TrajectoryStats } from "./plan/stats.js";
 export { landingMm } from "./plan/pen-flight.js";
 export { penOfLayer } from "./plan/pen-times.js";

@@ -24,9 +24,7 @@ export class PointBuffer {
   reserve(points: number): void {
     const needed = this.length + 2 * points;
     if (needed <= this.data.length) return;
-    const grown = new Float64Array(Math.max(needed, this.data.length * 2));
-    grown.set(this.data.subarray(0, this.length));
-    this.data = grown;
+    this.data = grown(this.data, needed);
   }
 
   clear(): void {
@@ -56,24 +54,14 @@ type Column = Uint8Array | Uint32Array | Int32Array | Float32Array | Float64Arra
 export class ColumnBuffer<T extends Column> {
   data: T;
   length = 0;
-  private readonly kind: new (length: number) => T;
 
   constructor(kind: new (length: number) => T, capacity = 64) {
-    this.kind = kind;
     this.data = new kind(Math.max(1, capacity));
   }
 
   push(value: number): void {
-    if (this.length === this.data.length) this.reserve(1);
+    if (this.length === this.data.length) this.data = grown(this.data);
     this.data[this.length++] = value;
-  }
-
-  reserve(count: number): void {
-    const needed = this.length + count;
-    if (needed <= this.data.length) return;
-    const grown = new this.kind(Math.max(needed, this.data.length * 2));
-    grown.set(this.data);
-    this.data = grown;
   }
 
   toArray(): T {

@@ -54,7 +54,7 @@ export class LineBuilder {
       }
     }
     this.skipped = false;
-    if (at + 2 > this.xy.length) this.reserve(1);
+    if (at + 2 > this.xy.length) this.xy = grown(this.xy);
     this.xy[at] = x;
     this.xy[at + 1] = y;
     this.points++;
@@ -69,7 +69,10 @@ export class LineBuilder {
       this.xy[2 * this.points - 1] = this.skippedY;
     }
     this.skipped = false;
-    this.reserveLines(1);
+    if (this.lines === this.tags.length) {
+      this.tags = grown(this.tags);
+      this.offsets = grown(this.offsets);
+    }
     this.tags[this.lines] = tag;
     this.offsets[++this.lines] = this.first = this.points;
   }
@@ -82,23 +85,16 @@ export class LineBuilder {
 
   /** Adds line `i` of `lines`; backwards if `reversed`. */
   copy(lines: Lines, i: number, tag: number, reversed = false): void {
-    const first = lines.offsets[i];
-    const last = lines.offsets[i + 1] - 1;
-    if (reversed) for (let p = last; p >= first; p--) this.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
-    else for (let p = first; p <= last; p++) this.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
+    this.extend(lines, i, reversed);
     this.end(tag);
   }
 
-  private reserve(points: number): void {
-    const needed = 2 * (this.points + points);
-    if (needed > this.xy.length) this.xy = grown(this.xy, needed);
-  }
-
-  private reserveLines(lines: number): void {
-    const needed = this.lines + lines;
-    if (needed <= this.tags.length) return;
-    this.offsets = grown(this.offsets, needed + 1);
-    this.tags = grown(this.tags, needed);
+  /** Adds the points of line `i` of `lines` to the line being built. */
+  extend({ xy, offsets }: Lines, i: number, reversed: boolean): void {
+    const first = offsets[i];
+    const last = offsets[i + 1] - 1;
+    if (reversed) for (let p = last; p >= first; p--) this.point(xy[2 * p], xy[2 * p + 1]);
+    else for (let p = first; p <= last; p++) this.point(xy[2 * p], xy[2 * p + 1]);
   }
 
   finish(): Lines {

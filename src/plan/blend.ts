@@ -21,7 +21,7 @@
  *     braking      v1² + v1 q ≤ v0'² − v0' q' + 2 A l
  *     speeding up  v0'² + v0' q' ≤ v1² − v1 q + 2 A l
  *
- * One backward and one forward pass (as in look-ahead.ts) take every corner as fast as these limits allow;
+ * One backward and one forward pass (as in junction.ts) take every corner as fast as these limits allow;
  * corner-speeds.ts solves one corner. If the forward pass slows a corner down, the pen accelerates towards it
  * from the previous corner, so the previous corner can always brake for it: v1 q + v0' q' ≤ 2 A l, because no
  * tangent is longer than half its segment.

@@ -64,15 +64,10 @@ export const SHAPED_RULES: MergeRules = {
   isShaped: true,
 };
 
-/**
- * Two blocks of `halfS` seconds each, with velocity (wx, wy) between them. They replace the blocks before
- * `end`.
- */
+/** Two blocks that take `wholeS` seconds together. They replace the blocks before `end`. */
 interface Pair {
   readonly end: number;
-  readonly halfS: number;
-  readonly wx: number;
-  readonly wy: number;
+  readonly wholeS: number;
 }
 
 /** Merges the blocks of one run, from `first` to the last one, in place. The run ends at rest at `at`. */
@@ -144,43 +139,46 @@ function pairFor(
   rules: MergeRules,
 ): Pair | null {
   if (!isWorth(blocks, i, m, rules.floorS)) return null;
-  const plannedS = blocks.startS[m] - blocks.startS[i];
-  let pair = pairWithinLimits(plannedS, blocks, i, m, limits, rules);
-  if (!pair && !rules.isShaped)
-    pair = pairWithinLimits(plannedS * (1 + STRETCH), blocks, i, m, limits, rules);
-  return pair && isNear(blocks, i, pair, limits, rules) ? pair : null;
+  let wholeS = blocks.startS[m] - blocks.startS[i];
+  if (!isWithinLimits(blocks, i, m, wholeS, limits, rules)) {
+    wholeS *= 1 + STRETCH;
+    if (rules.isShaped || !isWithinLimits(blocks, i, m, wholeS, limits, rules)) return null;
+  }
+  return isNear(blocks, i, m, wholeS, limits, rules) ? { end: m, wholeS } : null;
 }
 
+/** One axis of the pair's velocity in its middle. */
+const middleVelocity = (p0: number, p1: number, v0: number, v1: number, wholeS: number): number =>
+  (2 * (p1 - p0)) / wholeS - (v0 + v1) / 2;
+
 /**
- * The pair that takes `wholeS` seconds. Null if it breaks V, A or a motor limit, or if a half reverses direction (the
- * position along the drawing is interpolated by speed).
+ * False if the pair breaks V, A or a motor limit, or if a half reverses direction (the position along the drawing is
+ * interpolated by speed).
  */
-function pairWithinLimits(
-  wholeS: number,
-  blocks: BlockColumns,
+function isWithinLimits(
+  { x, y, vx, vy }: BlockColumns,
   i: number,
   m: number,
+  wholeS: number,
   limits: RunLimits,
   { isShaped }: MergeRules,
-): Pair | null {
-  const { x, y, vx, vy } = blocks;
+): boolean {
   const { stretchX, stretchY } = limits;
   const vx0 = vx[i];
   const vy0 = vy[i];
   const vx1 = vx[m];
   const vy1 = vy[m];
-  const wx = (2 * (x[m] - x[i])) / wholeS - (vx0 + vx1) / 2;
-  const wy = (2 * (y[m] - y[i])) / wholeS - (vy0 + vy1) / 2;
-  const halfS = wholeS / 2;
-  const maxChange = limits.accel * SLACK * halfS;
-  const isWithin =
+  const wx = middleVelocity(x[i], x[m], vx0, vx1, wholeS);
+  const wy = middleVelocity(y[i], y[m], vy0, vy1, wholeS);
+  const maxChange = (limits.accel * SLACK * wholeS) / 2;
+  return (
     isShorter(wx - vx0, wy - vy0, maxChange, isShaped) &&
     isShorter(vx1 - wx, vy1 - wy, maxChange, isShaped) &&
     isShorter(wx / stretchX, wy / stretchY, limits.speed * SLACK, isShaped) &&
     vx0 * wx + vy0 * wy >= 0 &&
     wx * vx1 + wy * vy1 >= 0 &&
-    canReach(limits, wx / stretchX, wy / stretchY);
-  return isWithin ? { end: m, halfS, wx, wy } : null;
+    canReach(limits, wx / stretchX, wy / stretchY)
+  );
 }
 
 const isShorter = (x: number, y: number, maxLength: number, inEachAxis: boolean): boolean =>
@@ -205,24 +203,30 @@ function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floo
  * the line counts as A s²/v²: twice the max deviation of a line drawn at v under A, because the line may be drawn
  * slower nearby.
  */
-function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, rules: MergeRules): boolean {
-  const { durationS, startS, x, y, vx, vy, ax, ay } = blocks;
-  const { end: m, halfS, wx, wy } = pair;
-  const { accel } = limits;
-  const tolerance = 2 * pair.halfS < SHORT_S ? rules.shortToleranceMm : rules.toleranceMm;
+function isNear(
+  { durationS, startS, x, y, vx, vy, ax, ay }: BlockColumns,
+  i: number,
+  m: number,
+  wholeS: number,
+  { accel }: RunLimits,
+  rules: MergeRules,
+): boolean {
+  const tolerance = wholeS < SHORT_S ? rules.shortToleranceMm : rules.toleranceMm;
+  const halfS = wholeS / 2;
   const x0 = x[i];
   const y0 = y[i];
   const vx0 = vx[i];
   const vy0 = vy[i];
-  const a1x = (wx - vx0) / halfS;
-  const a1y = (wy - vy0) / halfS;
   const x1 = x[m];
   const y1 = y[m];
   const vx1 = vx[m];
   const vy1 = vy[m];
+  const wx = middleVelocity(x0, x1, vx0, vx1, wholeS);
+  const wy = middleVelocity(y0, y1, vy0, vy1, wholeS);
+  const a1x = (wx - vx0) / halfS;
+  const a1y = (wy - vy0) / halfS;
   const a2x = (vx1 - wx) / halfS;
   const a2y = (vy1 - wy) / halfS;
-  const wholeS = 2 * halfS;
   const start = startS[i];
   const stretch = wholeS / (startS[m] - start);
   const slow2 = rules.isSmooth ? 16 * tolerance * accel : Infinity;
@@ -253,10 +257,19 @@ function isNear(blocks: BlockColumns, i: number, pair: Pair, limits: RunLimits, 
   return true;
 }
 
-function writePair(blocks: BlockColumns, i: number, { end: m, halfS, wx, wy }: Pair): void {
+function writePair(blocks: BlockColumns, i: number, { end: m, wholeS }: Pair): void {
   const { x, y, vx, vy, alongMm } = blocks;
-  const [x0, y0, vx0, vy0, along] = [x[i], y[i], vx[i], vy[i], alongMm[i]];
-  const [vx1, vy1] = [vx[m], vy[m]];
+  const halfS = wholeS / 2;
+  // The pushes may overwrite row i.
+  const x0 = x[i];
+  const y0 = y[i];
+  const vx0 = vx[i];
+  const vy0 = vy[i];
+  const vx1 = vx[m];
+  const vy1 = vy[m];
+  const along = alongMm[i];
+  const wx = middleVelocity(x0, x[m], vx0, vx1, wholeS);
+  const wy = middleVelocity(y0, y[m], vy0, vy1, wholeS);
   const middle = lengthOf(wx, wy);
   const first = lengthOf(vx0, vy0) + middle;
   const second = middle + lengthOf(vx1, vy1);

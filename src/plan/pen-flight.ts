@@ -54,7 +54,7 @@ export interface Lowering {
 }
 
 /** A pen with a lift rate is lifted slowly on purpose, so the carriage waits for it. */
-export const liftsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off" && !pen.liftPctPerS;
+const liftsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off" && !pen.liftPctPerS;
 export const dropsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off" && !pen.dropPctPerS;
 
 /** The lift before a travel of `travelMm`. */

@@ -205,7 +205,7 @@ export function blockState(trajectory: Trajectory, k: number, t: number, out: Mo
 }
 
 /** mm along the source polyline, interpolated by the length of the block covered so far. */
-export function blockAlong(trajectory: Trajectory, k: number, t: number): number {
+function blockAlong(trajectory: Trajectory, k: number, t: number): number {
   const along = trajectory.alongMm[k];
   const duration = trajectory.durationS[k];
   if (!(t > 0)) return along;

@@ -184,7 +184,7 @@ function writeChain(
   for (;;) {
     const line = entry >> 1;
     done[line] = 1;
-    addPoints(lines, first + line, (entry & 1) === 1, builder);
+    builder.extend(lines, first + line, (entry & 1) === 1);
     const next = partner[entry ^ 1];
     if (next === UNPAIRED || next === head) break;
     entry = next;
@@ -195,12 +195,4 @@ function writeChain(
     builder.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
   }
   builder.end(lines.tag[first + i]);
-}
-
-function addPoints(lines: Lines, i: number, reversed: boolean, builder: LineBuilder): void {
-  const { xy, offsets } = lines;
-  const from = offsets[i];
-  const to = offsets[i + 1] - 1;
-  if (reversed) for (let p = to; p >= from; p--) builder.point(xy[2 * p], xy[2 * p + 1]);
-  else for (let p = from; p <= to; p++) builder.point(xy[2 * p], xy[2 * p + 1]);
 }

@@ -59,8 +59,9 @@ export class TourSearch {
   private readonly ends: number;
   private readonly tour: Int32Array;
   private readonly place: Int32Array;
-  private near = new Int32Array(0);
-  private nearDistance = new Float64Array(0);
+  /** By end, the nearest ends of other strokes, and how far away they are, mm; −1 if there are fewer. */
+  private readonly near: Int32Array;
+  private readonly nearDistance: Float64Array;
   /** Ends around which the search is still to be done: a ring buffer, with each end in it at most once. */
   private readonly queue: Int32Array;
   private readonly queued: Uint8Array;
@@ -84,14 +85,15 @@ export class TourSearch {
     for (let p = 0; p < this.ends; p++) this.place[this.tour[p]] = p;
     this.queue = new Int32Array(this.ends);
     this.queued = new Uint8Array(this.ends);
-    this.refresh();
+    this.near = new Int32Array(this.ends * NEAR).fill(-1);
+    this.nearDistance = new Float64Array(this.ends * NEAR);
+    this.findNear();
+    for (let p = 1; p < this.ends; p += 2) this.length += this.gap(this.tour[p], this.tour[this.next(p)]);
+    for (const end of this.tour) this.push(end);
   }
 
-  /** Call after coordinates have changed: rebuilds lists, length and queue. */
-  refresh(): void {
+  private findNear(): void {
     const { ends, xy } = this;
-    this.near = new Int32Array(ends * NEAR).fill(-1);
-    this.nearDistance = new Float64Array(ends * NEAR);
     const index = new PointGrid(xy);
     // Two more, because the result includes the end itself and the other end of its stroke.
     const found = new NearestPoints(NEAR + 2);
@@ -103,9 +105,6 @@ export class TourSearch {
         this.nearDistance[e * NEAR + k] = this.gap(e, others[k]);
       }
     }
-    this.length = 0;
-    for (let p = 1; p < ends; p += 2) this.length += this.gap(this.tour[p], this.tour[this.next(p)]);
-    for (let p = 0; p < ends; p++) this.push(this.tour[p]);
   }
 
   /** The current ring of ends. */
