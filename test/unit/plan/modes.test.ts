@@ -214,7 +214,7 @@ describe("settings beyond speed and acceleration", () => {
       [{ ease: { lengthMm: 5, speedMmPerS: 0 } }, {}, /slow-in speed/],
       [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /layer "red" draw acceleration/],
       [{ motorAccelStepsPerS2: Number.NaN }, {}, /motor acceleration/],
-      [{}, { dropPctPerS: 0 }, /sinks at/],
+      [{}, { dropPctPerS: 0 }, /pen lowering speed is 0/],
       [{}, { contactPct: 120 }, /tip touches at is 120/],
       [{}, { overlap: "often" as never }, /overlap is "often": choose one of off, safe, fast/],
       [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
