@@ -13,8 +13,8 @@ const startPages = useSerialPages();
 
 describe("the page without a server", () => {
   it("plots without an underrun while its tab is hidden", { timeout: (HIDDEN_S + 200) * 1_000 }, async () => {
-    // Of 4 s each: longer than the tab is hidden.
-    const lines = Math.ceil(HIDDEN_S / 4) + 3;
+    // Of 4 s each, besides travel and pen moves: longer than the tab is hidden.
+    const lines = Math.ceil(HIDDEN_S / 4) + 1;
     const pages = await startPages(1, startTabbedBrowser);
     const page = await pages.openPage();
     await pages.plotComb(page, lines);

@@ -378,7 +378,7 @@ describe("a plotter that is closed in mid-plot", () => {
     await world.run(driver.close());
     expect(await outcome(world.run(run.finished, 10))).toMatch(/^disconnected/);
     const never = new Promise<void>(() => undefined);
-    await expect(world.run(never, 60)).rejects.toThrow("no timer brings");
+    await expect(world.run(never, 60)).rejects.toThrow("no timer is pending");
   });
 });
 
