@@ -65,91 +65,55 @@ export const INITIAL_STYLE: Style = {
 };
 
 type Mutable<T> = { -readonly [K in keyof T]: T[K] };
-type Setter = (style: Mutable<Style>, value: string, basis: LengthBasis) => void;
 
-/** The field that `inherit`, `initial` and `unset` apply to. */
-const FIELDS: Partial<Record<Property, keyof Style>> = {
-  fill: "fill",
-  "fill-opacity": "fillOpacity",
-  "fill-rule": "fillRule",
-  stroke: "stroke",
-  "stroke-opacity": "strokeOpacity",
-  "stroke-width": "strokeWidth",
-  "stroke-dasharray": "dashes",
-  "stroke-dashoffset": "dashOffset",
-  "clip-rule": "clipRule",
-  color: "color",
-  visibility: "isVisible",
-  "font-family": "fontFamily",
-  "font-size": "fontSize",
-  "font-style": "isItalic",
-  "font-weight": "isBold",
-  "text-anchor": "textAnchor",
-  "letter-spacing": "letterSpacing",
-  "marker-start": "markerStart",
-  "marker-mid": "markerMid",
-  "marker-end": "markerEnd",
-};
+/** How a property is read into a field of the style. */
+interface Reader {
+  readonly field: keyof Style;
+  /** Undefined for an invalid value: the inherited one stays, as if it were not declared. */
+  readonly read: (value: string, basis: LengthBasis) => Style[keyof Style] | undefined;
+}
 
-/** An invalid value keeps the inherited one, as if it were not declared. */
-const SETTERS: Partial<Record<Property, Setter>> = {
-  fill: (style, value) => setPaint(style, "fill", value),
-  stroke: (style, value) => setPaint(style, "stroke", value),
-  "fill-opacity": (style, value) => {
-    style.fillOpacity = parseOpacity(value) ?? style.fillOpacity;
-  },
-  "stroke-opacity": (style, value) => {
-    style.strokeOpacity = parseOpacity(value) ?? style.strokeOpacity;
-  },
-  "fill-rule": (style, value) => {
-    if (value === "nonzero" || value === "evenodd") style.fillRule = value;
-  },
-  "clip-rule": (style, value) => {
-    if (value === "nonzero" || value === "evenodd") style.clipRule = value;
-  },
-  "stroke-width": (style, value, basis) => {
-    const width = lengthPx(value, basis, "both");
-    if (width !== null && width >= 0) style.strokeWidth = width;
-  },
-  "stroke-dasharray": (style, value, basis) => {
-    const dashes = parseDashes(value, basis);
-    if (dashes !== undefined) style.dashes = dashes;
-  },
-  "stroke-dashoffset": (style, value, basis) => {
-    style.dashOffset = lengthPx(value, basis, "both") ?? style.dashOffset;
-  },
-  color: (style, value) => {
-    style.color = parseColor(value) ?? style.color;
-  },
-  visibility: (style, value) => {
-    if (value === "visible") style.isVisible = true;
-    else if (value === "hidden" || value === "collapse") style.isVisible = false;
-  },
-  "font-family": (style, value) => {
-    style.fontFamily = value;
-  },
-  "font-style": (style, value) => {
-    style.isItalic = value === "italic" || value.startsWith("oblique");
-  },
-  "font-weight": (style, value) => {
-    style.isBold = value === "bold" || value === "bolder" || Number(value) >= 600;
-  },
-  "text-anchor": (style, value) => {
-    if (value === "start" || value === "middle" || value === "end") style.textAnchor = value;
-  },
-  "letter-spacing": (style, value, basis) => {
-    const spacing = value === "normal" ? 0 : lengthPx(value, basis, "width");
-    if (spacing !== null) style.letterSpacing = spacing;
-  },
-  "marker-start": (style, value) => {
-    style.markerStart = parseUrl(value);
-  },
-  "marker-mid": (style, value) => {
-    style.markerMid = parseUrl(value);
-  },
-  "marker-end": (style, value) => {
-    style.markerEnd = parseUrl(value);
-  },
+const reader = <Field extends keyof Style>(
+  field: Field,
+  read: (value: string, basis: LengthBasis) => Style[Field] | undefined,
+): Reader => ({ field, read });
+
+const oneOf =
+  <T extends string>(...keywords: readonly T[]) =>
+  (value: string): T | undefined =>
+    keywords.find((keyword) => keyword === value);
+
+const opacityOf = (value: string): number | undefined => parseOpacity(value) ?? undefined;
+const lengthOf = (value: string, basis: LengthBasis): number | undefined =>
+  lengthPx(value, basis, "both") ?? undefined;
+
+const READERS: Partial<Record<Property, Reader>> = {
+  fill: reader("fill", parsePaint),
+  stroke: reader("stroke", parsePaint),
+  "fill-opacity": reader("fillOpacity", opacityOf),
+  "stroke-opacity": reader("strokeOpacity", opacityOf),
+  "fill-rule": reader("fillRule", oneOf("nonzero", "evenodd")),
+  "clip-rule": reader("clipRule", oneOf("nonzero", "evenodd")),
+  "stroke-width": reader("strokeWidth", (value, basis) => {
+    const width = lengthOf(value, basis);
+    return width !== undefined && width >= 0 ? width : undefined;
+  }),
+  "stroke-dasharray": reader("dashes", parseDashes),
+  "stroke-dashoffset": reader("dashOffset", lengthOf),
+  color: reader("color", (value) => parseColor(value) ?? undefined),
+  visibility: reader("isVisible", (value) =>
+    /^(visible|hidden|collapse)$/.test(value) ? value === "visible" : undefined,
+  ),
+  "font-family": reader("fontFamily", (value) => value),
+  "font-style": reader("isItalic", (value) => value === "italic" || value.startsWith("oblique")),
+  "font-weight": reader("isBold", (value) => value === "bold" || value === "bolder" || Number(value) >= 600),
+  "text-anchor": reader("textAnchor", oneOf("start", "middle", "end")),
+  "letter-spacing": reader("letterSpacing", (value, basis) =>
+    value === "normal" ? 0 : (lengthPx(value, basis, "width") ?? undefined),
+  ),
+  "marker-start": reader("markerStart", parseUrl),
+  "marker-mid": reader("markerMid", parseUrl),
+  "marker-end": reader("markerEnd", parseUrl),
 };
 
 /** The style of an element that declares `declared` below `parent`; `parent` itself if nothing changes. */
@@ -164,12 +128,14 @@ export function computeStyle(parent: Style, declared: Declared, basis: LengthBas
   if (size !== undefined) style.fontSize = parseFontSize(resolve(style, size) ?? "", parent, basis);
   const own = style.fontSize === basis.fontSize ? basis : { ...basis, fontSize: style.fontSize };
   for (let i = 0; i < declared.size; i++) {
-    const property = declared.nameAt(i) as Property;
-    const set = SETTERS[property];
-    if (set === undefined) continue;
-    const value = resolve(style, declared.valueAt(i));
-    if (value === null) continue;
-    if (!setKeyword(style, parent, property, value)) set(style, value, own);
+    const known = READERS[declared.nameAt(i) as Property];
+    if (known === undefined) continue;
+    const { field, read } = known;
+    const text = resolve(style, declared.valueAt(i));
+    if (text === null) continue;
+    const origin = originOf(text, parent);
+    const value = origin === null ? read(text, own) : origin[field];
+    if (value !== undefined) Object.assign(style, { [field]: value });
   }
   if (declaresTextStyle(declared)) {
     style.text = computeTextStyle(
@@ -218,41 +184,16 @@ function resolve(style: Style, raw: string): string | null {
   return value;
 }
 
-/** Whether the value was one of CSS's global keywords. All these properties inherit, so unset = inherit. */
-function setKeyword(style: Mutable<Style>, parent: Style, property: Property, value: string): boolean {
-  const field = FIELDS[property];
-  if (field === undefined) return false;
-  const source =
-    value === "inherit" || value === "unset" || value === "revert"
-      ? parent
-      : value === "initial"
-        ? INITIAL_STYLE
-        : null;
-  if (source === null) return false;
-  Object.assign(style, { [field]: source[field] });
-  return true;
-}
-
-function setPaint(style: Mutable<Style>, which: "fill" | "stroke", value: string): void {
-  style[which] = parsePaint(value) ?? style[which];
-}
-
-const paintCache = new Map<string, Paint | null>();
-
-function parsePaint(text: string): Paint | null {
-  let paint = paintCache.get(text);
-  if (paint === undefined) {
-    paint = readPaint(text);
-    if (paintCache.size > 4096) paintCache.clear();
-    paintCache.set(text, paint);
-  }
-  return paint;
+/** The style that one of CSS's global keywords refers to. All these properties inherit, so unset = inherit. */
+function originOf(value: string, parent: Style): Style | null {
+  if (value === "inherit" || value === "unset" || value === "revert") return parent;
+  return value === "initial" ? INITIAL_STYLE : null;
 }
 
 /** Whether a fill or stroke is not a paint, so that the inherited one applies. */
-export const isUnknownPaint = (text: string): boolean => parsePaint(text) === null;
+export const isUnknownPaint = (text: string): boolean => parsePaint(text) === undefined;
 
-function readPaint(text: string): Paint | null {
+function parsePaint(text: string): Paint | undefined {
   const value = text.trim();
   if (value.toLowerCase() === "none") return NONE;
   if (value.toLowerCase() === "currentcolor") return { kind: "currentColor" };
@@ -260,11 +201,11 @@ function readPaint(text: string): Paint | null {
   if (value === "context-stroke") return { kind: "context", of: "stroke" };
   const server = /^url\(([^)]*)\)\s*(.*)$/s.exec(value);
   if (server !== null) {
-    const fallback = server[2] === "" ? NONE : (readPaint(server[2]) ?? NONE);
+    const fallback = server[2] === "" ? NONE : (parsePaint(server[2]) ?? NONE);
     return { kind: "server", id: parseUrl(value) ?? "", fallback };
   }
   const color = parseColor(value);
-  return color === null ? null : { kind: "color", color };
+  return color === null ? undefined : { kind: "color", color };
 }
 
 /** The id in url(#id), with or without quotes; null for `none` and for other documents. */
