@@ -53,9 +53,6 @@ export function absolutePx(text: string): number | null {
 
 /** User units of any length; null if it is malformed or its unit is unknown. */
 export function lengthPx(text: string, basis: LengthBasis, side: Side): number | null {
-  // Plain numbers are by far the most common.
-  const plain = Number(text);
-  if (plain === plain && isDecimal(text)) return Number.isFinite(plain) ? plain : null;
   const parts = splitLength(text);
   if (parts === null) {
     return text.includes("calc(") ? evaluateCalc(text, (term) => lengthPx(term, basis, side)) : null;
@@ -85,17 +82,6 @@ export function lengthPx(text: string, basis: LengthBasis, side: Side): number |
       return null;
   }
 }
-
-/** Number() also accepts "", " ", "0x1f", "0b1" and "0o7", which are not lengths. */
-function isDecimal(text: string): boolean {
-  const trimmed = text.charCodeAt(0) > 32 ? text : text.trim();
-  const second = trimmed.charCodeAt(1) | 32;
-  return trimmed !== "" && second !== LETTER_X && second !== LETTER_B && second !== LETTER_O;
-}
-
-const LETTER_B = 98;
-const LETTER_O = 111;
-const LETTER_X = 120;
 
 function percentBasis(basis: LengthBasis, side: Side): number {
   if (side === "width") return basis.viewportWidth;
