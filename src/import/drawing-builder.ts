@@ -66,11 +66,6 @@ export class DrawingBuilder {
    * likely total is reserved at once: growing step by step would hold them twice.
    */
   progress = 0;
-  /** The look of the previous shape, and its indices. */
-  private look: Look | null = null;
-  private lookStroke = -1;
-  private lookFill = -1;
-  private lookDash = -1;
 
   constructor(private readonly warnings: Warnings) {
     this.verbOffsets.push(0);
@@ -114,17 +109,16 @@ export class DrawingBuilder {
     }
     coords.length += shape.coords.length;
     for (let i = 0; i < shape.verbs.length; i++) verbs.push(shape.verbs.data[i]);
-    if (look !== this.look) this.takeLook(look);
     const { speedFactor = 1 } = look;
     if (speedFactor !== 1) this.speedFactors.set(this.shapeCount, speedFactor);
     this.verbOffsets.push(verbs.length);
     this.coordOffsets.push(coords.length);
     this.group.push(group);
-    this.stroke.push(this.lookStroke);
-    this.fill.push(this.lookFill);
+    this.stroke.push(this.colorOf(look.stroke));
+    this.fill.push(this.colorOf(look.fill));
     this.fillRule.push(look.evenOdd ? RULE_EVENODD : RULE_NONZERO);
     this.strokeWidth.push(finiteWidth(look.strokeWidth));
-    this.dash.push(this.lookDash);
+    this.dash.push(this.dashOf(look.dash));
     this.clip.push(clip === null ? -1 : clipIndexFor(clip, this.boxOfLast(), this.clips));
     return true;
   }
@@ -216,13 +210,6 @@ export class DrawingBuilder {
     coords.reserve(Math.ceil(Math.min(MAX_COORDS - coords.length, Math.max(count, expected)) / 2));
   }
 
-  private takeLook(look: Look): void {
-    this.look = look;
-    this.lookStroke = this.colorOf(look.stroke);
-    this.lookFill = this.colorOf(look.fill);
-    this.lookDash = look.dash === null ? -1 : this.dashOf(look.dash);
-  }
-
   private colorOf(color: string | null): number {
     if (color === null) return -1;
     let index = this.colorIndex.get(color);
@@ -234,7 +221,8 @@ export class DrawingBuilder {
     return index;
   }
 
-  private dashOf(dash: DashPattern): number {
+  private dashOf(dash: DashPattern | null): number {
+    if (dash === null) return -1;
     const key = JSON.stringify(dash);
     let index = this.dashIndex.get(key);
     if (index === undefined) {
