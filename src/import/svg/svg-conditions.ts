@@ -4,21 +4,14 @@
  */
 import { attribute, type SvgTree } from "./svg-tree.js";
 
-const CONDITIONS = ["requiredExtensions", "systemLanguage"];
-
 export class SvgConditions {
-  private readonly areThere: boolean;
-
   /** @param languages the user's languages, in lower case */
   constructor(
     private readonly tree: SvgTree,
     private readonly languages: readonly string[],
-  ) {
-    this.areThere = CONDITIONS.some((name) => tree.names.includes(name));
-  }
+  ) {}
 
   areMet(element: number): boolean {
-    if (!this.areThere) return true;
     const extensions = attribute(this.tree, element, "requiredExtensions");
     // No extension is supported; an empty list is not met either (SVG 2, §5.8.4).
     if (extensions !== undefined) return false;

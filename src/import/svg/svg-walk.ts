@@ -79,7 +79,6 @@ export class SvgWalk {
   private readonly markers: SvgMarkers;
   private readonly masks: SvgMasks;
   private readonly layerGroups: LayerGroups;
-  private readonly hasSpeeds: boolean;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
@@ -98,7 +97,6 @@ export class SvgWalk {
     this.layerGroups = new LayerGroups(tree, layers, builder, warnings);
     const drawApart: DrawApart = (element, context, work) => this.drawApart(element, context, work, layers);
     this.masks = masks ?? new SvgMasks(tree, cascade, clips, drawApart);
-    this.hasSpeeds = tree.names.includes(SPEED_ATTRIBUTE);
   }
 
   /** Draws everything below the root. */
@@ -389,7 +387,7 @@ export class SvgWalk {
 
   /** With the element's own speed, if it has one. */
   private withSpeed(element: number, context: Context): Context {
-    const text = this.hasSpeeds ? attribute(this.tree, element, SPEED_ATTRIBUTE)?.trim() : undefined;
+    const text = attribute(this.tree, element, SPEED_ATTRIBUTE)?.trim();
     if (text === undefined) return context;
     const speedFactor = text === "" ? NaN : Number(text);
     if (isSpeedFactor(speedFactor)) return { ...context, speedFactor };
