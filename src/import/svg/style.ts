@@ -3,7 +3,7 @@ import type { Property } from "./properties.js";
 import type { Declared } from "./declared.js";
 import { parseColor, type Color } from "../color.js";
 import type { Paint } from "./paint.js";
-import { computeTextStyle, declaresTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
+import { computeTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
 import { lengthPx, splitLength, type LengthBasis } from "./length.js";
 
 /** The inherited properties. */
@@ -137,14 +137,12 @@ export function computeStyle(parent: Style, declared: Declared, basis: LengthBas
     const value = origin === null ? read(text, own) : origin[field];
     if (value !== undefined) Object.assign(style, { [field]: value });
   }
-  if (declaresTextStyle(declared)) {
-    style.text = computeTextStyle(
-      parent.text,
-      (property) => declaredValue(style, declared, property),
-      style,
-      (length) => lengthPx(length, own, "width"),
-    );
-  }
+  style.text = computeTextStyle(
+    parent.text,
+    (property) => declaredValue(style, declared, property),
+    style,
+    (length) => lengthPx(length, own, "width"),
+  );
   return style;
 }
 

@@ -1,5 +1,4 @@
 /** CSS and SVG properties of text: baselines, spaces, decorations, directions. */
-import type { Declared } from "./declared.js";
 import type { Property } from "./properties.js";
 import type { Paint } from "./paint.js";
 import type { FontMetrics } from "../text/text-font.js";
@@ -87,27 +86,6 @@ export const withoutShift = (text: TextStyle): TextStyle =>
   text.baselineShift === 0 && text.subscriptPx === 0 && text.superscriptPx === 0
     ? text
     : { ...text, baselineShift: 0, subscriptPx: 0, superscriptPx: 0 };
-
-const PROPERTIES: ReadonlySet<string> = new Set<Property>([
-  "word-spacing",
-  "writing-mode",
-  "direction",
-  "font-variant",
-  "font-kerning",
-  "text-transform",
-  "white-space",
-  "dominant-baseline",
-  "alignment-baseline",
-  "baseline-shift",
-  "text-decoration",
-  "text-decoration-line",
-]);
-
-/** Whether `computeTextStyle` would change anything. */
-export function declaresTextStyle(declared: Declared): boolean {
-  for (let i = 0; i < declared.size; i++) if (PROPERTIES.has(declared.nameAt(i))) return true;
-  return false;
-}
 
 /**
  * @param valueOf the element's declared values
