@@ -213,29 +213,13 @@ const STYLE_CACHE_LIMIT = 2048;
 export function parseInlineStyle(text: string): readonly Declaration[] {
   const known = styleCache.get(text);
   if (known !== undefined) return known;
-  const declarations = /["'(){}\\]|\/\*/.test(text) ? parseInlineFully(text) : splitInline(text);
+  const declarations = readInline(text);
   if (styleCache.size >= STYLE_CACHE_LIMIT) styleCache.clear();
   styleCache.set(text, declarations);
   return declarations;
 }
 
-/** Without quotes, brackets, escapes or comments, a semicolon always ends a declaration. */
-function splitInline(text: string): Declaration[] {
-  const declarations: Declaration[] = [];
-  for (const part of text.split(";")) {
-    const colon = part.indexOf(":");
-    if (colon < 0) continue;
-    const property = part.slice(0, colon).trim();
-    let value = part.slice(colon + 1).trim();
-    const bang = value.indexOf("!");
-    const important = bang >= 0 && /^!\s*important$/i.test(value.slice(bang));
-    if (important) value = value.slice(0, bang);
-    if (property !== "" && value !== "") declarations.push(declare(property, value, important));
-  }
-  return declarations;
-}
-
-function parseInlineFully(text: string): Declaration[] {
+function readInline(text: string): Declaration[] {
   const declarations: Declaration[] = [];
   if (nestingDepth(text) > MAX_NESTING) return declarations;
   const list = parseCss(text, {
@@ -246,9 +230,8 @@ function parseInlineFully(text: string): Declaration[] {
   });
   if (list.type !== "DeclarationList") return declarations;
   list.children.forEach((node) => {
-    if (node.type === "Declaration" && node.value.type === "Raw") {
-      declarations.push(declare(node.property, node.value.value, node.important !== false));
-    }
+    if (node.type !== "Declaration" || node.value.type !== "Raw" || node.value.value.trim() === "") return;
+    declarations.push(declare(node.property, node.value.value, node.important !== false));
   });
   return declarations;
 }
