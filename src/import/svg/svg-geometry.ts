@@ -1,5 +1,5 @@
 /** Converts elements to outlines in user units, and finds their place on the page. */
-import { applyX, applyY, IDENTITY, largestScale } from "../../geometry/affine.js";
+import { applyX, applyY, largestScale } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
 import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
 import type { Property } from "./properties.js";
@@ -15,31 +15,21 @@ import type { Warnings } from "../warnings.js";
 export class SvgGeometry {
   /** The latest outline. */
   readonly shape = new ShapeBuffer();
-  private readonly source: ElementSource;
-  /** The latest map and its scale, cached since many shapes share one. */
-  private map = IDENTITY;
-  private scale = 1;
 
   constructor(
     private readonly tree: SvgTree,
     private readonly warnings: Warnings,
     /** mm on the page: max distance between an arc and its cubics. */
     private readonly arcToleranceMm: number,
-  ) {
-    this.source = new ElementSource(tree);
-  }
+  ) {}
 
   /** Draws the element's outline in user units into `shape`, which the next call reuses. */
   geometryOf(element: number, tag: string, declared: Declared, context: Context): ShapeBuffer {
     const { shape } = this;
     shape.clear();
-    if (context.map !== this.map) {
-      this.map = context.map;
-      this.scale = largestScale(context.map);
-    }
-    const tolerance = this.arcToleranceMm / this.scale;
-    const { source } = this;
-    const drawn = drawBasicShape(tag, source.of(element, declared, context), shape, tolerance);
+    const tolerance = this.arcToleranceMm / largestScale(context.map);
+    const source = new ElementSource(this.tree, element, declared, context);
+    const drawn = drawBasicShape(tag, source, shape, tolerance);
     shape.finish();
     const fault = drawn ?? (source.malformed === null ? null : `"${source.malformed}" is not a length`);
     if (fault !== null) {
@@ -60,7 +50,7 @@ export class SvgGeometry {
     name: LengthName,
     side: Side,
   ): number | null {
-    return this.source.of(element, declared, context).length(name, side);
+    return new ElementSource(this.tree, element, declared, context).length(name, side);
   }
 
   /** The page box of a rectangle in user units. */
@@ -83,26 +73,19 @@ export class SvgGeometry {
   }
 }
 
-/** Reads the numbers of one element. A single object is reused, since there may be a million elements. */
+/** The numbers of one element. */
 class ElementSource implements ShapeSource {
-  private element = 0;
-  private declared: Declared | null = null;
-  private context: Context | null = null;
   /** The element's last length that could not be read. */
   malformed: string | null = null;
   /** The element's last length in ex or ch. */
   fontLength: string | null = null;
 
-  constructor(private readonly tree: SvgTree) {}
-
-  of(element: number, declared: Declared, context: Context): this {
-    this.element = element;
-    this.malformed = null;
-    this.fontLength = null;
-    this.declared = declared.size === 0 ? null : declared;
-    this.context = context;
-    return this;
-  }
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly element: number,
+    private readonly declared: Declared,
+    private readonly context: Context,
+  ) {}
 
   length(name: LengthName, side: Side): number | null {
     return this.px(this.css(name) ?? attribute(this.tree, this.element, name), side);
@@ -121,13 +104,13 @@ class ElementSource implements ShapeSource {
 
   private px(text: string | undefined, side: Side): number | null {
     if (text === undefined || text === "auto") return null;
-    const length = lengthPx(text, this.context!.basis, side);
+    const length = lengthPx(text, this.context.basis, side);
     if (length === null) this.malformed = text.slice(0, 40);
     else if (isFontLength(text)) this.fontLength = text.trim();
     return length;
   }
 
   private css(name: Property): string | undefined {
-    return this.declared === null ? undefined : declaredValue(this.context!.style, this.declared, name);
+    return declaredValue(this.context.style, this.declared, name);
   }
 }
