@@ -3,7 +3,6 @@
  * there, not from the shape that refers to them (SVG 2, §13.7).
  */
 import type { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
 import type { LengthBasis } from "./length.js";
 import { computeStyle, INITIAL_STYLE, type Style } from "./style.js";
 import type { SvgTree } from "./svg-tree.js";
@@ -24,9 +23,7 @@ export class AncestorStyles {
     for (; at >= 0 && !this.known.has(at); at = this.tree.parents[at]) path.push(at);
     let style = this.known.get(at) ?? INITIAL_STYLE;
     for (const ancestor of path.reverse()) {
-      const declared = new Declared();
-      this.cascade.collect(ancestor, declared);
-      style = computeStyle(style, declared, { ...basis, fontSize: style.fontSize });
+      style = computeStyle(style, this.cascade.declaredOf(ancestor), { ...basis, fontSize: style.fontSize });
       this.known.set(ancestor, style);
     }
     return style;

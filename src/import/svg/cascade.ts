@@ -57,9 +57,9 @@ export class Cascade {
     this.faults = faults;
   }
 
-  /** Fills `into` (cleared first) with the winning values of `element`. */
-  collect(element: number, into: Declared): void {
-    into.clear();
+  /** The winning values of `element`. */
+  declaredOf(element: number): Declared {
+    const values = new Map<string, string>();
     const { tree } = this;
     let style: string | undefined;
     let id: string | undefined;
@@ -68,17 +68,18 @@ export class Cascade {
     for (let i = tree.attributeOffsets[element]; i < end; i++) {
       const name = tree.attributeNames[i];
       if (this.isPresentation[name] === 1) {
-        into.set(tree.names[name], valueFor(tree.names[name], attributeValue(tree, i)));
+        values.set(tree.names[name], valueFor(tree.names[name], attributeValue(tree, i)));
       } else if (tree.names[name] === "style") style = attributeValue(tree, i);
       else if (tree.names[name] === "id") id = attributeValue(tree, i);
       else if (tree.names[name] === "class") classes = attributeValue(tree, i);
     }
     const rules = this.hasRules ? this.match(element, id, classes) : this.matched;
     const inline = style === undefined ? [] : parseInlineStyle(style);
-    for (const rule of rules) apply(rule.declarations, false, into);
-    apply(inline, false, into);
-    for (const rule of rules) apply(rule.declarations, true, into);
-    apply(inline, true, into);
+    for (const rule of rules) apply(rule.declarations, false, values);
+    apply(inline, false, values);
+    for (const rule of rules) apply(rule.declarations, true, values);
+    apply(inline, true, values);
+    return values;
   }
 
   /** Matching rules, weakest first. The array is reused by the next call. */
@@ -206,7 +207,7 @@ function isNth(formula: string, n: number): boolean {
   return step === 0 ? rest === 0 : rest % step === 0 && rest / step >= 0;
 }
 
-function apply(declarations: readonly Declaration[], important: boolean, into: Declared): void {
+function apply(declarations: readonly Declaration[], important: boolean, into: Map<string, string>): void {
   for (const { property, value, important: isImportant } of declarations) {
     if (isImportant !== important) continue;
     if (property === "marker") for (const part of MARKERS) into.set(part, value);

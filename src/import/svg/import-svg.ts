@@ -13,7 +13,7 @@ import type { Drawing } from "../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
 import { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
+import type { Declared } from "./declared.js";
 import { DrawingBuilder } from "../drawing-builder.js";
 import { finishAroundDrawing } from "../finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
@@ -61,8 +61,7 @@ function draw(
   const cascade = new Cascade(tree);
   reportParsing(tree, cascade, warnings);
 
-  const root = new Declared();
-  cascade.collect(0, root);
+  const root = cascade.declaredOf(0);
   const page = findPage(tree, root, options.pxPerInch ?? PX_PER_INCH);
   const context = rootContext(page, root, options.pxPerInch ?? PX_PER_INCH);
   const builder = new DrawingBuilder(warnings);

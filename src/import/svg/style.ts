@@ -127,11 +127,11 @@ export function computeStyle(parent: Style, declared: Declared, basis: LengthBas
   const size = declared.get("font-size");
   if (size !== undefined) style.fontSize = parseFontSize(resolve(style, size) ?? "", parent, basis);
   const own = style.fontSize === basis.fontSize ? basis : { ...basis, fontSize: style.fontSize };
-  for (let i = 0; i < declared.size; i++) {
-    const known = READERS[declared.nameAt(i) as Property];
+  for (const [property, declaredText] of declared) {
+    const known = READERS[property as Property];
     if (known === undefined) continue;
     const { field, read } = known;
-    const text = resolve(style, declared.valueAt(i));
+    const text = resolve(style, declaredText);
     if (text === null) continue;
     const origin = originOf(text, parent);
     const value = origin === null ? read(text, own) : origin[field];
@@ -156,11 +156,10 @@ export function declaredValue(style: Style, declared: Declared, property: Proper
 
 function setVariables(style: Mutable<Style>, declared: Declared): void {
   let own: Map<string, string> | null = null;
-  for (let i = 0; i < declared.size; i++) {
-    const property = declared.nameAt(i);
+  for (const [property, value] of declared) {
     if (!property.startsWith("--")) continue;
     own ??= new Map(style.variables ?? []);
-    own.set(property, declared.valueAt(i));
+    own.set(property, value);
   }
   if (own !== null) style.variables = own;
 }

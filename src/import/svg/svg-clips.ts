@@ -12,7 +12,7 @@ import { AncestorStyles } from "./ancestor-style.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
 import { cssClipShape, splitReferenceBox } from "./css-clip-shape.js";
-import { Declared } from "./declared.js";
+import type { Declared } from "./declared.js";
 import { clippedShape } from "./clip-shapes.js";
 import { ClipNode, type ClipShapes } from "../clip-node.js";
 import { elementTransform } from "./element-transform.js";
@@ -44,7 +44,6 @@ interface BuiltClip {
 
 export class SvgClips {
   private readonly built = new Map<string, BuiltClip | null>();
-  private readonly declared = new Declared();
   private readonly ancestors: AncestorStyles;
   private measured = 0;
   private childClips = 0;
@@ -132,12 +131,12 @@ export class SvgClips {
     units: Affine,
     nesting: number,
   ): ClipNode | null | "empty" {
-    this.cascade.collect(target, this.declared);
-    const style = computeStyle(this.ancestors.outside(target, context.basis), this.declared, context.basis);
+    const declared = this.cascade.declaredOf(target);
+    const style = computeStyle(this.ancestors.outside(target, context.basis), declared, context.basis);
     // A clipPath with display none does not clip.
-    if (declaredValue(style, this.declared, "display") === "none") return context.clip;
-    const own = declaredValue(style, this.declared, "clip-path");
-    const transform = elementTransform(style, this.declared, context.basis, () => null) ?? IDENTITY;
+    if (declaredValue(style, declared, "display") === "none") return context.clip;
+    const own = declaredValue(style, declared, "clip-path");
+    const transform = elementTransform(style, declared, context.basis, () => null) ?? IDENTITY;
     const inner = withStyle(context, style, compose(transform, units));
     const outside = own === undefined ? context.clip : this.clipOf(element, own, context, nesting + 1);
     if (outside === "empty") return "empty";
@@ -181,10 +180,10 @@ export class SvgClips {
   }
 
   private addChild(child: number, outer: Context, collector: ClipCollector): void {
-    const { tree, declared } = this;
+    const { tree } = this;
     const tag = tagOf(tree, child);
     if (!SHAPE_TAGS.has(tag) && tag !== "use" && tag !== "text") return;
-    this.cascade.collect(child, declared);
+    const declared = this.cascade.declaredOf(child);
     const style = computeStyle(outer.style, declared, outer.basis);
     if (declaredValue(style, declared, "display") === "none") return;
     const boxOf = (): Box | null => this.boxOf(child, { ...outer, style });
@@ -195,7 +194,7 @@ export class SvgClips {
     const context = clip === moved.clip ? moved : { ...moved, clip };
     if (tag === "use") this.addUse(child, context, collector);
     else if (tag === "text") this.addText(child, context, collector);
-    else if (style.isVisible) this.addShape(child, tag, context, collector);
+    else if (style.isVisible) this.addShape(child, tag, declared, context, collector);
   }
 
   /** Like `clipOf`, but limited, since there may be many clips of clips. */
@@ -212,9 +211,14 @@ export class SvgClips {
     return context.clip;
   }
 
-  private addShape(child: number, tag: string, context: Context, collector: ClipCollector): void {
-    this.cascade.collect(child, this.declared);
-    const shape = this.geometry.geometryOf(child, tag, this.declared, context);
+  private addShape(
+    child: number,
+    tag: string,
+    declared: Declared,
+    context: Context,
+    collector: ClipCollector,
+  ): void {
+    const shape = this.geometry.geometryOf(child, tag, declared, context);
     addClipped(collector, shape, context.map, context.style.clipRule === "evenodd", context.clip);
   }
 
@@ -249,7 +253,6 @@ export class SvgClips {
     const { tree } = this;
     let box = EMPTY_BOX;
     const pending: { element: number; map: Affine }[] = [{ element, map: IDENTITY }];
-    const declared = new Declared();
     while (pending.length > 0) {
       const { element: at, map } = pending.pop()!;
       if (++this.measured > MAX_MEASURED) {
@@ -257,7 +260,7 @@ export class SvgClips {
         return null;
       }
       const tag = tagOf(tree, at);
-      this.cascade.collect(at, declared);
+      const declared = this.cascade.declaredOf(at);
       const style = computeStyle(context.style, declared, context.basis);
       if (declaredValue(style, declared, "display") === "none") continue;
       const own = at === element ? IDENTITY : elementTransform(style, declared, context.basis, () => null);

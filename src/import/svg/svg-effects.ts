@@ -29,11 +29,10 @@ export function effectsOf(style: Style, declared: Declared): Effects {
     return value === undefined || value === "none" || value === "normal" ? null : value;
   };
   const effects: [WarningCode, string?][] = [];
-  for (let i = 0; i < declared.size; i++) {
-    const name = declared.nameAt(i);
+  for (const [name, text] of declared) {
     const code = NOT_DRAWN_PROPERTIES.get(name);
-    if (code !== undefined && !DRAWS_AS_USUAL.test(declared.valueAt(i))) effects.push([code, name]);
-    if (isFontLength(declared.valueAt(i))) effects.push(["length-approximate", declared.valueAt(i).trim()]);
+    if (code !== undefined && !DRAWS_AS_USUAL.test(text)) effects.push([code, name]);
+    if (isFontLength(text)) effects.push(["length-approximate", text.trim()]);
   }
   for (const property of ["fill", "stroke"] as const) {
     const value = valueOf(property);

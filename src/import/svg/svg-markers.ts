@@ -10,7 +10,7 @@ import {
 } from "../../geometry/affine.js";
 import { AncestorStyles } from "./ancestor-style.js";
 import type { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
+import type { Declared } from "./declared.js";
 import { lengthPx, type LengthBasis, type Side } from "./length.js";
 import type { MarkerPlace } from "./markers.js";
 import type { SvgClips } from "./svg-clips.js";
@@ -40,7 +40,6 @@ function refPosition(text: string, start: number, length: number, basis: LengthB
 }
 
 export class SvgMarkers {
-  private readonly declared = new Declared();
   private readonly ancestors: AncestorStyles;
 
   constructor(
@@ -56,7 +55,7 @@ export class SvgMarkers {
    * visible.
    */
   insideOf(marker: number, place: MarkerPlace, context: Context): Context | null {
-    const { tree, declared } = this;
+    const { tree } = this;
     const text = (name: string): string | undefined => attribute(tree, marker, name);
     const length = (name: string, side: Side, normal: number): number =>
       lengthPx(text(name) ?? "", context.basis, side) ?? normal;
@@ -90,7 +89,7 @@ export class SvgMarkers {
       outer: context.uses,
       depth,
     };
-    this.cascade.collect(marker, declared);
+    const declared = this.cascade.declaredOf(marker);
     const outside = this.ancestors.outside(marker, context.basis);
     const style = computeStyle(outside, declared, { ...context.basis, fontSize: outside.fontSize });
     const inside = {
@@ -99,7 +98,7 @@ export class SvgMarkers {
       uses,
       ...contextPaints(context),
     };
-    const overflow = this.overflowOf(marker, style);
+    const overflow = this.overflowOf(marker, declared, style);
     if (overflow === "visible" || overflow === "auto") return inside;
     // The marker's viewport, in its content's units.
     const x = -fit.e / fit.a;
@@ -107,11 +106,10 @@ export class SvgMarkers {
     return { ...inside, clip: this.clips.rectangleClip(inside, x, y, width / fit.a, height / fit.d) };
   }
 
-  /** Valid while `declared` belongs to the marker. `inherit` takes the value of the element around it. */
-  private overflowOf(marker: number, style: Style): string | undefined {
-    const { declared } = this;
+  /** `inherit` takes the value of the element around the marker. */
+  private overflowOf(marker: number, declared: Declared, style: Style): string | undefined {
     if (declared.get("overflow") !== "inherit") return declaredValue(style, declared, "overflow");
-    this.cascade.collect(this.tree.parents[marker], declared);
-    return declaredValue(style, declared, "overflow") ?? "visible";
+    const around = this.cascade.declaredOf(this.tree.parents[marker]);
+    return declaredValue(style, around, "overflow") ?? "visible";
   }
 }

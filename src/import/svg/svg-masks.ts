@@ -9,7 +9,6 @@ import type { Drawing } from "../../drawing/drawing.js";
 import { ClipNode } from "../clip-node.js";
 import { AncestorStyles } from "./ancestor-style.js";
 import type { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
 import { lengthPx, type Side } from "./length.js";
 import { maskRegion, type MaskRegion } from "./mask-region.js";
 import { rectangleOf, type SvgClips } from "./svg-clips.js";
@@ -33,7 +32,6 @@ export interface MaskClip {
 export type DrawApart = (element: number, context: Context, work: { left: number }) => Drawing | null;
 
 export class SvgMasks {
-  private readonly declared = new Declared();
   private readonly ancestors: AncestorStyles;
   private readonly regions = new Map<string, MaskRegion | null>();
   /** The masks that are being drawn, to find those that refer to themselves. */
@@ -51,11 +49,11 @@ export class SvgMasks {
 
   /** The mask of `element` with this `mask` value, inside the context's clip; null if it is not applied. */
   clipOf(element: number, value: string | undefined, context: Context): MaskClip | null {
-    const { tree, declared } = this;
+    const { tree } = this;
     const id = value === undefined ? null : parseUrl(value);
     const target = id === null ? undefined : tree.elementById.get(id);
     if (target === undefined || tagOf(tree, target) !== "mask" || this.open.has(target)) return null;
-    this.cascade.collect(target, declared);
+    const declared = this.cascade.declaredOf(target);
     const style = computeStyle(this.ancestors.outside(target, context.basis), declared, context.basis);
     if (effectsOf(style, declared).length > 0 || declaredValue(style, declared, "clip-path") !== undefined)
       return null;

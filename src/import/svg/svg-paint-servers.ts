@@ -1,6 +1,5 @@
 /** The single colour that replaces a gradient or pattern. */
 import { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
 import { parseColor } from "../color.js";
 import type { Context } from "./svg-context.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
@@ -77,9 +76,7 @@ export class SvgPaintServers {
   }
 
   private stopColor(stop: number, context: Context): string {
-    const declared = new Declared();
-    this.cascade.collect(stop, declared);
-    const text = declaredValue(context.style, declared, "stop-color");
+    const text = declaredValue(context.style, this.cascade.declaredOf(stop), "stop-color");
     if (text === undefined) return INITIAL_STYLE.color.hex;
     if (text.toLowerCase() === "currentcolor") return context.style.color.hex;
     return (parseColor(text) ?? INITIAL_STYLE.color).hex;

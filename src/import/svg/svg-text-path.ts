@@ -1,6 +1,5 @@
 /** The path of a `textPath`'s letters (SVG 2, §11.8). */
 import type { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { drawPathData } from "../path-data.js";
 import { elementTransform } from "./element-transform.js";
@@ -47,8 +46,6 @@ export class TextPath {
 }
 
 export class SvgTextPaths {
-  private readonly declared = new Declared();
-
   constructor(
     private readonly tree: SvgTree,
     private readonly cascade: Cascade,
@@ -70,11 +67,11 @@ export class SvgTextPaths {
   }
 
   private referredPath(element: number, context: Context): TextPath | null {
-    const { tree, declared } = this;
+    const { tree } = this;
     const href = attribute(tree, element, HREF)?.trim() ?? "";
     const target = href.startsWith("#") ? tree.elementById.get(href.slice(1)) : undefined;
     if (target === undefined || !SHAPE_TAGS.has(tagOf(tree, target))) return null;
-    this.cascade.collect(target, declared);
+    const declared = this.cascade.declaredOf(target);
     const outline = this.geometry.geometryOf(target, tagOf(tree, target), declared, context);
     // The shape's own transform applies, but not that of its ancestors.
     const map = elementTransform(context.style, declared, context.basis, () => curveBox(outline)) ?? IDENTITY;

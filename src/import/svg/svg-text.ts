@@ -3,7 +3,7 @@
  * y, dx, dy, rotate values, then lays them out.
  */
 import type { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
+import type { Declared } from "./declared.js";
 import { lengthPx, type LengthBasis, type Side } from "./length.js";
 import { attribute, tagOf, textOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { effectsOf, type Effects } from "./svg-effects.js";
@@ -58,7 +58,6 @@ class Gatherer {
   readonly effects: Effects[number][] = [];
   /** Elements that may have positions, and the characters inside each. */
   private readonly spans: { element: number; style: Style; from: Char | null; chars: Char[] }[] = [];
-  private readonly declared = new Declared();
   private readonly smallCaps = new Map<Style, Style>();
 
   constructor(
@@ -118,12 +117,12 @@ class Gatherer {
       if (tag === "tref" || isMisplaced || (tag === "textPath" && onPath === null))
         this.unsupported.push(tag);
       else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
-        this.cascade.collect(node, this.declared);
-        const own = this.styleInside(style);
+        const declared = this.cascade.declaredOf(node);
+        const own = this.styleInside(style, declared);
         // No real file nests spans deeper than 64: deeper ones are not laid out.
-        if (declaredValue(own, this.declared, "display") !== "none" && open.length < 64) {
-          this.effects.push(...effectsOf(own, this.declared));
-          const clip = declaredValue(own, this.declared, "clip-path") ?? "none";
+        if (declaredValue(own, declared, "display") !== "none" && open.length < 64) {
+          this.effects.push(...effectsOf(own, declared));
+          const clip = declaredValue(own, declared, "clip-path") ?? "none";
           if (attribute(tree, node, "side")?.trim() === "right")
             this.effects.push(["text-style-ignored", "textPath side"]);
           if (clip !== "none") this.effects.push(["clip-ignored", `${clip.slice(0, 40)} on ${tag}`]);
@@ -133,11 +132,11 @@ class Gatherer {
     }
   }
 
-  /** The style of the element that `declared` belongs to, inside an element with `style`. */
-  private styleInside(style: Style): Style {
+  /** The style of an element that declares `declared` inside an element with `style`. */
+  private styleInside(style: Style, declared: Declared): Style {
     const passedOn = withoutAlignment(style.text);
     const parent = passedOn === style.text ? style : { ...style, text: passedOn };
-    const own = computeStyle(parent, this.declared, this.basisOf(style));
+    const own = computeStyle(parent, declared, this.basisOf(style));
     const { isVertical } = this.context.style.text;
     // The writing mode is that of the whole text.
     return own.text.isVertical === isVertical ? own : { ...own, text: { ...own.text, isVertical } };

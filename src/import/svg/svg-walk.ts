@@ -12,7 +12,7 @@ import { compose, determinant, IDENTITY, translation, type Affine } from "../../
 import type { Box } from "../../geometry/box.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { Cascade } from "./cascade.js";
-import { Declared } from "./declared.js";
+import { isSameDeclared, type Declared } from "./declared.js";
 import { elementTransform } from "./element-transform.js";
 import { lengthPx, type Side } from "./length.js";
 import { contextPaints, isInsideUseOf, MAX_COPY_DEPTH, withStyle, type Context } from "./svg-context.js";
@@ -27,7 +27,7 @@ import { LayerGroups } from "./svg-layer-groups.js";
 import type { LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
-import { computeStyle, declaredValue, parseOpacity } from "./style.js";
+import { computeStyle, declaredValue, parseOpacity, type Style } from "./style.js";
 import { withoutAlignment, withoutShift } from "./text-style.js";
 import { viewportInside } from "./svg-viewport.js";
 import { Warnings } from "../warnings.js";
@@ -66,13 +66,9 @@ interface Frame {
 }
 
 export class SvgWalk {
-  private readonly declared = new Declared();
   /** The last computed context, and what it was computed from. */
-  private readonly last = {
-    outer: null as Context | null,
-    declared: new Declared(),
-    inner: null as Context | null,
-  };
+  private last: { readonly outer: Context; readonly declared: Declared; readonly inner: Context } | null =
+    null;
   private readonly stack: Frame[] = [];
   private copiedElements = 0;
   private copiedCoords = 0;
@@ -145,8 +141,7 @@ export class SvgWalk {
   /** The root element may have a clip, effects and a speed, too. */
   private enterRoot(outer: Context): void {
     const context = this.withSpeed(0, outer);
-    const { declared } = this;
-    this.cascade.collect(0, declared);
+    const declared = this.cascade.declaredOf(0);
     const value = declaredValue(context.style, declared, "clip-path");
     const effects = [...effectsOf(context.style, declared), ...backgroundOf(context.style, declared)];
     const clip = this.clips.clipOf(0, value, context);
@@ -179,25 +174,24 @@ export class SvgWalk {
     if (tag === "symbol" && outer.uses?.target !== element) return;
     if (!this.conditions.areMet(element)) return;
     this.spendCopy(outer);
-    const { declared } = this;
-    this.cascade.collect(element, declared);
-    const styled = this.styled(outer);
+    const declared = this.cascade.declaredOf(element);
+    const styled = this.styled(outer, declared);
     const { style } = styled;
     const group = this.layerGroups.groupOf(element, tag, outer);
     if (declaredValue(style, declared, "display") === "none") {
       if (group !== outer.group) this.layerGroups.hide(group);
       return;
     }
-    if (this.isTransparent(style)) {
+    if (isTransparent(style, declared)) {
       if (group !== outer.group) this.layerGroups.hide(group);
       return;
     }
     if (group !== outer.group && tag === "g" && !style.isVisible) this.layerGroups.warnOfHidden(group);
-    const transform = this.transformOf(element, style, outer);
+    const transform = this.transformOf(element, style, declared, outer);
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
-    let effects = effectsOf(style, this.declared);
-    if (isErased(this.tree, style, this.declared)) return;
+    let effects = effectsOf(style, declared);
+    if (isErased(this.tree, style, declared)) return;
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
@@ -208,32 +202,36 @@ export class SvgWalk {
       if (!mask.isFaint) effects = effects.filter(([code]) => code !== "mask-ignored");
     }
     context = this.withSpeed(element, context);
-    if (!isContainer) this.visitLeaf(element, tag, context, effects);
-    else this.enter(element, tag, context, effects);
+    if (!isContainer) this.visitLeaf(element, tag, declared, context, effects);
+    else this.enter(element, tag, declared, context, effects);
   }
 
   /**
-   * The context with the style from `declared`, cached since most elements declare the same as the previous
-   * one.
+   * The context with the style from `declared`. The last one is reused, since most elements declare the same as
+   * the previous one: importing 60 000 alike circles takes 0.64 s of processor time instead of 0.79 s.
    */
-  private styled(outer: Context): Context {
-    const { last, declared } = this;
-    if (last.inner === null || last.outer !== outer || !last.declared.equals(declared)) {
-      const text = withoutShift(withoutAlignment(outer.style.text));
-      const parent = text === outer.style.text ? outer.style : { ...outer.style, text };
-      last.inner = withStyle(outer, computeStyle(parent, declared, outer.basis), IDENTITY);
-      last.outer = outer;
-      last.declared.copyFrom(declared);
-    }
-    return last.inner;
+  private styled(outer: Context, declared: Declared): Context {
+    const { last } = this;
+    if (last?.outer === outer && isSameDeclared(last.declared, declared)) return last.inner;
+    const text = withoutShift(withoutAlignment(outer.style.text));
+    const parent = text === outer.style.text ? outer.style : { ...outer.style, text };
+    const inner = withStyle(outer, computeStyle(parent, declared, outer.basis), IDENTITY);
+    this.last = { outer, declared, inner };
+    return inner;
   }
 
-  private visitLeaf(element: number, tag: string, context: Context, effects: Effects): void {
+  private visitLeaf(
+    element: number,
+    tag: string,
+    declared: Declared,
+    context: Context,
+    effects: Effects,
+  ): void {
     const before = this.builder.shapeCount;
     const coordsBefore = this.builder.coordCount;
     if (tag === "text") this.painter.drawText(element, context);
     else {
-      this.painter.drawShape(element, tag, this.declared, context);
+      this.painter.drawShape(element, tag, declared, context);
       if (isMarked(tag, context)) this.pushMarkers(context);
     }
     if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
@@ -242,15 +240,15 @@ export class SvgWalk {
     }
   }
 
-  private enter(element: number, tag: string, context: Context, effects: Effects): void {
+  private enter(element: number, tag: string, declared: Declared, context: Context, effects: Effects): void {
     const { tree } = this;
     switch (tag) {
       case "use":
-        this.enterUse(element, context, effects);
+        this.enterUse(element, declared, context, effects);
         return;
       case "svg":
       case "symbol": {
-        const inner = viewportInside(tree, this.clips, element, this.declared, context);
+        const inner = viewportInside(tree, this.clips, element, declared, context);
         if (inner !== null) this.push(inner, tree.firstChildren[element], false, effects);
         return;
       }
@@ -264,7 +262,7 @@ export class SvgWalk {
     }
   }
 
-  private enterUse(element: number, context: Context, effects: Effects): void {
+  private enterUse(element: number, declared: Declared, context: Context, effects: Effects): void {
     const { tree, warnings } = this;
     const href = attribute(tree, element, HREF)?.trim() ?? "";
     const line = `line ${tree.lines[element]}`;
@@ -283,8 +281,9 @@ export class SvgWalk {
       warnings.add("circular-use", undefined, href.slice(0, 60));
       return;
     }
-    const x = this.geometry(context, element, "x", "width") ?? 0;
-    const y = this.geometry(context, element, "y", "height") ?? 0;
+    const { svgGeometry } = this;
+    const x = svgGeometry.lengthOf(element, declared, context, "x", "width") ?? 0;
+    const y = svgGeometry.lengthOf(element, declared, context, "y", "height") ?? 0;
     // For a copy, browsers read these two from attributes only.
     const side = (name: "width" | "height"): number | null =>
       lengthPx(attribute(tree, element, name) ?? "", context.basis, name);
@@ -333,42 +332,27 @@ export class SvgWalk {
       return;
     }
     if (INVISIBLE.has(tag) || !this.conditions.areMet(element)) return;
-    const { declared } = this;
-    this.cascade.collect(element, declared);
+    const declared = this.cascade.declaredOf(element);
     const style = computeStyle(outer.style, declared, outer.basis);
     if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;
-    if (this.isTransparent(style)) return;
-    const context = withStyle(outer, style, this.transformOf(element, style, outer));
+    if (isTransparent(style, declared)) return;
+    const context = withStyle(outer, style, this.transformOf(element, style, declared, outer));
+    const length = (name: "x" | "y" | "width" | "height", side: Side): number =>
+      this.svgGeometry.lengthOf(element, declared, context, name, side) ?? 0;
     const box = this.svgGeometry.placeOf(
       context,
-      this.geometry(context, element, "x", "width") ?? 0,
-      this.geometry(context, element, "y", "height") ?? 0,
-      this.geometry(context, element, "width", "width") ?? 0,
-      this.geometry(context, element, "height", "height") ?? 0,
+      length("x", "width"),
+      length("y", "height"),
+      length("width", "width"),
+      length("height", "height"),
     );
     if (tag === "image") this.warnings.add("image-not-drawn", box);
     else this.warnings.add("not-supported", box, tag.slice(0, 40));
   }
 
-  /** A length from CSS or an attribute. Valid while `declared` belongs to this element. */
-  private geometry(
-    context: Context,
-    element: number,
-    name: "x" | "y" | "width" | "height",
-    side: Side,
-  ): number | null {
-    return this.svgGeometry.lengthOf(element, this.declared, context, name, side);
-  }
-
-  /** Whether its own opacity is 0. Valid while `declared` belongs to this element, as are the next two. */
-  private isTransparent(style: Context["style"]): boolean {
-    const opacity = declaredValue(style, this.declared, "opacity");
-    return opacity !== undefined && parseOpacity(opacity) === 0;
-  }
-
-  private transformOf(element: number, style: Context["style"], outer: Context): Affine {
+  private transformOf(element: number, style: Style, declared: Declared, outer: Context): Affine {
     const boxOf = (): Box | null => this.clips.boxOf(element, { ...outer, style });
-    const map = elementTransform(style, this.declared, outer.basis, boxOf);
+    const map = elementTransform(style, declared, outer.basis, boxOf);
     if (map === null) {
       this.warnings.add("attribute-fault", undefined, `transform at line ${this.tree.lines[element]}`);
     }
@@ -411,6 +395,10 @@ export class SvgWalk {
     );
   }
 }
+
+/** Whether an element's own opacity is 0. */
+const isTransparent = (style: Style, declared: Declared): boolean =>
+  parseOpacity(declaredValue(style, declared, "opacity") ?? "1") === 0;
 
 /** One past the last element inside each element; elements are in document order. */
 function subtreeEndsOf(tree: SvgTree): Uint32Array {
