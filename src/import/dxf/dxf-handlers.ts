@@ -9,58 +9,40 @@ import { aciColor } from "./aci-color.js";
 import { bulgedVertices, readHatchLoops } from "./dxf-hatch.js";
 import { readPattern } from "./dxf-pattern.js";
 
-export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = [
-  class {
-    readonly ForEntityName = "LWPOLYLINE";
-    parseEntity(scanner: DxfScanner): DxfEntity {
-      const groups = groupsOf(scanner);
-      const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
-      return { ...commonOf("LWPOLYLINE", groups), shape: isClosed, vertices: bulgedVertices(groups) };
-    }
+const READERS: Readonly<Record<string, (scanner: DxfScanner) => DxfEntity>> = {
+  LWPOLYLINE: (scanner) => {
+    const groups = groupsOf(scanner);
+    return { ...commonOf("LWPOLYLINE", groups), shape: isClosed(groups), vertices: bulgedVertices(groups) };
   },
-  class {
-    readonly ForEntityName = "POLYLINE";
-    parseEntity(scanner: DxfScanner): DxfEntity {
-      const groups = groupsOf(scanner);
-      const isClosed = ((numberIn(groups, 70) ?? 0) & 1) === 1;
-      const vertices: DxfPoint[] = [];
-      while (scanner.lastReadGroup.value === "VERTEX") vertices.push(vertexOf(groupsOf(scanner)));
-      // Without a SEQEND the line ends where another entity begins.
-      if (scanner.lastReadGroup.value === "SEQEND") groupsOf(scanner);
-      return { ...commonOf("POLYLINE", groups), shape: isClosed, vertices };
-    }
+  POLYLINE: (scanner) => {
+    const groups = groupsOf(scanner);
+    const vertices: DxfPoint[] = [];
+    while (scanner.lastReadGroup.value === "VERTEX") vertices.push(vertexOf(groupsOf(scanner)));
+    // Without a SEQEND the line ends where another entity begins.
+    if (scanner.lastReadGroup.value === "SEQEND") groupsOf(scanner);
+    return { ...commonOf("POLYLINE", groups), shape: isClosed(groups), vertices };
   },
-  class {
-    readonly ForEntityName = "TEXT";
-    parseEntity(scanner: DxfScanner): DxfEntity {
-      return textOf("TEXT", groupsOf(scanner), 73);
-    }
+  TEXT: (scanner) => textOf("TEXT", groupsOf(scanner), 73),
+  ATTRIB: (scanner) => textOf("ATTRIB", groupsOf(scanner), 74),
+  MTEXT: (scanner) => mtextOf(groupsOf(scanner)),
+  HATCH: (scanner) => {
+    const groups = groupsOf(scanner);
+    return {
+      ...commonOf("HATCH", groups),
+      isSolid: numberIn(groups, 70) === 1,
+      loops: readHatchLoops(groups),
+      pattern: readPattern(groups),
+    };
   },
-  class {
-    readonly ForEntityName = "ATTRIB";
-    parseEntity(scanner: DxfScanner): DxfEntity {
-      return textOf("ATTRIB", groupsOf(scanner), 74);
-    }
-  },
-  class {
-    readonly ForEntityName = "MTEXT";
-    parseEntity(scanner: DxfScanner): DxfEntity {
-      return mtextOf(groupsOf(scanner));
-    }
-  },
-  class {
-    readonly ForEntityName = "HATCH";
-    parseEntity(scanner: DxfScanner): DxfEntity {
-      const groups = groupsOf(scanner);
-      return {
-        ...commonOf("HATCH", groups),
-        isSolid: numberIn(groups, 70) === 1,
-        loops: readHatchLoops(groups),
-        pattern: readPattern(groups),
-      };
-    }
-  },
-];
+};
+
+export const DXF_HANDLERS: readonly (new () => DxfHandler)[] = Object.entries(READERS).map(
+  ([name, read]) =>
+    class {
+      readonly ForEntityName = name;
+      readonly parseEntity = read;
+    },
+);
 
 /** All groups up to the next entity, where the scanner stops. */
 function groupsOf(scanner: DxfScanner): DxfGroup[] {
@@ -79,6 +61,8 @@ function numberIn(groups: readonly DxfGroup[], code: number): number | undefined
   const value = groups.find((group) => group.code === code)?.value;
   return typeof value === "number" && Number.isFinite(value) ? value : undefined;
 }
+
+const isClosed = (groups: readonly DxfGroup[]): boolean => ((numberIn(groups, 70) ?? 0) & 1) === 1;
 
 const textIn = (groups: readonly DxfGroup[], code: number): string =>
   String(groups.find((group) => group.code === code)?.value ?? "");
