@@ -15,10 +15,7 @@ export function numberSchema(row: NumberSetting): z.ZodNumber {
   return fromMin.max(row.max, { error }).describe(row.about);
 }
 
-/** The row's words are in the OpenAPI document too. */
-export const schemaOf = (row: Setting): z.ZodType => plainSchemaOf(row).describe(row.about);
-
-function plainSchemaOf(row: Setting): z.ZodType {
+export function schemaOf(row: Setting): z.ZodType {
   if (row.kind === "number") return numberSchema(row);
   return (row.kind === "switch" ? z.boolean() : z.enum(row.choices)).describe(row.about);
 }
