@@ -12,8 +12,8 @@ export interface SvgPage {
   /** Size of the viewport in user units, for %. */
   readonly viewportWidth: number;
   readonly viewportHeight: number;
-  /** "none" if there is neither size nor viewBox: then the drawing's own extent is the page. */
-  readonly sizeFrom: "size" | "viewBox" | "none";
+  /** False if there is neither size nor viewBox: then the drawing's own extent is the page. */
+  readonly isSized: boolean;
 }
 
 /** Ten times the largest roll of paper; anything larger is a mistake. */
@@ -22,7 +22,7 @@ const MAX_PAGE_MM = 100_000;
 const DEFAULT_WIDTH_PX = 300;
 const DEFAULT_HEIGHT_PX = 150;
 
-export interface PageAttributes {
+interface PageAttributes {
   /** Candidates in order: CSS, then the attribute. */
   readonly width: readonly (string | undefined)[];
   readonly height: readonly (string | undefined)[];
@@ -37,7 +37,6 @@ export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
   const width = firstMm(attributes.width, mmPerPx);
   const height = firstMm(attributes.height, mmPerPx);
   if (box === null) {
-    const isKnown = width !== null && height !== null;
     const widthMm = checked(width ?? DEFAULT_WIDTH_PX * mmPerPx, "wide");
     const heightMm = checked(height ?? DEFAULT_HEIGHT_PX * mmPerPx, "high");
     return {
@@ -46,7 +45,7 @@ export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
       map: scaling(mmPerPx),
       viewportWidth: widthMm / mmPerPx,
       viewportHeight: heightMm / mmPerPx,
-      sizeFrom: isKnown ? "size" : "none",
+      isSized: width !== null && height !== null,
     };
   }
   const ratio = box.width / box.height;
@@ -58,7 +57,7 @@ export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
     map: viewBoxMap(box, widthMm, heightMm, attributes.preserveAspectRatio),
     viewportWidth: box.width,
     viewportHeight: box.height,
-    sizeFrom: width === null && height === null ? "viewBox" : "size",
+    isSized: true,
   };
 }
 
