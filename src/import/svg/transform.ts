@@ -107,11 +107,11 @@ function parseFunction(name: string, args: readonly string[]): Affine | null {
     case "rotate":
       return n === 1 || n === 3 ? rotate(args) : null;
     case "skewx":
-      return n === 1 ? skew(args[0], 0) : null;
+      return n === 1 ? skew(args[0], "0") : null;
     case "skewy":
-      return n === 1 ? skew(0, args[0]) : null;
+      return n === 1 ? skew("0", args[0]) : null;
     case "skew":
-      return n === 1 || n === 2 ? skew(args[0], args[1] ?? 0) : null;
+      return n === 1 || n === 2 ? skew(args[0], args[1] ?? "0") : null;
     default:
       return null;
   }
@@ -149,9 +149,9 @@ function rotate(args: readonly string[]): Affine | null {
   );
 }
 
-function skew(x: string | number, y: string | number): Affine | null {
-  const ax = typeof x === "number" ? x : angleRad(x);
-  const ay = typeof y === "number" ? y : angleRad(y);
+function skew(x: string, y: string): Affine | null {
+  const ax = angleRad(x);
+  const ay = angleRad(y);
   if (ax === null || ay === null) return null;
   return { a: 1, b: Math.tan(ay), c: Math.tan(ax), d: 1, e: 0, f: 0 };
 }
