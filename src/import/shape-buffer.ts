@@ -92,6 +92,15 @@ export class ShapeBuffer {
     this.y = this.startY;
   }
 
+  /** A closed rectangle from one corner to the opposite one. */
+  rectangle(x0: number, y0: number, x1: number, y1: number): void {
+    this.moveTo(x0, y0);
+    this.lineTo(x1, y0);
+    this.lineTo(x1, y1);
+    this.lineTo(x0, y1);
+    this.close();
+  }
+
   /** Appends another, finished shape with its points mapped. */
   append({ verbs, coords }: ShapeBuffer, map: Affine): void {
     this.dropLoneMove();

@@ -225,11 +225,7 @@ class HpglImport {
     const { shape, x, y } = this;
     const x1 = args[0] * this.scaleX + (isRelative ? x : this.originX);
     const y1 = args[1] * this.scaleY + (isRelative ? y : this.originY);
-    shape.moveTo(x, y);
-    shape.lineTo(x1, y);
-    shape.lineTo(x1, y1);
-    shape.lineTo(x, y1);
-    shape.close();
+    shape.rectangle(x, y, x1, y1);
     this.flush();
   }
 

@@ -104,11 +104,7 @@ function drawRect(source: ShapeSource, shape: ShapeBuffer, arcTolerance: number)
   const x1 = x + width;
   const y1 = y + height;
   if (rx === 0 || ry === 0) {
-    shape.moveTo(x, y);
-    shape.lineTo(x1, y);
-    shape.lineTo(x1, y1);
-    shape.lineTo(x, y1);
-    shape.close();
+    shape.rectangle(x, y, x1, y1);
     return null;
   }
   const corner = (cx: number, cy: number, start: number, endX: number, endY: number): void =>

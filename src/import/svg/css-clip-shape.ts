@@ -101,11 +101,7 @@ function drawInset(args: string, { shape, box, basis }: Target): boolean {
   );
   if (x0 === null || x1 === null || y0 === null || y1 === null || args.includes("round")) return false;
   if (box.x0 + x0 >= box.x1 - x1 || box.y0 + y0 >= box.y1 - y1) return true;
-  shape.moveTo(box.x0 + x0, box.y0 + y0);
-  shape.lineTo(box.x1 - x1, box.y0 + y0);
-  shape.lineTo(box.x1 - x1, box.y1 - y1);
-  shape.lineTo(box.x0 + x0, box.y1 - y1);
-  shape.close();
+  shape.rectangle(box.x0 + x0, box.y0 + y0, box.x1 - x1, box.y1 - y1);
   return true;
 }
 
