@@ -2,7 +2,7 @@
 import { strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 import { linesOnPaper } from "./lines-on-paper.js";
 
-export interface StrokesJson {
+interface StrokesJson {
   readonly format: "plotwright-strokes";
   readonly version: 1;
   /** Paper size as placed, mm; its top left corner is at 0, 0. */

@@ -7,7 +7,7 @@
 import { blockState, newMotionState, type Trajectory } from "../plan/trajectory.js";
 import { mmText, svgOpening } from "./svg-text.js";
 
-export interface TrajectorySvgOptions {
+interface TrajectorySvgOptions {
   /** Paper size as placed. */
   readonly widthMm: number;
   readonly heightMm: number;
@@ -16,7 +16,7 @@ export interface TrajectorySvgOptions {
   readonly penWidthMm?: number;
 }
 
-export const SPEED_BAND_COUNT = 24;
+const SPEED_BAND_COUNT = 24;
 /** Max gap between a curved block and its line segments, mm. */
 const SAGITTA = 0.01;
 const MAX_PIECES = 200;

@@ -3,7 +3,7 @@ import { checkNames, checkObject, refuseSetting } from "../check-arguments.js";
 import { singleStrokeFont } from "./text/single-stroke-font.js";
 import type { TextFont } from "./text/text-font.js";
 
-export const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
+const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
 /** How the text of a drawing is drawn. */
 export type TextMode = (typeof TEXT_MODES)[number];
 

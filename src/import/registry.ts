@@ -13,7 +13,7 @@ import { checkImportOptions, type ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
 import { importSvg } from "./svg/import-svg.js";
 
-export type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
+type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
 
 interface Format {
   /** Common name. */
@@ -31,7 +31,7 @@ const PORT_SET_UP = /^(?:\u001b(?:\.[^;:()A-Za-z]*[;:()@]?|%-?\d*[A-Z]|[A-Z]))+/
 const HPGL_START =
   /^\s*(IN|DF|SP|PU|PD|PA|PR|IP|SC|VS|LT|PE|BP|CO|RO)\s*(?:[-\d;,"\s\u0003]|SP|PU|PD|PA|IP|SC)/i;
 
-export const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
+const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
   svg: { name: "SVG", extensions: ["svg"], isBegun: (head) => head.startsWith("<") },
   dxf: {
     name: "DXF",
@@ -56,7 +56,7 @@ const READERS: Readonly<Record<DrawingFormat, Reader>> = {
   json: importPolylines,
 };
 
-export const DRAWING_FORMATS = Object.keys(FORMATS) as DrawingFormat[];
+const DRAWING_FORMATS = Object.keys(FORMATS) as DrawingFormat[];
 /** The extensions of all formats, without the dot. */
 export const DRAWING_EXTENSIONS: readonly string[] = DRAWING_FORMATS.flatMap(
   (format) => FORMATS[format].extensions,

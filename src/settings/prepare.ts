@@ -1,15 +1,15 @@
 import type { PaperSize } from "../drawing/paper.js";
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
-export const LAYER_MODES = ["group", "stroke", "all"] as const;
+const LAYER_MODES = ["group", "stroke", "all"] as const;
 export type LayerMode = (typeof LAYER_MODES)[number];
 
 export const ORDER_MODES = ["none", "fast", "best"] as const;
 
-export const MIRROR_MODES = ["none", "leftRight", "upDown"] as const;
+const MIRROR_MODES = ["none", "leftRight", "upDown"] as const;
 export type MirrorMode = (typeof MIRROR_MODES)[number];
 
-export const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
+const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
 export type SpreadMode = (typeof SPREAD_MODES)[number];
 
 /** Margins of the paper, in the orientation in which it lies. */

@@ -31,7 +31,7 @@ export interface NumberSetting extends Described {
   readonly slider?: readonly [from: number, to: number];
 }
 
-export interface SwitchSetting extends Described {
+interface SwitchSetting extends Described {
   readonly kind: "switch";
   readonly default: boolean;
   /** The effect of `--no-…`. */

@@ -29,7 +29,7 @@ export interface DxfParagraphs {
 }
 
 /** Letters by their colour (null: the text's own), and the characters that are missing in the font. */
-export interface DrawnParagraphs {
+interface DrawnParagraphs {
   readonly shapes: ReadonlyMap<number | null, ShapeBuffer>;
   readonly missing: readonly string[];
 }

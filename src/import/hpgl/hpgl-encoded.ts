@@ -3,7 +3,7 @@
  * has its own range; signs are zigzag-encoded. Flags: ":" pen, "<" up, "=" absolute, ">" fraction bits, "7"
  * base 32.
  */
-export interface EncodedTarget {
+interface EncodedTarget {
   pen(pen: number): void;
   move(x: number, y: number, isUp: boolean, isAbsolute: boolean): void;
 }

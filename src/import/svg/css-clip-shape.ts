@@ -12,7 +12,7 @@ const ARC_TOLERANCE = 1e-6;
 const FUNCTION = /^([a-z]+)\((.*)\)$/s;
 const RULE = /^(nonzero|evenodd)\s*,\s*/;
 
-export interface CssClipShape {
+interface CssClipShape {
   readonly shape: ShapeBuffer;
   readonly evenOdd: boolean;
 }

@@ -24,7 +24,7 @@ export interface Rule {
   readonly declarations: readonly Declaration[];
 }
 
-export interface StyleSheet {
+interface StyleSheet {
   readonly rules: readonly Rule[];
   readonly importCount: number;
   /** Parse errors, in the parser's words. */

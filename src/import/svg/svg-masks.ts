@@ -22,7 +22,7 @@ const MAX_MASK_WORK = 2_000_000;
 /** Cost of combining one shape with the others, in coordinates. Each use of a mask costs the same. */
 const WORK_PER_SHAPE = 100;
 
-export interface MaskClip {
+interface MaskClip {
   readonly clip: ClipNode | "empty";
   /** Whether the mask also fades, which is not drawn. */
   readonly isFaint: boolean;

@@ -7,7 +7,7 @@
  */
 import type { Affine } from "../../geometry/affine.js";
 
-export interface ViewBox {
+interface ViewBox {
   readonly x: number;
   readonly y: number;
   readonly width: number;

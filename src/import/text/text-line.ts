@@ -7,7 +7,7 @@ import { drawPathData } from "../path-data.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { LetterStyle, TextFont } from "./text-font.js";
 
-export interface LineLetter {
+interface LineLetter {
   /** Path data; "" for a blank. */
   readonly path: string;
   /** Pen position before the letter. */
