@@ -69,7 +69,6 @@ function draw(
   if (!layers.isSplit) warnings.add("too-many-layers", undefined, undefined, layers.groupCount);
   const arcToleranceMm = ARC_TOLERANCE * Math.hypot(page.widthMm, page.heightMm);
   const geometry = new SvgGeometry(tree, warnings, arcToleranceMm);
-  const clips = new SvgClips(tree, cascade, geometry, warnings);
   const servers = new SvgPaintServers(tree, cascade);
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
   const conditions = new SvgConditions(tree, languages);
@@ -83,8 +82,7 @@ function draw(
     fontOf(options),
     conditions,
   );
-  clips.textBox = (element, at) => painter.textBox(element, at);
-  clips.lettersOf = (element, at, add) => painter.outlinesOf(element, at, add);
+  const clips = new SvgClips(tree, cascade, geometry, painter, warnings);
   const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
   if (isShown(root)) walk.run(context);
   return { builder, page };

@@ -7,6 +7,13 @@
  */
 import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
+import type { Context } from "./svg-context.js";
+
+const MARKED = new Set(["path", "line", "polyline", "polygon"]);
+
+/** Whether the shape may have markers. */
+export const isMarked = (tag: string, { style }: Context): boolean =>
+  MARKED.has(tag) && (style.markerStart !== null || style.markerMid !== null || style.markerEnd !== null);
 
 export interface MarkerPlace {
   readonly kind: "start" | "mid" | "end";

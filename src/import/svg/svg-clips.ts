@@ -21,6 +21,7 @@ import { mapBox } from "../map-box.js";
 import { curveBox, type ShapeBuffer } from "../shape-buffer.js";
 import { withStyle, type Context } from "./svg-context.js";
 import type { SvgGeometry } from "./svg-geometry.js";
+import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseUrl } from "./style.js";
 import type { Warnings } from "../warnings.js";
@@ -32,8 +33,6 @@ const MAX_NESTING = 16;
 const MAX_CHILD_CLIPS = 10_000;
 /** Max elements measured for objectBoundingBox, in the whole file. */
 const MAX_MEASURED = 1_000_000;
-
-type AddOutline = (shape: ShapeBuffer, map: Affine) => void;
 
 interface BuiltClip {
   readonly shapes: ClipShapes;
@@ -48,10 +47,6 @@ export class SvgClips {
   private measured = 0;
   private childClips = 0;
   private childNesting = 0;
-  /** The box of a text in its user units; set from outside, since text layout is in the painter. */
-  textBox: (element: number, context: Context) => Box = () => EMPTY_BOX;
-  /** Calls back with each letter's outline; false if letters have no outlines. Set from outside, too. */
-  lettersOf: (element: number, context: Context, add: AddOutline) => boolean = () => false;
   /** The clipPaths that are being built, to find those that refer to themselves. */
   private readonly open = new Set<number>();
 
@@ -59,6 +54,8 @@ export class SvgClips {
     private readonly tree: SvgTree,
     private readonly cascade: Cascade,
     private readonly geometry: SvgGeometry,
+    /** Lays out text. */
+    private readonly painter: SvgPainter,
     private readonly warnings: Warnings,
   ) {
     this.ancestors = new AncestorStyles(tree, cascade);
@@ -223,7 +220,7 @@ export class SvgClips {
   }
 
   private addText(child: number, context: Context, collector: ClipCollector): void {
-    const hasOutlines = this.lettersOf(child, context, (shape, map) => {
+    const hasOutlines = this.painter.outlinesOf(child, context, (shape, map) => {
       addClipped(collector, shape, map, false, context.clip);
     });
     if (!hasOutlines) this.warnings.add("clip-text");
@@ -268,7 +265,7 @@ export class SvgClips {
       if (SHAPE_TAGS.has(tag)) {
         box = uniteBoxes(box, mapBox(inner, curveBox(this.geometry.geometryOf(at, tag, declared, context))));
       } else if (tag === "text") {
-        box = uniteBoxes(box, mapBox(inner, this.textBox(at, withStyle(context, style, IDENTITY))));
+        box = uniteBoxes(box, mapBox(inner, this.painter.textBox(at, withStyle(context, style, IDENTITY))));
       } else if (tag === "use") {
         const target = tree.elementById.get((attribute(tree, at, HREF) ?? "").trim().slice(1));
         const x = lengthPx(attribute(tree, at, "x") ?? "0", context.basis, "width") ?? 0;

@@ -20,11 +20,6 @@ import { computeStyle, declaredValue, type Style } from "./style.js";
 import { parseTransform } from "./transform.js";
 import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
 
-const MARKED = new Set(["path", "line", "polyline", "polygon"]);
-
-export const isMarked = (tag: string, { style }: Context): boolean =>
-  MARKED.has(tag) && (style.markerStart !== null || style.markerMid !== null || style.markerEnd !== null);
-
 function orientRad(text: string): number {
   const turn = parseTransform(`rotate(${text})`);
   return turn === null ? 0 : Math.atan2(turn.b, turn.a);

@@ -21,7 +21,7 @@ import { MeasuredPath } from "./measured-path.js";
 import { curveBox, type ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
 import { warnOf } from "./svg-effects.js";
-import { isMarked } from "./svg-markers.js";
+import { isMarked } from "./markers.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import { MaskPaintServers, type SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";

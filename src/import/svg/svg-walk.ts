@@ -20,8 +20,8 @@ import { backgroundOf, effectsOf, isErased, warnOf, type Effects } from "./svg-e
 import type { SvgConditions } from "./svg-conditions.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
-import { markerPlaces } from "./markers.js";
-import { isMarked, SvgMarkers } from "./svg-markers.js";
+import { isMarked, markerPlaces } from "./markers.js";
+import { SvgMarkers } from "./svg-markers.js";
 import { SvgMasks, type DrawApart } from "./svg-masks.js";
 import { LayerGroups } from "./svg-layer-groups.js";
 import type { LayerPlan } from "./svg-layers.js";
