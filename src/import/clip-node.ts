@@ -8,12 +8,7 @@
 import type { ClipRegion } from "../drawing/drawing.js";
 import { boxContains, type Box } from "../geometry/box.js";
 
-export interface ClipShapes {
-  readonly verbs: Uint8Array;
-  readonly coords: Float64Array;
-  readonly rule: Uint8Array;
-  readonly shape: Uint32Array;
-}
+export type ClipShapes = Required<Omit<ClipRegion, "parent">>;
 
 /** mm: a shape on the rectangle's edge counts as inside. */
 const GRACE = 1e-6;
