@@ -12,10 +12,8 @@
  * own base point.
  */
 import type { DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
-import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../../drawing/drawing.js";
-import { flattenCubic } from "../../geometry/cubic.js";
-import { PointBuffer } from "../../geometry/growable.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
+import { subpathsOf } from "../subpaths.js";
 
 /** Parallel lines. */
 export interface PatternLine {
@@ -58,35 +56,15 @@ export function drawPattern(
   shape: ShapeBuffer,
   tolerance: number,
 ): boolean {
-  const polygons = polygonsOf(rings, tolerance);
+  const polygons = subpathsOf(rings.verbs.view(), rings.coords.data, tolerance)
+    .map(({ xy }) => xy)
+    .filter((xy) => xy.length > 4);
   const cuts = pattern.map((line) => cutsOf(polygons, line));
   let pieces = 0;
   for (const cut of cuts) pieces += cut === null ? Infinity : cut.pieces;
   if (pattern.length === 0 || polygons.length === 0 || !(pieces <= MAX_PIECES)) return false;
   for (const cut of cuts) if (cut !== null) drawCuts(cut, shape);
   return true;
-}
-
-/** Points x, y of each ring; tolerance in the file's units. */
-function polygonsOf({ verbs, coords }: ShapeBuffer, tolerance: number): Float64Array[] {
-  const polygons: Float64Array[] = [];
-  const out = new PointBuffer();
-  const end = (): void => {
-    if (out.length > 4) polygons.push(out.data.slice(0, out.length));
-    out.length = 0;
-  };
-  for (let i = 0, at = 0; i < verbs.length; i++) {
-    const verb = verbs.data[i];
-    if (verb === VERB_MOVE) end();
-    const [a, b, c, d, e, f] = coords.data.subarray(at, at + 6);
-    if (verb === VERB_CUBIC) {
-      const [x, y] = out.data.subarray(out.length - 2, out.length);
-      flattenCubic(out, x, y, a, b, c, d, e, f, tolerance);
-    } else if (verb !== VERB_CLOSE) out.push(a, b);
-    at += 2 * PAIRS_OF_VERB[verb];
-  }
-  end();
-  return polygons;
 }
 
 /** Crossings of one family's lines with the boundary: u values by line number. */

@@ -1,18 +1,10 @@
 /** Clip shapes as rings for Clipper: to clip the shapes of a clipPath, and to combine those of a mask. */
 import { ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
-import {
-  RULE_EVENODD,
-  VERB_CLOSE,
-  VERB_CUBIC,
-  VERB_LINE,
-  VERB_MOVE,
-  type ClipRegion,
-} from "../../drawing/drawing.js";
-import { flattenCubic } from "../../geometry/cubic.js";
-import { PointBuffer } from "../../geometry/growable.js";
+import { RULE_EVENODD, type ClipRegion } from "../../drawing/drawing.js";
 import { SCALE, cleanRings, combine } from "../../geometry/region.js";
 import type { ClipNode, ClipShapes } from "../clip-node.js";
 import { ShapeBuffer } from "../shape-buffer.js";
+import { subpathsOf } from "../subpaths.js";
 
 /** mm */
 const FLATNESS = 0.005;
@@ -73,31 +65,11 @@ export function ringsOf({ verbs, coords, rule, shape }: Omit<ClipRegion, "parent
 }
 
 /** The subpaths of a path in page mm. */
-export function outlinesOf(verbs: Uint8Array, c: Float64Array): Outline[] {
-  const outlines: Outline[] = [];
-  const points = new PointBuffer();
-  const end = (isClosed: boolean): void => {
-    if (points.pointCount === 0) return;
-    const ring = Array.from({ length: points.pointCount }, (_, i) => ({
-      x: Math.round(points.data[2 * i] * SCALE),
-      y: Math.round(points.data[2 * i + 1] * SCALE),
-    }));
-    outlines.push({ ring, isClosed });
-    points.clear();
-  };
-  for (let i = 0, at = 0; i < verbs.length; i++) {
-    const verb = verbs[i];
-    if (verb === VERB_MOVE) end(false);
-    if (verb === VERB_CLOSE) end(true);
-    else if (verb === VERB_CUBIC) {
-      const [x0, y0] = [c[at - 2], c[at - 1]];
-      flattenCubic(points, x0, y0, c[at], c[at + 1], c[at + 2], c[at + 3], c[at + 4], c[at + 5], FLATNESS);
-      at += 6;
-    } else if (verb === VERB_MOVE || verb === VERB_LINE) {
-      points.push(c[at], c[at + 1]);
-      at += 2;
-    }
-  }
-  end(false);
-  return outlines;
-}
+export const outlinesOf = (verbs: Uint8Array, coords: Float64Array): Outline[] =>
+  subpathsOf(verbs, coords, FLATNESS).map(({ xy, isClosed }) => ({ ring: ringOf(xy), isClosed }));
+
+const ringOf = (xy: Float64Array): Path64 =>
+  Array.from({ length: xy.length / 2 }, (_, i) => ({
+    x: Math.round(xy[2 * i] * SCALE),
+    y: Math.round(xy[2 * i + 1] * SCALE),
+  }));
