@@ -127,14 +127,14 @@ export class SvgPainter {
     const text = this.placed(element, context, this.font);
     const firstShape = builder.shapeCount;
     for (const letter of text.letters) this.drawLetter(letter, element, context);
-    const isDrawn = builder.shapeCount > firstShape;
-    const box = isDrawn
-      ? builder.boxOfShapes(firstShape, builder.shapeCount)
-      : this.geometry.placeOf(context, text.x, text.y, 0, 0);
-    if (isDrawn) warnOf(text.effects, box, warnings);
-    if (isDrawn && this.font.kind === "single-stroke") warnings.add("text-substituted", box);
-    for (const wanted of isDrawn ? otherFaces(text.letters, this.font) : [])
-      warnings.add("text-style-ignored", box, wanted);
+    let box = this.geometry.placeOf(context, text.x, text.y, 0, 0);
+    if (builder.shapeCount > firstShape) {
+      box = builder.boxOfShapes(firstShape, builder.shapeCount);
+      warnOf(text.effects, box, warnings);
+      if (this.font.kind === "single-stroke") warnings.add("text-substituted", box);
+      for (const wanted of otherFaces(text.letters, this.font))
+        warnings.add("text-style-ignored", box, wanted);
+    }
     for (const char of text.missing) warnings.add("glyphs-missing", box, `"${char}"`);
     if (text.unsupported.length > 0) {
       warnings.add("text-not-drawn", box, undefined, text.unsupported.length);
