@@ -7,13 +7,10 @@
 import { blockState, newMotionState, type Trajectory } from "../plan/trajectory.js";
 import { mmText, svgOpening } from "./svg-text.js";
 
-interface TrajectorySvgOptions {
-  /** Paper size as placed. */
+/** Paper size as placed. */
+interface Paper {
   readonly widthMm: number;
   readonly heightMm: number;
-  /** Show pen-up moves as thin grey lines; default true. */
-  readonly showTravel?: boolean;
-  readonly penWidthMm?: number;
 }
 
 const SPEED_BAND_COUNT = 24;
@@ -21,9 +18,10 @@ const SPEED_BAND_COUNT = 24;
 const SAGITTA = 0.01;
 const MAX_PIECES = 200;
 const LEGEND_HEIGHT = 14;
+const PEN_WIDTH = 0.3;
 
-/** SVG text of a planned drawing, mm. */
-export function trajectoryToSvg(trajectory: Trajectory, options: TrajectorySvgOptions): string {
+/** SVG text of a planned drawing, mm. Pen-up moves are thin grey lines. */
+export function trajectoryToSvg(trajectory: Trajectory, { widthMm, heightMm }: Paper): string {
   const top = topSpeed(trajectory);
   const bands: string[][] = Array.from({ length: SPEED_BAND_COUNT }, () => []);
   const travel: string[] = [];
@@ -32,23 +30,20 @@ export function trajectoryToSvg(trajectory: Trajectory, options: TrajectorySvgOp
     if (runs.stroke[run] < 0) travel.push(pathOfRun(trajectory, run));
     else addRun(trajectory, run, top, bands);
   }
-  const stroke = mmText(options.penWidthMm ?? 0.3);
-  const parts = [svgOpening(options.widthMm, options.heightMm + LEGEND_HEIGHT)];
+  const parts = [svgOpening(widthMm, heightMm + LEGEND_HEIGHT)];
   parts.push(
-    `<rect width="${mmText(options.widthMm)}" height="${mmText(options.heightMm)}" fill="#ffffff" stroke="#bbbbbb" stroke-width="0.2"/>\n`,
+    `<rect width="${mmText(widthMm)}" height="${mmText(heightMm)}" fill="#ffffff" stroke="#bbbbbb" stroke-width="0.2"/>\n`,
   );
-  if (options.showTravel !== false) {
-    parts.push(
-      `<path class="travel" fill="none" stroke="#9aa0a6" stroke-width="0.1" d="${travel.join("")}"/>\n`,
-    );
-  }
-  parts.push(`<g fill="none" stroke-width="${stroke}" stroke-linecap="round" stroke-linejoin="round">\n`);
+  parts.push(
+    `<path class="travel" fill="none" stroke="#9aa0a6" stroke-width="0.1" d="${travel.join("")}"/>\n`,
+    `<g fill="none" stroke-width="${PEN_WIDTH}" stroke-linecap="round" stroke-linejoin="round">\n`,
+  );
   bands.forEach((paths, band) => {
     if (paths.length > 0) {
       parts.push(`<path data-band="${band}" stroke="${bandColor(band)}" d="${paths.join("")}"/>\n`);
     }
   });
-  parts.push("</g>\n", legend(options, top), "</svg>\n");
+  parts.push("</g>\n", legend(widthMm, heightMm, top), "</svg>\n");
   return parts.join("");
 }
 
@@ -133,10 +128,10 @@ function pathOfRun(trajectory: Trajectory, run: number): string {
 }
 
 /** A bar of the speed bands below the paper, labelled with speeds. */
-function legend(options: TrajectorySvgOptions, top: number): string {
-  const width = Math.max(options.widthMm - 20, 40);
-  const x0 = Math.max((options.widthMm - width) / 2, 0);
-  const y = options.heightMm + 3;
+function legend(widthMm: number, heightMm: number, top: number): string {
+  const width = Math.max(widthMm - 20, 40);
+  const x0 = Math.max((widthMm - width) / 2, 0);
+  const y = heightMm + 3;
   const step = width / SPEED_BAND_COUNT;
   const parts = [`<g class="legend" font-family="sans-serif" font-size="3.5" fill="#333333">\n`];
   for (let band = 0; band < SPEED_BAND_COUNT; band++) {

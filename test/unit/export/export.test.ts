@@ -113,7 +113,7 @@ describe("trajectoryToSvg", () => {
     expect(svg).toContain(">50 mm/s</text>");
   });
 
-  it("covers every stroke's points and shows travel only on request", () => {
+  it("covers every stroke's points and shows travel", () => {
     const exact = plan(strokes, { ...DEFAULT_MOTION, mode: "junction", fit: null }, DEFAULT_PEN);
     const reached = [...trajectoryToSvg(exact, PAPER).matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map((m) => [
       Number(m[1]),
@@ -124,7 +124,6 @@ describe("trajectoryToSvg", () => {
       expect(near, `${strokes.xy[k]}, ${strokes.xy[k + 1]}`).toBe(true);
     }
     expect(svg).toContain('class="travel"');
-    expect(trajectoryToSvg(trajectory, { ...PAPER, showTravel: false })).not.toContain('class="travel"');
   });
 
   it("has no NaN, even for an empty drawing", () => {
