@@ -3,6 +3,7 @@
  *
  *   mm, s        units of geometry, prepare and plan
  *   px           CSS pixel, 1/96 in
+ *   rad          angles; degrees only in files and settings
  *   ticks        board interrupts of 40 µs
  *   steps        microsteps of one motor
  *   rate         accumulator counts per tick: steps/s × 2^31 / 25 000   (EBB firmware, ebb.c)
@@ -10,6 +11,8 @@
 export const MM_PER_INCH = 25.4;
 export const PX_PER_INCH = 96;
 export const MM_PER_PX = MM_PER_INCH / PX_PER_INCH;
+
+export const RAD_PER_DEG = Math.PI / 180;
 
 /** Interrupts per second; also the max steps per second of one motor. */
 export const TICKS_PER_S = 25_000;

@@ -9,6 +9,7 @@
  * SVG's endpoint form is converted to centre form as in SVG 1.1, appendix F.6.5 and F.6.6.
  */
 import type { ShapeBuffer } from "./shape-buffer.js";
+import { RAD_PER_DEG } from "../units.js";
 
 const QUARTER_GAP = 2.7253e-4;
 const QUARTER = Math.PI / 2;
@@ -93,7 +94,7 @@ export function drawSvgArc(
     shape.lineTo(x, y);
     return;
   }
-  const tilt = (tiltDeg % 360) * (Math.PI / 180);
+  const tilt = (tiltDeg % 360) * RAD_PER_DEG;
   const cosT = Math.cos(tilt);
   const sinT = Math.sin(tilt);
   // Half the chord along the ellipse's axes, in units of its radii: a unit circle from here on.

@@ -7,6 +7,7 @@ import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC } from "../../drawing/drawing.js"
 import { IDENTITY } from "../../geometry/affine.js";
 import { drawDxfEntity } from "./dxf-shapes.js";
 import { ShapeBuffer } from "../shape-buffer.js";
+import { RAD_PER_DEG } from "../../units.js";
 
 /** The edges of a ring as entities. A polyline is one entity. */
 export type HatchLoop = readonly DxfEntity[];
@@ -18,7 +19,6 @@ const EDGE = 72;
 const PATH_COUNT = 91;
 const STYLE = 75;
 const TURN = 2 * Math.PI;
-const RAD_PER_DEG = Math.PI / 180;
 
 export function readHatchLoops(groups: readonly DxfGroup[]): HatchLoop[] {
   const from = groups.findIndex(({ code }) => code === PATH_COUNT) + 1;

@@ -12,6 +12,7 @@ import { readMtext, type MtextFormat, type MtextParagraph, type MtextRun } from 
 import { ShapeBuffer } from "../shape-buffer.js";
 import { CAPITAL_EM, type TextFont } from "../text/text-font.js";
 import { drawLine, layOutLine, type TextLine } from "../text/text-line.js";
+import { RAD_PER_DEG } from "../../units.js";
 
 /** MTEXT. */
 export interface DxfParagraphs {
@@ -39,7 +40,6 @@ const LINE_DISTANCE = 5 / 3;
 /** Gap between the parts of a stack, and margin beside its bar; times the height. */
 const STACK_GAP = 0.4;
 const BAR_MARGIN = 0.1;
-const RAD_PER_DEG = Math.PI / 180;
 const LONGEST = 10_000;
 
 /** A part of a line that is never broken: letters, or a stack. */

@@ -14,6 +14,7 @@
 import type { DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 import { subpathsOf } from "../subpaths.js";
+import { RAD_PER_DEG } from "../../units.js";
 
 /** Parallel lines. */
 export interface PatternLine {
@@ -26,7 +27,6 @@ export interface PatternLine {
 
 const LINE_COUNT = 78;
 const LINE = 53;
-const RAD_PER_DEG = Math.PI / 180;
 /** Max lines and dashes of one hatch: more is a wrong scale, or as dense as a filled area. */
 const MAX_PIECES = 200_000;
 

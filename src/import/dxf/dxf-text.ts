@@ -13,6 +13,7 @@ import { plainText } from "./mtext-codes.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 import { CAPITAL_EM, DESCENT_EM, type TextFont } from "../text/text-font.js";
 import { drawLine, layOutLine, type TextLine } from "../text/text-line.js";
+import { RAD_PER_DEG } from "../../units.js";
 
 /** TEXT or ATTRIB. */
 export interface DxfWriting {
@@ -33,7 +34,6 @@ export interface DxfWriting {
   readonly valign: number;
 }
 
-const RAD_PER_DEG = Math.PI / 180;
 const LONGEST = 10_000;
 
 /** Draws the text; returns the characters that are missing in the font. */

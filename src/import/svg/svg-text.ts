@@ -14,6 +14,7 @@ import type { SvgConditions } from "./svg-conditions.js";
 import { layOutText, type Char, type LaidOutText, type Stretch } from "./svg-text-layout.js";
 import type { SvgTextPaths, TextPath } from "./svg-text-path.js";
 import type { TextFont } from "../text/text-font.js";
+import { RAD_PER_DEG } from "../../units.js";
 
 export interface PlacedText extends LaidOutText {
   /** Elements that are not laid out: a textPath without a path, and unsupported kinds. */
@@ -30,7 +31,6 @@ type CommonOfText = Pick<Char, "style" | "path" | "keepsBlanks" | "stretch">;
 /** Three or more combining marks in a row: few fonts place all of them correctly. */
 const STACKED_ACCENTS = /\p{M}{3}/u;
 const MAX_CHARS = 100_000;
-const RAD_PER_DEG = Math.PI / 180;
 /** Size of synthetic small capitals, as a share of the font size. */
 const SMALL_CAPS = 0.7;
 

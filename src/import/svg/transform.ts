@@ -2,9 +2,9 @@
 import { compose, IDENTITY, isFiniteAffine, rotation, scaling, translation } from "../../geometry/affine.js";
 import type { Affine } from "../../geometry/affine.js";
 import { absolutePx, lengthPx, splitLength, type LengthBasis } from "./length.js";
+import { RAD_PER_DEG } from "../../units.js";
 
 const FUNCTION = /\s*,?\s*([a-zA-Z]+)\s*\(([^()]*)\)\s*/y;
-const RAD_PER_DEG = Math.PI / 180;
 const ANGLES: Readonly<Record<string, number>> = {
   "": RAD_PER_DEG,
   deg: RAD_PER_DEG,
