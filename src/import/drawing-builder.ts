@@ -33,9 +33,12 @@ const MARGIN = 1.25;
 export interface Look {
   readonly stroke: string | null;
   readonly fill: string | null;
-  readonly evenOdd: boolean;
-  readonly strokeWidth: number;
-  readonly dash: DashPattern | null;
+  /** Left out: nonzero. */
+  readonly evenOdd?: boolean;
+  /** Left out: 0. */
+  readonly strokeWidth?: number;
+  /** Left out: a solid line. */
+  readonly dash?: DashPattern | null;
   /** Left out: 1. */
   readonly speedFactor?: number;
 }
@@ -109,16 +112,16 @@ export class DrawingBuilder {
     }
     coords.length += shape.coords.length;
     for (let i = 0; i < shape.verbs.length; i++) verbs.push(shape.verbs.data[i]);
-    const { speedFactor = 1 } = look;
+    const { evenOdd = false, strokeWidth = 0, dash = null, speedFactor = 1 } = look;
     if (speedFactor !== 1) this.speedFactors.set(this.shapeCount, speedFactor);
     this.verbOffsets.push(verbs.length);
     this.coordOffsets.push(coords.length);
     this.group.push(group);
     this.stroke.push(this.colorOf(look.stroke));
     this.fill.push(this.colorOf(look.fill));
-    this.fillRule.push(look.evenOdd ? RULE_EVENODD : RULE_NONZERO);
-    this.strokeWidth.push(finiteWidth(look.strokeWidth));
-    this.dash.push(this.dashOf(look.dash));
+    this.fillRule.push(evenOdd ? RULE_EVENODD : RULE_NONZERO);
+    this.strokeWidth.push(finiteWidth(strokeWidth));
+    this.dash.push(this.dashOf(dash));
     this.clip.push(clip === null ? -1 : clipIndexFor(clip, this.boxOfLast(), this.clips));
     return true;
   }

@@ -233,8 +233,6 @@ class DxfImport {
         stroke: paint.isLine ? color : null,
         fill: paint.isFilled ? color : null,
         evenOdd: entity.loops !== undefined,
-        strokeWidth: 0,
-        dash: null,
       };
       const where = (): string => `${entity.type} on layer ${layerName}`;
       if (!drawn.isEmpty) this.builder.addShape(drawn, map, look, group, null, where);

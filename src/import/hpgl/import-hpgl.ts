@@ -287,13 +287,7 @@ class HpglImport {
     let box: Box | null = null;
     if (!shape.isEmpty && this.pen > 0) {
       const color = PEN_COLORS[(this.pen - 1) % PEN_COLORS.length];
-      const look = {
-        stroke: isFilled ? null : color,
-        fill: isFilled ? color : null,
-        evenOdd: false,
-        strokeWidth: 0,
-        dash: null,
-      };
+      const look = isFilled ? { stroke: null, fill: color } : { stroke: color, fill: null };
       const where = (): string => `pen ${this.pen}`;
       const isDrawn = this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, where);
       if (isDrawn) box = this.builder.boxOfLast();

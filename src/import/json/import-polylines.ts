@@ -76,7 +76,7 @@ function addLayer(builder: DrawingBuilder, value: unknown, index: number, warnin
     throw bad(`the speedFactors of layer ${index + 1} are not a list`);
   }
   const group = builder.addGroup(id, name, false);
-  const look: Look = { stroke: color, fill: null, evenOdd: false, strokeWidth: 0, dash: null };
+  const look: Look = { stroke: color, fill: null };
   const shape = new ShapeBuffer();
   strokes.forEach((stroke: unknown, strokeIndex) => {
     const where = `stroke ${strokeIndex + 1} of layer ${index + 1}`;

@@ -156,9 +156,7 @@ export class SvgPainter {
       // A single stroke has no interior: the fill colour becomes its line colour.
       stroke: isOutline ? stroke : (stroke ?? fill),
       fill: isOutline ? fill : null,
-      evenOdd: false,
       strokeWidth: stroke === null ? 0 : style.strokeWidth * meanScale(context.map),
-      dash: null,
       speedFactor: context.speedFactor,
     };
     this.builder.addShape(shape, mapOf(letter, context), look, context.group, context.clip, this.where);
