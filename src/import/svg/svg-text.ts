@@ -12,7 +12,7 @@ import { withoutAlignment, withoutShift } from "./text-style.js";
 import type { Context } from "./svg-context.js";
 import type { SvgConditions } from "./svg-conditions.js";
 import { layOutText, type Char, type LaidOutText, type Stretch } from "./svg-text-layout.js";
-import type { SvgTextPaths, TextPath } from "./svg-text-path.js";
+import type { SvgTextPaths } from "./svg-text-path.js";
 import type { TextFont } from "../text/text-font.js";
 import { RAD_PER_DEG } from "../../units.js";
 
@@ -26,11 +26,17 @@ export interface PlacedText extends LaidOutText {
   readonly y: number;
 }
 
+/** What the characters inside an element have in common. */
 type CommonOfText = Pick<Char, "style" | "path" | "keepsBlanks" | "stretch">;
+interface Inside extends CommonOfText {
+  /** Indices of the spans around them. */
+  readonly open: readonly number[];
+}
 
 /** Three or more combining marks in a row: few fonts place all of them correctly. */
 const STACKED_ACCENTS = /\p{M}{3}/u;
 const MAX_CHARS = 100_000;
+const MAX_DEPTH = 64;
 /** Size of synthetic small capitals, as a share of the font size. */
 const SMALL_CAPS = 0.7;
 
@@ -57,7 +63,7 @@ class Gatherer {
   readonly unsupported: string[] = [];
   readonly effects: Effects[number][] = [];
   /** Elements that may have positions, and the characters inside each. */
-  private readonly spans: { element: number; style: Style; from: Char | null; chars: Char[] }[] = [];
+  private readonly spans: { element: number; style: Style; chars: Char[] }[] = [];
   private readonly smallCaps = new Map<Style, Style>();
 
   constructor(
@@ -70,66 +76,56 @@ class Gatherer {
   ) {}
 
   gather(root: number): void {
-    const { tree } = this;
-    const stack: {
-      node: number;
-      style: Style;
-      open: number[];
-      path: TextPath | null;
-      keepsBlanks: boolean;
-      stretch: Stretch | null;
-    }[] = [];
-    const pushChildren = (
-      element: number,
-      style: Style,
-      open: number[],
-      path: TextPath | null,
-      keptOutside: boolean,
-      outerStretch: Stretch | null,
-    ): void => {
-      this.spans.push({ element, style, from: null, chars: [] });
-      const space = attribute(tree, element, "xml:space");
-      const keepsBlanks =
-        style.text.keepsBlanks ?? (space === undefined ? keptOutside : space === "preserve");
-      const stretch = this.stretchOf(element, style) ?? outerStretch;
-      const within = [...open, this.spans.length - 1];
-      const children: number[] = [];
-      for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child])
-        children.push(child);
-      for (const node of children.reverse())
-        stack.push({ node, style, open: within, path, keepsBlanks, stretch });
-    };
     const { style: around } = this.context;
-    const rootStyle = { ...around, text: withoutShift(around.text) };
-    pushChildren(root, rootStyle, [], null, this.keepsBlanksAround(root), null);
-    while (stack.length > 0) {
-      const { node, style, open, path, keepsBlanks, stretch } = stack.pop()!;
-      const tag = tagOf(tree, node);
-      if (tag === TEXT_NODE) {
-        if (STACKED_ACCENTS.test(textOf(tree, node)))
-          this.effects.push(["text-style-ignored", "exact places of stacked accents"]);
-        this.addText(textOf(tree, node), { style, path, keepsBlanks, stretch }, open);
-        continue;
-      }
-      const onPath = tag === "textPath" ? this.paths.of(node, this.context) : path;
-      // A textPath is allowed only in a text or a link.
-      const isMisplaced = tag === "textPath" && !["text", "a"].includes(tagOf(tree, tree.parents[node]));
-      if (tag === "tref" || isMisplaced || (tag === "textPath" && onPath === null))
-        this.unsupported.push(tag);
-      else if ((tag === "tspan" || tag === "a" || tag === "textPath") && this.conditions.areMet(node)) {
-        const declared = this.cascade.declaredOf(node);
-        const own = this.styleInside(style, declared);
-        // No real file nests spans deeper than 64: deeper ones are not laid out.
-        if (declaredValue(own, declared, "display") !== "none" && open.length < 64) {
-          this.effects.push(...effectsOf(own, declared));
-          const clip = declaredValue(own, declared, "clip-path") ?? "none";
-          if (attribute(tree, node, "side")?.trim() === "right")
-            this.effects.push(["text-style-ignored", "textPath side"]);
-          if (clip !== "none") this.effects.push(["clip-ignored", `${clip.slice(0, 40)} on ${tag}`]);
-          pushChildren(node, own, open, onPath, keepsBlanks, stretch);
-        }
-      }
+    const style = { ...around, text: withoutShift(around.text) };
+    const keepsBlanks = this.keepsBlanksAround(root);
+    this.gatherChildren(root, { style, open: [], path: null, keepsBlanks, stretch: null });
+  }
+
+  /** `outside` has the element's own style and path already. */
+  private gatherChildren(element: number, outside: Inside): void {
+    const { tree } = this;
+    const { style } = outside;
+    const space = attribute(tree, element, "xml:space");
+    const inside = {
+      ...outside,
+      open: [...outside.open, this.spans.length],
+      keepsBlanks:
+        style.text.keepsBlanks ?? (space === undefined ? outside.keepsBlanks : space === "preserve"),
+      stretch: this.stretchOf(element, style) ?? outside.stretch,
+    };
+    this.spans.push({ element, style, chars: [] });
+    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child])
+      this.gatherNode(child, inside);
+  }
+
+  private gatherNode(node: number, inside: Inside): void {
+    const { tree } = this;
+    const tag = tagOf(tree, node);
+    if (tag === TEXT_NODE) {
+      if (STACKED_ACCENTS.test(textOf(tree, node)))
+        this.effects.push(["text-style-ignored", "exact places of stacked accents"]);
+      this.addText(textOf(tree, node), inside);
+      return;
     }
+    const path = tag === "textPath" ? this.paths.of(node, this.context) : inside.path;
+    // A textPath is allowed only in a text or a link.
+    const isMisplaced = tag === "textPath" && !["text", "a"].includes(tagOf(tree, tree.parents[node]));
+    if (tag === "tref" || isMisplaced || (tag === "textPath" && path === null)) {
+      this.unsupported.push(tag);
+      return;
+    }
+    if (!["tspan", "a", "textPath"].includes(tag) || !this.conditions.areMet(node)) return;
+    const declared = this.cascade.declaredOf(node);
+    const style = this.styleInside(inside.style, declared);
+    // No real file nests spans deeper than this: deeper ones are not laid out.
+    if (declaredValue(style, declared, "display") === "none" || inside.open.length >= MAX_DEPTH) return;
+    this.effects.push(...effectsOf(style, declared));
+    const clip = declaredValue(style, declared, "clip-path") ?? "none";
+    if (attribute(tree, node, "side")?.trim() === "right")
+      this.effects.push(["text-style-ignored", "textPath side"]);
+    if (clip !== "none") this.effects.push(["clip-ignored", `${clip.slice(0, 40)} on ${tag}`]);
+    this.gatherChildren(node, { ...inside, style, path });
   }
 
   /** The style of an element that declares `declared` inside an element with `style`. */
@@ -162,7 +158,7 @@ class Gatherer {
     return { length, ofGlyphs: attribute(this.tree, element, "lengthAdjust") === "spacingAndGlyphs" };
   }
 
-  private addText(text: string, common: CommonOfText, open: readonly number[]): void {
+  private addText(text: string, { open, ...common }: Inside): void {
     for (const written of transformed(text, common.style.text.transform)) {
       if (this.chars.length >= MAX_CHARS) return;
       const isSmall =
