@@ -33,16 +33,11 @@ export class Cascade {
   private readonly byClass = new Map<string, FiledRule[]>();
   private readonly byType = new Map<string, FiledRule[]>();
   private readonly forAll: FiledRule[] = [];
-  private readonly hasRules: boolean;
-  /** By the tree's name index: whether the attribute is a presentation attribute. */
-  private readonly isPresentation: Uint8Array;
   private readonly refs = new Map<number, ElementRef>();
   private readonly positions = new Map<number, number>();
   private readonly childLists = new Map<number, ElementRef[]>();
-  private readonly matched: FiledRule[] = [];
 
   constructor(private readonly tree: SvgTree) {
-    this.isPresentation = Uint8Array.from(tree.names, (name) => (IS_PRESENTATION.has(name) ? 1 : 0));
     const faults: string[] = [];
     let importCount = 0;
     let order = 0;
@@ -52,7 +47,6 @@ export class Cascade {
       faults.push(...sheet.faults);
       for (const rule of sheet.rules) this.file(rule, order++, faults);
     }
-    this.hasRules = order > 0;
     this.importCount = importCount;
     this.faults = faults;
   }
@@ -66,14 +60,13 @@ export class Cascade {
     let classes: string | undefined;
     const end = tree.attributeOffsets[element + 1];
     for (let i = tree.attributeOffsets[element]; i < end; i++) {
-      const name = tree.attributeNames[i];
-      if (this.isPresentation[name] === 1) {
-        values.set(tree.names[name], valueFor(tree.names[name], attributeValue(tree, i)));
-      } else if (tree.names[name] === "style") style = attributeValue(tree, i);
-      else if (tree.names[name] === "id") id = attributeValue(tree, i);
-      else if (tree.names[name] === "class") classes = attributeValue(tree, i);
+      const name = tree.names[tree.attributeNames[i]];
+      if (IS_PRESENTATION.has(name)) values.set(name, valueFor(name, attributeValue(tree, i)));
+      else if (name === "style") style = attributeValue(tree, i);
+      else if (name === "id") id = attributeValue(tree, i);
+      else if (name === "class") classes = attributeValue(tree, i);
     }
-    const rules = this.hasRules ? this.match(element, id, classes) : this.matched;
+    const rules = this.match(element, id, classes);
     const inline = style === undefined ? [] : parseInlineStyle(style);
     for (const rule of rules) apply(rule.declarations, false, values);
     apply(inline, false, values);
@@ -82,25 +75,18 @@ export class Cascade {
     return values;
   }
 
-  /** Matching rules, weakest first. The array is reused by the next call. */
+  /** Matching rules, weakest first. */
   private match(element: number, id: string | undefined, classes: string | undefined): FiledRule[] {
-    const found = this.matched;
-    found.length = 0;
-    this.test(this.forAll, element);
-    this.test(this.byType.get(tagOf(this.tree, element)), element);
-    if (id !== undefined) this.test(this.byId.get(id), element);
-    if (classes !== undefined && this.byClass.size > 0) {
-      for (const name of new Set(classes.split(/\s+/))) this.test(this.byClass.get(name), element);
+    const { forAll, byType, byId, byClass } = this;
+    const filed = [forAll, byType.get(tagOf(this.tree, element))];
+    if (id !== undefined) filed.push(byId.get(id));
+    if (classes !== undefined) {
+      for (const name of new Set(classes.split(/\s+/))) filed.push(byClass.get(name));
     }
-    if (found.length > 1) found.sort((a, b) => a.specificity - b.specificity || a.order - b.order);
-    return found;
-  }
-
-  private test(rules: readonly FiledRule[] | undefined, element: number): void {
-    if (rules === undefined) return;
-    for (const rule of rules) {
-      if (rule.isKeyAlone || rule.matches(this.ref(element))) this.matched.push(rule);
-    }
+    return filed
+      .flatMap((rules = []) => rules)
+      .filter((rule) => rule.isKeyAlone || rule.matches(this.ref(element)))
+      .sort((a, b) => a.specificity - b.specificity || a.order - b.order);
   }
 
   private file(rule: Rule, order: number, faults: string[]): void {
@@ -221,10 +207,8 @@ const valueFor = (property: string, value: string): string =>
   IS_KEYWORD.has(property) ? value.toLowerCase() : value;
 
 function* styleTexts(tree: SvgTree): Generator<string> {
-  const style = tree.names.indexOf("style");
-  if (style < 0) return;
   for (let element = 0; element < tree.count; element++) {
-    if (tree.tags[element] !== style) continue;
+    if (tagOf(tree, element) !== "style") continue;
     const type = attribute(tree, element, "type") ?? "";
     if (type !== "" && type.toLowerCase() !== "text/css") continue;
     let text = "";

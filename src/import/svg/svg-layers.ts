@@ -88,9 +88,8 @@ function wrapperIn(tree: SvgTree, parent: number): number {
 
 function groupsIn(tree: SvgTree, parent: number): number[] {
   const groups: number[] = [];
-  const group = tree.names.indexOf("g");
   for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
-    if (tree.tags[child] === group) groups.push(child);
+    if (tagOf(tree, child) === "g") groups.push(child);
   }
   return groups;
 }
