@@ -24,17 +24,18 @@ export function curveBoxOf(
   let y0 = Infinity;
   let x1 = -Infinity;
   let y1 = -Infinity;
+  const include = (px: number, py: number): void => {
+    x0 = Math.min(x0, px);
+    y0 = Math.min(y0, py);
+    x1 = Math.max(x1, px);
+    y1 = Math.max(y1, py);
+  };
   let x = 0;
   let y = 0;
   let at = coordFrom;
   for (let v = verbFrom; v < verbTo; v++) {
     const verb = verbs[v];
-    if (verb !== VERB_MOVE) {
-      x0 = Math.min(x0, x);
-      y0 = Math.min(y0, y);
-      x1 = Math.max(x1, x);
-      y1 = Math.max(y1, y);
-    }
+    if (verb !== VERB_MOVE) include(x, y);
     if (verb === VERB_CLOSE) continue;
     const endAt = verb === VERB_CUBIC ? at + 4 : at;
     const endX = a * coords[endAt] + c * coords[endAt + 1] + e;
@@ -43,20 +44,13 @@ export function curveBoxOf(
       const [ux, uy, wx, wy] = [coords[at], coords[at + 1], coords[at + 2], coords[at + 3]];
       const [minX, maxX] = extremesOf(x, a * ux + c * uy + e, a * wx + c * wy + e, endX);
       const [minY, maxY] = extremesOf(y, b * ux + d * uy + f, b * wx + d * wy + f, endY);
-      x0 = Math.min(x0, minX);
-      x1 = Math.max(x1, maxX);
-      y0 = Math.min(y0, minY);
-      y1 = Math.max(y1, maxY);
+      include(minX, minY);
+      include(maxX, maxY);
     }
     x = endX;
     y = endY;
     at = endAt + 2;
-    if (verb !== VERB_MOVE) {
-      x0 = Math.min(x0, x);
-      y0 = Math.min(y0, y);
-      x1 = Math.max(x1, x);
-      y1 = Math.max(y1, y);
-    }
+    if (verb !== VERB_MOVE) include(x, y);
   }
   return { x0, y0, x1, y1 };
 }

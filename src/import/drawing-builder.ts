@@ -133,8 +133,7 @@ export class DrawingBuilder {
   }
 
   boxOfLast(): Box {
-    const { length, data } = this.coordOffsets;
-    return boxOfPoints(this.coords.data, data[length - 2], data[length - 1]);
+    return this.boxOfShapes(this.shapeCount - 1, this.shapeCount);
   }
 
   /** The box of the curves themselves; `boxOfShapes` gives that of their control points. */
