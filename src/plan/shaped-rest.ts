@@ -26,7 +26,7 @@ export interface ShapedRest {
  * @param planned the motion before the shaper
  * @param tS when the braking begins
  * @param carriage its state at `tS`
- * @param braking blocks of the planned motion from `tS` on; none if that is at rest
+ * @param braking blocks of the planned motion from `tS` on; none if it is at rest then
  * @param end where the planned motion comes to rest
  */
 export function shapeRest(
