@@ -36,7 +36,7 @@ export function clipLine(lines: Lines, i: number, box: Box, builder: LineBuilder
   endPiece(builder, tag);
 }
 
-/** A start point on a closed line at which no inside piece is split. */
+/** The point at which to start a closed line so that no inside piece is split. */
 function firstOutside(xy: Float64Array, first: number, segments: number, box: Box): number {
   for (let k = 0; k < segments; k++) {
     if (!boxContainsPoint(box, xy[2 * (first + k)], xy[2 * (first + k) + 1])) return k;

@@ -1,8 +1,8 @@
 /**
  * Flattens cubic Bézier curves to polylines within a tolerance in mm.
  *
- * Method: if the curve's acceleration B″ is roughly uniform, split it at n equal steps of t; if not,
- * halve it first. Both tests are bounds, not samples, so the tolerance holds for every curve.
+ * Method: if the curve's acceleration B″ is roughly uniform, split the curve at n equal steps of t; if not,
+ * halve it first. Both tests are bounds, not samples, so every curve stays within the tolerance.
  *
  *        p1 ·-------· p2           d1, d2  signed distance of p1, p2 from the chord p0 p3
  *          /         \             s1, s2  how far along the chord they lie, 0 … L

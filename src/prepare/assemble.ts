@@ -19,7 +19,7 @@ export interface PreparedLayer extends FileLayer {
   readonly drawMm: number;
 }
 
-/** Sorts lines by part of a layer (speed-parts.ts), in the file's order within each, and sets their tag to the part. */
+/** Sorts lines by part of a layer (speed-parts.ts), with the file's order within a part, and tags them with the part. */
 export function byLayer(lines: Lines, parts: SpeedParts): Lines {
   const layer = new Uint32Array(lines.tag.length);
   const tagged = { ...lines, tag: layer };
@@ -86,7 +86,7 @@ export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): s
 
 /**
  * The strokes of the visible layers, with the layers renumbered. With `reinkMm` a layer is split into several, "red",
- * "red (2)" …, because the plot can stop between layers to take up ink. `shifts`: by layer id.
+ * "red (2)" …, because a plot can stop only between layers to take up ink. `shifts`: by layer id.
  */
 export function strokeSetOf(
   lines: Lines,

@@ -5,7 +5,7 @@
  *        │  ┌───────────┐           inside   the paper minus its margins
  *        │  │  inside   │           fit      the drawing's content fills `inside`, centred
  *        y  └───────────┘           true     page corner on paper corner
- *                                   place    the content's box as given, then turned about its centre
+ *                                   place    the content in the given box, then turned about its centre
  */
 import { curveBoxOf } from "../drawing/curve-box.js";
 import type { ClipRegion, Drawing } from "../drawing/drawing.js";

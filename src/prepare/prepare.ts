@@ -1,8 +1,8 @@
 /**
  * Converts the file's drawing to pen strokes, by the steps below.
  *
- * The tag of a line is its shape until lines are sorted by layer, and after that its part of a layer (speed-parts.ts).
- * Hidden layers are processed up to the counts, so that the page can show their figures, and dropped after that. They
+ * Until lines are sorted by layer, the tag of a line is its shape; after that, its part of a layer (speed-parts.ts).
+ * Hidden layers are processed until they are counted, so that the page can show their figures, and then dropped. They
  * hide nothing, and nothing hides them.
  */
 import type { Drawing } from "../drawing/drawing.js";

@@ -7,8 +7,8 @@
  *     … 2a+1 │ 6 7 │ 12 13 │ 5 4 │ 2b …        │ travel    6 7 a stroke, 5 4 one drawn backwards
  *
  * So every end has exactly one travel edge, to its partner. Reversing a section of the tour (2-opt) also reverses its
- * strokes, so no special moves are needed for their directions. One stroke represents home: its entry is where the pen
- * must end, its exit where the pen begins.
+ * strokes, so no special moves are needed to change their directions. One stroke represents home: the pen begins at its
+ * exit and must end at its entry.
  *
  * Moves (after S. Lin, 1965, and I. Or, 1976):
  *
@@ -35,8 +35,8 @@
  */
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 
+/** Number of near ends in each end's list, and how many of them are tried for the third edge. */
 const NEAR = 8;
-/** How many of them are tried for the third edge. */
 const NEAR_THIRD = 5;
 /** Smaller gains are rounding errors. */
 const EPSILON = 1e-9;
