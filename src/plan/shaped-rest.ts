@@ -41,12 +41,12 @@ export function shapeRest(
   const recent = new BlockColumns(0, false);
   addWindow(planned, run, tS - kernel.lengthS, tS, recent);
   for (let k = 0; k < braking.count; k++) recent.pushFrom(braking, k);
-  const whole = new BlockColumns(0, false);
+  const filtered = new BlockColumns(0, false);
   const shaped = new BlockColumns(0, false);
   if (recent.count === 0) return { planned: recent, shaped };
-  const beginS = recent.startS[0] + new ImpulseFilter(kernel).write(recent, 0, end, whole);
+  const beginS = recent.startS[0] + new ImpulseFilter(kernel).write(recent, 0, end, filtered);
   const exact = new BlockColumns(0, false);
-  addAfter(whole, -beginS, exact);
+  addAfter(filtered, -beginS, exact);
   joinFrom(carriage, exact, end, shaped);
   const at = { x: end.x, y: end.y, alongMm: end.alongMm, segmentCount: 0 };
   if (shaped.count > 0) mergeBlocks(shaped, 0, at, limitsOf(shaped), SHAPED_RULES);

@@ -209,9 +209,9 @@ function blockAlong(trajectory: Trajectory, k: number, t: number): number {
   const along = trajectory.alongMm[k];
   const duration = trajectory.durationS[k];
   if (!(t > 0)) return along;
-  const whole = blockLength(trajectory, k, duration);
-  const span = blockAlongSpan(trajectory, k, whole);
-  return whole > 0 ? along + span * Math.min(1, blockLength(trajectory, k, t) / whole) : along;
+  const wholeMm = blockLength(trajectory, k, duration);
+  const span = blockAlongSpan(trajectory, k, wholeMm);
+  return wholeMm > 0 ? along + span * Math.min(1, blockLength(trajectory, k, t) / wholeMm) : along;
 }
 
 /** Length along the source polyline that block `k` covers; for the last block of a run, its own length. */

@@ -49,9 +49,9 @@ function clipFill(
   builder: LineBuilder,
   work: Work,
 ): void {
-  const whole = new LineBuilder();
-  copyAll(lines, from, to, whole);
-  const outline = whole.finish();
+  const copy = new LineBuilder();
+  copyAll(lines, from, to, copy);
+  const outline = copy.finish();
   const cut = new LineBuilder();
   cutAll(lines, from, to, clip, cut);
   if (totalLength(outline) - totalLength(cut.finish()) < UNCUT) {
