@@ -85,7 +85,7 @@ export class LegRuns implements RunWriter {
       isRunEnd = cut.isRunEnd;
       this.writeMidway(isRunEnd ? Infinity : columns.boardTicks);
     }
-    this.rest(run);
+    this.waitForRunEnd(run);
   }
 
   /** Writes the pen moves due by `tick`. */
@@ -104,7 +104,7 @@ export class LegRuns implements RunWriter {
   }
 
   /** Waits if a run's last step comes before its planned end. So a run takes the planned time on every firmware. */
-  private rest(run: number): void {
+  private waitForRunEnd(run: number): void {
     const { walk, columns, m1, m2 } = this;
     const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
     if (ms < 1) return;
