@@ -11,7 +11,7 @@
  *   p0 ·-----------------· p3
  *
  * Flat test: with s1, s2 inside 0 … L the curve runs along the chord from end to end and is at most
- * (3/4) max(|d1|, |d2|) away from it, or (4/9) of that when p1 and p2 lie on opposite sides
+ * (3/4) max(|d1|, |d2|) away from it, or (4/9) max(|d1|, |d2|) when p1 and p2 lie on opposite sides
  * (maximum of 3t(1−t)² d1 + 3t²(1−t) d2). A straight line written as a curve stays one segment.
  *
  * Step count: a chord over a step h of t is within h²/8 · max|B″| of the curve (linear interpolation

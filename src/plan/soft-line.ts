@@ -174,7 +174,7 @@ export class SoftLine {
         const leaves = s + Math.max(sine[i - 1], sine[i + 1]) / 2;
         const mayLeave = ((1 - KEEP_SHARE) * corner) / (leaves + TINY);
         const limit = Math.min((SHEAR / 2) * Math.min(length[i - 1], length[i]), mayLeave);
-        tau = between(EVEN * (length[i] - length[i - 1]), -limit, limit);
+        tau = clamped(EVEN * (length[i] - length[i - 1]), -limit, limit);
         const per = tau * halfPerCosine(s * s);
         even.x[i] += per * (ux[i - 1] + ux[i]);
         even.y[i] += per * (uy[i - 1] + uy[i]);
@@ -214,7 +214,7 @@ export class SoftLine {
       left[i] = rest;
       if (kind[i] === FREE) {
         const inside = Math.max(0, rest - Math.max(depth[i - 1], depth[i], depth[i + 1]));
-        const side = between(turn[i] / (2 * UNCERTAIN_SINE), -1, 1);
+        const side = clamped(turn[i] / (2 * UNCERTAIN_SINE), -1, 1);
         const more = (rest - inside) / 2;
         const middle = -side * more;
         const half = inside + Math.abs(side) * more;
@@ -302,4 +302,4 @@ function halfPerCosine(s2: number): number {
   return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }
 
-const between = (a: number, low: number, high: number): number => Math.min(high, Math.max(low, a));
+const clamped = (a: number, low: number, high: number): number => Math.min(high, Math.max(low, a));

@@ -54,14 +54,14 @@ import { stopIfCancelled, type Work } from "./work.js";
 export interface Prepared {
   /** The strokes, in drawing order. */
   readonly strokes: StrokeSet;
-  /** All layers of the file under the layer mode, including hidden ones, in drawing order. */
+  /** All layers, including hidden ones, in drawing order. The layer mode decides what a layer is. */
   readonly layers: readonly PreparedLayer[];
   /** The paper after `landscape` is applied. */
   readonly paperWidthMm: number;
   readonly paperHeightMm: number;
   /** Distance with the pen up from home through all strokes and back home, in the file's order. */
   readonly travelMmUnordered: number;
-  /** The same in the order in which they are drawn. */
+  /** The same in drawing order. */
   readonly travelMm: number;
   /** Distance with the pen down. */
   readonly drawMm: number;
