@@ -36,7 +36,7 @@ export function planEbbJob(
   return ebbJob(trajectory, machine, firmware, settings.pen, options.board as BoardState | undefined);
 }
 
-/** A trajectory as a job. `start`: the board's counters; left out: all zero, with the motors just switched on. */
+/** A trajectory as a job. `start`: the board's counters; undefined: all zero, as after the motors are switched on. */
 export function ebbJob(
   trajectory: Trajectory,
   machine: MachineProfile,
@@ -50,7 +50,7 @@ export function ebbJob(
 }
 
 /**
- * Max distance from the drawing of a pen that was stopped on its line: the deviation of the planned line, and the
+ * How far a pen that stopped on the planned line can be from the drawing: the deviation of the planned line, plus the
  * rounding to steps.
  */
 function penBesideMmOf({ draw, layers, fit }: MotionSettings, machine: MachineProfile): number {
