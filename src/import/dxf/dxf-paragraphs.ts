@@ -186,12 +186,9 @@ function piecesOf(
   missing: string[],
 ): Piece[] {
   const laidOut = (part: string): TextLine => {
-    const line = tracked(
-      layOutLine(font, part.replaceAll("\u00a0", " "), format.font || style),
-      format.tracking,
-    );
+    const line = layOutLine(font, part.replaceAll("\u00a0", " "), { family: format.font || style });
     missing.push(...line.missing);
-    return line;
+    return tracked(line, format.tracking);
   };
   const em = (format.height / CAPITAL_EM) * format.widthFactor;
   if (stacked !== null)

@@ -38,7 +38,7 @@ const LONGEST = 10_000;
 
 /** Draws the text; returns the characters that are missing in the font. */
 export function drawDxfWriting(text: DxfWriting, font: TextFont, shape: ShapeBuffer): readonly string[] {
-  const line = layOutLine(font, plainText(text.text).slice(0, LONGEST), text.style);
+  const line = layOutLine(font, plainText(text.text).slice(0, LONGEST), { family: text.style });
   drawLine(line, mapOfWriting(text, line), shape);
   return line.missing;
 }

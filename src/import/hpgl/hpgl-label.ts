@@ -149,7 +149,7 @@ export class HpglLabels {
     const size = scaling(width / CAPITAL_WIDTH_EM, -height / CAPITAL_EM);
     const slanted = compose({ ...scaling(1), c: this.slant }, size);
     letters.forEach((letter, i) => {
-      const line = layOutLine(font, letter, "");
+      const line = layOutLine(font, letter, { family: "" });
       missing.push(...line.missing);
       const there = first + sign * i * this.step;
       const middle = translation((this.isUpright ? 0 : there) + width / 2, this.isUpright ? there : 0);

@@ -170,7 +170,8 @@ function layOutRun(run: readonly Char[], font: TextFont, pen: Pen, missing: stri
   const { style } = run[0];
   const size = style.fontSize;
   const isSeparate = run.some((char) => char.dx !== 0 || char.dy !== 0 || (char.angle ?? 0) !== 0);
-  const line = layOutLine(font, run.map((char) => char.text).join(""), style.fontFamily, {
+  const line = layOutLine(font, run.map((char) => char.text).join(""), {
+    family: style.fontFamily,
     hasLigatures: !isSeparate && style.letterSpacing === 0,
     isSmallCaps: style.text.isSmallCaps,
     hasKerning: style.text.hasKerning,

@@ -28,13 +28,8 @@ export interface TextLine {
   readonly missing: readonly string[];
 }
 
-export function layOutLine(
-  font: TextFont,
-  text: string,
-  family: string,
-  style: Omit<LetterStyle, "family"> = {},
-): TextLine {
-  const { glyphs, missing } = font.layout(text, { family, ...style });
+export function layOutLine(font: TextFont, text: string, style: LetterStyle): TextLine {
+  const { glyphs, missing } = font.layout(text, style);
   let pen = 0;
   const letters = glyphs.map(({ path, x, y, advance, at }, i): LineLetter => {
     const letter = { path, pen, advance, x: pen + x, y, at: at ?? i };
