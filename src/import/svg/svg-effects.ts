@@ -11,7 +11,6 @@ import type { WarningCode, Warnings } from "../warnings.js";
 /** Effects of one element: codes, and details for the message. */
 export type Effects = readonly (readonly [code: WarningCode, detail?: string])[];
 
-const NONE: Effects = [];
 const WHITE = "#ffffff";
 
 /** Values of NOT_DRAWN_PROPERTIES that change nothing, so that they need no warning. */
@@ -23,7 +22,6 @@ const LIGHT = /^(lighter|[123]00)$/;
 
 /** The effects of the element to which `declared` belongs. */
 export function effectsOf(style: Style, declared: Declared): Effects {
-  if (declared.size === 0) return NONE;
   const valueOf = (property: Property): string | null => {
     const value = declaredValue(style, declared, property);
     return value === undefined || value === "none" || value === "normal" ? null : value;

@@ -27,8 +27,7 @@ export interface PlacedText extends LaidOutText {
 }
 
 /** What the characters inside an element have in common. */
-type CommonOfText = Pick<Char, "style" | "path" | "keepsBlanks" | "stretch">;
-interface Inside extends CommonOfText {
+interface Inside extends Pick<Char, "style" | "path" | "keepsBlanks" | "stretch"> {
   /** Indices of the spans around them. */
   readonly open: readonly number[];
 }
