@@ -82,9 +82,7 @@ export function parseSvgTree(source: string): SvgTree {
   const start = skipBlank(source);
   rejectOtherFormats(source, start);
   const text = expandEntities(source);
-  const builder = new TreeBuilder(text, start);
-  builder.write(text.slice(start));
-  return builder.finish();
+  return new TreeBuilder(text, start).build();
 }
 
 function skipBlank(text: string): number {
@@ -140,7 +138,7 @@ class TreeBuilder {
 
   constructor(
     private readonly text: string,
-    start: number,
+    private readonly start: number,
   ) {
     const { parser } = this;
     this.lineOffset = countLines(text, start);
@@ -161,12 +159,8 @@ class TreeBuilder {
     parser.on("cdata", (text) => this.onText(text));
   }
 
-  write(text: string): void {
-    this.parser.write(text);
-  }
-
-  finish(): SvgTree {
-    this.parser.close();
+  build(): SvgTree {
+    this.parser.write(this.text.slice(this.start)).close();
     const count = this.tags.length;
     if (count === 0) throw notAnSvg("it has no <svg> element");
     this.attributeOffsets.push(this.places.length);
