@@ -190,7 +190,7 @@ class Compiler {
   private writeIdle(line: string, ticks: number, planS: number, run: number): void {
     const { columns, m1, m2 } = this;
     columns.text.line(line);
-    columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ticks, planS, run, m1, m2);
   }
 }
 

@@ -110,7 +110,7 @@ export class LegRuns implements RunWriter {
     if (ms < 1) return;
     columns.text.line(`SM,${ms},0,0`);
     const planS = walk.planS(columns.boardTicks);
-    columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ms * TICKS_PER_MS, planS, run, m1, m2);
   }
 
   /** The next cut after `tick`, which is in `block`; not before `notBefore`. */
@@ -285,7 +285,7 @@ export class LegRuns implements RunWriter {
     const planS = this.walk.planS(columns.boardTicks);
     const ticks = this.writer.write(leg, m1, m2);
     if (ticks === 0) return false;
-    columns.add(ticks, planS, this.runIndex, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ticks, planS, this.runIndex, m1, m2);
     return true;
   }
 }
