@@ -8,7 +8,8 @@
  */
 import { checkObject } from "../../../check-arguments.js";
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
-import { LineSplitter } from "../../line-splitter.js";
+import { lineClosed, lineLost, silent } from "../../faults.js";
+import { asciiBytes, LineSplitter } from "../../line-splitter.js";
 import { commandName, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
@@ -103,7 +104,7 @@ export class BoardSession {
       this.findOrder();
     });
     transport.onData((bytes) => this.take(bytes));
-    transport.onClose((error) => this.lineClosed(error));
+    transport.onClose((error) => this.transportClosed(error));
   }
 
   /** Why the session can no longer be used; null while it is usable. */
@@ -174,7 +175,7 @@ export class BoardSession {
   /** Writes several commands at once. Never throws: errors go to each command's `onReply`. */
   write(commands: readonly Outgoing[]): void {
     if (this.fault || this.closed) {
-      const error = this.fault ?? closedError();
+      const error = this.fault ?? lineClosed();
       for (const command of commands) command.onReply?.(error, "");
       return;
     }
@@ -195,7 +196,7 @@ export class BoardSession {
     if (this.closed) return;
     this.closed = true;
     this.silence.stop();
-    this.answers.failAll(closedError());
+    this.answers.failAll(lineClosed());
     await this.transport.close();
   }
 
@@ -203,7 +204,7 @@ export class BoardSession {
     return new Promise((resolve, reject) => {
       const askOnce = (triesLeft: number): void => {
         if (this.fault || this.closed) {
-          reject(this.fault ?? closedError());
+          reject(this.fault ?? lineClosed());
           return;
         }
         this.log.add("sent", line);
@@ -282,7 +283,7 @@ export class BoardSession {
     return sent.alone ? sent.waitS : this.patienceS + sent.waitS;
   }
 
-  private lineClosed(error: Error | undefined): void {
+  private transportClosed(error: Error | undefined): void {
     if (!this.closed) this.fail(error instanceof PlotwrightError ? error : lineLost(error));
   }
 
@@ -297,29 +298,6 @@ export class BoardSession {
 }
 
 const hasNoReply = (line: string): boolean => replyShape(commandName(line)).isSilent;
-
-/** Commands are always ASCII. */
-function asciiBytes(text: string): Uint8Array {
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
-
-const closedError = (): PlotwrightError =>
-  new PlotwrightError("disconnected", "The connection to the board was closed.");
-
-const lineLost = (cause: unknown): PlotwrightError =>
-  new PlotwrightError(
-    "disconnected",
-    "The connection to the board is lost: check its USB cable and power, then connect again.",
-    { cause },
-  );
-
-const silent = (line: string): PlotwrightError =>
-  new PlotwrightError(
-    "board-timeout",
-    `The board has stopped answering (waiting on ${line}): check its USB cable and power, and that no other program uses the port.`,
-  );
 
 const silentAtStart = (cause: unknown): PlotwrightError =>
   new PlotwrightError(

@@ -16,6 +16,7 @@ import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { machineById } from "../../../machines/profiles.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
 import { TICKS_PER_S } from "../../../units.js";
+import { asciiBytes } from "../../line-splitter.js";
 import type { Clock, Transport } from "../../transport.js";
 import type { BoardStatistics } from "./board-totals.js";
 import { BoardCore, type VirtualServo } from "./core.js";
@@ -425,7 +426,7 @@ export class VirtualBoard {
       this.repliesToLose--;
       return;
     }
-    this.sendBytes(Uint8Array.from(text, (c) => c.charCodeAt(0)));
+    this.sendBytes(asciiBytes(text));
   }
 
   private sendBytes(bytes: Uint8Array): void {

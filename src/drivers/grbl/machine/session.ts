@@ -3,7 +3,8 @@
  * and detects a silent board. Knows nothing about motion.
  */
 import { PlotwrightError } from "../../../errors.js";
-import { LineSplitter } from "../../line-splitter.js";
+import { lineClosed, lineLost, silent } from "../../faults.js";
+import { asciiBytes, LineSplitter } from "../../line-splitter.js";
 import { SessionLog } from "../../session-log.js";
 import { SilenceWatch } from "../../silence-watch.js";
 import type { Clock, Transport } from "../../transport.js";
@@ -132,7 +133,7 @@ export class GrblSession {
   async close(): Promise<void> {
     if (this.closed) return;
     this.closed = true;
-    this.fail(new PlotwrightError("disconnected", "The connection to the board was closed."));
+    this.fail(lineClosed());
     await this.transport.close();
   }
 
@@ -155,8 +156,7 @@ export class GrblSession {
   }
 
   private put(text: string): void {
-    const bytes = Uint8Array.from(text, (character) => character.charCodeAt(0));
-    this.transport.write(bytes).catch(() => this.fail(lineLost()));
+    this.transport.write(asciiBytes(text)).catch(() => this.fail(lineLost()));
   }
 
   private take(line: string): void {
@@ -231,18 +231,6 @@ export class GrblSession {
     if (!this.closed) this.onLost(error);
   }
 }
-
-const lineLost = (): PlotwrightError =>
-  new PlotwrightError(
-    "disconnected",
-    "The connection to the board is lost: check its USB cable and power, then connect again.",
-  );
-
-const silent = (waitingFor: string): PlotwrightError =>
-  new PlotwrightError(
-    "board-timeout",
-    `The board has stopped answering (waiting on ${waitingFor}): check its USB cable and power, and that no other program uses the port.`,
-  );
 
 const restarted = (): PlotwrightError =>
   new PlotwrightError(

@@ -6,6 +6,7 @@ import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
+import { asciiBytes } from "../../line-splitter.js";
 import type { Clock, Transport } from "../../transport.js";
 import { axisLimits, dwellS, grblOf } from "../model/grbl-controller.js";
 import { QUEUE_MOVES, type Axes } from "../model/planner.js";
@@ -357,6 +358,6 @@ class VirtualLine implements Transport {
   }
 
   deliver(text: string): void {
-    if (this.isOpen) this.listener(Uint8Array.from(text, (character) => character.charCodeAt(0)));
+    if (this.isOpen) this.listener(asciiBytes(text));
   }
 }
