@@ -18,12 +18,12 @@ import { pctFromServoPos } from "../protocol/servo-height.js";
 import { TICKS_PER_S } from "../../../units.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Clock, Transport } from "../../transport.js";
+import { VirtualLink } from "../../virtual-link.js";
 import type { BoardStatistics } from "./board-totals.js";
 import { BoardCore, type VirtualServo } from "./core.js";
 import type { DrawnPolyline } from "./drawn-line.js";
 import { InputLines } from "./input.js";
 import { Interpreter } from "./interpreter.js";
-import { VirtualLink } from "./link.js";
 import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 
 export type { BoardStatistics } from "./board-totals.js";

@@ -2,7 +2,6 @@
  * A small simulated Grbl: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's model,
  * reports, and real-time commands. It supports the commands that this driver sends, and refuses others as Grbl does.
  */
-import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
@@ -11,6 +10,7 @@ import type { Clock, Transport } from "../../transport.js";
 import { axisLimits, dwellS, grblOf } from "../model/grbl-controller.js";
 import { QUEUE_MOVES, type Axes } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
+import { VirtualLink } from "../../virtual-link.js";
 import { GrblMotion } from "./motion.js";
 
 const VERSION = "1.1h";
@@ -43,7 +43,7 @@ export class VirtualGrbl implements VirtualMachine {
   private readonly machine: MachineProfile;
   private readonly motion: GrblMotion;
   private readonly startS: number;
-  private line: VirtualLine | null = null;
+  private link: VirtualLink | null = null;
   private received = "";
   private lostCount = 0;
   private isLocked = false;
@@ -71,15 +71,20 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   transport(): Transport {
-    this.line?.drop();
-    this.line = new VirtualLine((bytes) => this.take(bytes));
-    return this.line;
+    this.link?.drop();
+    this.link = new VirtualLink(Infinity, {
+      accepting: () => true,
+      nowTick: () => 0,
+      // Not at once: a reply must not arrive during the write.
+      take: (bytes) => void Promise.resolve().then(() => this.take(bytes)),
+    });
+    return this.link;
   }
 
   close(): void {
     this.isClosed = true;
     this.cancelTimer();
-    this.line?.drop();
+    this.link?.drop();
   }
 
   state(): VirtualGrblState {
@@ -285,7 +290,7 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private reply(line: string): void {
-    this.line?.deliver(`${line}\r\n`);
+    this.link?.deliver(asciiBytes(`${line}\r\n`));
   }
 
   private workAt(): Axes {
@@ -317,47 +322,5 @@ export class VirtualGrbl implements VirtualMachine {
     const [x, y] = this.workAt();
     const page = this.onPage(x, y);
     this.polylines.push({ penDown, xy: [page.x, page.y] });
-  }
-}
-
-/** A connection to the virtual Grbl. Written bytes arrive almost at once. */
-class VirtualLine implements Transport {
-  private listener: (bytes: Uint8Array) => void = () => undefined;
-  private closeListener: (error?: Error) => void = () => undefined;
-  private isOpen = true;
-
-  constructor(private readonly take: (bytes: Uint8Array) => void) {}
-
-  write(bytes: Uint8Array): Promise<void> {
-    if (!this.isOpen) {
-      return Promise.reject(
-        new PlotwrightError("disconnected", "The connection to the virtual Grbl is closed: open it again."),
-      );
-    }
-    const copy = bytes.slice();
-    return Promise.resolve().then(() => this.take(copy));
-  }
-
-  onData(listener: (bytes: Uint8Array) => void): void {
-    this.listener = listener;
-  }
-
-  onClose(listener: (error?: Error) => void): void {
-    this.closeListener = listener;
-  }
-
-  close(): Promise<void> {
-    this.drop();
-    return Promise.resolve();
-  }
-
-  drop(): void {
-    if (!this.isOpen) return;
-    this.isOpen = false;
-    this.closeListener();
-  }
-
-  deliver(text: string): void {
-    if (this.isOpen) this.listener(asciiBytes(text));
   }
 }
