@@ -38,7 +38,7 @@ export interface VirtualBoardOptions {
   /** Counts real seconds. */
   readonly clock: Clock;
   /** Default "2.8.1". */
-  readonly firmware?: string;
+  readonly firmware?: string | undefined;
   /** Board seconds per clock second. Infinity: every move is over as soon as it is sent. Default 1. */
   readonly speed?: number;
   /** Default AxiDraw V3. */
@@ -55,7 +55,7 @@ export interface VirtualBoardOptions {
    * Simulate a gantry on which the pen swings, so that the drawn line rings. Reported positions and steps are still
    * those of the motors. Default: the pen is exactly where the motors are.
    */
-  readonly springs?: Springs;
+  readonly springs?: Springs | undefined;
   /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
   readonly systemBytes?: number;
 }
