@@ -14,7 +14,7 @@ import type { MachineEvents } from "../../driver.js";
 import { boardRestarted } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
-import { planEbbWalk } from "../compile/ebb-walk.js";
+import { planEbbWalk } from "../compile/ebb-job.js";
 import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
 import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
@@ -298,14 +298,8 @@ export class Carriage {
     await this.ready(machine, settings.pen);
     if (this.penUp !== true) await this.movePen(true, settings);
     const from = this.place(machine)!;
-    const job = planEbbWalk(settings, machine, {
-      fromXMm: from.x,
-      fromYMm: from.y,
-      toXMm: x,
-      toYMm: y,
-      firmware: this.connection.features.version,
-      board: this.state!,
-    });
+    const { version } = this.connection.features;
+    const job = planEbbWalk(from, { x, y }, settings, machine, version, this.state!);
     const { trajectory } = job;
     if (trajectory.blockCount > 0) await this.perform({ trajectory, commands: job.commands() }, settings);
   }
