@@ -52,8 +52,7 @@ export type Order =
       /** True for pen commands (SP, TP), whose target SP,3 can change. */
       readonly isPen: boolean;
     }
-  | { readonly kind: "enable"; readonly mode1: number; readonly mode2: number | null }
-  | { readonly kind: "output"; readonly ticks: number };
+  | { readonly kind: "enable"; readonly mode1: number; readonly mode2: number | null };
 
 const still: AxisOrder = { rate: 0, accel: 0, jerk: 0, steps: 0 };
 

@@ -308,13 +308,13 @@ export class Interpreter {
   private engraver(p: Parameters): Action {
     p.uint(1);
     p.optionalUint(0, 1_023);
-    return p.optionalUint(0, 1) === 1 ? { orders: [{ kind: "output", ticks: 1 }] } : {};
+    return p.optionalUint(0, 1) === 1 ? { orders: [{ kind: "delay", ticks: 1 }] } : {};
   }
 
   private servoTimeout(p: Parameters): Action {
-    const ms = p.uint();
+    p.uint();
     if (p.hasMore) this.core.servoUsed = p.uint(1) === 1;
-    return this.done(() => (this.inputs.servoTimeoutMs = ms));
+    return {};
   }
 
   // settings

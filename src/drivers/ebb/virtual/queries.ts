@@ -11,7 +11,6 @@ export interface BoardInputs {
   name: string;
   nodeCount: number;
   readonly layer: Uint8Array;
-  servoTimeoutMs: number;
 }
 
 const MOTOR_SUPPLY_VOLTS = 9.1;
@@ -26,7 +25,6 @@ export const factoryInputs = (): BoardInputs => ({
   name: "",
   nodeCount: 0,
   layer: new Uint8Array(32),
-  servoTimeoutMs: 60_000,
 });
 
 /** The state after a reset, which keeps the name in flash memory and the inputs from outside the board. */
