@@ -20,7 +20,7 @@ import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
-import { maxAheadS, Streamer } from "../stream/streamer.js";
+import { maxAheadS, Streamer, stuck } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
@@ -232,20 +232,10 @@ export class Carriage {
           if (at) certain(at);
         }
         if (line !== "QS") this.polled(line, reply);
-        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) this.stalled(streamer);
+        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) streamer.halt(stuck());
       },
     });
     return streamer;
-  }
-
-  private stalled(streamer: Streamer): void {
-    this.connection.session.write([{ line: "ES" }]);
-    streamer.abandon(
-      new PlotwrightError(
-        "board-error",
-        "The board answers but does not finish its motion. Press its reset button or unplug it, set home and plot again.",
-      ),
-    );
   }
 
   /** Queries a second time, because a single unexpected reply may belong to another query. */
@@ -254,8 +244,7 @@ export class Carriage {
     const answer = await session.query(this.markQuery, STILL_S).catch(() => null);
     if (answer === null || Number(answer) !== 0 || !streamer.playing) return;
     this.hasRestarted = true;
-    session.write([{ line: "ES" }]);
-    streamer.abandon(boardRestarted());
+    streamer.halt(boardRestarted());
   }
 
   /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed home. */

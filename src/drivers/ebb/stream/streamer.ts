@@ -43,8 +43,6 @@ export const maxAheadS = (windowS: number, commandS: number): number =>
 export class Streamer {
   /** Number of times that the board ran out of commands during a run. */
   underrunCount = 0;
-  /** Total time of these underruns, seconds. */
-  underrunS = 0;
   /** The command that the board refused. It never ran, but those written after it may have. */
   refused: RefusedCommand | null = null;
 
@@ -269,10 +267,7 @@ export class Streamer {
     const place = { stream, commandIndex: index, planS: stream.planS[index] };
     const waitS = this.timeline.longestS();
     const dryS = takesTime ? this.timeline.written(stream, index, startS, endS) : 0;
-    if (dryS > DRY_S && this.isSameRun(stream, index)) {
-      this.underrunCount++;
-      this.underrunS += dryS;
-    }
+    if (dryS > DRY_S && this.isSameRun(stream, index)) this.underrunCount++;
     this.unanswered++;
     this.lastWritten = place;
     const onReply: Outgoing["onReply"] = (error) => this.answered(error, place, takesTime);
@@ -348,9 +343,7 @@ export class Streamer {
     this.options.onPoll?.(line, reply, asked);
     const waiting = isFirst ? waitingCount(line, reply) : null;
     if (waiting !== null && this.timeline.waiting(waiting, asked.clockS)) {
-      // The commands in its queue must not be drawn if it recovers.
-      this.session.write([{ line: "ES" }]);
-      this.abandon(stuck());
+      this.halt(stuck());
     }
     if (!this.failure) this.pump();
   }
@@ -421,6 +414,12 @@ export class Streamer {
     }
   }
 
+  /** `abandon`, and clears the board's queue: its commands must not be drawn if the board recovers. */
+  halt(error: PlotwrightError): void {
+    this.session.write([{ line: "ES" }]);
+    this.abandon(error);
+  }
+
   /** Stops writing and waiting. The board finishes the commands it has received. */
   abandon(error: PlotwrightError): void {
     if (this.failure) return;
@@ -433,7 +432,7 @@ export class Streamer {
   }
 }
 
-const stuck = (): PlotwrightError =>
+export const stuck = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The board answers but does not finish its motion: press its reset button or unplug it, set home and plot again.",
