@@ -24,7 +24,7 @@ const BESIDE_MM = 0.08;
 /** Tolerance between mm along the motion and mm along the drawing. */
 const SNAP_MM = 0.5;
 
-export interface RefusedStop {
+interface RefusedStop {
   readonly refused: RefusedCommand;
   /** Where the board stopped, as if the refused command had run; null: nothing has run. */
   readonly at: (StreamPlace & { readonly number: number }) | null;

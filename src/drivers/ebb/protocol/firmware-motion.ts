@@ -13,13 +13,13 @@ const SLICED_ACCEL_MM_PER_S2 = 500;
  * True if `motionForFirmware` limits this firmware. Null: unknown. Throws `bad-setting`
  * for an invalid version.
  */
-export const firmwareLimitsMotion = (firmware: string | null): boolean =>
+const limitsMotion = (firmware: string | null): boolean =>
   firmware !== null && firmwareFeatures(firmware).motion === "slices";
 
 /** A version of an EBB is a bare number; those of other controllers begin with their name. */
 export const ebbFirmware: FirmwareRules = {
   isOwn: (firmware) => /^v?\d/.test(firmware),
-  limitsMotion: firmwareLimitsMotion,
+  limitsMotion,
 };
 
 /**
@@ -30,7 +30,7 @@ export const ebbFirmware: FirmwareRules = {
  * Throws `bad-setting` for an invalid version.
  */
 export function motionForFirmware(motion: MotionSettings, firmware: string | null): MotionSettings {
-  if (!firmwareLimitsMotion(firmware)) return motion;
+  if (!limitsMotion(firmware)) return motion;
   const { draw, travel, layers } = motion;
   return {
     ...motion,

@@ -39,7 +39,7 @@ export interface StopNotes {
   stepsLeft: readonly [number, number] | null;
 }
 
-export interface StopEvidence extends Readonly<StopNotes> {
+interface StopEvidence extends Readonly<StopNotes> {
   /** The commands written last, in order. */
   readonly commands: readonly InFlight[];
   /** The one of them that the board refused and so never ran. */

@@ -43,7 +43,7 @@ interface Switches {
   testMode: boolean;
 }
 
-export interface InterpreterHooks {
+interface InterpreterHooks {
   readonly send: (text: string) => void;
   /** R: restores boot defaults; the USB connection stays open. */
   readonly reset: () => void;

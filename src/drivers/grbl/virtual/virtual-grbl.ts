@@ -21,13 +21,13 @@ const ERROR = { number: 2, dollar: 3, locked: 9, unknown: 20, noFeed: 22, unused
 /** Modes that are always on. */
 const FIXED_MODES = new Set(["G0", "G1", "G21", "G54", "G90", "G94"]);
 
-export interface GrblDrawn {
+interface GrblDrawn {
   readonly penDown: boolean;
   /** mm from home: x, y, x, y … */
   readonly xy: Float64Array;
 }
 
-export interface VirtualGrblState {
+interface VirtualGrblState {
   readonly state: string;
   readonly xMm: number;
   readonly yMm: number;
