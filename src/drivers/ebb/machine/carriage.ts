@@ -10,11 +10,13 @@ import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { PenSettings } from "../../../settings/pen.js";
+import { sFromTicks } from "../../../units.js";
 import type { MachineEvents } from "../../driver.js";
 import { boardRestarted } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
 import { planEbbWalk } from "../compile/ebb-job.js";
+import { MAX_TICKS } from "../compile/leg.js";
 import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
 import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
@@ -26,8 +28,6 @@ import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
 import { isButtonPressed, isPowerLow, pollLines } from "./readings.js";
 
-/** The longest motion command: the compiler splits longer ones. */
-const LONGEST_COMMAND_S = 0.15;
 /** Allowance for the connection, the board and this computer. */
 const ANSWER_MS = 30;
 /** Interval at which the board's button and queue are polled during a plot. */
@@ -201,7 +201,7 @@ export class Carriage {
   emergencyStopMs({ sendAheadMs }: MachineSettings): number {
     if (this.queueDepth > 1) return ANSWER_MS;
     const windowS = sendAheadMs / 1_000 + (this.connection.boardClock.latenessS?.() ?? 0);
-    return Math.round(1_000 * maxAheadS(windowS, LONGEST_COMMAND_S)) + ANSWER_MS;
+    return Math.round(1_000 * maxAheadS(windowS, sFromTicks(MAX_TICKS))) + ANSWER_MS;
   }
 
   /** For the log that users send with a report. */
