@@ -2,11 +2,11 @@
  * One connected Grbl: the position of its carriage and pen, and the operations that move them. Its work coordinates are
  * mm from home. If the position is unknown, the carriage is assumed to be at home.
  */
+import { strokesOf } from "../../../drawing/lines.js";
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { PenSettings } from "../../../settings/pen.js";
 import type { ConnectOptions, ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
 import type { Clock } from "../../transport.js";
@@ -22,12 +22,6 @@ import type { GrblSession } from "./session.js";
 const STOP_MS = 30;
 /** Makes the current position home. It stays home after a reset. */
 const SET_HOME = "G10L20P1X0Y0";
-const NO_STROKES = {
-  xy: new Float64Array(0),
-  offsets: new Uint32Array(1),
-  layer: new Uint16Array(0),
-  layers: [],
-};
 
 export class GrblMachine implements Machine {
   readonly name = null;
@@ -118,7 +112,7 @@ export class GrblMachine implements Machine {
     if (this.penUp !== true) await this.movePen(true, settings);
     const { x, y } = this.place(machine)!;
     const travel = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
-    const job = planGrblJob(NO_STROKES, settings, machine, travel);
+    const job = planGrblJob(strokesOf([]), settings, machine, travel);
     await this.perform({ trajectory: job.trajectory, commands: job.commands() });
   }
 
@@ -142,7 +136,7 @@ export class GrblMachine implements Machine {
     this.options.events.changed();
   }
 
-  async setHome(profile: MachineProfile, _pen: PenSettings): Promise<void> {
+  async setHome(profile: MachineProfile): Promise<void> {
     await this.ready(profile);
     await this.homeIsHere();
   }
