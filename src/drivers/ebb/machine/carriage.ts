@@ -100,8 +100,7 @@ export class Carriage {
     this.left = null;
     await this.untilStill(stillS);
     if (!features.hasStepQuery) throw placeUnknown();
-    const [counter1, counter2] = parseSteps(await session.query("QS"));
-    const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
+    const [steps1, steps2] = parseSteps(await session.query("QS"), this.origin);
     if (features.hasClear) {
       // The accumulators cannot be read. This clears them and adds one tick at the lowest rate, so both are 1.
       await session.send("LT,1,1,0,1,0,3");

@@ -17,7 +17,7 @@ import type { BoardState } from "../compile/command-stream.js";
 import { commandLine } from "../compile/compile.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { commandName } from "../protocol/replies.js";
-import { TICKS_PER_S } from "../../../units.js";
+import { sFromTicks } from "../../../units.js";
 import type { InFlight, StreamPlace } from "./timeline.js";
 import { MotionCommands } from "../model/motion-commands.js";
 import { RunningMove } from "../model/orders.js";
@@ -159,7 +159,7 @@ class NearestTick {
         before.steps1 - missing1 + move.motion1.placeAt(tick, place).net,
         before.steps2 - missing2 + move.motion2.placeAt(tick, place).net,
       );
-      this.offer(command, off, startS + tick / TICKS_PER_S);
+      this.offer(command, off, startS + sFromTicks(tick));
       // A motor makes at most one step per tick, so none of the skipped ticks can be nearer.
       tick += Math.max(1, off - this.offSteps);
     }

@@ -404,9 +404,7 @@ export class Streamer {
 
   private async readSteps(): Promise<readonly [number, number] | null> {
     try {
-      const [counter1, counter2] = parseSteps(await this.session.query("QS"));
-      const [origin1, origin2] = this.options.origin ?? [0, 0];
-      return [counter1 + origin1, counter2 + origin2];
+      return parseSteps(await this.session.query("QS"), this.options.origin);
     } catch (error) {
       // Firmware before 2.4.3 does not report step counters.
       if (this.session.failure) throw error;

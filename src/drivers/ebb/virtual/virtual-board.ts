@@ -15,7 +15,7 @@ import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { machineById } from "../../../machines/profiles.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
-import { TICKS_PER_S } from "../../../units.js";
+import { sFromTicks, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Clock, Transport } from "../../transport.js";
 import { VirtualLink } from "../../virtual-link.js";
@@ -125,7 +125,7 @@ export class VirtualBoard {
     this.firmware = options.firmware ?? "2.8.1";
     this.speed = speed;
     this.machine = options.machine ?? machineById("axidraw-v3");
-    this.parseTicks = ((options.parseMs ?? 0) / 1_000) * TICKS_PER_S;
+    this.parseTicks = (options.parseMs ?? 0) * TICKS_PER_MS;
     this.inputLimit = options.inputBytes ?? 256;
     this.systemLimit = options.systemBytes ?? 4_096;
     this.startS = this.clock.nowS();
@@ -203,7 +203,7 @@ export class VirtualBoard {
       motorsOn: core.mode1 !== 0 || core.mode2 !== 0,
       isBusy: core.isBusy,
       waitingCount: core.fifo.length,
-      boardS: core.nowTick / TICKS_PER_S,
+      boardS: sFromTicks(core.nowTick),
     };
   }
 
