@@ -14,6 +14,7 @@ import { sFromTicks } from "../../../units.js";
 import type { MachineEvents } from "../../driver.js";
 import { boardRestarted } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
+import { delay } from "../../transport.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
 import { planEbbWalk } from "../compile/ebb-job.js";
 import { MAX_TICKS } from "../compile/leg.js";
@@ -159,7 +160,7 @@ export class Carriage {
     for (;;) {
       const moving = /[1-9]/.test(await session.query("QM", 1));
       if (!moving || boardClock.nowS() > untilS) return;
-      await new Promise<void>((resolve) => void boardClock.after(0.05, resolve));
+      await delay(boardClock, 0.05);
     }
   }
 
@@ -326,7 +327,7 @@ export class Carriage {
     try {
       for (const line of penSetUpCommands(machine, pen)) await session.send(line);
       await session.send(penCommand(machine, move), move.timeMs / 1000);
-      await new Promise<void>((resolve) => void boardClock.after(move.timeMs / 1000 + SETTLE_S, resolve));
+      await delay(boardClock, move.timeMs / 1000 + SETTLE_S);
     } catch (error) {
       this.penIs(null);
       throw error;
@@ -338,7 +339,7 @@ export class Carriage {
   async moveServo(machine: MachineProfile, pos: number): Promise<void> {
     const { session, boardClock } = this.connection;
     await session.send(`S2,${pos},${ebbOf(machine).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
-    await new Promise<void>((resolve) => void boardClock.after(SERVO_MS / 1000 + SETTLE_S, resolve));
+    await delay(boardClock, SERVO_MS / 1000 + SETTLE_S);
     this.penIs(null);
   }
 

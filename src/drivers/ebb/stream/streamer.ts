@@ -19,6 +19,7 @@ import type { CommandStream } from "../compile/command-stream.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { parseSteps, stepsLeft, waitingCount } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
+import { delay } from "../../transport.js";
 import { endOfLanding } from "./cut-streams.js";
 import type { BoardSession, Outgoing } from "./session.js";
 import { placeOfCounters, placeOfStop, type NumberedPlace, type StopNotes } from "./stop-place.js";
@@ -386,7 +387,7 @@ export class Streamer {
       const fields = (await this.session.query("QM")).split(",");
       if (fields.every((field) => field === "0")) return;
       if (isLast) throw stuck();
-      await new Promise<void>((resolve) => void clock.after(IDLE_POLL_S, resolve));
+      await delay(clock, IDLE_POLL_S);
     }
   }
 

@@ -7,7 +7,7 @@ import { lineClosed, lineLost, silent } from "../../faults.js";
 import { asciiBytes, LineSplitter } from "../../line-splitter.js";
 import { SessionLog } from "../../session-log.js";
 import { SilenceWatch } from "../../silence-watch.js";
-import type { Clock, Transport } from "../../transport.js";
+import { delay, type Clock, type Transport } from "../../transport.js";
 import type { Axes } from "../model/planner.js";
 import {
   alarm,
@@ -73,7 +73,7 @@ export class GrblSession {
     for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
       // A Grbl that sleeps, holds or works for another program answers only after a reset.
       if (i > 0) this.now(NOW.reset);
-      const tooLate = new Promise<void>((resolve) => void this.clock.after(IDENTIFY_S, resolve));
+      const tooLate = delay(this.clock, IDENTIFY_S);
       // The empty line ends a line that another program may have left unfinished.
       const answered = Promise.allSettled([this.send(""), this.send("$I")]).then(() => undefined);
       await Promise.race([answered, tooLate]);
