@@ -33,6 +33,12 @@ export interface Outgoing {
   /** Expected wait for the reply on top of the session's patience, because of motion queued before it. */
   readonly waitS?: number;
   readonly onReply?: (error: PlotwrightError | null, value: string) => void;
+  /**
+   * A time-out fails only this command, not the session. It is then `waitS` alone.
+   *
+   * @internal
+   */
+  readonly alone?: boolean;
 }
 
 /** The board's firmware, from its reply to `V`. */
@@ -45,7 +51,6 @@ export interface BoardIdentity {
 
 interface SentCommand extends AwaitedAnswer {
   readonly waitS: number;
-  /** A time-out fails only this command, not the session. */
   readonly alone: boolean;
 }
 
@@ -185,7 +190,7 @@ export class BoardSession {
       text += `${command.line}\r`;
       this.log.add("sent", command.line);
       if (hasNoReply(command.line)) silent.push(command);
-      else this.expect(command.line, command.waitS ?? 0, false, command.onReply);
+      else this.expect(command);
     }
     this.put(text);
     for (const command of silent) command.onReply?.(null, "");
@@ -203,20 +208,12 @@ export class BoardSession {
   private ask(line: string, waitS: number, alone: boolean, tries = 1): Promise<string> {
     return new Promise((resolve, reject) => {
       const askOnce = (triesLeft: number): void => {
-        if (this.fault || this.closed) {
-          reject(this.fault ?? lineClosed());
-          return;
-        }
-        this.log.add("sent", line);
-        if (hasNoReply(line)) resolve("");
-        else {
-          this.expect(line, waitS, alone, (error, value) => {
-            if (!error) resolve(value);
-            else if (error instanceof LostAnswer && triesLeft > 1) askOnce(triesLeft - 1);
-            else reject(error);
-          });
-        }
-        this.put(`${line}\r`);
+        const onReply: Outgoing["onReply"] = (error, value) => {
+          if (!error) resolve(value);
+          else if (error instanceof LostAnswer && triesLeft > 1) askOnce(triesLeft - 1);
+          else reject(error);
+        };
+        this.write([{ line, waitS, alone, onReply }]);
       };
       askOnce(tries);
     });
@@ -230,15 +227,14 @@ export class BoardSession {
     if (this.isFindingOrder || !this.identity || this.answers.count === 0 || this.fault) return;
     this.isFindingOrder = true;
     this.answers.inDoubt = true;
-    this.log.add("sent", "V");
-    this.expect("V", this.patienceS, true, () => {
+    const onReply = (): void => {
       this.isFindingOrder = false;
       this.answers.inDoubt = false;
-    });
-    this.put("V\r");
+    };
+    this.write([{ line: "V", waitS: this.patienceS, alone: true, onReply }]);
   }
 
-  private expect(line: string, waitS: number, alone: boolean, onReply: Outgoing["onReply"]): void {
+  private expect({ line, waitS = 0, alone = false, onReply }: Outgoing): void {
     const sent: SentCommand = {
       line,
       waitS,
