@@ -8,7 +8,7 @@ import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Clock, Transport } from "../../transport.js";
 import { axisLimits, dwellS, grblOf } from "../model/grbl-controller.js";
-import { QUEUE_MOVES, type Axes } from "../model/planner.js";
+import { difference, QUEUE_MOVES, type Axes } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
 import { VirtualLink } from "../../virtual-link.js";
 import { GrblMotion } from "./motion.js";
@@ -130,13 +130,10 @@ export class VirtualGrbl implements VirtualMachine {
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
       this.startDueS ??= this.nowS + START_S;
-      if (this.motion.isFull || this.isWaitingForMotion()) this.startDueS = this.nowS;
+      const waitsForMotion = this.received.startsWith("G4");
+      if (this.motion.isFull || waitsForMotion) this.startDueS = this.nowS;
     }
     this.schedule();
-  }
-
-  private isWaitingForMotion(): boolean {
-    return this.received.startsWith("G4");
   }
 
   private schedule(): void {
@@ -294,8 +291,7 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private workAt(): Axes {
-    const at = this.motion.at;
-    return [at[0] - this.offset[0], at[1] - this.offset[1], at[2] - this.offset[2]];
+    return difference(this.motion.at, this.offset);
   }
 
   private isDown(z: number): boolean {
