@@ -95,7 +95,7 @@ export class LegRuns implements RunWriter {
       const [next, ...later] = this.midway;
       if (!next) return;
       this.midway = later;
-      next.write(this.runIndex, this.walk.planS(this.columns.boardTicks));
+      next.write(this.walk.planS(this.columns.boardTicks));
     }
   }
 

@@ -40,7 +40,7 @@ export interface Midway {
   /** Trajectory seconds. */
   readonly atS: number;
   /** `planS`: the plan time at which it is written, at most a few ms after `atS`. */
-  write(run: number, planS: number): void;
+  write(planS: number): void;
 }
 
 /**

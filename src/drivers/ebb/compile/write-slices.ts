@@ -46,7 +46,7 @@ export class SliceRuns implements RunWriter {
     let written = 0;
     const writeMidway = (tick: number): void => {
       while (written < midway.length && walk.tickOf(midway[written].atS) <= tick)
-        midway[written++].write(run, walk.planS(columns.boardTicks));
+        midway[written++].write(walk.planS(columns.boardTicks));
     };
     while (!isLast) {
       writeMidway(columns.boardTicks);

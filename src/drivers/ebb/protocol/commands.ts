@@ -5,7 +5,7 @@
 import { grown } from "../../../geometry/growable.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
-import { checkEbbProfile, ebbOf } from "./ebb-controller.js";
+import { checkEbbProfile, ebbOf, STANDARD_PIN } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
 import { servoPosFromPct } from "./servo-height.js";
 
@@ -14,8 +14,6 @@ const SERVO_PART_OF_WAIT = 0.65;
 /** A drop during travel takes its full time: a quicker one would touch the paper before the carriage arrives. */
 const WHOLE_WAIT = 1;
 const SERVO_FRAME_MS = 24;
-/** The standard servo output: the only one that SP moves. */
-const STANDARD_PIN = 4;
 
 /**
  * The commands to send before the first plot after connecting: motors on, which sets the step counters to zero, and the

@@ -4,7 +4,7 @@
  * A command is answered when it is queued or, if it acts at once, done. A command that has to wait (for room in the
  * queue, or in the case of CU,4 and HM for the motors to stop) blocks all later ones, as in the board's parser.
  */
-import { ebbOf } from "../protocol/ebb-controller.js";
+import { ebbOf, STANDARD_PIN } from "../protocol/ebb-controller.js";
 import { commandName, replyShape } from "../protocol/replies.js";
 import type { BoardCore } from "./core.js";
 import { MotionCommands } from "../model/motion-commands.js";
@@ -15,8 +15,6 @@ import { TICKS_PER_MS } from "../../../units.js";
 
 const MAX_LINE_BYTES = 255;
 const MS16 = 65_535;
-/** SP moves the servo on RB1; S2 moves others. */
-const STANDARD_PIN = 4;
 
 /** The effect of a parsed command. */
 interface Action {
