@@ -1,5 +1,5 @@
 /** Limits of the firmware on the plan itself. */
-import type { LayerMotion, MotionLimits, MotionSettings } from "../../../settings/motion.js";
+import type { LayerMotion, MotionSettings } from "../../../settings/motion.js";
 import type { FirmwareRules } from "../../machine-job.js";
 import { firmwareFeatures } from "./firmware.js";
 
@@ -41,17 +41,11 @@ export function motionForFirmware(motion: MotionSettings, firmware: string | nul
   };
 }
 
-const gentler = (limits: MotionLimits): MotionLimits => ({
-  ...limits,
-  accelMmPerS2: Math.min(limits.accelMmPerS2, SLICED_ACCEL_MM_PER_S2),
-});
+function gentler<T extends LayerMotion>(limits: T): T {
+  const { accelMmPerS2 } = limits;
+  if (accelMmPerS2 === undefined) return limits;
+  return { ...limits, accelMmPerS2: Math.min(accelMmPerS2, SLICED_ACCEL_MM_PER_S2) };
+}
 
 const gentlerLayers = (layers: Readonly<Record<string, LayerMotion>>): Record<string, LayerMotion> =>
-  Object.fromEntries(
-    Object.entries(layers).map(([id, { accelMmPerS2, ...others }]) => [
-      id,
-      accelMmPerS2 === undefined
-        ? others
-        : { ...others, accelMmPerS2: Math.min(accelMmPerS2, SLICED_ACCEL_MM_PER_S2) },
-    ]),
-  );
+  Object.fromEntries(Object.entries(layers).map(([id, limits]) => [id, gentler(limits)]));
