@@ -152,7 +152,7 @@ export class BoardSession {
       } catch (error) {
         if (this.fault) throw this.fault;
         if (attempt < IDENTIFY_TRIES) continue;
-        const last = this.log.tail(HEARD_LINES);
+        const last = this.log.receivedSince(this.log.count - HEARD_LINES);
         // A late reply of an EiBotBoard is not a sign of another device.
         const isBoard = last.some((line) => firmwareFromReply(line) !== null);
         throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
@@ -303,8 +303,7 @@ const silentAtStart = (cause: unknown): PlotwrightError =>
   );
 
 function wrongBoard(lastLines: readonly string[]): PlotwrightError {
-  const lines = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]);
-  const received = lines.map((line) => JSON.stringify(line)).join(", ");
+  const received = lastLines.map((line) => JSON.stringify(line)).join(", ");
   return new PlotwrightError(
     "no-board",
     "Something answers on this port, but it is not an EiBotBoard: choose another device." +

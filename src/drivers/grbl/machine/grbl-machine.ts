@@ -192,14 +192,15 @@ export class GrblMachine implements Machine {
         `${JSON.stringify(line)} was not sent: a line has at most 79 plain characters, and none of ? ! ~, which act at once.`,
       );
     }
-    this.session.received = [];
+    const { log } = this.session;
+    const entryCount = log.count;
     let refused = false;
     await this.session.send(line).catch((error: unknown) => {
       // An error reply is among the received lines.
       if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
       refused = true;
     });
-    const replies = [...this.session.received];
+    const replies = log.receivedSince(entryCount);
     if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, refused, note: null };
     await this.session.send(SYNC).catch(() => undefined);
     this.penUp = null;

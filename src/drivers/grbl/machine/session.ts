@@ -41,8 +41,6 @@ export class GrblSession {
   version: string | null = null;
   /** Called when the board restarts or stops by itself; all lines sent before are lost. */
   onBreak: (error: PlotwrightError) => void = () => undefined;
-  /** Lines received until the next command of the console. */
-  received: string[] = [];
 
   private rxBytes = RX_BYTES;
   private sentBytes = 0;
@@ -82,7 +80,7 @@ export class GrblSession {
       if (i > 0) await tooLate;
     }
     if (this.failure) throw this.failure;
-    if (this.version === null) throw notGrbl(this.received.slice(-4));
+    if (this.version === null) throw notGrbl(this.received());
     return this.version;
   }
 
@@ -168,8 +166,6 @@ export class GrblSession {
       return;
     }
     this.log.add("received", line);
-    this.received.push(line);
-    if (this.received.length > 100) this.received.shift();
     this.version = versionOf(line) ?? this.version;
     this.rxBytes = rxBytesOf(line) ?? this.rxBytes;
     const refused = /^error:(\d+)/.exec(line);
@@ -216,8 +212,12 @@ export class GrblSession {
   private noAnswer(): void {
     if (this.sent.length === 0) return;
     // A device that has answered but is not identified is not a Grbl.
-    const isOther = this.version === null && this.received.length > 0;
-    this.fail(isOther ? notGrbl(this.received.slice(-4)) : silent(this.sent[0].line));
+    const isOther = this.version === null && this.received().length > 0;
+    this.fail(isOther ? notGrbl(this.received()) : silent(this.sent[0].line));
+  }
+
+  private received(): string[] {
+    return this.log.receivedSince(0);
   }
 
   private fail(error: PlotwrightError): void {
@@ -242,6 +242,6 @@ function notGrbl(received: readonly string[]): PlotwrightError {
   if (received.length === 0) return silent("its version");
   return new PlotwrightError(
     "no-board",
-    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${received.join("; ")}.`,
+    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${received.slice(-4).join("; ")}.`,
   );
 }
