@@ -24,7 +24,7 @@ import { endOfLanding } from "./cut-streams.js";
 import type { BoardSession, Outgoing } from "./session.js";
 import { placeOfCounters, placeOfStop, type NumberedPlace, type StopNotes } from "./stop-place.js";
 import type { PollTime, RefusedCommand, StreamOptions, StreamReport } from "./stream-types.js";
-import { BoardTimeline, type InFlight, type StreamPlace } from "./timeline.js";
+import { BoardTimeline, placeIn, type InFlight, type StreamPlace } from "./timeline.js";
 
 /** Min time between wake-ups. */
 const MIN_WAKE_S = 0.004;
@@ -144,12 +144,7 @@ export class Streamer {
   place(): StreamPlace {
     const boardS = this.timeline.boardS();
     const entry = this.timeline.at(boardS);
-    if (entry) {
-      const share = Math.max(0, (boardS - entry.startS) / (entry.endS - entry.startS));
-      const fromS = entry.stream.planS[entry.index];
-      const toS = entry.stream.planS[entry.index + 1];
-      return { stream: entry.stream, commandIndex: entry.index, planS: fromS + share * (toS - fromS) };
-    }
+    if (entry) return placeIn(entry, boardS);
     if (this.lastWritten) {
       const { stream, commandIndex } = this.lastWritten;
       return { stream, commandIndex, planS: stream.planS[commandIndex + 1] };
