@@ -9,10 +9,9 @@ import type { BoxMm, HandMove, PlotSettings } from "../../src/schema/index.js";
 
 /** Rejects with `out-of-bounds` before anything moves, or with the board's error. */
 export async function moveByHand(plotter: Machine, move: HandMove, settings: PlotSettings): Promise<void> {
-  const machine = machineOf(settings);
   switch (move.kind) {
     case "walk":
-      mustReach(machine, move.xMm, move.yMm);
+      mustReach(machineOf(settings), move.xMm, move.yMm);
       return plotter.walk(move.xMm, move.yMm, settings);
     case "jog":
       return jog(plotter, move.dxMm, move.dyMm, settings);
@@ -20,7 +19,7 @@ export async function moveByHand(plotter: Machine, move: HandMove, settings: Plo
       if (!(await plotter.findHome(settings))) await plotter.walk(0, 0, settings);
       return;
     case "set-home":
-      return plotter.setHome(machine, settings.pen);
+      return plotter.setHome(settings);
     case "cycle-pen":
       await plotter.movePen(false, settings);
       return plotter.movePen(true, settings);
@@ -33,7 +32,7 @@ export async function moveByHand(plotter: Machine, move: HandMove, settings: Plo
     case "square":
       return drawHere(plotter, squareOf(move.sizeMm), settings);
     case "servo":
-      return plotter.moveServo(machine, move.pos);
+      return plotter.moveServo(move.pos, settings);
   }
 }
 
@@ -88,9 +87,8 @@ async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSett
 }
 
 async function standing(plotter: Machine, settings: PlotSettings): Promise<{ x: number; y: number }> {
-  const machine = machineOf(settings);
-  await plotter.ready(machine, settings.pen);
-  return plotter.place(machine)!;
+  await plotter.ready(settings);
+  return plotter.place(machineOf(settings))!;
 }
 
 /** Tolerance for positions read from motor steps, mm. */

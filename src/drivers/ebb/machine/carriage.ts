@@ -9,7 +9,6 @@ import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { PenSettings } from "../../../settings/pen.js";
 import { sFromTicks } from "../../../units.js";
 import type { MachineEvents } from "../../driver.js";
 import { boardRestarted } from "../../faults.js";
@@ -168,12 +167,13 @@ export class Carriage {
    * Switches the motors on if they are off, or to another microstep mode, which also zeroes their counters.
    * Returns the carriage's position.
    */
-  async ready(machine: MachineProfile, pen: PenSettings): Promise<BoardState> {
+  async ready(settings: MachineSettings): Promise<BoardState> {
+    const machine = machineOf(settings);
     const { state, microstepMode } = this;
     const wanted = ebbOf(machine).microstepMode;
     if (state && microstepMode === wanted) return state;
     const { session, features } = this.connection;
-    for (const line of setUpCommands(machine, pen, features.version)) await session.send(line);
+    for (const line of setUpCommands(machine, settings.pen, features.version)) await session.send(line);
     // Each mode has half as many steps as the one before.
     const share = state ? 2 ** (microstepMode - wanted) : 0;
     const [steps1, steps2] = [
@@ -284,7 +284,7 @@ export class Carriage {
   /** Lifts the pen and moves in a straight line to a position, at travel speed. */
   async walk(x: number, y: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
-    await this.ready(machine, settings.pen);
+    await this.ready(settings);
     if (this.penUp !== true) await this.movePen(true, settings);
     const from = this.place(machine)!;
     const { version } = this.connection.features;
@@ -336,9 +336,9 @@ export class Carriage {
   }
 
   /** Moves to a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is then unknown. */
-  async moveServo(machine: MachineProfile, pos: number): Promise<void> {
+  async moveServo(pos: number, settings: MachineSettings): Promise<void> {
     const { session, boardClock } = this.connection;
-    await session.send(`S2,${pos},${ebbOf(machine).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
+    await session.send(`S2,${pos},${ebbOf(machineOf(settings)).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
     await delay(boardClock, SERVO_MS / 1000 + SETTLE_S);
     this.penIs(null);
   }
@@ -361,8 +361,8 @@ export class Carriage {
   }
 
   /** Makes the current position home. */
-  async setHome(machine: MachineProfile, pen: PenSettings): Promise<void> {
-    await this.ready(machine, pen);
+  async setHome(settings: MachineSettings): Promise<void> {
+    await this.ready(settings);
     const { session, features } = this.connection;
     const { steps1, steps2, acc1, acc2 } = this.state!;
     this.left = null;

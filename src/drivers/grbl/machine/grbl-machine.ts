@@ -66,8 +66,8 @@ export class GrblMachine implements Machine {
     else await this.recovered(await this.session.reset(stopped()));
   }
 
-  async ready(profile: MachineProfile): Promise<MachineState> {
-    grblOf(profile);
+  async ready(settings: MachineSettings): Promise<MachineState> {
+    grblOf(machineOf(settings));
     if (this.isAsleep) await this.recovered(await this.session.reset(stopped()));
     this.isAsleep = false;
     if (!this.at) await this.homeIsHere();
@@ -82,7 +82,7 @@ export class GrblMachine implements Machine {
     const pct = heightPct ?? (up ? upPct : downPct);
     const share = Math.min(1, Math.max(0, (pct - downPct) / (upPct - downPct)));
     const zMm = grbl.penDownZMm + share * (grbl.penUpZMm - grbl.penDownZMm);
-    if (this.isAsleep) await this.ready(machineOf(settings));
+    if (this.isAsleep) await this.ready(settings);
     this.penUp = up;
     this.penMoving = true;
     this.options.events.changed();
@@ -108,7 +108,7 @@ export class GrblMachine implements Machine {
 
   async walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
-    await this.ready(machine);
+    await this.ready(settings);
     if (this.penUp !== true) await this.movePen(true, settings);
     const { x, y } = this.place(machine)!;
     const travel = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
@@ -136,8 +136,8 @@ export class GrblMachine implements Machine {
     this.options.events.changed();
   }
 
-  async setHome(profile: MachineProfile): Promise<void> {
-    await this.ready(profile);
+  async setHome(settings: MachineSettings): Promise<void> {
+    await this.ready(settings);
     await this.homeIsHere();
   }
 
