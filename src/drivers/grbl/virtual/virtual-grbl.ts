@@ -3,10 +3,9 @@
  * reports, and real-time commands. It supports the commands that this driver sends, and refuses others as Grbl does.
  */
 import { placeFromMotors } from "../../../machines/motors.js";
-import type { MachineProfile } from "../../../machines/profile.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
-import type { Clock, Transport } from "../../transport.js";
+import type { Transport } from "../../transport.js";
 import { axisLimits, dwellS, grblOf } from "../model/grbl-controller.js";
 import { difference, QUEUE_MOVES, type Axes } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
@@ -38,9 +37,6 @@ interface VirtualGrblState {
 }
 
 export class VirtualGrbl implements VirtualMachine {
-  private readonly clock: Clock;
-  private readonly speed: number;
-  private readonly machine: MachineProfile;
   private readonly motion: GrblMotion;
   private readonly startS: number;
   private link: VirtualLink | null = null;
@@ -61,10 +57,8 @@ export class VirtualGrbl implements VirtualMachine {
   private isClosed = false;
   private readonly polylines: { penDown: boolean; xy: number[] }[] = [];
 
-  constructor({ clock, speed, machine }: VirtualMachineOptions) {
-    this.clock = clock;
-    this.speed = speed;
-    this.machine = machine;
+  constructor(private readonly options: VirtualMachineOptions) {
+    const { clock, machine } = options;
     this.startS = clock.nowS();
     this.motion = new GrblMotion(axisLimits(grblOf(machine)), () => this.record());
     this.polylines.push({ penDown: false, xy: [0, 0] });
@@ -100,7 +94,7 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private get nowS(): number {
-    return (this.clock.nowS() - this.startS) * this.speed;
+    return (this.options.clock.nowS() - this.startS) * this.options.speed;
   }
 
   private take(bytes: Uint8Array): void {
@@ -141,8 +135,8 @@ export class VirtualGrbl implements VirtualMachine {
     if (this.isClosed) return;
     const dueS = Math.min(this.motion.nextS, this.waitUntilS ?? Infinity, this.startDueS ?? Infinity);
     if (dueS === Infinity) return;
-    const delayS = Math.max(0, dueS - this.nowS) / this.speed;
-    this.cancelTimer = this.clock.after(delayS, () => {
+    const delayS = Math.max(0, dueS - this.nowS) / this.options.speed;
+    this.cancelTimer = this.options.clock.after(delayS, () => {
       this.catchUp(dueS);
       this.work();
     });
@@ -238,7 +232,7 @@ export class VirtualGrbl implements VirtualMachine {
   private target(word: number | undefined, axis: 0 | 1 | 2, end: Axes): number {
     if (word === undefined) return end[axis];
     const mm = word + this.offset[axis];
-    const { stepsPerMm } = this.machine;
+    const { stepsPerMm } = this.options.machine;
     return axis === 2 ? mm : Math.round(mm * stepsPerMm) / stepsPerMm;
   }
 
@@ -295,13 +289,13 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private isDown(z: number): boolean {
-    const { penUpZMm, penDownZMm } = grblOf(this.machine);
+    const { penUpZMm, penDownZMm } = grblOf(this.options.machine);
     return Math.abs(z - penDownZMm) < Math.abs(z - penUpZMm);
   }
 
   private onPage(x: number, y: number): { x: number; y: number } {
-    const { stepsPerMm } = this.machine;
-    return placeFromMotors(this.machine, x * stepsPerMm, y * stepsPerMm);
+    const { stepsPerMm } = this.options.machine;
+    return placeFromMotors(this.options.machine, x * stepsPerMm, y * stepsPerMm);
   }
 
   private record(): void {
