@@ -219,7 +219,7 @@ export class Interpreter {
       this.core.mode2 = 0;
     }
     const flag = hit ? 1 : 0;
-    const isShort = this.core.features.stopReplyValues === 1;
+    const isShort = this.core.isFrom("3.0.0");
     return { values: () => (isShort ? `${flag}` : [flag, waiting1, waiting2, left1, left2].join(",")) };
   }
 

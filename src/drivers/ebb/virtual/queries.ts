@@ -62,7 +62,7 @@ export class BoardQueries {
     if (core.isBusy) bits |= 8;
     if (core.penUp) bits |= 16;
     if (inputs.buttonLatched) bits |= 32;
-    if (core.features.hasLimitQuery && inputs.powerLostLatched) bits |= 64;
+    if (core.isFrom("3.0.0") && inputs.powerLostLatched) bits |= 64;
     inputs.buttonLatched = false;
     inputs.powerLostLatched =
       inputs.powerThreshold > 0 && supplyReading(inputs.motorVolts) < inputs.powerThreshold;
