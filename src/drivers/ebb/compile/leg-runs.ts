@@ -153,9 +153,7 @@ export class LegRuns implements RunWriter {
     if (end < runEnd && runEnd - end < restTicks) {
       const earlier = runEnd - restTicks;
       end = earlier >= soonest && earlier < end ? earlier : runEnd;
-      k = walk.blockAt(end, block);
-      if (end === runEnd) k = last;
-      else if (k > block && end === walk.endTick(k - 1)) k--;
+      k = end === runEnd ? last : walk.blockAt(end, block);
     }
     if (end < runEnd) {
       while (k > block && walk.endTick(k - 1) >= end) k--;
