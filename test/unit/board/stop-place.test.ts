@@ -52,7 +52,7 @@ describe("the place of an emergency stop", () => {
     ["QG", "2E", 0],
     ["QM", "1,1,0,1", 1],
     ["QM", "1,1,0", null],
-  ])("reads from %s, answered by %s, how many commands wait", (line, reply, count) => {
+  ])("counts the waiting commands from %s and the reply %s", (line, reply, count) => {
     expect(waitingCount(line, reply)).toBe(count);
   });
 });

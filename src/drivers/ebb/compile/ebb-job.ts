@@ -54,7 +54,7 @@ export function planEbbWalk(
   return ebbJob(trajectory, machine, firmware, pen, board);
 }
 
-/** A trajectory as a job. `start`: the board's counters; left out: all zero, with the motors just switched on. */
+/** A trajectory as a job. `start`: the board's counters; undefined: all zero, as after the motors are switched on. */
 function ebbJob(
   trajectory: Trajectory,
   machine: MachineProfile,
@@ -73,7 +73,7 @@ function ebbJob(
 }
 
 /**
- * Max distance from the drawing of a pen that was stopped on its line: the deviation of the planned line, and the
+ * How far a pen that stopped on the planned line can be from the drawing: the deviation of the planned line, plus the
  * rounding to steps.
  */
 function penBesideMmOf({ draw, layers, fit }: MotionSettings, machine: MachineProfile): number {

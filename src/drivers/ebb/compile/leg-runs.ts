@@ -1,6 +1,6 @@
 /**
  * Writes runs for firmware with ramps (2.5.3 and newer): cuts each run into legs, in order of time, and writes each
- * leg as one command of the kind that the firmware has.
+ * leg as one command, of a kind that the firmware knows.
  *
  *   plan    |--block--|--block--|b|b|b|----------block----------|
  *   legs    |---leg---|---leg---|--leg--|--leg--|--leg--|--leg--|     every leg at least 5 ms (8 with LM)
@@ -27,7 +27,7 @@ const MAX_DEVIATION_RATE = ACCUMULATOR_RANGE / 2;
 /** Max extra speed to make up for idle ticks: 32 steps/s, 0.4 mm/s at 80 steps/mm. */
 const MAX_MAKE_UP_RATE = rateFromStepsPerS(32);
 
-/** `turnTicks` for shaped motion: shorter, because its acceleration is higher, so the motor moves farther in that time. */
+/** `turnTicks` for shaped motion: fewer, because its acceleration is higher, so the motor moves farther in that time. */
 const SHAPED_TURN_TICKS = 12;
 
 /** Min ticks of the command that ends a run, about 1 ms. The idle tick must fit too. */
@@ -86,7 +86,7 @@ export class LegRuns implements RunWriter {
       isRunEnd = cut.isRunEnd;
       this.writeMidway(isRunEnd ? Infinity : columns.boardTicks);
     }
-    this.rest(run);
+    this.waitForRunEnd(run);
   }
 
   /** Writes the pen moves due by `tick`. */
@@ -104,8 +104,8 @@ export class LegRuns implements RunWriter {
     return next ? this.walk.tickOf(next.atS) : Infinity;
   }
 
-  /** Waits if the last step of a run comes before its planned end, so that it takes the planned time on every firmware. */
-  private rest(run: number): void {
+  /** Waits if a run's last step comes before its planned end. So a run takes the planned time on every firmware. */
+  private waitForRunEnd(run: number): void {
     const { walk, columns, m1, m2 } = this;
     const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
     if (ms < 1) return;
@@ -114,7 +114,7 @@ export class LegRuns implements RunWriter {
     columns.add(ms * TICKS_PER_MS, planS, run, m1, m2);
   }
 
-  /** The next cut after `tick`, which is in `block`; not before `notBefore`. */
+  /** The next cut after `tick`, which is in `block`. The cut is not before `notBefore`. */
   private nextCut(tick: number, block: number, notBefore: number): Cut {
     const { walk, writer } = this;
     const last = walk.end - 1;
@@ -204,9 +204,9 @@ export class LegRuns implements RunWriter {
   }
 
   /**
-   * A motor that reverses too near to a leg's end for a separate leg is driven without reversing. On a long leg that
-   * moves it off the line by a quarter of its reverse speed times the leg's duration. If that is too far, the reversal
-   * gets the shortest possible leg. Returns the earlier cut; null if `cut` is good.
+   * If a motor reverses too close to a leg's end for a separate leg, it is driven without reversing. On a long leg that
+   * takes it off the line by a quarter of its reverse speed times the leg's duration. If that is too far, the reversal
+   * gets the shortest possible leg. Returns the earlier cut, or null if `cut` is good.
    */
   private cutForTurn(leg: Leg, cut: Cut, tick: number, block: number, notBefore: number): Cut | null {
     const { walk, writer } = this;
@@ -239,8 +239,8 @@ export class LegRuns implements RunWriter {
   }
 
   /**
-   * The leg with more time if a motor would have to step too fast, or if the run's end is too short for a command. The
-   * rest of the plan is delayed by that time.
+   * Gives the leg more time if a motor would have to step too fast, or if the end of the run is too short for a command.
+   * Delays the rest of the plan by that time.
    */
   private slowedDown(leg: Leg, isRunEnd: boolean): Leg {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));

@@ -53,8 +53,8 @@ export class SliceRuns implements RunWriter {
       const leftTicks = walk.endTick(last) - columns.boardTicks;
       isLast = leftTicks < 1.5 * SLICE_TICKS;
       const ms = isLast ? Math.max(0, Math.round((leftTicks - features.idleTicks) / TICKS_PER_MS)) : SLICE_MS;
-      // The target is the plan's position at the slice's real end, so that rounding to whole milliseconds causes no
-      // speed error, except in the last slice.
+      // The target is the plan's position at the slice's real end. So rounding to whole milliseconds causes no speed
+      // error, except in the last slice.
       const tick = columns.boardTicks + ms * TICKS_PER_MS + features.idleTicks;
       block = isLast ? last : walk.blockAt(tick, block);
       const target = isLast ? walk.endOf(block) : walk.pointAt(tick, block);

@@ -5,8 +5,8 @@
  * zero wraps to full speed. So a motor must never reverse within a leg (the compiler cuts there), and its speeds must
  * not be negative.
  *
- * The accumulator has the fraction of a step moved since the last step, in the direction of travel. After a reversal
- * that fraction counts in the wrong direction. If zero is nearer to the true position, the command clears it.
+ * The accumulator holds the fraction of a step moved since the last step, in the direction of travel. After a reversal
+ * that fraction counts in the wrong direction. If zero is closer to the true position, the command clears it.
  */
 import { ACCUMULATOR_RANGE, rateFromStepsPerS } from "../../../units.js";
 import { registersFor, sumOfRates } from "../model/accumulator.js";
@@ -71,7 +71,7 @@ function argumentsFor(leg: Leg, motor: MotorLeg, state: MotorState): Arguments {
   const steepest = (2 * Math.min(mean, HIGHEST_RATE - mean)) / (ticks + 1);
   const accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
   const start = Math.round(mean - (accel * (ticks + 1)) / 2) + Math.trunc(accel / 2);
-  // At least 1: the sign of the rate gives the direction, and the board refuses both rates zero.
+  // At least 1: the sign of the rate gives the direction, and the board refuses a command with both rates zero.
   return { rate: keptAboveZero(direction * Math.max(1, start), accel, ticks), accel, clear };
 }
 
