@@ -16,7 +16,7 @@ export interface MotorPoint {
   readonly v: number;
 }
 
-export interface PlanPoint {
+interface PlanPoint {
   readonly m1: MotorPoint;
   readonly m2: MotorPoint;
 }

@@ -15,10 +15,6 @@ import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } 
 import { HIGHEST_RATE } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-/**
- * Max speed error at a leg's ends from replacing a jerk by a constant acceleration: 0.25 mm/s at 80 steps/mm.
- */
-const JERK_ERROR_RATE = rateFromStepsPerS(0.25 * 80);
 /** An accumulator is cleared only if that reduces the error by more than this, steps. */
 const CLEAR_WORTH_STEPS = 0.1;
 
@@ -30,16 +26,13 @@ interface Arguments {
 
 export class TimedWriter implements LegWriter {
   readonly minTicks = 125;
-  readonly maxTicks = 3_750;
   readonly turnTicks = 30;
   readonly idleTicks = 0;
   readonly joinsAnySpeeds = false;
+  /** 0.25 mm/s at 80 steps/mm. */
+  readonly jerkErrorRate = rateFromStepsPerS(0.25 * 80);
 
   constructor(private readonly text: CommandText) {}
-
-  maxTicksForJerk(jerk: number): number {
-    return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
-  }
 
   write(leg: Leg, m1: MotorState, m2: MotorState): number {
     const { text } = this;
