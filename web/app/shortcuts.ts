@@ -80,18 +80,14 @@ const pageShortcuts = ({ store, actions }: ShortcutDeps): readonly Shortcut[] =>
   },
 ];
 
-/** Listens on the document. Returns a function that stops listening. */
-export const listenForShortcuts = (shortcuts: readonly Shortcut[]): (() => void) => {
-  const onKey = (event: KeyboardEvent): void => {
+export const listenForShortcuts = (shortcuts: readonly Shortcut[]): void =>
+  document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target)) return;
     const shortcut = shortcuts.find(({ matches }) => matches(event));
     if (!shortcut) return;
     event.preventDefault();
     shortcut.run();
-  };
-  document.addEventListener("keydown", onKey);
-  return () => document.removeEventListener("keydown", onKey);
-};
+  });
 
 /** Fields handle their own keys, and a focused button handles Space. */
 const isTyping = (target: EventTarget | null): boolean =>

@@ -77,8 +77,8 @@ export interface BackendFeatures {
 export interface Backend {
   readonly features: BackendFeatures;
 
-  /** Reports the whole state once, then each change. Returns a function that stops listening. */
-  listen(listener: BackendListener): () => void;
+  /** Reports the whole state once, then each change, as long as the page is open. */
+  listen(listener: BackendListener): void;
 
   addJob(job: Omit<NewJob, "drawing">, drawing: DrawingText): Promise<Job>;
   patchJob(id: string, patch: JobPatch): Promise<Job>;

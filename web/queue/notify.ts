@@ -19,8 +19,8 @@ export const noticeOfChange = (before: Job | null, now: Job): string | null => {
   return null;
 };
 
-/** Calls `notify` with a message when a job changes. Returns a function that stops. */
-export const watchJobs = (store: PageStore, notify: (message: string, job: Job) => void): (() => void) =>
+/** Calls `notify` with a message when a job changes. */
+export const watchJobs = (store: PageStore, notify: (message: string, job: Job) => void): void => {
   store.subscribe((state, before) => {
     if (state.jobs === before.jobs || before.jobs.length === 0) return;
     const known = new Map(before.jobs.map((job) => [job.id, job]));
@@ -29,3 +29,4 @@ export const watchJobs = (store: PageStore, notify: (message: string, job: Job) 
       if (message !== null) notify(message, job);
     }
   });
+};

@@ -67,10 +67,9 @@ export class HostClient {
   }
 
   /** The first event of a host is a snapshot. This asks a host that is already running for another one. */
-  listen(listener: BackendListener): () => void {
+  listen(listener: BackendListener): void {
     this.#listeners.add(listener);
     this.#send({ to: "host", type: "hello", tab: this.tab });
-    return () => this.#listeners.delete(listener);
   }
 
   /** Makes this page's worker the host. Rejects with `busy` while another host is plotting. */
