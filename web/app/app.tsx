@@ -1,4 +1,4 @@
-import { useCallback, useState } from "react";
+import { useState } from "react";
 import { DrawingPanel } from "../drawing/drawing.js";
 import { DrawnSize } from "../drawing/drawn-size.js";
 import { Dialogs } from "./dialogs.js";
@@ -62,10 +62,9 @@ export const App = ({ player, shortcuts }: AppProps) => {
       <MachinePanel />
     </div>
   );
-  const onFile = useCallback((file: File) => void openFile(file), [openFile]);
   if (isUnpaired) return <Pairing />;
   return (
-    <DropZone hint={drawingText.dropHere} onFile={onFile} onText={openPasted}>
+    <DropZone hint={drawingText.dropHere} onFile={openFile} onText={openPasted}>
       <div className="app" data-tab={tab} data-view={view} data-full={isFull || undefined}>
         <SkipLink />
         <TopBar />
