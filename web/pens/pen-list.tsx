@@ -7,7 +7,7 @@ import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-se
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { pensText } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Segments, Select, type ChoiceOption } from "../ui/choice.js";
+import { Segments, Select } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingField } from "../ui/setting-field.js";
@@ -202,11 +202,11 @@ const Mark = ({ pen }: { pen: PlotPen }) => {
   const { plotJob } = useActions();
   return (
     <>
-      <Select
+      <Select<Corner>
         label={words.markCorner}
         value={corner}
-        options={CORNERS.map((value): ChoiceOption<Corner> => ({ value, label: words.corners[value] }))}
-        onChange={(value) => setCorner(value)}
+        options={CORNERS.map((value) => ({ value, label: words.corners[value] }))}
+        onChange={setCorner}
       />
       <Button
         disabled={isBusy}

@@ -20,7 +20,7 @@ interface GroupProps {
 export const Group = (props: GroupProps) => {
   const { id, title, summary, help, isPart, isOpen, onToggle, children } = props;
   const Heading = isPart ? "h3" : "h2";
-  const hint = useHint(title, `help-${id}`, help !== undefined && isOpen);
+  const hint = useHint(title, `help-${id}`, isOpen ? help : undefined);
   return (
     <section className={isPart ? "group group-part" : "group"} data-open={isOpen || undefined}>
       <div className="group-top">
@@ -40,11 +40,7 @@ export const Group = (props: GroupProps) => {
         {hint.button}
       </div>
       <div id={`group-${id}`} className="group-body" hidden={!isOpen}>
-        {help !== undefined && (
-          <p id={`help-${id}`} className="note" hidden={!hint.isShown}>
-            {help}
-          </p>
-        )}
+        {hint.note}
         {children}
       </div>
     </section>
