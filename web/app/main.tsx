@@ -19,7 +19,7 @@ import { PageContext } from "../state/use-store.js";
 import { appName, errorText } from "../ui/text.js";
 import { ErrorBoundary } from "../ui/error-boundary.js";
 import { saveFile } from "../ui/save-file.js";
-import { Planner } from "../worker/planner.js";
+import { openPlanner } from "../worker/planner.js";
 import "./index.css";
 
 const storage = ((): TextStore | null => {
@@ -41,28 +41,19 @@ const NOTHING_SELECTED = { momentS: null, isPlaying: false, hover: null, noteBox
 
 const remembered = readRemembered(storage);
 const store = createPageStore(remembered);
-const planner = new Planner(
-  () => new Worker(new URL("../worker/plan.worker.ts", import.meta.url), { type: "module" }),
-  {
-    after: (delayMs, callback) => {
-      const timer = setTimeout(callback, delayMs);
-      return () => clearTimeout(timer);
-    },
+const planner = openPlanner({
+  onImported: (drawingKey, page) => actions.placeForPage(drawingKey, page),
+  onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_SELECTED }),
+  onExported: (format, exported) => {
+    const name = store.getState().drawing?.name ?? appName;
+    saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
   },
-  {
-    onImported: (drawingKey, page) => actions.placeForPage(drawingKey, page),
-    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_SELECTED }),
-    onExported: (format, exported) => {
-      const name = store.getState().drawing?.name ?? appName;
-      saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
-    },
-    onExportFailed: (message) => actions.notify("error", message),
-    onFault: (fault) => {
-      if (actions.wentBack(fault)) return;
-      store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_SELECTED });
-    },
+  onExportFailed: (message) => actions.notify("error", message),
+  onFault: (fault) => {
+    if (actions.wentBack(fault)) return;
+    store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_SELECTED });
   },
-);
+});
 const backend = createPageBackend();
 const actions = createActions({
   store,

@@ -35,7 +35,7 @@ const usePlan = (): void => {
   const isLinked = usePageState((state) => state.link === "connected");
   useEffect(() => {
     const job = watchedJob(store.getState());
-    if (job && isLinked) void planWatched({ store, backend }, job);
+    if (job && isLinked) void planWatched(store, backend, job);
   }, [store, backend, id, startedAt, isLinked]);
 };
 

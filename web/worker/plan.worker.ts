@@ -20,12 +20,12 @@ import {
   machineOf,
   penStopsOf,
   placeDrawing,
-  pointCount,
   prepareSettingsOf,
   strokeCount,
   unusedSettings,
   type Placement,
 } from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
 import { lineGapMm } from "../scene/density.js";
 import type { FrameMm } from "../scene/placing.js";
@@ -34,7 +34,6 @@ import { cutOffOf, type CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 import type {
   ExportRequest,
-  PlanSettings,
   Planned,
   PlannedReply,
   PlanFault,
@@ -60,7 +59,7 @@ let prepared: {
   result: Prepared;
   placement: Placement;
   cutOff: CutOffPicture | null;
-  settings: PlanSettings;
+  settings: PlotSettings;
 } | null = null;
 
 /** The plan that was answered last. */
@@ -91,23 +90,17 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   const { id, drawingKey, settings, firmware } = request;
   let stage: PlanFault["stage"] = "import";
   try {
-    const t0 = performance.now();
     const drawing = await drawingOf(request);
     const { widthMm, heightMm } = drawing;
     scope.postMessage({ type: "imported", id, drawingKey, page: { widthMm, heightMm } }, []);
-    const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
     const { result: ready, placement, cutOff } = preparedOf(drawingKey, drawing, request);
-    const t2 = performance.now();
     if (await isSuperseded()) return null;
     const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
-    const t3 = performance.now();
     if (await isSuperseded()) return null;
     const scene = buildScene(trajectory, ready.strokes.layer, shiftsOf(ready.strokes.layers));
     const stats = trajectoryStats(trajectory);
-    const gapMm = lineGapMm(scene.grid, stats.drawMm);
-    const t4 = performance.now();
     const planned: Planned = {
       drawingKey,
       settings,
@@ -125,13 +118,11 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       cutOff,
       unreachedCount: unreachedCount(ready.strokes, machineOf(settings)),
       strokeCount: strokeCount(ready.strokes),
-      pointCount: pointCount(ready.strokes),
       stats,
       trajectory,
       scene,
-      lineGapMm: gapMm,
+      lineGapMm: lineGapMm(scene.grid, stats.drawMm),
       picture: pictureOf(scene),
-      tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
     answered = { id, strokes: ready.strokes };
     return { type: "planned", id, planned };
