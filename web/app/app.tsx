@@ -66,7 +66,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
   return (
     <DropZone hint={drawingText.dropHere} onFile={openFile} onText={openPasted}>
       <div className="app" data-tab={tab} data-view={view} data-full={isFull || undefined}>
-        <SkipLink />
+        <SkipLink isWatching={isWatching} />
         <TopBar />
         <main className="centre">
           <Strips />
@@ -116,8 +116,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
 };
 
 /** For keyboard users: jumps over the header and the settings to the buttons that start or stop a plot. */
-const SkipLink = () => {
-  const isWatching = usePageState((state) => shownView(state) === "watch");
+const SkipLink = ({ isWatching }: { isWatching: boolean }) => {
   const target = isWatching ? WATCH_ID : PLOT_ID;
   return (
     <a

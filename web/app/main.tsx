@@ -13,7 +13,7 @@ import { Player } from "../preview/player.js";
 import { noteTakenOver, readKeptHere } from "../state/kept-here.js";
 import { listenForShortcuts, shortcutsFor } from "./shortcuts.js";
 import { applyServerEvent } from "../state/server-events.js";
-import { createPageStore, type PageStore } from "../state/store.js";
+import { createPageStore } from "../state/store.js";
 import { openWatch } from "../state/open-watch.js";
 import { PageContext } from "../state/use-store.js";
 import { appName, errorText } from "../ui/text.js";
@@ -64,7 +64,7 @@ const actions = createActions({
 });
 
 const drawings = browserDrawings();
-keepRemembered(store);
+keepRemembered();
 keepDrawing(store, drawings, () => actions.notify("error", errorText.notKept));
 const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
@@ -85,8 +85,8 @@ backend.listen({
 });
 replanForBoard(store, actions.replan);
 openWatch(store);
-followPlotter(store);
-void greet(store);
+followPlotter();
+void greet();
 
 const root = document.getElementById("root");
 if (!root) throw new Error("index.html has no #root");
@@ -101,13 +101,13 @@ createRoot(root).render(
 );
 
 /** Stores settings and view for the next visit. Sets the theme on the root element, where the style sheet reads it. */
-function keepRemembered(pageStore: PageStore): void {
+function keepRemembered(): void {
   let timer: ReturnType<typeof setTimeout> | null = null;
   const showTheme = (): void => {
-    document.documentElement.dataset.theme = pageStore.getState().view.theme;
+    document.documentElement.dataset.theme = store.getState().view.theme;
   };
   showTheme();
-  pageStore.subscribe((state, before) => {
+  store.subscribe((state, before) => {
     if (state.view.theme !== before.view.theme) showTheme();
     if (state.settings === before.settings && state.view === before.view) return;
     if (timer !== null) clearTimeout(timer);
@@ -115,7 +115,7 @@ function keepRemembered(pageStore: PageStore): void {
   });
   const write = (): void => {
     timer = null;
-    writeRemembered(storage, pageStore.getState());
+    writeRemembered(storage, store.getState());
   };
   window.addEventListener("pagehide", () => {
     if (timer !== null) write();
@@ -126,18 +126,18 @@ function keepRemembered(pageStore: PageStore): void {
  * Model, heights, pens and presets belong to the plotter. Those that an earlier version stored in this browser are
  * copied to plotters that have none.
  */
-function followPlotter(pageStore: PageStore): void {
+function followPlotter(): void {
   let kept = readKeptHere(storage);
   if (kept === null) noteTakenOver(storage);
   const takeOver = async (): Promise<void> => {
     const keptNow = kept;
-    if (keptNow === null || pageStore.getState().link !== "connected") return;
+    if (keptNow === null || store.getState().link !== "connected") return;
     kept = null;
     const isDone = await actions.takeOverKept(keptNow);
     if (isDone) noteTakenOver(storage);
     else kept = keptNow;
   };
-  pageStore.subscribe((state, before) => {
+  store.subscribe((state, before) => {
     const { plotters, plotterId, plotterSettings, machines, me, operator } = state;
     if (me !== before.me || operator !== before.operator) void takeOver();
     const hasChanged =
@@ -150,22 +150,22 @@ function followPlotter(pageStore: PageStore): void {
 }
 
 /** Restores the last drawing, if there is one, and loads the rest once the server has answered. */
-async function greet(pageStore: PageStore): Promise<void> {
+async function greet(): Promise<void> {
   const kept = await readKeptDrawing(drawings);
-  if (kept && pageStore.getState().drawing === null) actions.restoreDrawing(kept);
-  pageStore.setState({ isStarting: false });
-  await connected(pageStore);
+  if (kept && store.getState().drawing === null) actions.restoreDrawing(kept);
+  store.setState({ isStarting: false });
+  await connected();
   await Promise.all([actions.loadSamples(), actions.loadMachines()]);
   actions.takeJobSettings();
 }
 
-const connected = (pageStore: PageStore): Promise<void> =>
+const connected = (): Promise<void> =>
   new Promise((resolve) => {
     const check = (): void => {
-      if (pageStore.getState().link !== "connected") return;
+      if (store.getState().link !== "connected") return;
       stop();
       resolve();
     };
-    const stop = pageStore.subscribe(check);
+    const stop = store.subscribe(check);
     check();
   });
