@@ -6,6 +6,7 @@ import { useActions, useBackend, usePageState, usePageStore } from "../state/use
 import { plotterText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
+import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand } from "./pen-at-hand.js";
@@ -101,21 +102,16 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
   const { xMm, yMm } = plotter;
   const place =
     xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
-  const facts = [
-    [words.position, place],
-    [words.pen, penWords(plotter)],
-    [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
-    [words.firmware, plotter.firmware ?? words.unknown],
-  ] as const;
   return (
-    <dl className="facts">
-      {facts.map(([label, value]) => (
-        <div key={label}>
-          <dt>{label}</dt>
-          <dd>{value}</dd>
-        </div>
-      ))}
-    </dl>
+    <Facts
+      className="facts"
+      rows={[
+        [words.position, place],
+        [words.pen, penWords(plotter)],
+        [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
+        [words.firmware, plotter.firmware ?? words.unknown],
+      ]}
+    />
   );
 };
 
