@@ -3,6 +3,7 @@ import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { createPageBackend } from "../backend/page-backend.js";
 import { App } from "./app.js";
+import { Crash } from "./crash.js";
 import { keepPage, lookForUpdate } from "../pwa/register.js";
 import { createActions } from "../state/actions.js";
 import { replanForBoard } from "../plotter/board-watch.js";
@@ -92,7 +93,7 @@ const root = document.getElementById("root");
 if (!root) throw new Error("index.html has no #root");
 createRoot(root).render(
   <StrictMode>
-    <ErrorBoundary>
+    <ErrorBoundary fallback={(message) => <Crash message={message} />}>
       <PageContext value={{ store, backend, actions }}>
         <App player={player} shortcuts={shortcuts} />
       </PageContext>
