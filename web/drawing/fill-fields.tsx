@@ -4,7 +4,7 @@ import { fillText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
-import { usePrepareChange } from "./use-prepare-change.js";
+import { usePrepareChange } from "../ui/use-change.js";
 
 const words = fillText;
 const FIRST_SPACING_MM = 0.6;

@@ -3,7 +3,7 @@ import { usePageState } from "../state/use-store.js";
 import { linesText } from "./text.js";
 import { Segments, Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
-import { usePrepareChange } from "./use-prepare-change.js";
+import { usePrepareChange } from "../ui/use-change.js";
 
 const words = linesText;
 

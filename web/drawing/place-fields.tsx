@@ -7,7 +7,7 @@ import { placeText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { orientedPaper } from "../../src/internal.js";
-import { usePrepareChange } from "./use-prepare-change.js";
+import { usePrepareChange } from "../ui/use-change.js";
 
 const words = placeText;
 type Place = NonNullable<PlotSettings["prepare"]["place"]>;

@@ -27,35 +27,34 @@ export const PenFields = () => {
           onChange={(dropMs) => change({ dropMs })}
         />
       </div>
-      <Gentle pen={pen} change={change} />
-      <Overlap pen={pen} change={change} />
+      <Gentle pen={pen} />
+      <Overlap pen={pen} />
     </>
   );
 };
 
-interface RefinementProps {
-  readonly pen: PenSettings;
-  change(part: Partial<PenSettings>): void;
-}
-
-const Gentle = ({ pen: { dropPctPerS }, change }: RefinementProps) => (
-  <>
-    <Switch
-      label={words.gentle}
-      isOn={Boolean(dropPctPerS)}
-      onChange={(isOn) => change({ dropPctPerS: isOn ? DROP_RATE.default : null })}
-    />
-    {dropPctPerS && (
-      <SettingField
-        setting={DROP_RATE}
-        value={dropPctPerS}
-        onChange={(rate) => change({ dropPctPerS: rate })}
+const Gentle = ({ pen: { dropPctPerS } }: { pen: PenSettings }) => {
+  const change = usePenChange();
+  return (
+    <>
+      <Switch
+        label={words.gentle}
+        isOn={Boolean(dropPctPerS)}
+        onChange={(isOn) => change({ dropPctPerS: isOn ? DROP_RATE.default : null })}
       />
-    )}
-  </>
-);
+      {dropPctPerS && (
+        <SettingField
+          setting={DROP_RATE}
+          value={dropPctPerS}
+          onChange={(rate) => change({ dropPctPerS: rate })}
+        />
+      )}
+    </>
+  );
+};
 
-const Overlap = ({ pen: { overlap, fullHeightMm }, change }: RefinementProps) => {
+const Overlap = ({ pen: { overlap, fullHeightMm } }: { pen: PenSettings }) => {
+  const change = usePenChange();
   const [, hint] = words.overlaps[overlap];
   return (
     <>

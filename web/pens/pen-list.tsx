@@ -11,7 +11,6 @@ import { Segments, Select } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingField } from "../ui/setting-field.js";
-import { useChange } from "../ui/use-change.js";
 
 const words = pensText;
 
@@ -19,7 +18,7 @@ export const PenList = () => {
   const pens = usePageState(({ settings }) => settings.pens);
   const penStops = usePageState(({ settings }) => settings.penStops);
   const [openId, setOpenId] = useState<string | null>(null);
-  const change = useChange();
+  const { changeSettings } = useActions();
   return (
     <>
       <ul className="pen-list">
@@ -37,7 +36,9 @@ export const PenList = () => {
         <FromColors />
         <Button
           onClick={() =>
-            change("add pen", (settings) => addPen(settings, { name: words.newName(pens.length + 1) }))
+            changeSettings("add pen", (settings) =>
+              addPen(settings, { name: words.newName(pens.length + 1) }),
+            )
           }
         >
           <Icon name="plus" />
@@ -49,7 +50,7 @@ export const PenList = () => {
           label={words.stops}
           value={penStops}
           options={PEN_STOP_MODES.map((value) => ({ value, label: words.stopModes[value] })).reverse()}
-          onChange={(value) => change("pen stops", (settings) => ({ ...settings, penStops: value }))}
+          onChange={(value) => changeSettings("pen stops", (settings) => ({ ...settings, penStops: value }))}
         />
       )}
       <ShowInPens />
@@ -61,13 +62,15 @@ export const PenList = () => {
 const FromColors = () => {
   const rows = usePageState((state) => state.planned?.layers);
   const settings = usePageState((state) => state.settings);
-  const change = useChange();
+  const { changeSettings } = useActions();
   if (!rows) return null;
   const withPens = pensFromColors(settings, rows, nameOfColor);
   const isDone = JSON.stringify(withPens.layerPens) === JSON.stringify(settings.layerPens);
   if (isDone) return null;
   return (
-    <Button onClick={() => change("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}>
+    <Button
+      onClick={() => changeSettings("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}
+    >
       {words.fromColors}
     </Button>
   );
@@ -105,7 +108,7 @@ interface PenRowProps {
 }
 
 const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
-  const change = useChange();
+  const { changeSettings } = useActions();
   const facts = [
     `${formatNumber(pen.widthMm)} mm`,
     ...(pen.offsetXMm !== 0 || pen.offsetYMm !== 0
@@ -124,7 +127,7 @@ const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
           value={pen.name}
           onChange={(event) => {
             const name = event.target.value;
-            change(`name of ${pen.id}`, (settings) => changePen(settings, pen.id, { name }));
+            changeSettings(`name of ${pen.id}`, (settings) => changePen(settings, pen.id, { name }));
           }}
         />
         <span className="layer-count">{facts.join(" · ")}</span>
@@ -143,7 +146,7 @@ const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
 };
 
 const ColorField = ({ pen }: { pen: PlotPen }) => {
-  const change = useChange();
+  const { changeSettings } = useActions();
   return (
     <span className="color-field" data-none={pen.color === null || undefined}>
       <input
@@ -153,7 +156,7 @@ const ColorField = ({ pen }: { pen: PlotPen }) => {
         value={pen.color ?? "#808080"}
         onChange={(event) => {
           const color = event.target.value.toLowerCase();
-          change(`colour of ${pen.id}`, (settings) => changePen(settings, pen.id, { color }));
+          changeSettings(`colour of ${pen.id}`, (settings) => changePen(settings, pen.id, { color }));
         }}
       />
     </span>
@@ -161,9 +164,11 @@ const ColorField = ({ pen }: { pen: PlotPen }) => {
 };
 
 const PenDetails = ({ pen }: { pen: PlotPen }) => {
-  const change = useChange();
+  const { changeSettings } = useActions();
   const set = (part: Partial<PlotPen>): void =>
-    change(`${Object.keys(part).join()} of ${pen.id}`, (settings) => changePen(settings, pen.id, part));
+    changeSettings(`${Object.keys(part).join()} of ${pen.id}`, (settings) =>
+      changePen(settings, pen.id, part),
+    );
   return (
     <div className="layer-details">
       <SettingField
@@ -185,7 +190,7 @@ const PenDetails = ({ pen }: { pen: PlotPen }) => {
       <Mark pen={pen} />
       <Button
         kind="small"
-        onClick={() => change(`remove ${pen.id}`, (settings) => removePen(settings, pen.id))}
+        onClick={() => changeSettings(`remove ${pen.id}`, (settings) => removePen(settings, pen.id))}
       >
         <Icon name="close" />
         {words.remove(pen.name)}

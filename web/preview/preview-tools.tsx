@@ -3,6 +3,7 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { previewText } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
+import { usePrepareChange } from "../ui/use-change.js";
 import { placeOfFrame } from "../scene/placing.js";
 import type { Stage } from "./stage.js";
 
@@ -35,7 +36,7 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
 const PlaceTool = () => {
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);
-  const { changeSettings } = useActions();
+  const change = usePrepareChange();
   return (
     <IconButton
       kind="tool"
@@ -43,12 +44,7 @@ const PlaceTool = () => {
       label={words.place}
       aria-pressed={isPlaced}
       disabled={!frame}
-      onClick={() =>
-        changeSettings("place by hand", (settings) => ({
-          ...settings,
-          prepare: { ...settings.prepare, place: isPlaced || !frame ? null : placeOfFrame(frame) },
-        }))
-      }
+      onClick={() => change("place by hand", { place: isPlaced || !frame ? null : placeOfFrame(frame) })}
     />
   );
 };
