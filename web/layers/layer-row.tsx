@@ -19,7 +19,7 @@ interface LayerRowProps {
   readonly list: RefObject<HTMLUListElement | null>;
   readonly isOpen: boolean;
   onToggle(): void;
-  /** `place`: the new index. */
+  /** `place`: the new index, which is clamped to the list. */
   onMove(place: number): void;
 }
 
@@ -72,21 +72,9 @@ export const LayerRow = (props: LayerRowProps) => {
 };
 
 const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readonly name: string }) => {
-  const drag = useRowDrag(list, row.id, onMove);
+  const drag = useRowDrag(list, row.id, index, onMove);
   return (
-    <Button
-      kind="tool"
-      className="layer-grip"
-      aria-label={words.drag(name)}
-      title={words.dragHint}
-      onKeyDown={(event) => {
-        const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
-        if (step === 0) return;
-        event.preventDefault();
-        onMove(Math.max(0, index + step));
-      }}
-      {...drag}
-    >
+    <Button kind="tool" className="layer-grip" aria-label={words.drag(name)} title={words.dragHint} {...drag}>
       <Icon name="grip" />
     </Button>
   );

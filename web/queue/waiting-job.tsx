@@ -66,7 +66,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
     // Backwards, because the first job identifies the row.
     for (const { id } of [...copies].reverse()) await removeJob(id);
   };
-  const drag = useRowDrag(list, job.id, (place) => void moveTo(place));
+  const drag = useRowDrag(list, job.id, index, (place) => void moveTo(place));
   const { name } = job;
   // Of several copies the last is removed, because the first may be about to start.
   const last = copies.at(-1) ?? job;
@@ -120,12 +120,6 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
           aria-label={words.drag(name)}
           title={words.dragHint}
           disabled={isOff}
-          onKeyDown={(event) => {
-            const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
-            if (step === 0) return;
-            event.preventDefault();
-            void moveTo(index + step);
-          }}
           {...drag}
         >
           <Icon name="grip" />
