@@ -79,7 +79,7 @@ const FromColors = () => {
 /** An approximate name of a colour. */
 const nameOfColor = (hex: string | null): string => {
   if (hex === null) return words.noColor;
-  const [r = 0, g = 0, b = 0] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
+  const [r, g, b] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
   const max = Math.max(r, g, b);
   const range = max - Math.min(r, g, b);
   if (range < 36) return max < 70 ? words.tones.black : max > 215 ? words.tones.white : words.tones.grey;

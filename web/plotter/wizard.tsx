@@ -26,7 +26,7 @@ export const Wizard = () => {
   const [profile, setProfile] = useState<MachineProfile>(() =>
     copyOf(startOf(store.getState().settings), words.firstName, taken),
   );
-  const Step = STEPS[index] ?? PlotterStep;
+  const Step = STEPS[index];
   const settingsWith = (machine: MachineProfile): PlotSettings => ({
     ...store.getState().settings,
     machine: machine.id,
