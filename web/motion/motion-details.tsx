@@ -47,7 +47,7 @@ export const MotionDetails = () => {
       <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
       <AxisLimits motion={motion} />
-      <ShaperSelect shaper={motion.shaper ?? "none"} />
+      <ShaperSelect motion={motion} />
       <ModeChoice mode={motion.mode} />
       <Refinements motion={motion} />
       <SendAhead />
@@ -56,9 +56,8 @@ export const MotionDetails = () => {
 };
 
 /** Only shown for a measured machine, because shaping needs its frequencies. */
-const ShaperSelect = ({ shaper }: { shaper: Shaper }) => {
+const ShaperSelect = ({ motion }: { motion: MotionSettings }) => {
   const springs = useSprings();
-  const motion = usePageState((state) => state.settings.motion);
   const change = useMotionChange();
   if (springs === null) return null;
   const choose = (chosen: Shaper): void => {
@@ -68,7 +67,7 @@ const ShaperSelect = ({ shaper }: { shaper: Shaper }) => {
   return (
     <Select
       label={words.shaper}
-      value={shaper}
+      value={motion.shaper ?? "none"}
       options={SHAPERS.map((value) => ({ value, label: words.shapers[value] }))}
       onChange={choose}
     />

@@ -99,7 +99,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
       >
         {asked === "x" ? words.moveFirst : words.moveSecond}
       </Button>
-      <Answers question={words.whichWay} onAnswer={answer} onSlanted={slanted} />
+      <Answers onAnswer={answer} onSlanted={slanted} />
     </>
   );
 };
@@ -110,14 +110,13 @@ const withOtherMotors = (profile: MachineProfile): MachineProfile => ({
 });
 
 interface AnswersProps {
-  readonly question: string;
   onAnswer(went: Direction): void;
   onSlanted(): void;
 }
 
-const Answers = ({ question, onAnswer, onSlanted }: AnswersProps) => (
+const Answers = ({ onAnswer, onSlanted }: AnswersProps) => (
   <fieldset className="subgroup">
-    <legend>{question}</legend>
+    <legend>{words.whichWay}</legend>
     <div className="button-grid">
       {DIRECTIONS.map((direction) => (
         <Button key={direction} onClick={() => onAnswer(direction)}>

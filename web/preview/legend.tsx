@@ -1,4 +1,3 @@
-import { useMemo } from "react";
 import { penOf } from "../../src/internal.js";
 import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 import { legendStops, rampColor } from "../scene/color-map.js";
@@ -44,7 +43,7 @@ const Legend = ({ colorBy, planned }: { colorBy: ColorMode; planned: Planned }) 
 
 /** `data-stops` is the scale as JSON, for programs that read the page. */
 const SpeedLegend = ({ topMmPerS }: { topMmPerS: number }) => {
-  const stops = useMemo(() => legendStops(topMmPerS), [topMmPerS]);
+  const stops = legendStops(topMmPerS);
   return (
     <figure className="legend" role="img" aria-label={words.legend} data-stops={JSON.stringify(stops)}>
       <figcaption aria-hidden="true">

@@ -1,4 +1,4 @@
-import { useId, useState } from "react";
+import { useId } from "react";
 import { frequencyOfRipples, RINGING_SPEEDS } from "../../src/internal.js";
 import { ringingText } from "./ringing-text.js";
 import { Segments } from "../ui/choice.js";
@@ -66,7 +66,7 @@ type ReadingFieldProps = Omit<CountAxisProps, "line">;
 
 const ReadingField = ({ axis, reading, onChange }: ReadingFieldProps) => {
   const id = useId();
-  const [from] = useState(reading.measure === "count" ? 3 : 3.3);
+  const from = reading.measure === "count" ? 3 : 3.3;
   const typed = useTypedNumber(
     reading.value,
     reading.measure === "count" ? COUNT : LENGTH,

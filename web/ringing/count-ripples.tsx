@@ -18,7 +18,7 @@ import { CountAxis, frequencyOf, NO_READING, type Reading } from "./count-axis.j
 import { gainsOf } from "./ringing-gain.js";
 import { sheetJob } from "./ringing-job.js";
 import { SheetPicture } from "./sheet-picture.js";
-import { useStoreSprings } from "./use-store-springs.js";
+import { isStored, useStoreSprings } from "./use-store-springs.js";
 import { useSprings } from "../motion/use-springs.js";
 
 const words = ringingText;
@@ -78,13 +78,11 @@ const PlotSheet = () => {
 const StoreButton = ({ springs }: { springs: Springs | null }) => {
   const store = useStoreSprings();
   const known = useSprings();
-  const isStored =
-    springs !== null && known !== null && same(springs.xHz, known.xHz) && same(springs.yHz, known.yHz);
   return (
     <div className="button-row">
       <Button
         kind="primary"
-        disabled={springs === null || isStored}
+        disabled={springs === null || isStored(springs, known)}
         onClick={() => springs && void store(springs)}
       >
         {words.save}
@@ -97,9 +95,6 @@ const StoreButton = ({ springs }: { springs: Springs | null }) => {
     </div>
   );
 };
-
-/** Stored to a tenth of a Hz. */
-const same = (a: number, b: number): boolean => Math.abs(a - b) < 0.051;
 
 const Gains = ({ springs }: { springs: Springs }) => {
   const machine = usePageState(({ settings }) => findMachine(settings));

@@ -9,7 +9,7 @@ import { formatNumber } from "../ui/format.js";
 import { checkJobs, sheetPlace, type SheetJob } from "./ringing-job.js";
 import { SheetPicture } from "./sheet-picture.js";
 import { useSprings } from "../motion/use-springs.js";
-import { useStoreSprings } from "./use-store-springs.js";
+import { isStored, useStoreSprings } from "./use-store-springs.js";
 
 const words = ringingText;
 
@@ -88,12 +88,6 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
     </>
   );
 };
-
-const isStored = (springs: Springs | null, known: Springs | null): boolean =>
-  springs !== null &&
-  known !== null &&
-  Math.abs(springs.xHz - known.xHz) < 0.051 &&
-  Math.abs(springs.yHz - known.yHz) < 0.051;
 
 /** Plots the sheet's jobs one after the other; `at` is the index of the running one. */
 const useSheetPlot = () => {
