@@ -2,7 +2,7 @@
 import { panBy, zoomAt, type View } from "../scene/view.js";
 import { ARROW_KEYS } from "../ui/arrow-keys.js";
 
-interface Point {
+export interface Point {
   readonly x: number;
   readonly y: number;
 }

@@ -1,4 +1,5 @@
 /** Drawn over the strokes: rulers along the edges, and the pen's position. */
+import type { Box } from "../../src/internal.js";
 import type { DeskColors } from "./backdrop.js";
 import { rulerStep, type Size, type View } from "../scene/view.js";
 
@@ -11,21 +12,14 @@ export interface Marker {
   readonly penDown: boolean;
 }
 
-/** The marked part of the rulers, mm. */
-export interface RulerSpan {
-  readonly x0: number;
-  readonly y0: number;
-  readonly x1: number;
-  readonly y1: number;
-}
-
+/** `span`: the marked part of the rulers, mm. */
 export const drawRulers = (
   context: CanvasRenderingContext2D,
   view: View,
   size: Size,
   colors: DeskColors,
   unitMm: number,
-  span: RulerSpan | null,
+  span: Box | null,
 ): void => {
   const unitPx = view.scale * unitMm;
   context.fillStyle = colors.ruler;
@@ -57,11 +51,7 @@ export const drawRulers = (
 
 const SPAN_COLOR = "rgb(47 98 216 / 22%)";
 
-const markSpan = (
-  context: CanvasRenderingContext2D,
-  { offsetX, offsetY, scale }: View,
-  span: RulerSpan,
-): void => {
+const markSpan = (context: CanvasRenderingContext2D, { offsetX, offsetY, scale }: View, span: Box): void => {
   const x = Math.max(RULER_PX, offsetX + span.x0 * scale);
   const y = Math.max(RULER_PX, offsetY + span.y0 * scale);
   context.fillStyle = SPAN_COLOR;

@@ -7,6 +7,7 @@ import { deskOf } from "./desk.js";
 import { paintCutOff } from "./cut-off.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
+import type { Point } from "./gestures.js";
 import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { Looks } from "./legend.js";
@@ -87,7 +88,7 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
   return store.subscribe(show);
 };
 
-const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: number }): Hover | null => {
+const hoverUnder = (stage: Stage, planned: Planned, { x, y }: Point): Hover | null => {
   const [xMm, yMm] = mmFromScreen(stage.view, x, y);
   const { width, height } = stage.size;
   const at = { xPx: x, yPx: y, xMm, yMm, isRight: x > width * 0.6, isLow: y > height * 0.6 };
