@@ -16,7 +16,6 @@ import {
 import {
   boxOfPoints,
   unreachedCount,
-  textOfBytes,
   machineOf,
   penStopsOf,
   placeDrawing,
@@ -31,7 +30,7 @@ import { lineGapMm } from "../scene/density.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
-import type { DrawingText } from "./drawing-text.js";
+import { textOf, type DrawingText } from "./drawing-text.js";
 import type {
   ExportRequest,
   Planned,
@@ -143,9 +142,8 @@ async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
 
 /** The readers are loaded when the first file is opened. */
 async function drawingIn(content: DrawingText): Promise<Drawing> {
-  const text = typeof content === "string" ? content : textOfBytes(new Uint8Array(content));
   const { importDrawing } = await import("./formats.js");
-  return importDrawing("", text);
+  return importDrawing("", textOf(content));
 }
 
 function preparedOf(
