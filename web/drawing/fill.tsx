@@ -9,15 +9,15 @@ const FillFields = lazyPart(async () => (await import("./fill-fields.js")).FillF
 
 export const FillPanel = () => {
   const { spacingMm } = usePageState((state) => state.settings.prepare.hatch);
-  const isOpen = usePageState((state) => state.view.openGroups.includes("fill"));
   return (
     <SettingsGroup
       id="fill"
       isPart
+      isLazy
       title={words.title}
       summary={spacingMm > 0 ? words.on(formatNumber(spacingMm)) : words.off}
     >
-      {isOpen && <FillFields />}
+      <FillFields />
     </SettingsGroup>
   );
 };

@@ -49,7 +49,11 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
   return (
     <section className="card machine-set-up" aria-label={words.rest}>
       <div className="group-in-card">
-        {isMine && <MoreMoves />}
+        {isMine && (
+          <SettingsGroup id="moves" isLazy title={words.moves}>
+            <HandMoves />
+          </SettingsGroup>
+        )}
         {isMine && children}
         <SettingsGroup id="plotter" title={words.more}>
           {isMine && <ModelSelect />}
@@ -146,15 +150,5 @@ const ModelSelect = () => {
       options={all.map(({ id, name }) => ({ value: id, label: name }))}
       onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
     />
-  );
-};
-
-/** The other moves by hand. Folded, so that the queue stays visible. */
-const MoreMoves = () => {
-  const isOpen = usePageState((state) => state.view.openGroups.includes("moves"));
-  return (
-    <SettingsGroup id="moves" title={words.moves}>
-      {isOpen && <HandMoves />}
-    </SettingsGroup>
   );
 };

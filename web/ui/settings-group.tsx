@@ -12,12 +12,14 @@ interface SettingsGroupProps {
   readonly help?: string;
   /** Is inside another group. */
   readonly isPart?: boolean;
+  /** The children are rendered only while the group is open, so that a lazy part is loaded when it is needed. */
+  readonly isLazy?: boolean;
   readonly children: ReactNode;
 }
 
 /** A group of settings that can be folded; its state is remembered. */
 export const SettingsGroup = (props: SettingsGroupProps) => {
-  const { id, title, summary, help, isPart, children } = props;
+  const { id, title, summary, help, isPart, isLazy, children } = props;
   const openGroups = usePageState((state) => state.view.openGroups);
   const { changeView } = useActions();
   const isOpen = openGroups.includes(id);
@@ -45,7 +47,7 @@ export const SettingsGroup = (props: SettingsGroupProps) => {
       </div>
       <div id={`group-${id}`} className="group-body" hidden={!isOpen}>
         {hint.note}
-        {children}
+        {(isOpen || !isLazy) && children}
       </div>
     </section>
   );
