@@ -65,7 +65,7 @@ export interface BackendListener {
 }
 
 /** Optional features. The page shows only those that the backend has. */
-export interface BackendFeatures {
+interface BackendFeatures {
   /** Other devices, keys, webhooks, several plotters, a shared queue. */
   readonly sharing: boolean;
   /** The user must first allow the page to use the plotter's port, with `connect`. */

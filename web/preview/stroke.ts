@@ -6,7 +6,7 @@ import { selectedStroke, type PageState } from "../state/store.js";
 import { layerLooks } from "./looks.js";
 import type { Paint } from "./stage.js";
 
-export interface StrokeFigures {
+interface StrokeFigures {
   readonly lengthMm: number;
   /** When it begins, and how long it takes. */
   readonly startS: number;

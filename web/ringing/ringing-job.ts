@@ -27,7 +27,7 @@ const MIN_NEXT_MM = 4;
 /**
  * Where a sheet's figures are on the paper, mm. The first is at the bottom left, each next one `nextMm` up and right.
  */
-export interface SheetPlace {
+interface SheetPlace {
   readonly xMm: number;
   readonly yMm: number;
   readonly nextMm: number;

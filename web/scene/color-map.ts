@@ -7,7 +7,7 @@
  *
  *   share 0  deep indigo (slow, first)  …  magenta  …  orange (fast, last)  share 1
  */
-export type Rgb = readonly [r: number, g: number, b: number];
+type Rgb = readonly [r: number, g: number, b: number];
 
 export const RAMP_SIZE = 256;
 
@@ -18,7 +18,7 @@ const FIRST_HUE_DEG = 268;
 const LAST_HUE_DEG = 425;
 
 /** Converts OKLCH to sRGB 0 … 255, clamped. */
-export const rgbFromOklch = (lightness: number, chroma: number, hueDeg: number): Rgb => {
+const rgbFromOklch = (lightness: number, chroma: number, hueDeg: number): Rgb => {
   const h = (hueDeg * Math.PI) / 180;
   const a = chroma * Math.cos(h);
   const b = chroma * Math.sin(h);
@@ -64,7 +64,7 @@ export function hexFromRgb([r, g, b]: Rgb): string {
 export const rampColor = (share: number): string =>
   RAMP[Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1))];
 
-export interface LegendStop {
+interface LegendStop {
   readonly mmPerS: number;
   readonly color: string;
 }

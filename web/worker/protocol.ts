@@ -94,7 +94,7 @@ export interface PlanFault {
 }
 
 /** The file has been read; `page` is the size of its page. */
-export interface ImportedReply {
+interface ImportedReply {
   readonly type: "imported";
   readonly id: number;
   readonly drawingKey: string;
