@@ -45,32 +45,24 @@ export const Preview = () => (
 
 const showState = (stage: Stage, store: PageStore): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
+    const hasChanged = (...parts: readonly (keyof PageState)[]): boolean =>
+      before === null || parts.some((part) => state[part] !== before[part]);
     const swing = shownSwing(state);
     if (swing) stage.setScene(swing, null);
     else stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
-    if (state.settings !== before?.settings || state.view !== before.view) stage.setDesk(deskOfState(state));
+    if (hasChanged("settings", "view")) stage.setDesk(deskOfState(state));
     if (
-      state.view !== before?.view ||
-      state.settings.pens !== before.settings.pens ||
-      state.settings.layerPens !== before.settings.layerPens ||
-      state.planned !== before?.planned ||
-      state.live !== before?.live ||
-      state.jobs !== before.jobs ||
-      state.momentS !== before?.momentS ||
-      state.swing !== before?.swing ||
-      state.drawing !== before?.drawing
+      hasChanged("view", "planned", "live", "jobs", "momentS", "swing", "drawing") ||
+      state.settings.pens !== before?.settings.pens ||
+      state.settings.layerPens !== before.settings.layerPens
     ) {
       stage.setLook(lookOf(state));
     }
     if (state.view.theme !== before?.view.theme) stage.recolor();
     stage.setMarker(markerOf(state));
     if (
-      state.planned !== before?.planned ||
-      state.settings !== before?.settings ||
-      state.view.lengthUnit !== before?.view.lengthUnit ||
-      state.selected !== before?.selected ||
-      state.noteBoxes !== before?.noteBoxes ||
-      state.snapLines !== before.snapLines
+      hasChanged("planned", "settings", "selected", "noteBoxes", "snapLines") ||
+      state.view.lengthUnit !== before?.view.lengthUnit
     ) {
       const frame = frameNow(state);
       const cutOff = state.planned?.cutOff ?? null;
