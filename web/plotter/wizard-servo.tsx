@@ -4,9 +4,8 @@ import { useActions } from "../state/use-store.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
 import { wizardText } from "./wizard-text.js";
 import { ServoPin } from "./profile-form.js";
-import { TakeOrSkip } from "./take-or-skip.js";
 import { servoFollower } from "./servo-follow.js";
-import type { StepProps } from "./wizard-step.js";
+import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
 const words = wizardText;
 /** In 1/12 µs: servos accept pulses of about 0.4 to 2.6 ms. */

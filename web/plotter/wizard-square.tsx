@@ -6,8 +6,7 @@ import { wizardText } from "./wizard-text.js";
 import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberField } from "../ui/number-field.js";
-import { TakeOrSkip } from "./take-or-skip.js";
-import type { StepProps } from "./wizard-step.js";
+import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
 const words = wizardText;
 const SQUARE_MM = 100;
