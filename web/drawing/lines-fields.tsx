@@ -21,11 +21,7 @@ export const LinesFields = () => {
         label={PREPARE_TABLE.order.label}
         hint={words.orderHint}
         value={prepare.order}
-        options={[
-          { value: "none", label: words.orderNone },
-          { value: "fast", label: words.orderFast },
-          { value: "best", label: words.orderBest },
-        ]}
+        options={PREPARE_TABLE.order.choices.map((value) => ({ value, label: words.orders[value] }))}
         onChange={(order) => change("order", { order })}
       />
       {prepare.order === "best" && (
@@ -39,11 +35,7 @@ export const LinesFields = () => {
         label={PREPARE_TABLE.spread.label}
         hint={words.spreadHint}
         value={prepare.spread}
-        options={[
-          { value: "none", label: words.spreads.none },
-          { value: "interleave", label: words.spreads.interleave },
-          { value: "shuffle", label: words.spreads.shuffle },
-        ]}
+        options={PREPARE_TABLE.spread.choices.map((value) => ({ value, label: words.spreads[value] }))}
         onChange={(spread) => change("spread", { spread })}
       />
       {ROWS.map(([key, setting]) =>

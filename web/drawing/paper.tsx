@@ -124,11 +124,7 @@ export const PaperPanel = () => {
         <Segments
           label={PREPARE_TABLE.mirror.label}
           value={prepare.mirror}
-          options={[
-            { value: "none", label: words.mirrors.none },
-            { value: "leftRight", label: words.mirrors.leftRight },
-            { value: "upDown", label: words.mirrors.upDown },
-          ]}
+          options={PREPARE_TABLE.mirror.choices.map((value) => ({ value, label: words.mirrors[value] }))}
           onChange={(mirror) => change("mirror", { mirror })}
         />
         <Switch

@@ -1,6 +1,7 @@
 import "../ui/row-drag.css";
 import "./layers.css";
 import { useRef, useState } from "react";
+import { PREPARE_TABLE } from "../../src/internal.js";
 import type { Planned } from "../worker/protocol.js";
 import { inWantedOrder, isLayerShown, moveLayer, showAll } from "./layer-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
@@ -33,11 +34,7 @@ export const LayerList = () => {
       <Segments
         label={words.by}
         value={mode}
-        options={[
-          { value: "group", label: words.group },
-          { value: "stroke", label: words.stroke },
-          { value: "all", label: words.all },
-        ]}
+        options={PREPARE_TABLE.layers.choices.map((value) => ({ value, label: words.modes[value] }))}
         onChange={(layers) => changePrepare("layers from", { layers })}
       />
       {planned && rows.length === 0 && <p className="note">{words.none}</p>}
