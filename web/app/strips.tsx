@@ -1,4 +1,4 @@
-import { activeJob, otherOperator, shownView } from "../state/store.js";
+import { activeJob, otherOperator, penWait, shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stripsText } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -40,11 +40,11 @@ const PenStrip = () => {
   const job = usePageState(activeJob);
   // In Watch the status card asks for the pen.
   const isWatched = usePageState((state) => shownView(state) === "watch");
-  if (isWatched) return null;
-  if (job?.state !== "paused" || job.wait === null) return null;
+  const wait = job && penWait(job);
+  if (isWatched || !wait) return null;
   return (
     <div className="strip strip-wait">
-      <PenWait job={job} wait={job.wait} />
+      <PenWait job={job} wait={wait} />
     </div>
   );
 };

@@ -8,6 +8,7 @@ import { formatDuration, formatWhen } from "../ui/format.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
 import { canGoOn, EndedButtons } from "./ended-buttons.js";
 import { JobName, StateBadge } from "./job-head.js";
+import { expectedSOf } from "./queue-time.js";
 import { Thumb } from "../drawing/thumb.js";
 
 const words = queueText;
@@ -79,7 +80,7 @@ const EndedJob = ({ job }: { job: Job }) => {
 const timesOf = (job: Job): string => {
   const parts = job.endedAt === null ? [] : [formatWhen(job.endedAt)];
   parts.push(words.took(formatDuration(job.plottedS ?? job.elapsedS)));
-  const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
+  const expectedS = expectedSOf(job);
   if (job.state === "done" && expectedS !== null) parts.push(words.estimated(formatDuration(expectedS)));
   return parts.join(" · ");
 };

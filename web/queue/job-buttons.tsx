@@ -1,6 +1,6 @@
 import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
-import { mayOperate } from "../state/store.js";
+import { mayOperate, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { jobText, queueText } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -49,7 +49,6 @@ const MainButton = ({ job, isOff }: ButtonProps) => {
   const { actOnJob } = useActions();
   const busy = usePageState((state) => state.busyAction);
   const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
-  const isPenChange = job.wait !== null && job.state === "paused";
   return (
     <Button
       kind={job.state === "plotting" ? "plain" : "primary"}
@@ -57,7 +56,7 @@ const MainButton = ({ job, isOff }: ButtonProps) => {
       onClick={() => void actOnJob(job.id, action)}
     >
       <Icon name={action === "pause" ? "pause" : "play"} />
-      {isPenChange ? words.continue : label}
+      {penWait(job) !== null ? words.continue : label}
     </Button>
   );
 };

@@ -7,6 +7,7 @@ import { formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
 import type { Copies } from "./copies.js";
+import { expectedSOf } from "./queue-time.js";
 import { JobName } from "./job-head.js";
 import "../ui/row-drag.css";
 import { placeAfterMove, useRowDrag } from "../ui/row-drag.js";
@@ -25,7 +26,7 @@ interface WaitingJobProps {
 export const WaitingJob = ({ copies, rowIds, list }: WaitingJobProps) => {
   const isMine = usePageState(mayOperate);
   const [job] = copies;
-  const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
+  const expectedS = expectedSOf(job);
   return (
     <article className="job" data-state={job.state}>
       <div className="job-row">

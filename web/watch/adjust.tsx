@@ -1,7 +1,7 @@
 import type { Job } from "../../src/schema/index.js";
 import { NudgeJob } from "../plotter/pen-nudge.js";
 import { jobText } from "../queue/text.js";
-import { activeJob, mayOperate } from "../state/store.js";
+import { activeJob, mayOperate, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
@@ -17,7 +17,7 @@ export const Adjust = () => {
   const job = usePageState(activeJob);
   const canChange = usePageState((state) => mayOperate(state) && state.link === "connected");
   if (!job || !canChange) return null;
-  const isWaiting = job.state === "paused" && job.wait !== null;
+  const isWaiting = penWait(job) !== null;
   return (
     <section className="card adjust" aria-label={watchText.adjust}>
       <h2 className="card-title">{watchText.adjust}</h2>

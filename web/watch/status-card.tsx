@@ -3,8 +3,9 @@ import { EndedButtons } from "../queue/ended-buttons.js";
 import { JobButtons } from "../queue/job-buttons.js";
 import { Progress, StateBadge } from "../queue/job-head.js";
 import { PenWait } from "../queue/pen-wait.js";
+import { expectedSOf } from "../queue/queue-time.js";
 import { jobText } from "../queue/text.js";
-import { ACTIVE_STATES } from "../state/store.js";
+import { ACTIVE_STATES, penWait } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
@@ -16,7 +17,7 @@ const words = watchText;
 /** The plot's progress, readable from across the room, and its buttons. */
 export const StatusCard = ({ job }: { job: Job }) => {
   const isActive = ACTIVE_STATES.includes(job.state);
-  const wait = job.state === "paused" ? job.wait : null;
+  const wait = penWait(job);
   return (
     <section
       id="plot-status"
@@ -56,7 +57,7 @@ const Figures = ({ job }: { job: Job }) => {
     );
   }
   if (job.state === "queued") {
-    const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
+    const expectedS = expectedSOf(job);
     return (
       <p className="status-figures">
         {expectedS !== null && <span>{words.estimated(formatDuration(expectedS))}</span>}

@@ -1,6 +1,5 @@
 /** A page's side of the channel: starts the worker, calls the host, and receives its events. */
-import type { BackendListener } from "../backend.js";
-import { BackendFault } from "../backend.js";
+import { BackendFault, type BackendListener } from "../backend.js";
 import type { HostMethod } from "./host-api.js";
 import { hasLocks, provideRandomIds } from "./capabilities.js";
 import { browserText } from "./text.js";
