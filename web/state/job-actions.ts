@@ -75,10 +75,10 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     },
     patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
     removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
-    movePen: async (up: boolean, heightPct?: number): Promise<void> => {
+    movePen: async (up: boolean, heightPct: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
       if (!id) return notify("error", stateText.notConnected);
-      await attempt("pen", () => backend.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
+      await attempt("pen", () => backend.movePen(id, { up, heightPct }));
     },
     motorsOff: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;

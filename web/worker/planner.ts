@@ -103,8 +103,7 @@ export class Planner {
     if (!this.#isBusy) this.#worker?.postMessage({ type: "strokes", id: this.#newestId });
   }
 
-  /** Terminates the worker. */
-  close(): void {
+  #close(): void {
     this.#stopWaiting?.();
     this.#stopWaiting = null;
     this.#stopReading?.();
@@ -127,7 +126,7 @@ export class Planner {
     this.#sentKey = null;
     worker.onmessage = ({ data }) => this.#take(data);
     worker.onerror = (event) => {
-      this.close();
+      this.#close();
       this.#listener.onFault({
         code: "internal",
         message:
@@ -159,7 +158,7 @@ export class Planner {
   }
 
   #endReading(): void {
-    this.close();
+    this.#close();
     this.#listener.onFault({
       code: "bad-file",
       message: "This file takes too long to read. It may be damaged. Simplify it, or export it again.",
@@ -168,7 +167,7 @@ export class Planner {
   }
 
   #restart(): void {
-    this.close();
+    this.#close();
     if (this.#latest) this.#send(this.#latest);
   }
 }
