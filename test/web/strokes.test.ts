@@ -52,7 +52,7 @@ const picture = (): Picture => ({
   travel: { count: 0, bytes: new ArrayBuffer(0) },
   totalS: 3,
 });
-const scene = (): Scene => ({ ...picture(), topDrawMmPerS: 1, topTravelMmPerS: 1, grid: {} }) as Scene;
+const scene = (): Scene => ({ ...picture(), topDrawMmPerS: 1, grid: {} }) as Scene;
 
 const setUp = () => {
   const worker = new WorkerByHand();

@@ -126,7 +126,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
     answered = { id, strokes: ready.strokes };
     return { type: "planned", id, planned };
   } catch (error) {
-    return { type: "fault", id, fault: faultOf(error, stage) };
+    return { type: "fault", id, fault: { message: messageOf(error), stage } };
   }
 }
 
@@ -190,8 +190,7 @@ async function exportAs({ format, firmware }: ExportRequest): Promise<void> {
     const { exportText } = await import("./exports.js");
     scope.postMessage({ type: "exported", format, text: exportText(result, settings, format, firmware) }, []);
   } catch (error) {
-    const message = error instanceof Error ? error.message : String(error);
-    scope.postMessage({ type: "export-failed", message }, []);
+    scope.postMessage({ type: "export-failed", message: messageOf(error) }, []);
   }
 }
 
@@ -201,11 +200,7 @@ const isSuperseded = async (): Promise<boolean> => {
   return newest !== null;
 };
 
-const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
-  code: error instanceof Error && "code" in error ? String(error.code) : "internal",
-  message: error instanceof Error ? error.message : String(error),
-  stage,
-});
+const messageOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 
 /** The trajectory's columns and the scene's buffers, each once. */
 function transferables({ planned: { trajectory, scene, picture } }: PlannedReply): Transferable[] {

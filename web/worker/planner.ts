@@ -128,7 +128,6 @@ export class Planner {
     worker.onerror = (event) => {
       this.#close();
       this.#listener.onFault({
-        code: "internal",
         message:
           event.message || "The planner stopped. The drawing may be too large for this device's memory.",
         stage: "plan",
@@ -160,7 +159,6 @@ export class Planner {
   #endReading(): void {
     this.#close();
     this.#listener.onFault({
-      code: "bad-file",
       message: "This file takes too long to read. It may be damaged. Simplify it, or export it again.",
       stage: "import",
     });

@@ -87,7 +87,6 @@ export interface Planned {
 }
 
 export interface PlanFault {
-  readonly code: string;
   readonly message: string;
   /** What failed: reading the file, or preparing and planning it. */
   readonly stage: "import" | "plan";
