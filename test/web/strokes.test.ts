@@ -20,7 +20,7 @@ class WorkerByHand implements DrawWorkerLike {
   }
   reply(id: number, isWhole: boolean): Bitmap {
     const bitmap = new Bitmap();
-    const data: DrawReply = { type: "picture", id, isWhole, bitmap };
+    const data: DrawReply = { id, isWhole, bitmap };
     this.onmessage?.({ data } as MessageEvent<DrawReply>);
     return bitmap;
   }
