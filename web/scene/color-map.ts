@@ -52,17 +52,14 @@ export const rampBytes = (): Uint8Array => {
   return bytes;
 };
 
-const RAMP: readonly string[] = Array.from({ length: RAMP_SIZE }, (_, i) =>
-  hexFromRgb(rampAt(i / (RAMP_SIZE - 1))),
-);
+export const hexFromRgb = ([r, g, b]: Rgb): string =>
+  `#${((r << 16) | (g << 8) | b).toString(16).padStart(6, "0")}`;
 
-export function hexFromRgb([r, g, b]: Rgb): string {
-  return `#${((r << 16) | (g << 8) | b).toString(16).padStart(6, "0")}`;
-}
-
-/** "#rrggbb" for a share of the scale, 0 … 1. */
-export const rampColor = (share: number): string =>
-  RAMP[Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1))];
+/** "#rrggbb" for a share of the scale, 0 … 1: the nearest of the ramp's RAMP_SIZE colours. */
+export const rampColor = (share: number): string => {
+  const index = Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1));
+  return hexFromRgb(rampAt(index / (RAMP_SIZE - 1)));
+};
 
 interface LegendStop {
   readonly mmPerS: number;
