@@ -1,4 +1,4 @@
-import { useState } from "react";
+import { useMemo, useState } from "react";
 import type { HandMove } from "../../src/schema/index.js";
 import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
@@ -7,7 +7,7 @@ import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
-import { drawnBoxMm } from "./drawn-box.js";
+import { boxOfDrawn } from "./drawn-box.js";
 import "./hand-moves.css";
 
 const words = movesText;
@@ -71,7 +71,8 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
 
 const Moves = ({ isOff }: { isOff: boolean }) => {
   const { moveByHand } = useActions();
-  const boxMm = usePageState(drawnBoxMm);
+  const trajectory = usePageState((state) => state.planned?.trajectory ?? null);
+  const boxMm = useMemo(() => trajectory && boxOfDrawn(trajectory), [trajectory]);
   const moves: readonly (readonly [label: string, hint: string, move: HandMove | null])[] = [
     [words.setHome, words.setHomeHint, { kind: "set-home" }],
     [words.cyclePen, words.cyclePenHint, { kind: "cycle-pen" }],
