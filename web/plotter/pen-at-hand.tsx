@@ -143,11 +143,7 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
   const { movePen } = useActions();
   const change = usePenChange();
   const follow = useMemo(
-    () =>
-      servoFollower(
-        ({ isUp, pct }: { isUp: boolean; pct: number }) => movePen(isUp, pct),
-        (delayMs, callback) => void setTimeout(callback, delayMs),
-      ),
+    () => servoFollower(({ isUp, pct }: { isUp: boolean; pct: number }) => movePen(isUp, pct)),
     [movePen],
   );
   const row = (which: "upPct" | "downPct"): ReactNode => (

@@ -25,10 +25,8 @@ const EbbServoStep = ({ profile, settingsWith, onNext }: StepProps & { readonly 
   const [draft, setDraft] = useState(profile);
   const follow = useMemo(
     () =>
-      servoFollower(
-        ({ pos, settings }: { pos: number; settings: PlotSettings }) =>
-          moveByHand({ kind: "servo", pos }, settings),
-        (delayMs, callback) => void setTimeout(callback, delayMs),
+      servoFollower(({ pos, settings }: { pos: number; settings: PlotSettings }) =>
+        moveByHand({ kind: "servo", pos }, settings),
       ),
     [moveByHand],
   );
