@@ -97,7 +97,6 @@ const Details = () => {
   const isOpen = openGroups.includes(DETAILS_ID);
   return (
     <details
-      className="more"
       open={isOpen}
       onToggle={(event) => {
         const isNow = event.currentTarget.open;

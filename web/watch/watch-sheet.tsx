@@ -46,8 +46,7 @@ const watchedDesk = (state: PageState): Desk => ({
 const showState = (stage: Stage, store: PageStore): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
     const planned = plannedOf(state);
-    if (!before || planned !== plannedOf(before))
-      stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
+    stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
     if (!before || settingsOf(state) !== settingsOf(before)) stage.setDesk(watchedDesk(state));
     if (state.watchPlan !== before?.watchPlan || state.live !== before?.live || state.jobs !== before.jobs) {
       stage.setLook(lookOf(state));
