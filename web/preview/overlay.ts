@@ -35,11 +35,11 @@ export const drawRulers = (
   context.restore();
   context.fillStyle = colors.ruler;
   context.fillRect(0, 0, RULER_PX, RULER_PX);
-  context.fillStyle = colors.rulerText;
+  context.fillStyle = colors["ruler-text"];
   context.font = "9px Helvetica, Arial, sans-serif";
   context.textAlign = "center";
   context.fillText(unitMm === 1 ? "mm" : "in", RULER_PX / 2, RULER_PX / 2 + 3);
-  context.strokeStyle = colors.rulerLine;
+  context.strokeStyle = colors["ruler-line"];
   context.lineWidth = 1;
   context.beginPath();
   context.moveTo(0, RULER_PX + 0.5);
@@ -71,7 +71,7 @@ const drawTicks = (
   const parts = 10;
   const first = Math.floor((RULER_PX - offset) / scale / step) * step;
   const last = (lengthPx - offset) / scale;
-  context.strokeStyle = colors.rulerText;
+  context.strokeStyle = colors["ruler-text"];
   context.lineWidth = 1;
   context.beginPath();
   for (let k = 0; first + (k * step) / parts <= last; k++) {
@@ -84,7 +84,7 @@ const drawTicks = (
   context.globalAlpha = 0.55;
   context.stroke();
   context.globalAlpha = 1;
-  context.fillStyle = colors.rulerText;
+  context.fillStyle = colors["ruler-text"];
   context.font = "10px Helvetica, Arial, sans-serif";
   context.textAlign = isMirrored ? "right" : "left";
   for (let mm = first; mm <= last; mm += step) {
