@@ -4,7 +4,7 @@ import { JobButtons } from "../queue/job-buttons.js";
 import { Progress, StateBadge } from "../queue/job-head.js";
 import { PenWait } from "../queue/pen-wait.js";
 import { expectedSOf } from "../queue/queue-time.js";
-import { jobText } from "../queue/text.js";
+import { jobText, queueText } from "../queue/text.js";
 import { ACTIVE_STATES, penWait } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
@@ -60,7 +60,7 @@ const Figures = ({ job }: { job: Job }) => {
     const expectedS = expectedSOf(job);
     return (
       <p className="status-figures">
-        {expectedS !== null && <span>{words.estimated(formatDuration(expectedS))}</span>}
+        {expectedS !== null && <span>{queueText.estimated(formatDuration(expectedS))}</span>}
       </p>
     );
   }
@@ -68,7 +68,7 @@ const Figures = ({ job }: { job: Job }) => {
     return (
       <p className="status-figures">
         <span className="status-large">{share}</span>
-        <span>{words.took(formatDuration(job.plottedS ?? job.elapsedS))}</span>
+        <span>{queueText.took(formatDuration(job.plottedS ?? job.elapsedS))}</span>
       </p>
     );
   }
@@ -81,7 +81,7 @@ const Figures = ({ job }: { job: Job }) => {
       )}
       <span className="status-share">{share}</span>
       {job.remainingS !== null && job.state === "plotting" && (
-        <span>{words.doneAt(formatClockIn(nowMs, job.remainingS))}</span>
+        <span>{jobText.doneAt(formatClockIn(nowMs, job.remainingS))}</span>
       )}
     </p>
   );
