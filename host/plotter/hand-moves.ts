@@ -2,17 +2,16 @@
  * How a machine performs the manual moves of an idle plotter. Every move begins with the pen up and
  * stays within the machine. If the carriage's position is unknown, it is assumed to be at home.
  */
-import { planJob, PlotwrightError, type MachineProfile, type StrokeSet } from "../../src/index.js";
+import { planJob, PlotwrightError, strokesOf } from "../../src/index.js";
+import type { Line, MachineProfile, StrokeSet } from "../../src/index.js";
 import { type Machine, machineOf } from "../../src/internal.js";
 import type { BoxMm, HandMove, PlotSettings } from "../../src/schema/index.js";
-import { testPatch } from "./test-patch.js";
 
 /** Rejects with `out-of-bounds` before anything moves, or with the board's error. */
 export async function moveByHand(plotter: Machine, move: HandMove, settings: PlotSettings): Promise<void> {
-  const machine = machineOf(settings);
   switch (move.kind) {
     case "walk":
-      mustReach(machine, move.xMm, move.yMm);
+      mustReach(machineOf(settings), move.xMm, move.yMm);
       return plotter.walk(move.xMm, move.yMm, settings);
     case "jog":
       return jog(plotter, move.dxMm, move.dyMm, settings);
@@ -20,7 +19,7 @@ export async function moveByHand(plotter: Machine, move: HandMove, settings: Plo
       if (!(await plotter.findHome(settings))) await plotter.walk(0, 0, settings);
       return;
     case "set-home":
-      return plotter.setHome(machine, settings.pen);
+      return plotter.setHome(settings);
     case "cycle-pen":
       await plotter.movePen(false, settings);
       return plotter.movePen(true, settings);
@@ -33,7 +32,7 @@ export async function moveByHand(plotter: Machine, move: HandMove, settings: Plo
     case "square":
       return drawHere(plotter, squareOf(move.sizeMm), settings);
     case "servo":
-      return plotter.moveServo(machine, move.pos);
+      return plotter.moveServo(move.pos, settings);
   }
 }
 
@@ -88,9 +87,8 @@ async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSett
 }
 
 async function standing(plotter: Machine, settings: PlotSettings): Promise<{ x: number; y: number }> {
-  const machine = machineOf(settings);
-  await plotter.ready(machine, settings.pen);
-  return plotter.place(machine)!;
+  await plotter.ready(settings);
+  return plotter.place(machineOf(settings))!;
 }
 
 /** Tolerance for positions read from motor steps, mm. */
@@ -110,21 +108,32 @@ function beyond({ name, widthMm, heightMm }: MachineProfile, x: number, y: numbe
   );
 }
 
-/** Starts 5 mm right of and below the carriage, so that it is on the paper even if the carriage is at its corner. */
-function testLine(): StrokeSet {
-  return {
-    xy: Float64Array.from([5, 5, 25, 5]),
-    offsets: Uint32Array.from([0, 2]),
-    layer: new Uint16Array(1),
-    layers: [{ id: "line", name: "Test line", color: null }],
-  };
-}
+const oneLayer = (id: string, name: string, ...lines: readonly Line[]): StrokeSet =>
+  strokesOf(lines, { id, name, color: null });
 
-function squareOf(sizeMm: number): StrokeSet {
-  return {
-    xy: Float64Array.from([0, 0, sizeMm, 0, sizeMm, sizeMm, 0, sizeMm, 0, 0]),
-    offsets: Uint32Array.from([0, 5]),
-    layer: new Uint16Array(1),
-    layers: [{ id: "square", name: "Square", color: null }],
-  };
+const squareLine = (mm: number): Line => [
+  [0, 0],
+  [mm, 0],
+  [mm, mm],
+  [0, mm],
+  [0, 0],
+];
+
+const squareOf = (sizeMm: number): StrokeSet => oneLayer("square", "Square", squareLine(sizeMm));
+
+/** Starts 5 mm right of and below the carriage, so that it is on the paper even if the carriage is at its corner. */
+const testLine = (): StrokeSet =>
+  oneLayer("line", "Test line", [
+    [5, 5],
+    [25, 5],
+  ]);
+
+/** A square, a circle and a zigzag, 12 mm wide: shows heights, corners and whether the lines meet. */
+function testPatch(): StrokeSet {
+  const circle = Array.from({ length: 61 }, (_, i) => {
+    const angle = (i / 60) * 2 * Math.PI;
+    return [6 + 4 * Math.cos(angle), 6 + 4 * Math.sin(angle)] as const;
+  });
+  const zigzag = [2, 4, 6, 8, 10].map((x, i) => [x, i % 2 === 0 ? 14 : 17] as const);
+  return oneLayer("test", "Test patch", squareLine(12), circle, zigzag);
 }

@@ -257,9 +257,9 @@ export class MachinePlot implements LivePlotRun {
   }
 
   async #planFromRest(): Promise<PlannedPlot> {
-    const machine = machineOf(this.#settings.current);
-    const board = await this.#machine.ready(machine, this.#settings.current.pen);
-    const { x, y } = this.#machine.place(machine)!;
+    const settings = this.#settings.current;
+    const board = await this.#machine.ready(settings);
+    const { x, y } = this.#machine.place(machineOf(settings))!;
     const planning = this.#plan(this.holdPlace, x, y, board);
     const cancel = new Promise<never>((_, reject) => {
       this.#cancelPlanning = reject;

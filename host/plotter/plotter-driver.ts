@@ -324,10 +324,7 @@ export class PlotterDriver {
 
   #runEnded(): void {
     this.#run = null;
-    this.#setState({
-      activity: "none",
-      ...(this.#machine && !this.#supply.isLow ? { connection: "idle" } : {}),
-    });
+    this.#setIdle();
     this.#machineChanged();
   }
 
@@ -354,11 +351,13 @@ export class PlotterDriver {
       return await action(machine);
     } finally {
       this.#movingByHand = false;
-      this.#setState({
-        activity: "none",
-        ...(this.#machine && !this.#supply.isLow ? { connection: "idle" } : {}),
-      });
+      this.#setIdle();
     }
+  }
+
+  #setIdle(): void {
+    const isReady = this.#machine && !this.#supply.isLow;
+    this.#setState({ activity: "none", ...(isReady ? { connection: "idle" } : {}) });
   }
 
   /** The machine, for one request. Use it before the next await: another request could take it meanwhile. */

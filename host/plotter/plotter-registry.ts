@@ -16,7 +16,7 @@ import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
 import type { PlotterRow, PlotterStore } from "../storage.js";
 import type { FoundBoard } from "./devices.js";
 
-export interface RegistryParts {
+interface RegistryParts {
   readonly store: PlotterStore;
   /** Opens a plotter, which connects in the background. */
   readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;

@@ -4,7 +4,7 @@ import type { Machine } from "../../src/internal.js";
 
 const ASK_EVERY_S = 2;
 
-export interface SupplyEvents {
+interface SupplyEvents {
   /** Whether the machine is free to be asked. */
   mayAsk(): boolean;
   /** Resolves when the motors are released. Before that the supply does not count as restored. */

@@ -66,7 +66,7 @@ export interface JournalEntry {
   readonly elapsedS: number;
 }
 
-export interface PlotJournal {
+interface PlotJournal {
   record(entry: JournalEntry): void;
 }
 

@@ -106,17 +106,17 @@ export interface Machine {
   /** Called after connecting: reads the state that the machine kept. Lifts a pen that was left on the paper. */
   takeOver(): Promise<void>;
   /** Switches the motors on if they are off. If the position is unknown, the current position becomes home. */
-  ready(profile: MachineProfile, pen: MachineSettings["pen"]): Promise<MachineState>;
+  ready(settings: MachineSettings): Promise<MachineState>;
   /** Resolves when the pen has arrived. */
   movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void>;
   /** Moves the pen's servo to a raw position. */
-  moveServo(profile: MachineProfile, pos: number): Promise<void>;
+  moveServo(pos: number, settings: MachineSettings): Promise<void>;
   /** Lifts the pen and moves in a straight line to a position, at travel speed. */
   walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
   /** Plays a job that ends with the pen up, outside any run. */
   perform(plot: PlannedPlot, settings: MachineSettings): Promise<void>;
   /** Makes the current position home. */
-  setHome(profile: MachineProfile, pen: MachineSettings["pen"]): Promise<void>;
+  setHome(settings: MachineSettings): Promise<void>;
   /** Finds home with the machine's own switches. False if it has none; nothing moves then. */
   findHome(settings: MachineSettings): Promise<boolean>;
   /** Switches the motors off, so that the carriage can be pushed by hand. Its position is then unknown. */

@@ -8,6 +8,23 @@ export const powerLow = (): PlotwrightError =>
       "The carriage may have moved, so push it to home before the next plot.",
   );
 
+export const lineLost = (cause?: unknown): PlotwrightError =>
+  new PlotwrightError(
+    "disconnected",
+    "The connection to the board is lost: check its USB cable and power, then connect again.",
+    { cause },
+  );
+
+export const lineClosed = (): PlotwrightError =>
+  new PlotwrightError("disconnected", "The connection to the board was closed.");
+
+/** `waitingFor`: the line, or the name of the reply, that was not answered. */
+export const silent = (waitingFor: string): PlotwrightError =>
+  new PlotwrightError(
+    "board-timeout",
+    `The board has stopped answering (waiting on ${waitingFor}): check its USB cable and power, and that no other program uses the port.`,
+  );
+
 /**
  * Added to a message if the plot resumes from the last good reading: part of the line after it may already be drawn.
  */

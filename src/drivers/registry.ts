@@ -11,14 +11,12 @@ import * as ebb from "./ebb/controller.js";
 import * as grbl from "./grbl/controller.js";
 import type { PlanForMachine } from "./machine-job.js";
 
-const DESCRIPTIONS = { ebb: ebb.description, grbl: grbl.description };
+/** All controllers, by their `kind`. */
+export const CONTROLLERS = { ebb: ebb.description, grbl: grbl.description } as const;
 const PLANNERS: ByKind<PlanForMachine> = { ebb: ebb.planJob, grbl: grbl.planJob };
 const DRIVERS: ByKind<Driver> = { ebb: ebb.driver, grbl: grbl.driver };
 
-type ByKind<T> = Readonly<Record<keyof typeof DESCRIPTIONS, T>>;
-
-/** All controllers, by their `kind`. */
-export const CONTROLLERS: ByKind<ControllerDescription> = DESCRIPTIONS;
+type ByKind<T> = Readonly<Record<keyof typeof CONTROLLERS, T>>;
 
 /** Throws `bad-setting` for a profile with an unknown controller, as do the functions below. */
 export const controllerOf = (machine: MachineProfile): ControllerDescription => ofKind(CONTROLLERS, machine);

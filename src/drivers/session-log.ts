@@ -1,4 +1,4 @@
-/** Log of the communication, newest last: a ring buffer of fixed size. */
+/** Log of the communication, newest last: a ring buffer of limited size. */
 import type { Clock } from "./transport.js";
 
 /** The kind of an entry in the log. */
@@ -6,29 +6,33 @@ export type LogDirection = "sent" | "received" | "note";
 
 const MARKS: Readonly<Record<LogDirection, string>> = { sent: ">", received: "<", note: "#" };
 
+interface Entry {
+  /** Seconds since the session began. */
+  readonly timeS: number;
+  readonly direction: LogDirection;
+  readonly line: string;
+}
+
 export class SessionLog {
-  private readonly times: Float64Array;
-  private readonly lines: string[];
-  private readonly directions: LogDirection[];
+  /**
+   * Number of entries so far, with those that were overwritten.
+   *
+   * @internal
+   */
+  count = 0;
+  private readonly entries: Entry[] = [];
   private readonly startS: number;
-  private total = 0;
 
   constructor(
     private readonly clock: Clock,
     private readonly sizeLines = 20_000,
   ) {
-    this.times = new Float64Array(sizeLines);
-    this.lines = new Array<string>(sizeLines).fill("");
-    this.directions = new Array<LogDirection>(sizeLines).fill("note");
     this.startS = clock.nowS();
   }
 
   add(direction: LogDirection, line: string): void {
-    const slot = this.total % this.sizeLines;
-    this.times[slot] = this.clock.nowS() - this.startS;
-    this.lines[slot] = line;
-    this.directions[slot] = direction;
-    this.total++;
+    this.entries[this.count % this.sizeLines] = { timeS: this.clock.nowS() - this.startS, direction, line };
+    this.count++;
   }
 
   /** One line per entry: seconds since the session began; `>` sent, `<` received, `#` note. */
@@ -40,11 +44,24 @@ export class SessionLog {
 
   /** The last `count` lines, for an error message or a panel. */
   tail(count: number): readonly string[] {
-    const out: string[] = [];
-    for (let i = Math.max(0, this.total - Math.min(count, this.sizeLines)); i < this.total; i++) {
-      const slot = i % this.sizeLines;
-      out.push(`${this.times[slot].toFixed(4)} ${MARKS[this.directions[slot]]} ${this.lines[slot]}`);
-    }
-    return out;
+    return this.last(count).map(
+      ({ timeS, direction, line }) => `${timeS.toFixed(4)} ${MARKS[direction]} ${line}`,
+    );
+  }
+
+  /**
+   * The lines received after the first `count` entries.
+   *
+   * @internal
+   */
+  receivedSince(count: number): string[] {
+    const received = this.last(this.count - count).filter(({ direction }) => direction === "received");
+    return received.map(({ line }) => line);
+  }
+
+  private last(count: number): Entry[] {
+    const { entries, sizeLines } = this;
+    const length = Math.min(count, entries.length);
+    return Array.from({ length }, (_, i) => entries[(this.count - length + i) % sizeLines]);
   }
 }

@@ -23,6 +23,10 @@ export interface Clock {
   latenessS?(): number;
 }
 
+/** Resolves after `delayS` of the clock. */
+export const delay = (clock: Clock, delayS: number): Promise<void> =>
+  new Promise((resolve) => void clock.after(delayS, resolve));
+
 /** Asks a long computation to stop. An AbortSignal fits. */
 export interface Cancellation {
   readonly aborted: boolean;

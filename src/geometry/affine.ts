@@ -25,11 +25,11 @@ export const scaling = (x: number, y = x): Affine => ({ a: x, b: 0, c: 0, d: y, 
  */
 export function rotation(angleRad: number): Affine {
   const quarters = angleRad / (Math.PI / 2);
-  const whole = Math.round(quarters);
+  const nearest = Math.round(quarters);
   let cos = Math.cos(angleRad);
   let sin = Math.sin(angleRad);
-  if (Math.abs(quarters - whole) < 1e-12) {
-    const k = ((whole % 4) + 4) % 4;
+  if (Math.abs(quarters - nearest) < 1e-12) {
+    const k = ((nearest % 4) + 4) % 4;
     cos = [1, 0, -1, 0][k];
     sin = [0, 1, 0, -1][k];
   }

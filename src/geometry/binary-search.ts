@@ -1,6 +1,6 @@
 /**
- * The first integer in [from, end) for which `isTrue` holds; `end` if there is none. After the first one it must hold
- * for all others.
+ * The first integer in [from, end) for which `isTrue` returns true; `end` if there is none. It must return true for all
+ * integers after the first one.
  */
 export function firstWhere(from: number, end: number, isTrue: (i: number) => boolean): number {
   let low = from;

@@ -36,7 +36,7 @@ export function clipLine(lines: Lines, i: number, box: Box, builder: LineBuilder
   endPiece(builder, tag);
 }
 
-/** A start point on a closed line at which no inside piece is split. */
+/** Index of a point of a closed line outside the box. If the line starts there, no piece inside the box is split. */
 function firstOutside(xy: Float64Array, first: number, segments: number, box: Box): number {
   for (let k = 0; k < segments; k++) {
     if (!boxContainsPoint(box, xy[2 * (first + k)], xy[2 * (first + k) + 1])) return k;
@@ -57,8 +57,8 @@ function clipSegment(
   if (!insideRange(x0, y0, x1, y1, box, range)) return endPiece(builder, tag);
   const [enter, leave] = range;
   if (enter > 0) endPiece(builder, tag);
-  const x = (t: number): number => held(t === 1 ? x1 : x0 + t * (x1 - x0), box.x0, box.x1);
-  const y = (t: number): number => held(t === 1 ? y1 : y0 + t * (y1 - y0), box.y0, box.y1);
+  const x = (t: number): number => clamped(t === 1 ? x1 : x0 + t * (x1 - x0), box.x0, box.x1);
+  const y = (t: number): number => clamped(t === 1 ? y1 : y0 + t * (y1 - y0), box.y0, box.y1);
   if (builder.openPoints === 0) builder.point(x(enter), y(enter));
   builder.point(x(leave), y(leave));
   if (leave < 1) endPiece(builder, tag);
@@ -96,7 +96,7 @@ function boundBySide(p: number, q: number, out: [number, number]): boolean {
   return true;
 }
 
-const held = (value: number, low: number, high: number): number => Math.min(Math.max(value, low), high);
+const clamped = (value: number, low: number, high: number): number => Math.min(Math.max(value, low), high);
 
 /** Drops pieces that only touch the border: they would become dots that are not in the drawing. */
 function endPiece(builder: LineBuilder, tag: number): void {

@@ -1,8 +1,8 @@
 /**
  * Flattens cubic Bézier curves to polylines within a tolerance in mm.
  *
- * Method: if the curve's acceleration B″ is roughly uniform, split it at n equal steps of t; if not,
- * halve it first. Both tests are bounds, not samples, so the tolerance holds for every curve.
+ * Method: if the curve's acceleration B″ is roughly uniform, split the curve at n equal steps of t; if not,
+ * halve it first. Both tests are bounds, not samples, so every curve stays within the tolerance.
  *
  *        p1 ·-------· p2           d1, d2  signed distance of p1, p2 from the chord p0 p3
  *          /         \             s1, s2  how far along the chord they lie, 0 … L
@@ -11,7 +11,7 @@
  *   p0 ·-----------------· p3
  *
  * Flat test: with s1, s2 inside 0 … L the curve runs along the chord from end to end and is at most
- * (3/4) max(|d1|, |d2|) away from it, or (4/9) of that when p1 and p2 lie on opposite sides
+ * (3/4) max(|d1|, |d2|) away from it, or (4/9) max(|d1|, |d2|) when p1 and p2 lie on opposite sides
  * (maximum of 3t(1−t)² d1 + 3t²(1−t) d2). A straight line written as a curve stays one segment.
  *
  * Step count: a chord over a step h of t is within h²/8 · max|B″| of the curve (linear interpolation

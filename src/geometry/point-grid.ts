@@ -1,5 +1,5 @@
 /**
- * Points in a grid of square cells, for queries for the nearest remaining points, with removal of points.
+ * Points in a grid of square cells. Finds the points nearest to a position. Points can be removed one by one.
  *
  *   3 3 3 3 3     A search scans the cell of the query point, then the ring of cells around it, and so on,
  *   3 2 2 2 3     until no cell is left that is closer than the points found. The points of a cell are a
@@ -12,11 +12,14 @@
  */
 import { boxOfPoints } from "./box.js";
 
-/** Mean number of points in a cell. More would be slower where points are crowded, fewer where they are not. */
+/**
+ * Mean number of points in a cell. A larger number would be slower where points are crowded, a smaller one where they
+ * are not.
+ */
 const POINTS_IN_CELL = 0.5;
 
 /**
- * The points that a search found, nearest first; of those at the same distance, the lowest number first. One
+ * The points that a search found, nearest first. Points at the same distance are in the order of their numbers. One
  * object can serve any number of searches.
  */
 export class NearestPoints {

@@ -128,7 +128,7 @@ function stitched(pieces: Paths64): Paths64 {
   return [...out];
 }
 
-/** True if the winding number over all rings is not 0. On the border the result may be either. */
+/** True if the winding number over all rings is not 0. For a point on the border the result may be true or false. */
 export function regionContains(region: Region, x: number, y: number): boolean {
   const px = x * SCALE;
   const py = y * SCALE;

@@ -7,8 +7,8 @@
  *   |a'| ≤ A   means   (ax/Ax)² + (ay/Ay)² ≤ 1        so |ax| ≤ Ax, |ay| ≤ Ay, |a| ≤ A
  *
  * Straight lines stay straight, so corners, merging and filters need no change. A point within δ of the line in
- * the frame is also within δ on paper, because the frame never shortens a distance. Speed limits are the
- * machine's, converted for each direction (`capSegments`).
+ * the frame is also within δ on paper, because the frame never shortens a distance. Speed limits apply in the
+ * machine's frame; `capSegments` converts them for each direction.
  */
 import type { BlockColumns } from "./block-columns.js";
 import type { RunLimits } from "./limits.js";

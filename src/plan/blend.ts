@@ -21,13 +21,13 @@
  *     braking      v1² + v1 q ≤ v0'² − v0' q' + 2 A l
  *     speeding up  v0'² + v0' q' ≤ v1² − v1 q + 2 A l
  *
- * One backward and one forward pass (as in junction.ts) take every corner as fast as these limits allow;
- * corner-speeds.ts solves one corner. If the forward pass slows a corner down, the pen accelerates towards it
- * from the previous corner, so the previous corner can always brake for it: v1 q + v0' q' ≤ 2 A l, because no
- * tangent is longer than half its segment.
+ * One backward and one forward pass (as in junction.ts) find the highest speeds within these limits;
+ * corner-speeds.ts solves one corner. If the forward pass slows a corner down, the pen accelerates all the way
+ * to it from the previous corner. The braking condition between the two still holds: it becomes
+ * v1 q + v0' q' ≤ 2 A l, which is true because no tangent is longer than half its segment.
  *
- * |v| ≤ V and the motor limits hold inside a curve, because velocity runs straight from v0 u0 to v1 u1 and
- * both limits are convex.
+ * |v| ≤ V and the motor limits hold inside a curve, because the velocity changes linearly from v0 u0 to v1 u1
+ * and both limits are convex.
  */
 import type { BlockColumns } from "./block-columns.js";
 import { CornerSpeeds } from "./corner-speeds.js";
@@ -39,7 +39,7 @@ import { newStraight, writeStraight } from "./trapezoid.js";
 /** Below this sin(φ/2) the path is straight and there is nothing to round. */
 const STRAIGHT = 1e-12;
 
-/** Above this sin(φ/2) a curve is only as long as A requires, because speed falls to v cos(φ/2) in its middle. */
+/** Above this sin(φ/2) a curve is only as long as A requires, because the speed in its middle is only v cos(φ/2). */
 const SHARP = 0.35;
 
 /** A shorter straight between two curves is a rounding error, mm. */
@@ -124,7 +124,7 @@ export class BlendPlanner {
       const after = vOut[i + 1];
       const perMm = drawn[i] / length[i];
       // Half the duration of the corner's curve: q/2A. At constant speed a longer, softer curve takes no more
-      // time, so use the full tangent. Sharp corners are excluded: speed would fall in the middle.
+      // time, so use the full tangent. Sharp corners are excluded, because the pen is slower in their middle.
       const isSteady = v1 === v0 && v1 === after && v1 > 0 && i + 1 < n && vIn[i + 2] === v1;
       const tau = isSteady && sine[i + 1] < SHARP ? tangent[i + 1] / v1 : change[i + 1] / (2 * accel);
       const rest = length[i] - used - v1 * tau;

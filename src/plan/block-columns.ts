@@ -82,7 +82,7 @@ export class BlockColumns {
     return { blockCount, durationS, x, y, vx, vy, ax, ay, jx, jy, startS, alongMm };
   }
 
-  /** Appends block i of other columns, without its jerk; or of these, if it lies beyond the current end. */
+  /** Appends block i of `from`, without its jerk. `from` may be this object if block i is beyond the current end. */
   pushFrom(from: BlockColumns, i: number): void {
     const { durationS, x, y, vx, vy, ax, ay, alongMm } = from;
     this.push(durationS[i], x[i], y[i], vx[i], vy[i], ax[i], ay[i], alongMm[i]);

@@ -140,8 +140,8 @@ function check(name: string, row: NumberSetting, value: number): void {
   // The planner has no upper limit for speeds and lengths; percentages and waits have one.
   const range = row.minExcluded ? { ...row, max: Infinity } : row;
   if (isAllowed(range, value)) return;
-  const is = typeof value === "number" ? `${value} ${row.unit}` : (JSON.stringify(value) ?? "missing");
-  throw bad(`${name} ${row.label.toLowerCase()} is ${is}: it must be ${rangeInWords(range)}`);
+  const shown = typeof value === "number" ? `${value} ${row.unit}` : (JSON.stringify(value) ?? "missing");
+  throw bad(`${name} ${row.label.toLowerCase()} is ${shown}: it must be ${rangeInWords(range)}`);
 }
 
 const bad = (message: string): PlotwrightError => new PlotwrightError("bad-setting", message);

@@ -1,5 +1,6 @@
 /**
- * A controlled stop in the middle of a trajectory: along the same path, with |a| ≤ A, then lift the pen.
+ * A controlled stop in the middle of a trajectory: the carriage brakes along the same path with |a| ≤ A, then
+ * the pen is lifted.
  *
  *   speed ^ ‾‾‾‾\            d(v²)/ds = −2 √(A² − (κ v²)²)      s: mm from where the stop begins
  *         |       \   plan   κ: curvature of the path, 1/mm      v never above the plan
@@ -8,8 +9,8 @@
  *
  * The centripetal acceleration κ v² and the braking share the limit A (the friction circle of vehicle
  * dynamics). For constant κ, with u = κ v²/A, the solution is u(s) = sin(asin u₀ − 2 κ s): a carriage on a
- * circle at the highest possible speed stops within an eighth of it. For κ = 0 it is v² = v₀² − 2 A s. Speed
- * never exceeds the plan's, so no corner is taken faster than planned.
+ * circle at the highest possible speed stops within an eighth of the circle. For κ = 0 it is v² = v₀² − 2 A s.
+ * The speed never exceeds the planned speed, so no corner is taken faster than planned.
  *
  * Every piece spans a few ms or half a degree of the plan, with v² linear in s. That is exact on straight
  * blocks; on curved ones the error is a fraction of a micrometre.
@@ -88,7 +89,7 @@ export function comeToRest(
   return finish(pieces, stateAt(trajectory, planS), planS, stroke, lift);
 }
 
-/** How the pen lifts: at the end, or at once and until the end. */
+/** How the pen lifts: at the end of the stop, or `atOnce`; then the carriage still waits for the lift at the end. */
 interface Lift {
   readonly pen: PenSettings;
   readonly atOnce: boolean;

@@ -58,8 +58,8 @@ export class CornerSpeeds {
   }
 
   /**
-   * Newton's method inside a bracket of q. It bisects where it converges slowly, because another limit takes
-   * over and the steps would oscillate.
+   * Newton's method inside a bracket of q. Where it converges slowly, it bisects instead: another limit takes
+   * over there, and Newton's steps would oscillate.
    */
   private search(corner: number, F: number, B: number, accel: number): void {
     const s = this.sine[corner];
@@ -119,8 +119,8 @@ const ROUNDING = 2e-15;
  *   w = R/q, R = 2 A L, or w = m      the other side: the speed that its tangent allows, or the speed limit
  *   q² = v² + w² − 2 c v w            the velocity change, with c = cos φ
  *
- * The first and the last give v = (E + w² − q²)/(q + 2 c w). Inserted in the first, this gives a cubic: in
- * z = q²/R with b = E/R, or in y = q/m with b = E/m².
+ * The first and last equation give v = (E + w² − q²)/(q + 2 c w). Substituting this into the first gives a
+ * cubic: for w = R/q in z = q²/R, with b = E/R; for w = m in y = q/m, with b = E/m².
  */
 function guess(E: number, m: number, R: number, c: number): number {
   let b = E / R;
@@ -140,8 +140,8 @@ function guess(E: number, m: number, R: number, c: number): number {
 }
 
 /**
- * The smallest positive root of p0 + p1 z − p2 z² − p3 z³, given an estimate z: one step with z³ replaced by
- * z² times the estimate, then two of Halley's steps.
+ * The smallest positive root of p0 + p1 z − p2 z² − p3 z³, from an estimate z: one step with z³ replaced by
+ * z² times the estimate, then two steps of Halley's method.
  */
 function rootOf(p0: number, p1: number, p2: number, p3: number, z: number): number {
   z = (2 * p0) / (Math.sqrt(Math.max(0, p1 * p1 + 4 * p0 * (p2 + p3 * z))) - p1);

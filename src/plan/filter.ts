@@ -10,7 +10,7 @@
  * The output obeys every convex limit of the input: |v| ≤ V, |a| ≤ A. Its velocity is a difference of
  * positions, its acceleration (v(t) − v(t − w))/w, and its jerk (a(t) − a(t − w))/w, at most 2A/w.
  *
- * Deviation from the path: the mean of A u²/2 over |u| ≤ w/2, which is A w²/24; zero on a straight.
+ * Deviation from the path: at most the mean of A τ²/2 over |τ| ≤ w/2, which is A w²/24; zero on a straight.
  *
  * Source: finite-impulse-response filtering of feed rates, common in machine-tool controls. impulse-filter.ts
  * has the filter of input shapers.
@@ -31,7 +31,7 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
   const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
   const { alongMm } = from;
   const { rate, change } = alongRates(from, count);
-  // Position of each tap in the input: its block, and the seconds since its start and until its end.
+  // Position of each tap in the input: its block, and the seconds since the block's start and until its end.
   const weight = [1 / widthS, -1 / widthS];
   const block = [0, count + 1];
   const since = [0, 0];

@@ -74,7 +74,7 @@ class Axis {
     this.leavesS = new Float64Array(impulses.length);
   }
 
-  /** Goes to the first piece: the rest before the start. */
+  /** Sets the first piece: the rest before the start. */
   begin(first: number, p: number): void {
     for (let i = 0; i < this.block.length; i++) {
       this.block[i] = first - 1;
@@ -85,7 +85,7 @@ class Axis {
     this.endS = this.delayS[0]!;
   }
 
-  /** Goes to the next piece. Row `end` of the input's columns is the rest after the last block. */
+  /** Sets the next piece. Row `end` of the input's columns is the rest after the last block. */
   next(
     first: number,
     end: number,
@@ -168,7 +168,7 @@ export class ImpulseFilter {
       const sy = tS - y.startS;
       const vx = x.v + sx * x.a;
       const vy = y.v + sy * y.a;
-      // The axis whose first impulse is later rests at the beginning.
+      // Leave out the rest at the beginning: a move along one axis begins with the first impulse of that axis.
       if (out.count === firstOut && vx === 0 && vy === 0 && x.a === 0 && y.a === 0) beginS = nextS;
       else {
         const px = x.p + (sx * (x.v + vx)) / 2;

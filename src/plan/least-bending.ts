@@ -6,7 +6,7 @@
  *   ℓ     mm     lengths of its segments
  *
  *   tᵢ = φᵢ + (yᵢ₊₁ − yᵢ)/ℓᵢ − (yᵢ − yᵢ₋₁)/ℓᵢ₋₁       new turn, to first order
- *   Σ wᵢ tᵢ²      wᵢ = (ℓᵢ₋₁ + ℓᵢ)/2 / min(ℓᵢ₋₁, ℓᵢ)²     is minimised: ∫ κ² ds, κ by the shorter segment
+ *   Σ wᵢ tᵢ²      wᵢ = (ℓᵢ₋₁ + ℓᵢ)/2 / min(ℓᵢ₋₁, ℓᵢ)²     minimised: ∫ κ² ds with κ = tᵢ / shorter segment
  *
  * Method: alternating directions (Boyd et al. 2011, section 5.2) with over-relaxation. Each round solves the
  * problem without bounds, a symmetric five-diagonal system whose factors stay the same, and then applies the

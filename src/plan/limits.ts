@@ -62,9 +62,9 @@ export function runLimits(
   const mixed = machine?.motors === "mixed";
   const perMotor = !mixed ? 1 : (motion.shaper ?? "none") === "none" ? Math.SQRT2 : 2;
   const motorAccel = machine && motorAccelStepsPerS2 ? motorAccelStepsPerS2 / machine.stepsPerMm : Infinity;
-  const whole = Math.min(limits.accelMmPerS2, motorAccel / perMotor);
-  const accelX = Math.min(whole, motion.accelXMmPerS2 ?? Infinity);
-  const accelY = Math.min(whole, motion.accelYMmPerS2 ?? Infinity);
+  const accelLimit = Math.min(limits.accelMmPerS2, motorAccel / perMotor);
+  const accelX = Math.min(accelLimit, motion.accelXMmPerS2 ?? Infinity);
+  const accelY = Math.min(accelLimit, motion.accelYMmPerS2 ?? Infinity);
   const accel = Math.max(accelX, accelY);
   return {
     speed: limits.speedMmPerS,

@@ -24,7 +24,7 @@ import type { BlockColumns } from "./block-columns.js";
 import { canReach, SLACK, type RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
 
-/** A pair may take longer than its blocks by this share. */
+/** A pair may take longer than the blocks that it replaces by this share. */
 const STRETCH = 0.012;
 
 /** Longest pair, s: the position along the drawing is only interpolated inside a block. */
@@ -46,9 +46,9 @@ export interface MergeRules {
   readonly shortToleranceMm: number;
   /** Blocks shorter than this should be merged, s. */
   readonly floorS: number;
-  /** False if a pair must match the plan at equal times: velocity jumps at vertices, or the motion is shaped. */
+  /** False if a pair must match the plan at equal times, because velocity jumps at vertices or the motion is shaped. */
   readonly isSmooth: boolean;
-  /** Each axis obeys the limits, instead of both together; and no pair may take longer than its blocks. */
+  /** The limits apply to each axis separately, and no pair may take longer than the blocks that it replaces. */
   readonly isShaped: boolean;
 }
 
@@ -103,8 +103,8 @@ export function mergeBlocks(
 const MIN_GROUP = 3;
 
 /**
- * Grows or shrinks a group that begins at block i, and first ends at `guess`. Returns the pair of the longest group
- * found; null if there is none.
+ * Finds a group that begins at block i and can be replaced by a pair. Tries the group that ends at `guess` first, then
+ * grows or shrinks it. Returns the pair for the longest group that passed; null if none did.
  */
 function longestPair(
   blocks: BlockColumns,
@@ -185,7 +185,8 @@ const isShorter = (x: number, y: number, maxLength: number, inEachAxis: boolean)
   inEachAxis ? Math.abs(x) <= maxLength && Math.abs(y) <= maxLength : x * x + y * y <= maxLength * maxLength;
 
 /**
- * A pair must save blocks; or replace two blocks of which one is shorter than the floor by two that are not.
+ * A pair is useful if it saves blocks. It is also useful if it replaces two blocks, one of them shorter than the floor, by
+ * two that are not.
  */
 function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floorS: number): boolean {
   const wholeS = startS[m] - startS[i];
@@ -199,9 +200,9 @@ function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floo
  * motions is known at the block's start. Within the block e is a parabola, so it deviates from the straight
  * line between its end values by at most |e″| d²/8.
  *
- * Being early or late along the line is allowed, since only the drawn line matters. An offset of s mm along
- * the line counts as A s²/v²: twice the max deviation of a line drawn at v under A, because the line may be drawn
- * slower nearby.
+ * Being early or late along the line is allowed, since only the drawn line matters. An offset of s mm along the
+ * line counts as a distance of A s²/v². Over s mm, a line drawn at v under A deviates from a straight by at most
+ * half of that; the other half is a margin for parts nearby that are drawn slower.
  */
 function isNear(
   { durationS, startS, x, y, vx, vy, ax, ay }: BlockColumns,

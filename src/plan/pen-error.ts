@@ -19,12 +19,12 @@ const NEAR_MM = 2;
 const BIN_MM = 0.001;
 const BINS = 5_000;
 
-/** Calls `see` about every ms with the pen's position and its distance from the drawing, mm (0 with the pen up). */
+/** Calls `onPoint` about every ms with the pen's position and its distance from the drawing, mm (0 with the pen up). */
 export function penError(
   strokes: StrokeSet,
   trajectory: Trajectory,
   springs: Springs,
-  see: (pen: PenPoint, mm: number) => void = () => undefined,
+  onPoint: (pen: PenPoint, mm: number) => void = () => undefined,
 ): PenError {
   const line = new NearLine(strokes);
   const secondsIn = new Float64Array(BINS);
@@ -36,9 +36,9 @@ export function penError(
     const { tS, x, y, stroke, alongMm } = pen;
     const dt = tS - lastS;
     lastS = tS;
-    if (stroke < 0) return see(pen, 0);
+    if (stroke < 0) return onPoint(pen, 0);
     const mm = line.distance(stroke, alongMm, x, y);
-    see(pen, mm);
+    onPoint(pen, mm);
     maxMm = Math.max(maxMm, mm);
     squares += dt * mm * mm;
     seconds += dt;
@@ -51,7 +51,7 @@ export function penError(
   return { maxMm, p99Mm: (top + 1) * BIN_MM, rmsMm: Math.sqrt(squares / seconds) };
 }
 
-/** Distances of points from the part of a stroke around a given place. Places are asked for in drawing order. */
+/** Distances of points from the part of a stroke around a given place. Places must be queried in drawing order. */
 class NearLine {
   private stroke = -1;
   private point = 0;

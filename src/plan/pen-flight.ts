@@ -25,7 +25,7 @@ import { liftTiming, penOfLayer } from "./pen-times.js";
 const FRAME_S = 0.024;
 /** Hop height above the contact height, percent of the distance from down to up. */
 const MARGIN_PCT = 15;
-/** A tip that touches this near to a stroke's start leaves no visible mark. */
+/** A tip that touches the paper this close to a stroke's start leaves no visible mark. */
 const NEAR_MM = 0.1;
 
 /** The timing of a lift. */
@@ -73,7 +73,7 @@ export function hopLift(pen: PenSettings): Lift {
   return { heightPct, waitS: 0, moveS: liftTiming(pen, heightPct).waitS };
 }
 
-/** How the pen comes down during a travel, after it was lifted to `heightPct` from `liftS` on. */
+/** How the pen comes down during a travel, after a lift to `heightPct` that began at `liftS`. */
 export function lowerDuring(
   pen: PenSettings,
   { heightPct, liftS }: { readonly heightPct: number; readonly liftS: number },
@@ -104,7 +104,7 @@ export function lowerDuring(
   return { hoverS, dropS, downS: endS + waitS };
 }
 
-/** Max distance of the carriage from the stroke when the drop begins, mm; 0 if it waits for the whole drop. */
+/** Max distance of the carriage from the stroke when the drop begins, mm; 0 if the carriage waits for the whole drop. */
 export function landingMm(pen: PenSettings, accel: number): number {
   const layers = Object.keys(pen.layers ?? {}).map((id) => penOfLayer(pen, id));
   return Math.max(...[pen, ...layers].map((one) => (dropsInFlight(one) ? landingOf(one, accel) : 0)));
@@ -116,7 +116,10 @@ function landingOf(pen: PenSettings, accel: number): number {
   return (accel * beforeEndS * beforeEndS) / 2;
 }
 
-/** A board waits for whole milliseconds, so the plan does too: half a millisecond per stroke would add up to seconds. */
+/**
+ * A board waits for whole milliseconds, so the plan does too. Otherwise a difference of half a millisecond per stroke
+ * would add up to seconds.
+ */
 const wholeMs = (s: number): number => Math.max(0, Math.ceil(1_000 * s - 1e-6)) / 1_000;
 
 /** Time to brake over the last `NEAR_MM`, s. */

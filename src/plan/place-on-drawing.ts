@@ -50,7 +50,7 @@ export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: num
   return { x: xy[2 * end], y: xy[2 * end + 1] };
 }
 
-/** A pen's place, mm, and velocity, mm/s. */
+/** A pen's position, mm, and velocity, mm/s. */
 interface Moving {
   readonly x: number;
   readonly y: number;
@@ -62,9 +62,9 @@ interface Moving {
  * Corrects a place to the point of the same stroke that is nearest to (x, y). This is needed because mm along the plan
  * and mm along the drawing differ slightly where the plan rounds a corner.
  *
- * The search follows the stroke while the distance falls, at most `withinMm`. A search over the whole stroke could find
- * the other side of a narrow tip. If the stroke runs against (vx, vy) at the result, that is the wrong side too, and the
- * given place is returned.
+ * The search follows the stroke while the distance falls, for at most `withinMm`. A search over the whole stroke could
+ * find the other side of a narrow tip. If the stroke's direction at the result is opposite to (vx, vy), the result is
+ * on the other side too; then the given place is returned.
  */
 export function snappedPlace(
   { xy, offsets }: StrokeSet,

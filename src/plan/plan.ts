@@ -126,7 +126,7 @@ class PlanBuilder {
   private readonly planned: BlockColumns;
   private readonly plannedFirst: Uint32Array;
   private readonly path = new RunPath();
-  private readonly hop = new RunPath();
+  private readonly travelPath = new RunPath();
   private readonly writer: WritesRuns;
   private readonly penMoves: PenMoveWriter;
   private runCount = 0;
@@ -138,7 +138,7 @@ class PlanBuilder {
   private readonly drawLimits: readonly RunLimits[];
   private readonly pens: readonly PenSettings[];
   /**
-   * Wait before a layer's first stroke, s. Layers that are further parts of another one (`partOf`) have none.
+   * Wait before a layer's first stroke, s. If a layer was split (`partOf`), only its first part has one.
    */
   private readonly waitsS: readonly number[];
   /** The pen settings of the current or last stroke. */
@@ -169,14 +169,14 @@ class PlanBuilder {
     );
     this.waitsS = strokes.layers.map(({ id }) => (pen.layers?.[id]?.beforeMs ?? 0) / 1_000);
     this.travelLimits = runLimits(motion.travel, motion, machine);
-    // Runs: a travel and a stroke each, and the travel home. Pen moves: a lift, a lowering to
-    // the hop height, a wait and a drop each, and one at either end.
+    // Max number of runs: a travel and a draw run for each stroke, and the travel home. Max number of pen moves: for each
+    // stroke a lift, a lowering to the hop height, a wait and a drop, and one more at the beginning and at the end.
     const count = strokeCount(strokes);
     this.firstBlock = new Uint32Array(2 * count + 2);
     this.runStroke = new Int32Array(2 * count + 1);
     this.runStartS = new Float64Array(2 * count + 1);
     this.penMoves = new PenMoveWriter(4 * count + 2);
-    // Segments: one fewer than points in every stroke, a travel to each stroke, and the travel home.
+    // A stroke has one segment fewer than points, and a travel before it. The last segment is the travel home.
     // A controller that plans by itself is not shaped.
     this.shaper = runs ? null : shaperKernel(motion.shaper ?? "none", machine?.springs ?? null);
     const segments = pointCount(strokes) + 1;
@@ -187,15 +187,16 @@ class PlanBuilder {
   }
 
   /**
-   * @param penBesideMm a stroke begun in the middle continues from the carriage if that is closer than this
+   * @param penBesideMm if a stroke begins in the middle and the carriage is closer than this, the line continues from
+   *   the carriage
    */
   draw(stroke: number, fromAlong: number, penBesideMm: number): void {
     const { path, strokes, motion } = this;
     path.load(strokes.xy, strokes.offsets[stroke], strokes.offsets[stroke + 1], fromAlong);
     if (fromAlong > 0 && path.segmentCount === 0) return;
     const layer = strokes.layer[stroke];
-    const place = Math.hypot(path.x[0] - this.x, path.y[0] - this.y);
-    if (fromAlong > 0 && place >= SHORTEST_MM && place < penBesideMm) path.prependPoint(this.x, this.y);
+    const awayMm = Math.hypot(path.x[0] - this.x, path.y[0] - this.y);
+    if (fromAlong > 0 && awayMm >= SHORTEST_MM && awayMm < penBesideMm) path.prependPoint(this.x, this.y);
     const x = path.x[0];
     const y = path.y[0];
     const gap = Math.hypot(x - this.x, y - this.y);
@@ -219,13 +220,13 @@ class PlanBuilder {
   travel(x: number, y: number): void {
     if (Math.hypot(x - this.x, y - this.y) < SHORTEST_MM) return;
     this.beginRun(-1);
-    this.hop.setLine(this.x, this.y, x, y);
-    this.writer.write(this.hop, this.travelLimits, this.blocks, this.planned);
+    this.travelPath.setLine(this.x, this.y, x, y);
+    this.writer.write(this.travelPath, this.travelLimits, this.blocks, this.planned);
     this.x = x;
     this.y = y;
   }
 
-  /** @param travelMm length of the travel with the pen up: a short one may lift less */
+  /** @param travelMm length of the travel after the lift; for a short one the pen may be lifted less */
   lift(travelMm: number): void {
     if (this.penUp) return;
     this.liftS = this.blocks.clockS;
@@ -242,7 +243,7 @@ class PlanBuilder {
     return stroke === 0 || layer[stroke - 1] !== layer[stroke];
   }
 
-  /** With the pen up: repeat the command to go to the current height. */
+  /** Waits with the pen up, by repeating the move to its current height. */
   private wait(waitS: number): void {
     if (waitS > 0) this.movePen(true, { heightPct: this.heightPct, waitS, moveS: waitS });
   }

@@ -2,7 +2,7 @@
  * The quality setting: it sets speed, acceleration and corner rounding together, from the machine's measured swing.
  *
  * A shaped carriage leaves the line by up to A/32f². If the measured frequency is slightly wrong, a share of that
- * appears on paper. So on machines below 10 Hz A is reduced in proportion to f². Above, the motors are the limit.
+ * appears on paper. So on machines below 10 Hz A is reduced in proportion to f². Above 10 Hz the motors limit A.
  */
 import { PlotwrightError } from "../errors.js";
 import { DEFAULT_MOTION, DRAW_TABLE, type MotionSettings } from "../settings/motion.js";
@@ -10,7 +10,7 @@ import { QUALITIES, type Quality } from "../settings/quality.js";
 import { defaultsOf } from "../settings/setting.js";
 import type { Springs } from "../machines/profile.js";
 
-/** mm/s, mm/s² from 10 Hz on, mm. */
+/** Speeds in mm/s, accelerations of machines of 10 Hz and more in mm/s², corner deviation in mm. */
 const STEPS = {
   fine: { speed: 60, accel: 1_000, corner: 0.007, travelSpeed: 180, travelAccel: 2_000 },
   normal: { speed: 70, accel: 1_300, corner: 0.016, travelSpeed: 200, travelAccel: 2_200 },

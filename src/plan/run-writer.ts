@@ -4,7 +4,7 @@
  *   1. blocks of constant acceleration       junction.ts, blend.ts
  *   2. fewer, longer blocks                  merge.ts, if the settings ask for it
  *   3. a filter over time                    filter.ts in mode `scurve`, impulse-filter.ts with a shaper
- *   4. a second merge, with a shaper         that filter splits each block into several
+ *   4. a second merge, with a shaper         because its filter splits each block into several
  */
 import { AxisFrame } from "./axis-frame.js";
 import { BlendPlanner } from "./blend.js";

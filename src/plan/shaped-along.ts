@@ -1,6 +1,6 @@
 /**
- * The place on the drawing at a time of a shaped motion is that of the planned motion one mean delay earlier. It
- * cannot be measured on the carriage's own path, because that leaves the line to keep the pen on it.
+ * During a shaped motion, the place on the drawing is where the planned motion was one mean delay earlier. It cannot
+ * be measured along the carriage's path, because the carriage leaves the line so that the pen stays on it.
  */
 import type { Trajectory } from "./trajectory.js";
 

@@ -26,7 +26,7 @@ export interface ShapedRest {
  * @param planned the motion before the shaper
  * @param tS when the braking begins
  * @param carriage its state at `tS`
- * @param braking blocks of the planned motion from `tS` on; none if that is at rest
+ * @param braking blocks of the planned motion from `tS` on; none if it is at rest then
  * @param end where the planned motion comes to rest
  */
 export function shapeRest(
@@ -41,12 +41,12 @@ export function shapeRest(
   const recent = new BlockColumns(0, false);
   addWindow(planned, run, tS - kernel.lengthS, tS, recent);
   for (let k = 0; k < braking.count; k++) recent.pushFrom(braking, k);
-  const whole = new BlockColumns(0, false);
+  const filtered = new BlockColumns(0, false);
   const shaped = new BlockColumns(0, false);
   if (recent.count === 0) return { planned: recent, shaped };
-  const beginS = recent.startS[0] + new ImpulseFilter(kernel).write(recent, 0, end, whole);
+  const beginS = recent.startS[0] + new ImpulseFilter(kernel).write(recent, 0, end, filtered);
   const exact = new BlockColumns(0, false);
-  addAfter(whole, -beginS, exact);
+  addAfter(filtered, -beginS, exact);
   joinFrom(carriage, exact, end, shaped);
   const at = { x: end.x, y: end.y, alongMm: end.alongMm, segmentCount: 0 };
   if (shaped.count > 0) mergeBlocks(shaped, 0, at, limitsOf(shaped), SHAPED_RULES);

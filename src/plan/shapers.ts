@@ -9,7 +9,7 @@
  *   zv    1, K           at 0, T/2            no swing at f; the shortest
  *   mzv   1, √2 k, k²    at 0, 3T/8, 3T/4     no swing at f, less near it; k = K^¾
  *   zvd   1, 2K, K²      at 0, T/2, T         as zv, and the swing's derivative with respect to f is 0 too
- *   ei    b, 2cK, bK²    at 0, T/2, T         5 % of the swing at f, so that a wider band stays below 5 %
+ *   ei    b, 2cK, bK²    at 0, T/2, T         leaves 5 % of the swing at f, and at most 5 % in a wide band around it
  *
  * The weights are divided by their sum. mzv: three impulses 3/8 T apart have phases 0°, 135°, 270°; they cancel for
  * weights 1 : √2 : 1. Sources: Singer and Seering (1990) for zv and zvd; Singhose, Seering and Singer (1994) for ei.

@@ -13,16 +13,16 @@
  *      /       \                               (least-bending.ts): tight bends become wider, and small
  *    /  drawing  \                             unevenness, which only costs speed, disappears.
  *
- * There are three kinds of points. Corners too sharp for their curve to use half a segment (ℓ s/2 > 2 δ) move
+ * There are three kinds of points. Corners so sharp that their curve cannot use half a segment (ℓ s/2 > 2 δ) move
  * outwards. Bends below SMOOTH whose speed is limited by A move so that the line bends less. All others stay. Points
  * of bends also move along the line (EVEN) to make their two segments more equal, because the shorter one limits
  * the length of the curve.
  *
- * Why this stays within δ: every point P' is within δ of its P, so each segment P'Q' lies in the stadium of
- * PQ, the set of points within δ of PQ, which is convex. A corner's curve crosses the bisector at a point M.
- * If M is within δ of P, the control points of the part before it (two on the segment, and M) lie in the
- * stadium of the segment before P, and so does that part; likewise for the other part. M is at most `room`
- * from P', inwards, so with b the unit vector of that direction
+ * Why this stays within δ: the stadium of a segment PQ is the set of points within δ of it. It is convex, and
+ * every point P' is within δ of its P, so the moved segment P'Q' lies in the stadium of PQ. A corner's curve
+ * crosses the bisector at a point M. If M is within δ of P, the control points of the part before M (two on the
+ * segment, and M) lie in the stadium of the segment before P, and so does that part. The same is true for the
+ * part after M. M is at most `room` from P', inwards. So, with b the unit vector in that direction,
  *
  *     room = −d·b + √(δ² − |d|² + (d·b)²)       d = P' − P
  *
@@ -44,7 +44,7 @@ const FAST = 4;
 const EVEN = 0.3;
 /** Moving along the line must leave this share of δ. */
 const KEEP_SHARE = 0.75;
-/** Max relative displacement of two neighbours, as a share of their segment. */
+/** Max displacement of two neighbours relative to each other, as a share of their segment's length. */
 const SHEAR = 0.5;
 /** Below this s the direction of the bend is uncertain. */
 const UNCERTAIN_SINE = 0.015;
@@ -92,21 +92,21 @@ export class SoftLine {
     this.reserve(n + 1);
     capSegments(path, limits);
     const curves = this.classify(path, limits);
-    if (curves === NOTHING) return this.same(path, limits);
+    if (curves === NOTHING) return this.unchanged(path, limits);
     this.evenOut(path, limits.corner);
     this.bound(limits.corner);
     const { bending } = this;
     if (curves === BENDS) bending.solve(n, this.even.length);
     else bending.y.set(bending.low.subarray(0, n + 1));
-    if (!this.move(n)) return this.same(path, limits);
+    if (!this.move(n)) return this.unchanged(path, limits);
     const { soft } = this;
     capSegments(soft, limits);
     return soft;
   }
 
   /**
-   * mm of each adjacent segment that the curve at corner i of the returned line may use: at most `half`, and
-   * such that the curve passes within `room`. (bx, by) is u1 − u0, of length 2 s.
+   * mm of each adjacent segment that the curve at corner i of the returned line may use: at most `half`, and so few
+   * that the curve passes within `room` of the corner. (bx, by) is u1 − u0, of length 2 s.
    */
   reach(i: number, bx: number, by: number, s: number, half: number): number {
     const dx = this.shiftX[i];
@@ -119,7 +119,7 @@ export class SoftLine {
     return Math.min((2 * room) / s, half);
   }
 
-  private same(path: RunPath, limits: RunLimits): RunPath {
+  private unchanged(path: RunPath, limits: RunLimits): RunPath {
     const points = path.segmentCount + 1;
     this.shiftX.fill(0, 0, points);
     this.shiftY.fill(0, 0, points);
@@ -174,7 +174,7 @@ export class SoftLine {
         const leaves = s + Math.max(sine[i - 1], sine[i + 1]) / 2;
         const mayLeave = ((1 - KEEP_SHARE) * corner) / (leaves + TINY);
         const limit = Math.min((SHEAR / 2) * Math.min(length[i - 1], length[i]), mayLeave);
-        tau = between(EVEN * (length[i] - length[i - 1]), -limit, limit);
+        tau = clamped(EVEN * (length[i] - length[i - 1]), -limit, limit);
         const per = tau * halfPerCosine(s * s);
         even.x[i] += per * (ux[i - 1] + ux[i]);
         even.y[i] += per * (uy[i - 1] + uy[i]);
@@ -214,7 +214,7 @@ export class SoftLine {
       left[i] = rest;
       if (kind[i] === FREE) {
         const inside = Math.max(0, rest - Math.max(depth[i - 1], depth[i], depth[i + 1]));
-        const side = between(turn[i] / (2 * UNCERTAIN_SINE), -1, 1);
+        const side = clamped(turn[i] / (2 * UNCERTAIN_SINE), -1, 1);
         const more = (rest - inside) / 2;
         const middle = -side * more;
         const half = inside + Math.abs(side) * more;
@@ -227,7 +227,10 @@ export class SoftLine {
     }
   }
 
-  /** Moves the points of the evened line. Sheared neighbours stay; false if there are still sheared ones then. */
+  /**
+   * Moves the points of the evened line. Neighbours that would shear their segment stay; false if segments are still
+   * sheared after that.
+   */
   private move(n: number): boolean {
     const { even, soft, shiftX, shiftY } = this;
     this.shift(n);
@@ -299,4 +302,4 @@ function halfPerCosine(s2: number): number {
   return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }
 
-const between = (a: number, low: number, high: number): number => Math.min(high, Math.max(low, a));
+const clamped = (a: number, low: number, high: number): number => Math.min(high, Math.max(low, a));

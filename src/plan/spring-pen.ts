@@ -4,8 +4,8 @@
  *
  *   x″ = ω² (u − x) + 2ζω (u′ − x′)      ω = 2πf
  *
- * While u has constant acceleration a, the difference d = x − u obeys d″ + 2ζω d′ + ω² d = −a, whose solution is
- * exact: a decaying swing around −a/ω². When the carriage's velocity jumps, d′ jumps by the opposite amount.
+ * While u has constant acceleration a, the difference d = x − u obeys d″ + 2ζω d′ + ω² d = −a, which has an exact
+ * solution: a decaying swing around −a/ω². When the carriage's velocity jumps, d′ jumps by the opposite amount.
  */
 import type { Springs } from "../machines/profile.js";
 import { blockState, newMotionState, type Trajectory } from "./trajectory.js";
@@ -48,12 +48,15 @@ export interface PenPoint {
   readonly alongMm: number;
 }
 
-/** Calls `see` about every `stepS` seconds in motion, and after each wait. Jerk is approximated by steps of acceleration. */
+/**
+ * Calls `onPoint` about every `stepS` seconds of motion, and after each wait. Jerk is approximated by steps of
+ * acceleration.
+ */
 export function swingPen(
   trajectory: Trajectory,
   { xHz, yHz, damping }: Springs,
   stepS: number,
-  see: (pen: PenPoint) => void,
+  onPoint: (pen: PenPoint) => void,
 ): void {
   const axisX = new SpringAxis(xHz, damping);
   const axisY = new SpringAxis(yHz, damping);
@@ -68,7 +71,7 @@ export function swingPen(
     axisX.advance(untilS - tS, 0);
     axisY.advance(untilS - tS, 0);
     tS = untilS;
-    see({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke, alongMm });
+    onPoint({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke, alongMm });
   };
   for (let run = 0; run < runs.count; run++) {
     for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k++) {
@@ -85,7 +88,7 @@ export function swingPen(
         blockState(trajectory, k, i * dt, state);
         tS = startS[k] + i * dt;
         const { alongMm } = state;
-        see({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke: runs.stroke[run], alongMm });
+        onPoint({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke: runs.stroke[run], alongMm });
       }
       [lastVx, lastVy] = [state.vx, state.vy];
     }

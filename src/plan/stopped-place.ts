@@ -16,11 +16,14 @@ import type { Place } from "./trajectory.js";
 /** Tolerance for rounded corners, merged blocks and whole steps, mm. */
 const NEAR_MM = 0.08;
 
-/** A pen that is down this near to a stroke's start may not have reached it yet: by rounding, or by pen-flight.ts; mm. */
+/**
+ * If the pen is down this close to a stroke's start, the carriage may still be on its way to it, because of rounding or
+ * because the pen came down during the travel (pen-flight.ts); mm.
+ */
 const LANDING_MM = 0.15;
 /** Error of a position that is rounded to whole steps, mm. */
 const STEP_MM = 0.01;
-/** Max distance of the carriage from the drawing: `leavesMm` by shaping (shapers.ts), and all else. */
+/** Max distance of the carriage from the drawing: `leavesMm` by shaping (shapers.ts), plus NEAR_MM for all else. */
 const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
 
 export interface PenPlace {
@@ -104,9 +107,10 @@ function isLanding(
 }
 
 /**
- * The same if the server ended while the board kept running. The board has played everything it received, so it stopped
- * after the place that was sent by the last entry, and earlier places where the line crosses itself are excluded. Null
- * if the pen is up, or if nothing matches because not everything that was sent has arrived.
+ * The same if the server ended while the board kept running. The board has played everything that it received. So it
+ * stopped after `sent`, the place up to which commands had been sent at the journal's last entry, and earlier places
+ * where the line crosses itself are excluded. Null if the pen is up, or if nothing matches because not everything that
+ * was sent has arrived.
  */
 export function placeBehindSent(
   strokes: StrokeSet,
@@ -120,7 +124,7 @@ export function placeBehindSent(
   return found === fromHere ? null : found;
 }
 
-/** mm along a stroke where it first passes a point after `fromMm`; null if it does not. */
+/** Where a stroke first passes a point after `fromMm`, mm along the stroke; null if it does not. */
 function alongOf(
   { xy, offsets }: StrokeSet,
   stroke: number,

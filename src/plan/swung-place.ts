@@ -1,6 +1,6 @@
 /**
- * How far the pen of a swinging machine draws after its motors stopped dead: it is still on the paper, and swings on by
- * up to v/ω (0.9 mm at 85 mm/s and 15 Hz).
+ * How far the pen of a swinging machine draws after its motors stopped at once. The pen is still on the paper, and
+ * swings up to v/ω further (0.9 mm at 85 mm/s and 15 Hz).
  *
  *   drawing  ━━━━━━━━━━━━o━━━━━━━━>┊              o  where the pen was when the motors stopped
  *                        place     result         >  where it turns back, or leaves the line at a corner
@@ -18,7 +18,7 @@ const STEP_S = 0.001;
 /** A pen farther from the line than this does not draw it, mm. */
 const NEAR_MM = 0.08;
 
-/** @param place where the pen was in `trajectory` at `tS`, while it drew */
+/** @param place where the pen was drawing in `trajectory` at `tS` */
 export function swungPlace(
   strokes: StrokeSet,
   trajectory: Trajectory,
@@ -59,7 +59,8 @@ function swingAt(
   const axisX = new SpringAxis(xHz, damping);
   const axisY = new SpringAxis(yHz, damping);
   const first = runs.firstBlock[run];
-  // A path to rest begins in motion: shaped, the pen is then where the planned motion was a delay ago.
+  // A trajectory that brings the pen to rest begins in motion. If it is shaped, the pen is where the planned motion was
+  // one mean delay earlier.
   const carriage = blockState(trajectory, first, 0, newMotionState());
   const pen = drawnAt(trajectory, startS[first]);
   axisX.d = pen.x - carriage.x;

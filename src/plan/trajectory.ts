@@ -83,7 +83,7 @@ export interface PenMoveColumns {
 export interface PenMove {
   readonly beforeRun: number;
   readonly up: boolean;
-  /** Seconds from the trajectory's start. Before the end of run `beforeRun` − 1: it begins while the carriage moves. */
+  /** Seconds from the trajectory's start. If run `beforeRun` − 1 ends later, the move begins while the carriage moves. */
   readonly startS: number;
   /** How long the carriage waits for it, at rest before run `beforeRun`. */
   readonly waitS: number;
@@ -126,9 +126,9 @@ export function newMotionState(): MotionState {
 }
 
 /**
- * The state at `tS` seconds from the start: O(log blocks). Before the start and after the end: at rest there.
- * While the carriage waits for the pen it is where the last run ended, with `stroke` −1. Pass `out` to fill
- * an existing object.
+ * The state at `tS` seconds from the start, in O(log blocks). Before the start and after the end, the carriage is at
+ * rest there. While it waits for the pen, it is where the last run ended, with `stroke` −1. Pass `out` to fill an
+ * existing object.
  *
  * @throws RangeError if `tS` is NaN
  */
@@ -158,7 +158,7 @@ export function stateAt(
   return out;
 }
 
-/** When a pen move ends: a lift by its duration, a drop when the next run begins, which waits for it. */
+/** When a pen move ends: a lift after its duration, a drop when the next run begins, because that run waits for it. */
 function penRestS({ penMoves, runs }: Trajectory, move: number): number {
   const { up, startS, moveS, waitS, beforeRun } = penMoves;
   if (up[move] === 1) return startS[move] + moveS[move];
@@ -209,9 +209,9 @@ function blockAlong(trajectory: Trajectory, k: number, t: number): number {
   const along = trajectory.alongMm[k];
   const duration = trajectory.durationS[k];
   if (!(t > 0)) return along;
-  const whole = blockLength(trajectory, k, duration);
-  const span = blockAlongSpan(trajectory, k, whole);
-  return whole > 0 ? along + span * Math.min(1, blockLength(trajectory, k, t) / whole) : along;
+  const wholeMm = blockLength(trajectory, k, duration);
+  const span = blockAlongSpan(trajectory, k, wholeMm);
+  return wholeMm > 0 ? along + span * Math.min(1, blockLength(trajectory, k, t) / wholeMm) : along;
 }
 
 /** Length along the source polyline that block `k` covers; for the last block of a run, its own length. */

@@ -12,7 +12,7 @@
  */
 import type { BlockColumns } from "./block-columns.js";
 
-/** Rounding error, as a share: of speed² for a change of it, and of the straight for the cruise. */
+/** A change of speed² below this share of the peak is a rounding error, as is a cruise below this share of the straight. */
 const NEGLIGIBLE = 1e-11;
 
 export interface Straight {

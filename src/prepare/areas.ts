@@ -7,9 +7,9 @@ import { SCALE, cleanRings, combine, regionOf, ringOf, type Region } from "../ge
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
- * The region of each filled shape, in paint order, by its fill rule, cut to its clip and to `limit`. With `hasOutlines`
- * also the region inside the closed lines of each shape that is not filled. `lines` are the shapes' subpaths, tag =
- * shape. An open subpath of a filled shape is closed by a straight line, as in SVG.
+ * The region of each filled shape, in paint order, by its fill rule, cut to its clip and to `limit`. With `hasOutlines`,
+ * shapes without a fill also have a region: the inside of their closed lines. `lines` are the shapes' subpaths, tagged
+ * with their shape. An open subpath of a filled shape is closed by a straight line, as in SVG.
  */
 export function filledAreas(
   lines: Lines,

@@ -19,18 +19,18 @@ export interface PreparedLayer extends FileLayer {
   readonly drawMm: number;
 }
 
-/** Sorts lines by part of a layer (speed-parts.ts), in the file's order within each, and sets their tag to the part. */
+/** Sorts lines by part of a layer (speed-parts.ts), with the file's order within a part, and tags them with the part. */
 export function byLayer(lines: Lines, parts: SpeedParts): Lines {
-  const layer = new Uint32Array(lines.tag.length);
-  const tagged = { ...lines, tag: layer };
+  const part = new Uint32Array(lines.tag.length);
+  const tagged = { ...lines, tag: part };
   if (parts.count === 1) return tagged;
-  for (let i = 0; i < layer.length; i++) layer[i] = parts.ofShape[lines.tag[i]];
-  if (isSorted(layer)) return tagged;
+  for (let i = 0; i < part.length; i++) part[i] = parts.ofShape[lines.tag[i]];
+  if (isSorted(part)) return tagged;
   const next = new Uint32Array(parts.count + 1);
-  for (const k of layer) next[k + 1]++;
+  for (const k of part) next[k + 1]++;
   for (let k = 0; k < parts.count; k++) next[k + 1] += next[k];
-  const order = new Uint32Array(layer.length);
-  layer.forEach((k, i) => (order[next[k]++] = i));
+  const order = new Uint32Array(part.length);
+  part.forEach((k, i) => (order[next[k]++] = i));
   return pickLines(tagged, order);
 }
 
@@ -86,7 +86,7 @@ export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): s
 
 /**
  * The strokes of the visible layers, with the layers renumbered. With `reinkMm` a layer is split into several, "red",
- * "red (2)" …, because the plot can stop between layers to take up ink. `shifts`: by layer id.
+ * "red (2)" …, because a plot can stop only between layers to take up ink. `shifts`: by layer id.
  */
 export function strokeSetOf(
   lines: Lines,
@@ -134,12 +134,12 @@ function unshifted(
     xy: lines.xy,
     offsets: lines.offsets,
     layer,
-    ...slower(lines, parts),
+    ...speedFactorField(lines, parts),
     layers: layers.filter((_, k) => isVisible[k]).map(plainLayer),
   };
 }
 
-function slower(lines: Lines, parts: SpeedParts): Pick<StrokeSet, "speedFactor"> {
+function speedFactorField(lines: Lines, parts: SpeedParts): Pick<StrokeSet, "speedFactor"> {
   const speedFactor = speedFactorsOf(lines, parts);
   return speedFactor === undefined ? {} : { speedFactor };
 }
@@ -176,5 +176,5 @@ function inkedStrokeSet(
       layer[i] = out.length - 1;
     }
   }
-  return { xy: lines.xy, offsets: lines.offsets, layer, ...slower(lines, parts), layers: out };
+  return { xy: lines.xy, offsets: lines.offsets, layer, ...speedFactorField(lines, parts), layers: out };
 }

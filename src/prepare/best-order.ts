@@ -5,8 +5,8 @@
  * layer is a gain overall. A closed line is treated as a point, its start point. Between rounds of the search, the start
  * point of each closed line moves to the corner closest to its neighbours.
  *
- * With a clock the search ends after `orderS`. Without one it ends after about the same amount of work, and the result
- * is the same in every run, so page, server and a job resumed after a crash have the same strokes.
+ * With a clock the search ends after `orderS`. Without one it ends after about the same amount of work, and every run
+ * has the same result. So the page, the server and a job resumed after a crash have the same strokes.
  */
 import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
@@ -27,7 +27,7 @@ const MAX_WHOLE_TOUR = 50_000;
 /** Share of the time for searching the whole ring at once. */
 const FIRST_SHARE = 0.3;
 
-/** Improves `tour` in place. `seconds` counts by `work.nowS`. */
+/** Improves `tour` in place. `seconds` is the time limit, measured by `work.nowS`. */
 export function improveTour(lines: Lines, tour: Tour, freeStart: boolean, seconds: number, work: Work): void {
   const ranges = tagRanges(lines);
   const total = tour.order.length;
@@ -134,7 +134,7 @@ function search(ring: Int32Array, xy: Float64Array, budget: Budget, beginClosed:
   beginClosed();
 }
 
-/** Copies a ring so that home, its last stroke by number, comes first and is entered at its even end. */
+/** Copies a ring so that home, the stroke with the highest number, comes first and is entered at its even end. */
 function setHomeFirst(ring: Int32Array, found: Int32Array): void {
   const home = found.length - 2;
   const place = found.indexOf(home);

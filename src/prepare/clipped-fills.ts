@@ -9,7 +9,7 @@ import { ANYWHERE } from "./shapes.js";
 import { filledAreas } from "./areas.js";
 import type { Work } from "./work.js";
 
-/** A loss of length up to this is rounding: the shape counts as whole, mm. */
+/** If a clip cuts off no more than this, it is rounding, and the shape counts as whole, mm. */
 const UNCUT = 0.001;
 
 /** `lines` are the shapes' outlines, tag = shape; `clipOf` gives the region that clips a shape, or null. */
@@ -49,9 +49,9 @@ function clipFill(
   builder: LineBuilder,
   work: Work,
 ): void {
-  const whole = new LineBuilder();
-  copyAll(lines, from, to, whole);
-  const outline = whole.finish();
+  const copy = new LineBuilder();
+  copyAll(lines, from, to, copy);
+  const outline = copy.finish();
   const cut = new LineBuilder();
   cutAll(lines, from, to, clip, cut);
   if (totalLength(outline) - totalLength(cut.finish()) < UNCUT) {

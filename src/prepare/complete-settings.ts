@@ -17,18 +17,18 @@ const EXAMPLE_PAPER = "a size such as PAPER_SIZES.A4 or { widthMm: 210, heightMm
 export function completeSettings(settings: Partial<PrepareSettings>): PrepareSettings {
   checkNames("prepare", settings, NAMES);
   const given = Object.fromEntries(Object.entries(settings).filter(([, value]) => value !== undefined));
-  const whole: PrepareSettings = { ...DEFAULT_PREPARE, ...given };
-  checkTable("prepare ", PREPARE_TABLE, whole);
+  const complete: PrepareSettings = { ...DEFAULT_PREPARE, ...given };
+  checkTable("prepare ", PREPARE_TABLE, complete);
   for (const name of LISTS) {
-    if (!Array.isArray(whole[name])) refuseSetting(`prepare ${name}`, whole[name], "a list");
+    if (!Array.isArray(complete[name])) refuseSetting(`prepare ${name}`, complete[name], "a list");
   }
-  if (typeof whole.paper !== "object" || (whole.paper as unknown) === null)
-    refuseSetting("prepare paper", whole.paper, EXAMPLE_PAPER);
-  checkTable("prepare paper.", PAPER_TABLE, whole.paper);
-  checkNames("hatch", whole.hatch, Object.keys(HATCH_TABLE));
-  const hatch = { ...DEFAULT_PREPARE.hatch, ...whole.hatch };
+  if (typeof complete.paper !== "object" || (complete.paper as unknown) === null)
+    refuseSetting("prepare paper", complete.paper, EXAMPLE_PAPER);
+  checkTable("prepare paper.", PAPER_TABLE, complete.paper);
+  checkNames("hatch", complete.hatch, Object.keys(HATCH_TABLE));
+  const hatch = { ...DEFAULT_PREPARE.hatch, ...complete.hatch };
   checkTable("prepare hatch.", HATCH_TABLE, hatch);
-  return { ...whole, hatch };
+  return { ...complete, hatch };
 }
 
 function checkTable<Table extends SettingsTable>(

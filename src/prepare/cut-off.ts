@@ -19,7 +19,7 @@ export interface CutOff {
   readonly outsideCount: number;
 }
 
-/** A line that leaves the limit by less than this is not listed: rounding, mm. */
+/** A line that leaves the limit by less than this is not listed, because that is rounding, mm. */
 const UNNOTICED_MM = 0.1;
 /** Precise enough for the screen. */
 const FLATTEN_MM = 0.1;
@@ -28,18 +28,18 @@ const FLATTEN_MM = 0.1;
 export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: Placement): CutOff | null {
   const limit = cropBox(settings, place);
   if (limit === null) return null;
-  const roomy = {
+  const widened = {
     x0: limit.x0 - UNNOTICED_MM,
     y0: limit.y0 - UNNOTICED_MM,
     x1: limit.x1 + UNNOTICED_MM,
     y1: limit.y1 + UNNOTICED_MM,
   };
-  if (boxContains(roomy, place.whole)) return null;
+  if (boxContains(widened, place.whole)) return null;
   const table = layersOf(drawing, settings.layers);
   const isVisible = visibleLayers(table, settings);
   const wanted = new Uint8Array(drawing.paths.count);
   place.shapeBoxes().forEach((box, shape) => {
-    if (isEmptyBox(box) || isFarAway(box) || boxContains(roomy, box)) return;
+    if (isEmptyBox(box) || isFarAway(box) || boxContains(widened, box)) return;
     if (isVisible[table.ofShape[shape]]) wanted[shape] = 1;
   });
   let lines = flattenShapes(drawing.paths, place.map, FLATTEN_MM, wanted, {});
@@ -51,7 +51,7 @@ export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: 
   let outsideCount = 0;
   for (let i = 0; i < lineCount(lines); i++) {
     const box = lineBox(lines, i);
-    if (boxContains(roomy, box)) continue;
+    if (boxContains(widened, box)) continue;
     leaving.push(i);
     if (!boxesTouch(box, limit)) outsideCount++;
   }

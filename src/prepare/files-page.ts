@@ -64,7 +64,7 @@ const NOT_CHOSEN = {
 const isChosen = (settings: PrepareSettings): boolean =>
   Object.entries(NOT_CHOSEN).some(([key, value]) => settings[key as keyof PrepareSettings] !== value);
 
-/** The settings for a newly opened drawing. Settings that the user has changed stay. */
+/** The settings for a newly opened drawing. Settings that the user has changed stay unchanged. */
 export function placedForPage<S extends PrepareSettings>(settings: S, page: Size, machine: Size | null): S {
   if (isChosen(settings)) return settings;
   if (isSameSheet(settings.paper, page)) return onFilesPage(settings, page, machine);

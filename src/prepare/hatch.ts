@@ -23,8 +23,8 @@ const FINEST_SPACING = 0.05;
 /** Neighbouring lines are linked if their ends are closer than this many spacings. */
 const LONGEST_LINK = 2;
 /**
- * Links are checked this much further inside, mm: directly on a straight border, rounding would decide whether a point
- * is inside.
+ * Links are checked this much further inside, mm, because directly on a straight border rounding would decide whether a
+ * point is inside.
  */
 const HAIR = 1e-3;
 /** Sharp corners of the inset are cut off at this multiple of the width. */

@@ -13,7 +13,7 @@ import { stopIfCancelled, type Work } from "./work.js";
 
 /**
  * The tag of each line is its shape; `areas` by shape. A shape with a higher index is painted later. Shapes for which
- * `takesPart` is false (hidden layers) neither cover nor are covered.
+ * `takesPart` is false (hidden layers) cover nothing, and nothing covers them.
  */
 export function hideCovered(
   lines: Lines,

@@ -6,7 +6,7 @@
  * instead of turning. The second round pairs the remaining ends, nearest first.
  *
  * Symbols: end 2i is the first point of line i, end 2i + 1 its last. `far[e]` is the other end of the chain that ends in
- * e (valid for chain ends only). It shows when a pair would join a chain to itself, which is allowed only for real loops.
+ * e (valid for chain ends only). It shows whether a pair would join a chain to itself, which only real loops may do.
  *
  * No points move: joining adds the gap, at most `radius`, as a straight segment. Dots and closed lines are unchanged.
  */
@@ -16,7 +16,7 @@ import { tagRanges } from "./tour.js";
 
 /** Max candidates compared at one point, so that the time stays linear even for a star of 100 000 rays. */
 const MAX_CANDIDATES = 24;
-/** A chain shorter than this many radii is not closed: its ends are close only because it is short. */
+/** A chain shorter than this many radii is not closed, because its ends are close only because it is short. */
 const SHORTEST_LOOP = 4;
 const UNPAIRED = -1;
 

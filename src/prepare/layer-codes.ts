@@ -4,8 +4,8 @@
  *
  *   name   = "%" text                       the layer is not plotted
  *          | ["!"] [number] { code } text   "!" waits for the operator before the layer
- *   code   = "+h" 0…100   pen-down height, percent     upper or lower case; of several valid ones
- *          | "+s" 1…110   pen-down speed, percent      the last one applies; codes out of range are ignored
+ *   code   = "+h" 0…100   pen-down height, percent     upper or lower case; if a code is repeated, the last valid
+ *          | "+s" 1…110   pen-down speed, percent      one applies; codes out of range are ignored
  *          | "+d" 1…      wait before the layer, ms
  *          | "+v" 1…100   percent of the layer's usual speed; an extension of plotwright
  *   number = digits: the N of "plot layer N"
@@ -57,8 +57,8 @@ export function formatLayerName(codes: LayerCodes): string {
     codes.drawSpeedPct === null ? "" : `+s${codes.drawSpeedPct}`,
     codes.speedSharePct === null ? "" : `+v${codes.speedSharePct}`,
   ].join("");
-  const taken = parseLayerName(head + codes.text);
-  return taken.text === codes.text && taken.skip === codes.skip && taken.number === codes.number
+  const readBack = parseLayerName(head + codes.text);
+  return readBack.text === codes.text && readBack.skip === codes.skip && readBack.number === codes.number
     ? head + codes.text
     : `${head} ${codes.text}`;
 }

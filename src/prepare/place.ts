@@ -5,7 +5,7 @@
  *        │  ┌───────────┐           inside   the paper minus its margins
  *        │  │  inside   │           fit      the drawing's content fills `inside`, centred
  *        y  └───────────┘           true     page corner on paper corner
- *                                   place    the content's box as given, then turned about its centre
+ *                                   place    the content in the given box, then turned about its centre
  */
 import { curveBoxOf } from "../drawing/curve-box.js";
 import type { ClipRegion, Drawing } from "../drawing/drawing.js";
@@ -58,8 +58,8 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
       : onCorner(pageBox(drawing, turn));
   const frame = isEmptyBox(content) ? content : movedBox(content, after);
   const place = { paper, inside, frame };
-  const last = aboutCentre(frame, settings.place?.turnDeg ?? 0);
-  if (last === null) {
+  const turnInPlace = aboutCentre(frame, settings.place?.turnDeg ?? 0);
+  if (turnInPlace === null) {
     return {
       ...place,
       map: compose(after, turn),
@@ -67,7 +67,7 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
       shapeBoxes: () => turned.map((box) => movedBox(box, after)),
     };
   }
-  const map = compose(last, compose(after, turn));
+  const map = compose(turnInPlace, compose(after, turn));
   const moved = shapeBoxes(drawing, map);
   return { ...place, map, whole: moved.whole, shapeBoxes: () => moved.boxes };
 }

@@ -1,8 +1,8 @@
 /**
  * Converts the file's drawing to pen strokes, by the steps below.
  *
- * The tag of a line is its shape until lines are sorted by layer, and after that its part of a layer (speed-parts.ts).
- * Hidden layers are processed up to the counts, so that the page can show their figures, and dropped after that. They
+ * Until lines are sorted by layer, the tag of a line is its shape; after that, its part of a layer (speed-parts.ts).
+ * Hidden layers are processed until they are counted, so that the page can show their figures, and then dropped. They
  * hide nothing, and nothing hides them.
  */
 import type { Drawing } from "../drawing/drawing.js";
@@ -54,14 +54,14 @@ import { stopIfCancelled, type Work } from "./work.js";
 export interface Prepared {
   /** The strokes, in drawing order. */
   readonly strokes: StrokeSet;
-  /** All layers of the file under the layer mode, including hidden ones, in drawing order. */
+  /** All layers, including hidden ones, in drawing order. The layer mode decides what a layer is. */
   readonly layers: readonly PreparedLayer[];
   /** The paper after `landscape` is applied. */
   readonly paperWidthMm: number;
   readonly paperHeightMm: number;
   /** Distance with the pen up from home through all strokes and back home, in the file's order. */
   readonly travelMmUnordered: number;
-  /** The same in the order in which they are drawn. */
+  /** The same in drawing order. */
   readonly travelMm: number;
   /** Distance with the pen down. */
   readonly drawMm: number;

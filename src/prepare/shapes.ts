@@ -70,7 +70,7 @@ export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, lim
   return dashLines(lines, patternOf, limit ?? ANYWHERE);
 }
 
-/** A loss of line at the margins up to this is rounding and causes no warning, mm. */
+/** If the margins cut off no more than this, it is rounding and causes no warning, mm. */
 const UNNOTICED_CROP = 0.1;
 
 export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): Lines {

@@ -1,6 +1,6 @@
 /**
- * Splits layers into parts that are drawn at different speeds. After sorting by layer, the tag of a line is its part, so
- * lines are joined and ordered only within a part. The parts of a layer are consecutive.
+ * Splits layers into parts that are drawn at different speeds. After lines are sorted by layer, the tag of a line is its
+ * part, so lines are joined and ordered only within a part. The parts of a layer are consecutive.
  *
  *   layers   outline          fill
  *   parts    0 full  1 half   2 full

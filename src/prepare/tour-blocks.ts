@@ -7,8 +7,8 @@
  *   small    A    s s s     B    s s   C  s  D       each run of o is one stroke of the small tour
  *
  * A run of outside strokes has two ends and the same length in both directions, just like a stroke. So the small tour is
- * the whole problem with the outside fixed, and every mm saved in it is saved overall. (Tour-based partitioning, after
- * K. Helsgaun's LKH.)
+ * the whole tour with the outside strokes fixed, and every mm saved in it is saved overall. (Tour-based partitioning,
+ * after K. Helsgaun's LKH.)
  */
 import { PointGrid } from "../geometry/point-grid.js";
 import { TourSearch } from "./tour-search.js";

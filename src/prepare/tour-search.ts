@@ -7,8 +7,8 @@
  *     … 2a+1 │ 6 7 │ 12 13 │ 5 4 │ 2b …        │ travel    6 7 a stroke, 5 4 one drawn backwards
  *
  * So every end has exactly one travel edge, to its partner. Reversing a section of the tour (2-opt) also reverses its
- * strokes, so no special moves are needed for their directions. One stroke represents home: its entry is where the pen
- * must end, its exit where the pen begins.
+ * strokes, so no special moves are needed to change their directions. One stroke represents home: the pen begins at its
+ * exit and must end at its entry.
  *
  * Moves (after S. Lin, 1965, and I. Or, 1976):
  *
@@ -21,22 +21,22 @@
  * the nearest few.
  *
  * Let rel(x) be the position of x counted from t2 away from t1 (rel t2 = 0, rel t1 = last). A stroke is entered at an
- * even rel and left at an odd one. A move must give a single ring again:
+ * even rel and left at an odd one. A move must leave a single ring:
  *
- *     rel t3 even: 2-opt does;  for 3-opt, t5 after t3 must be even, t5 before t4 odd
- *     rel t3 odd : 2-opt does not;  for 3-opt, t5 must be between t2 and t3
+ *     rel t3 even: 2-opt does; with 3-opt, rel t5 must be even if t5 is after t3, and odd if it is before t4
+ *     rel t3 odd : 2-opt does not; with 3-opt, t5 must be between t2 and t3
  *
- * To leave a local optimum: a double bridge over a short section (a kick), then a local search around it, undone if the
- * tour became longer (iterated local search, O. Martin, S. Otto, E. Felten, 1991). All changes are reversals of sections,
- * stored in a log, so undoing them takes no longer than making them.
+ * To leave a local optimum, the search makes a double bridge over a short section (a kick), then searches around it. Both
+ * are undone if the tour became longer (iterated local search, O. Martin, S. Otto, E. Felten, 1991). All changes are
+ * reversals of sections, stored in a log, so undoing them takes no longer than making them.
  *
  * Invariants: `tour` and `place` are inverse; the ends of a stroke are neighbours in the ring at positions
  * 2i, 2i+1; `length` decreases with every accepted step. Lengths in mm.
  */
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 
+/** Number of near ends in each end's list, and how many of them are tried for the third edge. */
 const NEAR = 8;
-/** How many of them are tried for the third edge. */
 const NEAR_THIRD = 5;
 /** Smaller gains are rounding errors. */
 const EPSILON = 1e-9;
@@ -351,7 +351,7 @@ const strokeOf = (end: number): number => Math.floor(end / 2);
 
 const isEven = (position: number): boolean => position % 2 === 0;
 
-/** Whether a move with t3 and t5 at these positions (file comment) gives a single ring again. */
+/** Whether a move with t3 and t5 at these positions leaves a single ring (see the file's comment). */
 function isSingleRing(rel3: number, rel5: number): boolean {
   if (!isEven(rel3)) return rel5 > 0 && rel5 < rel3;
   return rel5 > rel3 ? isEven(rel5) : rel5 < rel3 - 1 && !isEven(rel5);

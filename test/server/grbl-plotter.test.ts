@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { planJob, type PlotwrightError, type StrokeSet } from "../../src/index.js";
-import { grblDriver } from "../../src/drivers/grbl/grbl-driver.js";
+import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { GRBL } from "../support/grbl-machine.js";

@@ -1,7 +1,10 @@
-/** The exports of this folder for `registry.ts`. */
-import type { ControllerDescription } from "../driver.js";
+/** The EiBotBoard for `registry.ts`. */
+import type { ControllerDescription, Driver } from "../driver.js";
+import { connectBoard } from "./machine/connection.js";
+import { EbbMachine } from "./machine/ebb-machine.js";
 import { EBB_FIELDS } from "./protocol/ebb-controller.js";
 import { ebbFirmware } from "./protocol/firmware-motion.js";
+import { VirtualBoard } from "./virtual/virtual-board.js";
 
 export const description: ControllerDescription = {
   fields: EBB_FIELDS,
@@ -15,4 +18,9 @@ export const description: ControllerDescription = {
 };
 
 export { planEbbJob as planJob } from "./compile/ebb-job.js";
-export { ebbDriver as driver } from "./ebb-driver.js";
+
+export const driver: Driver = {
+  identify: async (transport, options) =>
+    new EbbMachine(await connectBoard(transport, options), options.events),
+  virtualMachine: (options) => new VirtualBoard({ ...options, servo: {} }),
+};

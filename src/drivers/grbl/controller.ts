@@ -1,7 +1,10 @@
-/** The exports of this folder for `registry.ts`. */
-import type { ControllerDescription } from "../driver.js";
+/** Grbl for `registry.ts`. Experimental: it shows that the interface also fits a controller that plans by itself. */
+import type { ControllerDescription, Driver } from "../driver.js";
+import { GrblMachine } from "./machine/grbl-machine.js";
+import { GrblSession } from "./machine/session.js";
 import { GRBL_FIELDS } from "./model/grbl-controller.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
+import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
 export const description: ControllerDescription = {
   fields: GRBL_FIELDS,
@@ -13,4 +16,16 @@ export const description: ControllerDescription = {
 };
 
 export { planGrblJob as planJob } from "./grbl-job.js";
-export { grblDriver as driver } from "./grbl-driver.js";
+
+export const driver: Driver = {
+  identify: async (transport, options) => {
+    const session = new GrblSession(transport, options.clock, (error) => options.events.lost(error));
+    try {
+      return new GrblMachine(session, await session.identify(), options);
+    } catch (error) {
+      await session.close();
+      throw error;
+    }
+  },
+  virtualMachine: (options) => new VirtualGrbl(options),
+};

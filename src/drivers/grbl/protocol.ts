@@ -1,6 +1,6 @@
 /** Grbl's replies and real-time commands. */
 import { PlotwrightError } from "../../errors.js";
-import type { Axes } from "./model/planner.js";
+import { difference, type Axes } from "./model/planner.js";
 
 /** Real-time commands: single bytes that act at once, need no line end and no room in the buffer, and get no `ok`. */
 export const NOW = { status: "?", hold: "!", reset: "\x18" } as const;
@@ -41,7 +41,7 @@ export function statusOf(line: string, offset: Axes): Status | null {
   const work = axesOf(/\|WPos:([^|>]+)/.exec(line)?.[1]);
   const machine = axesOf(/\|MPos:([^|>]+)/.exec(line)?.[1]);
   if (work) return { state, at: work };
-  return machine && { state, at: [machine[0] - offset[0], machine[1] - offset[1], machine[2] - offset[2]] };
+  return machine && { state, at: difference(machine, offset) };
 }
 
 function axesOf(text: string | undefined): Axes | null {

@@ -52,7 +52,7 @@ describe("a stop in the middle of a plan", () => {
     }
   });
 
-  it("stays within the acceleration and on the path, and ends at rest at the stated place, on any path", () => {
+  it("stays within the acceleration and on the path, and ends at rest at the reported place, on any path", () => {
     fc.assert(
       fc.property(
         fc.array(arbitraryGridStroke, { minLength: 1, maxLength: 3 }),

@@ -25,7 +25,7 @@ const limits = fc.record({
 
 describe("a compiled plan on the virtual board", () => {
   for (const firmware of ["2.4.4", "2.5.3", "2.8.1", "3.0.3"]) {
-    it(`leaves the step counters where every command said, whatever is drawn (firmware ${firmware})`, () => {
+    it(`leaves the step counters at the predicted values after every command of any drawing (firmware ${firmware})`, () => {
       fc.assert(
         fc.property(
           fc.array(stroke, { minLength: 1, maxLength: 3 }),

@@ -106,7 +106,7 @@ describe("limits of single axes", () => {
       .durationS // prettier-ignore
       .reduce((sum, s) => sum + s, 0);
 
-  it("slow only what moves along that axis", () => {
+  it("slow only motion along that axis", () => {
     expect(timeOf(100, 0, { accelYMmPerS2: 250 })).toBeCloseTo(timeOf(100, 0, {}), 9);
     // 100 mm at 1000 mm/s² and 100 mm/s take 1 + 0.1 s, at 250 mm/s² 1 + 0.4 s.
     expect(timeOf(0, 100, { accelYMmPerS2: 250 })).toBeCloseTo(1.4, 9);

@@ -31,7 +31,7 @@ const smallPath: fc.Arbitrary<Point[]> = fc
 const NO_PEN = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
 
 describe("the time of a small path", () => {
-  it("in junction mode is that of the fastest profile under the corner limits, within 0.5 %", () => {
+  it("in junction mode is within 0.5 % of the fastest profile under the corner limits", () => {
     fc.assert(
       fc.property(smallPath, arbitraryLimits, (points, draw) => {
         const time = planned(points, "junction", draw).totalS;
@@ -44,7 +44,7 @@ describe("the time of a small path", () => {
     );
   });
 
-  it("in blend mode is that of the time-optimal one on its own line within 0.5 %, and never less", () => {
+  it("in blend mode is at most 0.5 % above that of the time-optimal motion on the same line, and never below it", () => {
     fc.assert(
       fc.property(smallPath, arbitraryLimits, (points, draw) => {
         const trajectory = planned(points, "blend", draw);

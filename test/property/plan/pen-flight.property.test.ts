@@ -148,7 +148,7 @@ class Longest {
 }
 
 describe("random drawings", { timeout: TIMEOUT_MS }, () => {
-  it("are drawn without stray marks and late starts in mode safe, by a servo that deviates", () => {
+  it("have no stray marks and late starts in mode safe, even if the servo deviates", () => {
     const longest = new Longest("random drawings, safe");
     fc.assert(
       fc.property(arbitraryJob("safe"), arbitraryServo, (job, servo) => {
@@ -163,7 +163,7 @@ describe("random drawings", { timeout: TIMEOUT_MS }, () => {
     longest.print();
   });
 
-  it("are drawn within 0.3 mm in mode fast, by a servo that does not deviate", () => {
+  it("have at most 0.3 mm of marks and late starts in mode fast if the servo does not deviate", () => {
     const longest = new Longest("random drawings, fast");
     fc.assert(
       fc.property(arbitraryJob("fast"), arbitraryPhase, (job, servo) => {
@@ -218,7 +218,7 @@ describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (name) => {
   const safe = planned({ strokes, pen: penOf("safe") });
 
   it.each(EXTREMES)(
-    "is drawn safely by a servo of $speed times the speed that touches at $contact",
+    "is drawn safely by a servo with $speed times the speed whose pen touches at $contact",
     (servo) => {
       const marks = safe(servo);
       expect(marks.strayMm).toBeLessThanOrEqual(SAFE_MM);
@@ -258,7 +258,7 @@ describe("the check itself", () => {
   });
 });
 
-it("draws moonrise in 5 000 s safely and in 4 300 s fast", () => {
+it("the sample moonrise takes at most 5 000 s in mode safe and 4 300 s in mode fast", () => {
   const strokes = sampleStrokes("moonrise");
   const [safe, fast] = (["safe", "fast"] as const).map(
     (overlap) => plan(strokes, DEFAULT_MOTION, penOf(overlap), { machine: unmeasured }).totalS,

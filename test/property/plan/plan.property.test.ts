@@ -47,7 +47,7 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
     );
   });
 
-  it("draws every stroke once, in order, with the pen down only then", () => {
+  it("draws every stroke once, in order, and has the pen down only while it draws", () => {
     fc.assert(
       fc.property(arbitraryStrokeSet, arbitraryMotion, (strokes, motion) => {
         const planned = plan(strokes, motion, DEFAULT_PEN);

@@ -40,8 +40,8 @@ const wavy: fc.Arbitrary<Point[]> = fc
     return points;
   });
 
-describe("the soft line of a wavy one", () => {
-  it("has less total bending, within δ of it, from the same start to the same end", () => {
+describe("the soft line of a wavy line", () => {
+  it("bends less in total, within δ, from the same start to the same end", () => {
     fc.assert(
       fc.property(wavy, (points) => {
         const path = pathOf(points);
@@ -68,7 +68,7 @@ describe("the soft line of a wavy one", () => {
     );
   });
 
-  it("is the line itself if V is so low that no bend slows the pen down", () => {
+  it("is that line itself if V is so low that no bend slows the pen down", () => {
     fc.assert(
       fc.property(wavy, (points) => {
         const path = pathOf(points);
@@ -110,7 +110,7 @@ describe("the minimum bending between bounds", () => {
 });
 
 describe("a plan in blend mode", () => {
-  it("reports for every block where it begins along the drawing, never decreasing; and stays within δ", () => {
+  it("has blocks in order along the drawing, and stays within δ", () => {
     fc.assert(
       fc.property(fc.oneof(wavy, arbitraryStroke), arbitraryLimits, (points, draw) => {
         const strokes = strokesOf(points);

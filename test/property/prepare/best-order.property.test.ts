@@ -117,7 +117,7 @@ describe("order best", () => {
     ),
   );
 
-  it("permutes, reverses and re-starts strokes, and is not longer than fast or the file", () => {
+  it("only permutes, reverses and re-starts strokes, and is not longer than order fast or the file's order", () => {
     fc.assert(
       fc.property(drawings, (drawing) => {
         const given = prepare(drawing, PLAIN);
@@ -147,7 +147,7 @@ describe("order best", () => {
     expect(best.travelMm).toBeGreaterThanOrEqual(1_000 - 1e-6);
   });
 
-  it("leaves at most four fifths of the travel of fast on random strokes", () => {
+  it("needs at most four fifths of the travel of order fast on random strokes", () => {
     const random = randomFrom(11);
     const strokes = Array.from({ length: 500 }, () => {
       const [x, y, a] = [5 + 280 * random(), 5 + 280 * random(), 7 * random()];
@@ -168,12 +168,12 @@ describe("order best", () => {
     );
     const settings: PrepareSettings = { ...PLAIN, order: "best", orderS: 3 };
     /** A clock that advances a tenth of a second each time it is read. */
-    const ticking = (): { nowS: () => number; readonly looks: number } => {
-      let looks = 0;
+    const ticking = (): { nowS: () => number; readonly checks: number } => {
+      let checks = 0;
       return {
-        nowS: () => 0.1 * looks++,
-        get looks() {
-          return looks;
+        nowS: () => 0.1 * checks++,
+        get checks() {
+          return checks;
         },
       };
     };
@@ -183,19 +183,19 @@ describe("order best", () => {
       const long = ticking();
       const a = prepare(drawing, { ...settings, orderS: 0.5 }, short);
       const b = prepare(drawing, { ...settings, orderS: 5 }, long);
-      expect(short.looks).toBeLessThan(15);
-      expect(long.looks).toBeLessThan(60);
+      expect(short.checks).toBeLessThan(15);
+      expect(long.checks).toBeLessThan(60);
       expect(b.travelMm).toBeLessThanOrEqual(a.travelMm);
     });
 
-    it("uses what it has if that is enough, and throws when cancelled", () => {
+    it("uses the best order so far if told that it is enough, and throws when cancelled", () => {
       const clock = ticking();
       prepare(drawing, settings, { ...clock, enough: { aborted: true } });
-      expect(clock.looks).toBeLessThan(8);
-      let looks = 0;
+      expect(clock.checks).toBeLessThan(8);
+      let checks = 0;
       const cancel = {
         get aborted() {
-          return ++looks > 8;
+          return ++checks > 8;
         },
       };
       expect(() => prepare(drawing, settings, { ...ticking(), cancel })).toThrow(

@@ -14,7 +14,7 @@ const points = fc.array(fc.tuple(value, value), { maxLength: 120 });
 const RUNS = { numRuns: cases() };
 
 describe("PointGrid", () => {
-  it("finds the nearest few within a limit, nearest and then lowest first, while points are removed", () => {
+  it("finds the nearest points within a limit, ordered by distance and then by number, while points are removed", () => {
     fc.assert(
       fc.property(
         points,

@@ -167,7 +167,7 @@ describe("prepare, for any drawing and settings", () => {
     );
   });
 
-  it("is the same drawing at any size when the fit undoes the scale", () => {
+  it("gives the same strokes for any scale of the file if the drawing is fitted to the paper", () => {
     fc.assert(
       fc.property(
         fc.array(fc.tuple(quarter, quarter, quarter, quarter), { minLength: 1, maxLength: 6 }),

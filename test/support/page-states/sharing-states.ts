@@ -73,6 +73,10 @@ export const SHARING_STATES: readonly PageState[] = [
       await queuePanel(other).getByRole("radio", { name: "Start the next" }).click();
       await page.getByText("is operating.").waitFor();
       await openTab(page, "Queue");
+      // A click on the chosen option changes nothing, so it opens no dialog.
+      await queuePanel(page)
+        .getByRole("radio", { name: "Start the next", checked: true })
+        .waitFor({ state: "attached" });
       await queuePanel(page).getByRole("radio", { name: "Wait for paper" }).click();
       await page.getByRole("dialog", { name: "Another page is operating" }).waitFor();
     },

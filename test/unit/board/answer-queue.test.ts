@@ -18,8 +18,8 @@ function settled(commands: readonly string[], bytes: string) {
   return { answers, strays, waitingCount: queue.count };
 }
 
-describe("replies in the syntax of boot", () => {
-  it("belong to commands in the order in which they were sent, including an unnamed board's empty name", () => {
+describe("replies in the syntax after power-on", () => {
+  it("are matched to commands in the order in which they were sent, even the empty name of an unnamed board", () => {
     const { answers, strays } = settled(
       ["SP,1,250", "QS", "V", "QM", "QT", "LM,1,2,3,4,5,6"],
       "OK\r\n10,-3\n\rOK\r\nEBBv13_and_above EB Firmware Version 2.8.1\r\nQM,0,0,0,0\n\r\r\nOK\r\nOK\r\n",
@@ -35,7 +35,7 @@ describe("replies in the syntax of boot", () => {
     expect(strays).toEqual([]);
   });
 
-  it("assign a surplus parameter, which the board reports after its OK, to no other command", () => {
+  it("include the report of a surplus parameter after an OK, which is matched to no other command", () => {
     const { answers, strays } = settled(
       ["SM,1,1,1,0,0", "QP"],
       "OK\r\n!7 Err: Extra parameter\r\n1\n\rOK\r\n",
@@ -47,7 +47,7 @@ describe("replies in the syntax of boot", () => {
     expect(strays).toEqual(["!7 Err: Extra parameter (to SM,1,1,1,0,0)"]);
   });
 
-  it("report an unsolicited line", () => {
+  it("are reported if they are unsolicited", () => {
     expect(settled([], "hello\r\n").strays).toEqual(["hello"]);
     expect(settled(["SP,1"], "noise\r\nOK\r\n")).toMatchObject({
       answers: [["SP,1", ""]],
@@ -56,7 +56,7 @@ describe("replies in the syntax of boot", () => {
   });
 });
 
-describe("replies in the syntax of one line each", () => {
+describe("replies in the syntax with one line each", () => {
   it("are matched by their names", () => {
     expect(settled(["SP,1", "QS"], "SP\nQS,1,2\n")).toEqual({
       answers: [
@@ -68,7 +68,7 @@ describe("replies in the syntax of one line each", () => {
     });
   });
 
-  it("have errors after the name", () => {
+  it("may have an error after the name", () => {
     const { answers } = settled(["SM"], "SM,!4 Err: Missing parameter(s)\n");
     expect(answers).toEqual([["SM", "The board refused SM: Missing parameter(s)."]]);
   });

@@ -46,7 +46,7 @@ describe("a line for the board", () => {
     "HM,3200",
     "XX,1",
     "constructor",
-  ])("that does none of this is sent: %j", (line) => {
+  ])("without such a fault is sent: %j", (line) => {
     expect(whyRefused(line)).toBeNull();
   });
 });

@@ -32,7 +32,7 @@ describe("the place of an emergency stop", () => {
           {
             commands: all.slice(Math.max(0, i - 20), i + 1 + waiting),
             waitingCount: waiting,
-            stepsLeft: features.stopReplyValues === 1 ? null : [0, 0],
+            stepsLeft: features.arithmetic === "signed" ? null : [0, 0],
             boardS: stream.boardS[i + 1] + OFF_S * (2 * random() - 1),
           },
           features,
@@ -52,7 +52,7 @@ describe("the place of an emergency stop", () => {
     ["QG", "2E", 0],
     ["QM", "1,1,0,1", 1],
     ["QM", "1,1,0", null],
-  ])("reads from %s, answered by %s, how many commands wait", (line, reply, count) => {
+  ])("counts the waiting commands from %s and the reply %s", (line, reply, count) => {
     expect(waitingCount(line, reply)).toBe(count);
   });
 });

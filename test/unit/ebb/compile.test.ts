@@ -36,7 +36,7 @@ describe("compile", () => {
     ["2.7.0", "LT"],
     ["2.8.1", "LT"],
     ["3.0.3", "LT"],
-  ])("moves by the best command of firmware %s: %s", (firmware, name) => {
+  ])("moves with the best command of firmware %s: %s", (firmware, name) => {
     const names = new Set(linesOf(compiled([LINE], firmware)).map((line) => line.slice(0, 2)));
     expect([...names].sort()).toEqual([name, "SC", "SP"].sort());
   });
@@ -143,7 +143,7 @@ describe("compile", () => {
 });
 
 describe("the commands around a plot", () => {
-  it("switch the motors on, reset the counters and set the pen; and switch off", () => {
+  it("switch the motors on, reset the counters and set the pen up before the plot, and switch off after it", () => {
     expect(setUpCommands(machine, WAITING, "2.8.1")[0]).toBe("EM,1,1");
     expect(setUpCommands(machine, WAITING, "2.8.1")).not.toContain("CS");
     expect(setUpCommands(machine, WAITING, "2.5.3")[1]).toBe("CS");

@@ -14,7 +14,7 @@ function manyLines(): Lines {
 }
 
 describe("a line builder", () => {
-  it("keeps the tag and the points of every one of many lines", () => {
+  it("keeps the tags and points of many lines", () => {
     const lines = manyLines();
     expect(lineCount(lines)).toBe(COUNT);
     for (let i = 0; i < COUNT; i++) {

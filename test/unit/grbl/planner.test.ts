@@ -40,14 +40,14 @@ describe("a corner", () => {
 });
 
 describe("the planner", () => {
-  it("lets a diagonal speed up as both axes together", () => {
+  it("accelerates along a diagonal as fast as both axes together allow", () => {
     const axes = { speed: [250, 200, 250], accel: [3_000, 3_000, 3_000], junctionMm: 0.01 } as const;
     const move = moveOf([0, 0, 0], [30, 40, 0], Infinity, axes, null);
     expect(move).toMatchObject({ lengthMm: 50, speed: 250, accel: 3_750 });
     expect(moveTimeS(50, move.speed, move.accel)).toBeCloseTo(0.266667, 6);
   });
 
-  it("is as fast on short moves as its queue is long", () => {
+  it("limits the speed on short moves by the length of its queue", () => {
     const moves: Move[] = [];
     for (let i = 0; i < 400; i++) {
       moves.push(moveOf([i / 10, 0, 0], [(i + 1) / 10, 0, 0], 100, limitsOf(1_000), moves[i - 1] ?? null));
@@ -67,7 +67,7 @@ const CASES: [string, number[], number, number][] = [
 ];
 
 describe("the time of", () => {
-  it.each(CASES)("%s is that of Grbl, in the preview", (_, line, speed, seconds) => {
+  it.each(CASES)("%s in the preview is that of Grbl", (_, line, speed, seconds) => {
     const settings = { motion: motionAt(speed), pen: DEFAULT_PEN };
     const { trajectory } = planJob({ strokes: strokesOf(line) }, settings, GRBL);
     const run = trajectory.runs.stroke.indexOf(0);
@@ -76,7 +76,7 @@ describe("the time of", () => {
     expect(sum).toBeCloseTo(seconds, 6);
   });
 
-  it.each(CASES)("%s is that of Grbl, on the virtual one", async (_, line, speed, seconds) => {
+  it.each(CASES)("%s on the virtual board is that of Grbl", async (_, line, speed, seconds) => {
     const world = new ManualClock();
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
     const port = board.transport();

@@ -22,7 +22,7 @@ const CHANGED: SvgSettings = {
 };
 const START = `${GRBL.name} does not use these settings, because its controller plans by itself: `;
 
-describe("a plan for a Grbl", () => {
+describe("a plan for Grbl", () => {
   it("names the shaper that it does not use, and draws the same", () => {
     const { warnings, ...job } = planned(SHAPED);
     expect(warnings).toEqual([`${START}Reduce ringing.`]);
@@ -37,13 +37,13 @@ describe("a plan for a Grbl", () => {
     expect(job.lines()).toEqual(planned({}).lines());
   });
 
-  it("names none with default settings, or with others that it uses", () => {
+  it("names no settings if they are defaults or used", () => {
     expect(planned({}).warnings).toEqual([]);
     const draw = { ...DEFAULT_MOTION.draw, speedMmPerS: 20 };
     expect(planned({ motion: { ...DEFAULT_MOTION, draw } }).warnings).toEqual([]);
   });
 
-  it("is not warned about on a machine that uses them all", () => {
+  it("has settings that an AxiDraw uses without a warning", () => {
     const settings = { motion: DEFAULT_MOTION, pen: DEFAULT_PEN, ...CHANGED };
     expect(unusedSettings(settings, machineById("axidraw-v3"))).toEqual([]);
   });

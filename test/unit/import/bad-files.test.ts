@@ -73,7 +73,7 @@ describe("importSvg on bad files", () => {
     expect(isFinite(text)).toBe(true);
   });
 
-  it("stays finite whatever transforms multiply up to", () => {
+  it("stays finite however large nested transforms become", () => {
     const text = `<svg width="96" height="96">${'<g transform="scale(1e9)">'.repeat(60)}<path stroke="red" d="M0 0L1 1"/>${"</g>".repeat(60)}</svg>`;
     expect(isFinite(text)).toBe(true);
     expect(codes(text)).toContain("coordinates-out-of-range");
@@ -93,7 +93,7 @@ describe("importSvg on bad files", () => {
     expect(drawing.paths.coords[2]).toBeCloseTo(25.4, 9);
   });
 
-  it("does not expand entities of the file, so a bomb stays small", () => {
+  it("does not expand entities that multiply, so an entity bomb stays small", () => {
     const lines = Array.from({ length: 30 }, (_, i) => `<!ENTITY e${i + 1} "${`&e${i};`.repeat(10)}">`).join(
       "\n",
     );

@@ -23,7 +23,7 @@ describe("a POLYLINE", () => {
     expect(read(entities(groups)).paths.count).toBe(shapes);
   });
 
-  it("at which the file ends is damage, even in a few bytes", () => {
+  it("without an end is reported as damage, even in a file of a few bytes", () => {
     const error: unknown = (() => {
       try {
         return read("0 SECTION|2 ENTITIES|0 POLYLINE|8 0|66 1|0 LINE|0 EOF");
@@ -57,7 +57,7 @@ describe("a table", () => {
     ["LAYER", "0 TABLE|2 LAYER|0 LAYER|2 a|62 1"],
     ["VPORT", "0 TABLE|2 VPORT|0 VPORT|2 a|0 LAYER|2 b|0 ENDTAB"],
     ["LAYER", "0 TABLE|2 LAYER|0 TABLE|2 VPORT|0 LAYER|2 a|0 EOF"],
-  ])("of %ss that contains another record, or has no end, is damage", (kind, groups) => {
+  ])("of %ss that contains another record, or has no end, is reported as damage", (kind, groups) => {
     expect(() => read(tables(groups))).toThrow(
       new RegExp(`damaged at line \\d+: the table of ${kind}s has no end`),
     );

@@ -129,7 +129,7 @@ describe("MTEXT of a DXF", () => {
     ["\\{\\}\\\\", 3],
     ["%%c\\U+00C4^Ia", 3],
     ["\\pxqc;a", 1],
-  ])("does not write formatting codes: %s", (written, count) => {
+  ])("does not draw formatting codes: %s", (written, count) => {
     expect(mtext(written)).toHaveLength(count);
   });
 

@@ -47,7 +47,7 @@ describe("labels of HPGL", () => {
     expect(codes(drawing)).toEqual([]);
   });
 
-  it("advance by one and a half letters, and leave the pen behind the last", () => {
+  it("advance by one and a half letters, and leave the pen after the last one", () => {
     expect(feet(`PU400,800;LBab c${ETX}LBd${ETX}`)).toEqual(["10 80", "16 80", "28 80", "34 80"]);
   });
 
@@ -104,7 +104,7 @@ describe("labels of HPGL", () => {
     expect(feet(`${settings};PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual([...first, ...next]);
   });
 
-  it("have their whole column placed about the pen's position, which stays if they do not begin there", () => {
+  it("are placed as a whole column about the pen's position, which is unchanged if they do not begin there", () => {
     // 24 high: 8, 16 apart.
     expect(feet(`DV1;LO1;PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual(["50 34", "50 50", "50 50"]);
     expect(feet(`DV1;LO5;PU2000,2000;LBab${ETX}`)).toEqual(["48 46", "48 62"]);

@@ -92,7 +92,7 @@ describe("clips", () => {
 });
 
 describe("dashes and widths", () => {
-  it("keeps dashes in mm, an odd list doubled", () => {
+  it("keeps dashes in mm, and doubles an odd list", () => {
     const drawing = draw(
       `<g transform="scale(2)"><path ${PATH} stroke-dasharray="1 2 3" stroke-dashoffset="4" stroke-width=".5"/></g>`,
     );

@@ -123,7 +123,7 @@ describe("properties", () => {
     expect(codes(importSvg(page(LINE, `style="${style}"`)))).toEqual(expected);
   });
 
-  it("with a length in the size of a font's letters are named, with a count", () => {
+  it("with a length relative to a font's letters are named, with a count", () => {
     const [{ code, message }] = draw('<rect width="3ch" height="2" x="-1.5ex"/>'.repeat(2)).warnings;
     expect(code).toBe("length-approximate");
     expect(message).toMatch(/^2 lengths are in ex or ch/);

@@ -103,7 +103,7 @@ describe("DXF", () => {
     expect(spline).toBe("M0 100C0 40 25 20 50 20C75 20 100 40 100 100");
   });
 
-  it("makes layers of layers, with their colours, and omits the hidden ones", () => {
+  it("makes a layer of each layer of the file, with its colour, and omits hidden ones", () => {
     const tables =
       "0 LAYER 2 cut 70 0 62 1 6 CONTINUOUS 0 LAYER 2 fold 70 0 62 5 6 CONTINUOUS 0 LAYER 2 off 70 0 62 -3 6 CONTINUOUS 0 LAYER 2 ice 70 1 62 3 6 CONTINUOUS";
     const line = (layer: string): string => `0 LINE 8 ${layer} 10 0 20 0 11 9 21 9`;
@@ -144,7 +144,7 @@ describe("DXF", () => {
 });
 
 describe("a damaged DXF", () => {
-  it("is refused with the line that is out of step", () => {
+  it("is refused with the first line that is not what it should be", () => {
     const text = dxf("0 LINE 8 0 10 0 20 0 11 9 21 9").split("\n");
     const lost = [...text.slice(0, 17), ...text.slice(18)].join("\n");
     expect(() => importDrawing("a.dxf", lost)).toThrow(/line 27: "ENDSEC" is not a group code/);
@@ -252,7 +252,7 @@ describe("importDrawing", () => {
     ["a.plt", "XX1;", "hpgl"],
     ["a.txt", "just words", null],
     ["a.constructor", "just words", null],
-  ])("knows %s with %j for %s", (name, text, format) => {
+  ])("reads %s with %j as %s", (name, text, format) => {
     expect(formatOf(name, text)).toBe(format);
   });
 

@@ -117,7 +117,7 @@ describe("what is not drawn", () => {
     expect(warning?.message).toContain(detail);
   });
 
-  it("is dashed as before it was stretched", () => {
+  it("keeps dashes that are stretched with their shape", () => {
     const [dash] = draw('<path transform="scale(4 1)" stroke-dasharray="1" d="M0 0h9"/>').dashes;
     expect(dash).toEqual({ lengths: [2, 2], offset: 0, measure: { a: 0.5, b: -0, c: -0, d: 2 } });
     expect(

@@ -68,7 +68,7 @@ describe("letters with separate shifts", () => {
     expect(lefts('rotate="0"')).toEqual([100, 200, 290]);
   });
 
-  it("are not joined to one", () => {
+  it("are not joined into a ligature", () => {
     expect(drawn(text("fi")).paths.count).toBe(1);
     expect(drawn(text("fi", 'dx="0 1"')).paths.count).toBe(2);
     expect(drawn(text("fi", 'letter-spacing="1"')).paths.count).toBe(2);
@@ -83,7 +83,7 @@ describe("letters with separate shifts", () => {
     expect(boxOf(turned, 1)).toEqual([180, 530, 200, 550]);
   });
 
-  it("are not turned by a list with a fault", () => {
+  it("are not turned by a faulty list of angles", () => {
     expect(shapesOf(drawn(text("ab", 'rotate="5mm 10"')))).toEqual(shapesOf(drawn(text("ab"))));
   });
 

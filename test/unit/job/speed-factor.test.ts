@@ -63,7 +63,7 @@ describe("data-plotwright-speed", () => {
     expect(speedsOf(strokes)).toEqual([50, 50, 25, 25, 10]);
   });
 
-  it("counts in the time of the plan", () => {
+  it("changes the time of the plan", () => {
     const one = (attribute: string) => strokesOf(importSvg(svg(`<path d="M10 10h100"${attribute}/>`)));
     const drawS = (strokes: StrokeSet): number => {
       const job = planJob(
@@ -114,7 +114,7 @@ describe("data-plotwright-speed", () => {
     }
   });
 
-  it("that is wrong in JSON is named", () => {
+  it("is named in an error if it is wrong in JSON", () => {
     const text = '{"widthMm":100,"heightMm":100,"layers":[{"strokes":[[1,1,9,9]],"speedFactors":[7]}]}';
     const { warnings } = importDrawing("a.json", text);
     expect(warnings[0].message).toContain('"7" of stroke 1 of layer 1');

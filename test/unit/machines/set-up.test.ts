@@ -65,7 +65,7 @@ describe("the steps for one mm", () => {
     );
   });
 
-  it("are the mean of both sides, and exclude a misreading of the ruler", () => {
+  it("are the mean of both sides, and a misreading of the ruler is refused", () => {
     const machine = machineById("axidraw-v3");
     expect(stepsPerMmMeasured(machine, 50, 49, 51)).toBeCloseTo(80, 9);
     for (const [x, y] of [

@@ -25,7 +25,7 @@ const DRAWINGS = {
 };
 
 describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
-  it.each(Object.entries(DRAWINGS))("are the pen's position on %s", (_, line) => {
+  it.each(Object.entries(DRAWINGS))("match the pen's position on %s", (_, line) => {
     const trajectory = plan(strokesOf(line), { ...DEFAULT_MOTION, mode }, DEFAULT_PEN);
     for (let tS = 0; tS < trajectory.totalS; tS += 0.004) {
       const { stroke, alongMm, x } = stateAt(trajectory, tS);
@@ -34,7 +34,7 @@ describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
     }
   });
 
-  it("are the pen's position on tips and retraced lines, where pieces reverse", () => {
+  it("match the pen's position on tips and retraced lines, where blocks reverse", () => {
     const trajectory = plan(RETRACED, { ...DEFAULT_MOTION, mode }, DEFAULT_PEN);
     let farthestMm = 0;
     for (let tS = 0; tS < trajectory.totalS; tS += 0.002) {

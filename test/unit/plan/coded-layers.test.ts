@@ -44,7 +44,7 @@ describe("codes in layer names, as settings", () => {
     expect(resolved(SETTINGS, "+h80").pen.layers).toBeUndefined();
   });
 
-  it("act in the plan: its speed, its heights, and the wait with the pen up", () => {
+  it("determine the plan's speed, its pen heights, and a wait with the pen up", () => {
     const strokes = strokesNamed("plain", "+s10+h15+d2000 slow");
     const { motion, pen } = withLayerCodes(SETTINGS, strokes.layers);
     const coded = plan(strokes, motion, { ...pen, overlap: "off" });
@@ -61,7 +61,7 @@ describe("codes in layer names, as settings", () => {
     expect(trajectoryStats(coded).penLiftCount).toBe(trajectoryStats(given).penLiftCount);
   });
 
-  it("waits only once: not again if a plot resumes in the layer's middle", () => {
+  it("cause only one wait: none if a plot resumes in the middle of the layer", () => {
     const strokes = { ...strokesNamed("a", "a"), layer: Uint16Array.of(0, 0) };
     const pen = { ...DEFAULT_PEN, layers: { l0: { beforeMs: 3_000 } } };
     const waits = (from?: { stroke: number; alongMm: number }) =>

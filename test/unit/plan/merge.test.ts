@@ -52,7 +52,7 @@ const LOOPS: Point[] = Array.from({ length: 100_000 }, (_, i) => {
 });
 
 describe("merging one run", () => {
-  it("makes two blocks of a ramp cut into many, from the same start to the same end in the same time", () => {
+  it("replaces a ramp cut into many blocks by two, from the same start to the same end in the same time", () => {
     const up = Array.from({ length: 20 }, (): [number, number] => [0.005, 400]);
     const down = Array.from({ length: 20 }, (): [number, number] => [0.005, -400]);
     const { blocks, at } = straightRun([...up, ...down]);

@@ -90,7 +90,7 @@ describe("corners", () => {
     [50, 50],
   ];
 
-  it("in blend mode are one block: a right angle moved outwards by δ, at v² = 8 A δ, at δ inside the corner", () => {
+  it("in blend mode are one block: a right angle moves outwards by δ, and is passed at v² = 8 A δ, δ inside the corner", () => {
     const t = plan(strokeSetOf([corner]), { mode: "blend", draw, travel: draw }, DEFAULT_PEN);
     const k = Array.from({ length: t.blockCount }, (_, i) => i).find((i) => t.ax[i] < -1 && t.ay[i] > 1)!;
     // The sides lead to the moved corner, which makes the turn a little wider.
@@ -107,7 +107,7 @@ describe("corners", () => {
     expect(y).toBeCloseTo(0.05 / Math.SQRT2, 9);
   });
 
-  it("of triangles, stars and squares are taken sooner in blend mode than in junction mode, at speeds near √(2 A δ)/s", () => {
+  it("of triangles, stars and squares take less time in blend mode than in junction mode, at speeds near √(2 A δ)/s", () => {
     // At higher speed, turning takes longer under A than a jump of velocity: see docs/comparison.md.
     const slow = { speedMmPerS: 10, accelMmPerS2: 500, cornerMm: 0.05, jerkMmPerS3: 10_000 };
     for (const [corners, times] of [
@@ -139,7 +139,7 @@ describe("corners", () => {
 });
 
 describe.each(["blend", "scurve"] as const)("a stroke of nine thousand points, mode %s", (mode) => {
-  it("continues without a gap or a jump of its place along the drawing from beginning to end", () => {
+  it("has no gap, and no jump of its place along the drawing, from beginning to end", () => {
     const points = Array.from({ length: 9_000 }, (_, i): Point => {
       const u = i / 50;
       return [30 + u, 20 + (i % 7 === 0 ? 0.3 : 0) + 3 * Math.sin(u)];

@@ -62,7 +62,7 @@ describe("a pen in flight", () => {
     }
   });
 
-  it("returns how far from a stroke it may begin to come down", () => {
+  it("begins to come down at most landingMm before a stroke", () => {
     for (const pen of [SAFE, FAST, { ...FAST, dropMs: 500 }]) {
       const t = planned(pen);
       const { accelMmPerS2 } = DEFAULT_MOTION.travel;

@@ -13,7 +13,7 @@ describe("the place on the drawing for a pen position", () => {
     expect(snapped(15.97, 4, -20)).toBeCloseTo(16, 2);
   });
 
-  it("follows the plan if the stroke and the pen move in opposite directions, about a tip", () => {
+  it("is the planned place if stroke and pen run in opposite directions near a tip", () => {
     expect(snapped(10.01, 9.94, 6)).toBe(10.01);
     expect(snapped(9.99, 9.94, -6)).toBe(9.99);
     expect(snapped(10.01, 9.94, -6)).toBeCloseTo(10.06, 3);

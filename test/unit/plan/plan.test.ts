@@ -48,7 +48,7 @@ describe("the sequence of runs", () => {
     expect([t.blockCount, t.runs.count, t.penMoves.count, t.totalS]).toEqual([0, 0, 0, 0]);
   });
 
-  it("makes a drop and a lift of a dot, with no motion between", () => {
+  it("has a drop and a lift for a dot, without motion between them", () => {
     const t = plan(strokeSetOf([[[30, 40]]]), motion, DEFAULT_PEN);
     expect(Array.from(t.runs.stroke)).toEqual([-1, 0, -1]);
     expect(t.runs.firstBlock[1]).toBe(t.runs.firstBlock[2]);
@@ -112,7 +112,7 @@ describe("the state at a time", () => {
     expect([s.x, s.y].map((v) => v.toFixed(6))).toEqual(["20.000000", "20.000000"]);
   });
 
-  it("refuses a time that is not a number", () => {
+  it("is refused for a time that is not a number", () => {
     expect(() => stateAt(t, Number.NaN)).toThrow(RangeError);
   });
 });
@@ -150,7 +150,7 @@ describe("corner speed in junction mode", () => {
     expect(Math.hypot(t.vx[corner], t.vy[corner])).toBeCloseTo(Math.sqrt((1 + Math.SQRT2) * 50), 9);
   });
 
-  it("stops at a reversal", () => {
+  it("is zero at a reversal", () => {
     const t = plan(
       strokeSetOf([
         [
@@ -217,12 +217,12 @@ describe("invalid input to the planner", () => {
       plan(strokeSetOf([square]), motion, DEFAULT_PEN, { from: { stroke: 7, alongMm: 0 } }),
     ).toThrow(RangeError);
   });
+});
 
-  it("stops on request", () => {
-    expect(() => plan(strokeSetOf([square]), motion, DEFAULT_PEN, { cancel: { aborted: true } })).toThrow(
-      /cancelled/,
-    );
-  });
+it("planning stops on request", () => {
+  expect(() => plan(strokeSetOf([square]), motion, DEFAULT_PEN, { cancel: { aborted: true } })).toThrow(
+    /cancelled/,
+  );
 });
 
 function circle(radius: number, step: number, turns: number): Point[] {

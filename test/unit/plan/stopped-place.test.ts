@@ -20,7 +20,7 @@ function drawnMm(strokes: ReturnType<typeof strokesOf>, from: Place, to: Place):
   return mm;
 }
 
-describe("where a plot was interrupted", () => {
+describe("the place where a plot was interrupted", () => {
   it("is after the journal's place and never beyond the pen, so that nothing is left out", () => {
     fc.assert(
       fc.property(lines, fc.nat(5), share, share, fc.nat(3), (xys, at, journalShare, penShare, ahead) => {
@@ -132,7 +132,7 @@ describe("where a plot was interrupted", () => {
     expect(stoppedPlace(two, journal, home, { aheadMm: 500, stops: [1] })).toEqual({ stroke: 1, alongMm: 0 });
   });
 
-  it("stays the journal's at home if nothing was drawn since the plot was there", () => {
+  it("is the journal's place if the carriage is at home and nothing was drawn since it left home", () => {
     const line = strokesOf([10, 0, 20, 0]);
     const begun = { stroke: 0, alongMm: 0 };
     expect(stoppedPlace(line, begun, { x: 0, y: 0, up: true }, { aheadMm: 500 })).toEqual(begun);
@@ -142,7 +142,7 @@ describe("where a plot was interrupted", () => {
     );
   });
 
-  it("stays the journal's if the pen is somewhere else, or further than possible", () => {
+  it("is the journal's place if the pen is somewhere else, or further than possible", () => {
     expect(stoppedPlace(two, journal, { x: 60, y: 5, up: false }, { aheadMm: 500 })).toEqual(journal);
     expect(stoppedPlace(two, journal, { x: 5, y: 80, up: false }, { aheadMm: 100 })).toEqual(journal);
   });
@@ -152,7 +152,7 @@ describe("where a plot was interrupted", () => {
     const loop = strokesOf([0, 0, 20, 0, 20, 2, 18.5, 2, 18.5, -10]);
     const crossing = { x: 18.5, y: 0, up: false };
 
-    it("is the crossing's later passage if the first was sent before the last entry", () => {
+    it("is where the line passes a crossing again if its first passage was sent before the last entry", () => {
       expect(stoppedPlace(loop, { stroke: 0, alongMm: 10 }, crossing, { aheadMm: 60 })).toEqual({
         stroke: 0,
         alongMm: 18.5,

@@ -35,7 +35,7 @@ describe("a file whose page is the paper", () => {
     expect([x0, x1, y0].map((mm) => Math.round(mm * 1e6) / 1e6)).toEqual([9, 288, 100]);
   });
 
-  it("is known by a page in whole pixels too, and the paper keeps its name", () => {
+  it("is also recognised if its page is in whole pixels, and the paper keeps its name", () => {
     const letter = { ...DEFAULT_PREPARE, paper: PAPER_SIZES.Letter };
     const { fit, paper, landscape } = placedForPage(letter, page((1056 * 25.4) / 96, (817 * 25.4) / 96), V3);
     expect({ fit, paper, landscape }).toEqual({ fit: false, paper: PAPER_SIZES.Letter, landscape: true });
@@ -63,7 +63,7 @@ describe("a place chosen by hand", () => {
     ["a place", { place: { xMm: 1, yMm: 1, widthMm: 50, heightMm: null } }],
     ["a turn", { rotateDeg: 30 }],
     ["no cut at the margins", { clipToMargins: false }],
-  ])("stays as it is: %s", (_what, change) => {
+  ])("stays unchanged: %s", (_what, change) => {
     const settings = { ...DEFAULT_PREPARE, ...change };
     expect(placedForPage(settings, page(297, 210), V3)).toBe(settings);
   });
@@ -76,7 +76,7 @@ describe("a place chosen by hand", () => {
 });
 
 describe("a drawing that is fitted", () => {
-  it("is on paper that is turned into the machine's reach", () => {
+  it("has its paper turned if the machine reaches only that", () => {
     const portrait = { ...DEFAULT_PREPARE, landscape: false };
     expect(placedForPage(portrait, page(100, 100), V3).landscape).toBe(true);
     expect(placedForPage(portrait, page(100, 100), A3_PLOTTER).landscape).toBe(false);
@@ -93,7 +93,7 @@ describe("the file's page as the paper", () => {
   });
 });
 
-describe("a quarter's turn of paper and drawing", () => {
+describe("a quarter turn of paper and drawing", () => {
   const svg = svgOf(60, 40, "M0 0L60 40M6 20H16");
   it.each<[string, Partial<PrepareSettings>]>([
     ["fitted", {}],
@@ -103,7 +103,7 @@ describe("a quarter's turn of paper and drawing", () => {
     ["placed", { place: { xMm: 20, yMm: 30, widthMm: 80, heightMm: null } }],
     ["placed and turned", { place: { xMm: 20, yMm: 60, widthMm: null, heightMm: 40, turnDeg: 30 } }],
     ["mirrored", { mirror: "leftRight", rotateDeg: 30 }],
-  ])("draws the same on the sheet: %s", (_how, change) => {
+  ])("leaves the same plot on the sheet: %s", (_how, change) => {
     const settings = { ...DEFAULT_PREPARE, landscape: false, ...change };
     const { frame } = placeDrawing(importSvg(svg), settings);
     const after = drawn(svg, quarterTurned(settings, frame));

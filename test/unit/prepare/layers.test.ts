@@ -32,7 +32,7 @@ describe("the order of layers", () => {
     expect(strokesOf({ layerOrder: ["g1"] })).toEqual(["1>", "0>", "2>"]);
   });
 
-  it("is stored with the layers, and ignores unknown and repeated ones", () => {
+  it("is that of the layers in the result, without unknown and repeated ones", () => {
     const prepared = preparedWith({ layerOrder: ["g9", "g2", "g0", "g2"] });
     expect(prepared.layers.map(({ id }) => id)).toEqual(["g2", "g0", "g1"]);
     expect(prepared.strokes.layers.map(({ id }) => id)).toEqual(["g2", "g0", "g1"]);
@@ -66,7 +66,7 @@ describe("a layer drawn more than once", () => {
     expect(preparedWith({ layerRepeats: { g0: 3, g2: 2 } }).drawMm).toBe(120);
   });
 
-  it("begins each pass at the same point if the layer ends at its beginning and that is as short", () => {
+  it("begins each pass at the same point if the layer ends where it begins and that takes no more travel", () => {
     const ring = drawingOf(["M0 0L10 0L10 10L0 10Z"]);
     const { strokes, travelMm } = preparedWith({ layerRepeats: { g0: 2 } }, ring);
     expect([strokeCount(strokes), travelMm]).toEqual([2, 0]);
@@ -102,34 +102,34 @@ describe("the colour of a layer", () => {
   const BLUE = "#0000ff";
   const PURPLE = "#800080";
   const line = (stroke: string, y: number, lengthMm = 10) => ({ d: `M0 ${y}L${lengthMm} ${y}`, stroke });
-  const looksOf = (shapes: Parameters<typeof drawingOf>[0], settings: Partial<PrepareSettings> = {}) =>
+  const colorsOf = (shapes: Parameters<typeof drawingOf>[0], settings: Partial<PrepareSettings> = {}) =>
     preparedWith(settings, drawingOf(shapes)).layers.map(({ color, colorCount }) => [color, colorCount]);
 
   it("is that of most of its lines, and other colours are reported", () => {
     const blue = Array.from({ length: 44 }, (_, k) => line(BLUE, k));
-    expect(looksOf([line(PURPLE, 50), ...blue])).toEqual([[BLUE, 2]]);
-    expect(looksOf([line(PURPLE, 50), ...blue], { layers: "all" })).toEqual([[BLUE, 2]]);
-    expect(looksOf(blue)).toEqual([[BLUE, 1]]);
+    expect(colorsOf([line(PURPLE, 50), ...blue])).toEqual([[BLUE, 2]]);
+    expect(colorsOf([line(PURPLE, 50), ...blue], { layers: "all" })).toEqual([[BLUE, 2]]);
+    expect(colorsOf(blue)).toEqual([[BLUE, 1]]);
     expect(preparedWith({}, drawingOf([line(PURPLE, 50), ...blue])).strokes.layers[0].color).toBe(BLUE);
   });
 
   it("goes by length, not by the number of shapes, and excludes pen-up travel", () => {
     const purples = [0, 1, 2].map((y) => line(PURPLE, y, 5));
-    expect(looksOf([...purples, line(BLUE, 9, 20)])).toEqual([[BLUE, 2]]);
+    expect(colorsOf([...purples, line(BLUE, 9, 20)])).toEqual([[BLUE, 2]]);
     // The closing side counts; the moves between subpaths do not.
     const box = { d: "M0 0L8 0L8 8L0 8Z", stroke: BLUE };
-    expect(looksOf([box, line(PURPLE, 20, 30)])).toEqual([[BLUE, 2]]);
-    expect(looksOf([{ d: "M0 0L1 0M90 90L91 90", stroke: PURPLE }, line(BLUE, 9, 5)])).toEqual([[BLUE, 2]]);
+    expect(colorsOf([box, line(PURPLE, 20, 30)])).toEqual([[BLUE, 2]]);
+    expect(colorsOf([{ d: "M0 0L1 0M90 90L91 90", stroke: PURPLE }, line(BLUE, 9, 5)])).toEqual([[BLUE, 2]]);
   });
 
   it("is the most frequent one among dots", () => {
     const dot = (stroke: string, x: number) => ({ d: `M${x} 5L${x} 5`, stroke });
-    expect(looksOf([dot(PURPLE, 1), dot(BLUE, 2), dot(BLUE, 3)])).toEqual([[BLUE, 2]]);
+    expect(colorsOf([dot(PURPLE, 1), dot(BLUE, 2), dot(BLUE, 3)])).toEqual([[BLUE, 2]]);
   });
 
   it("is the fill's if a shape has no stroke", () => {
     const filled = { d: "M0 0L8 0L8 8Z", stroke: null, fill: PURPLE };
-    expect(looksOf([filled])).toEqual([[PURPLE, 1]]);
+    expect(colorsOf([filled])).toEqual([[PURPLE, 1]]);
   });
 });
 

@@ -69,7 +69,7 @@ describe("stops for pens", () => {
     expect(placesOf(["a", "b"], { pens, layerPens: { g0: "red", g1: "black" } }, hidden)).toEqual([]);
   });
 
-  it("skip layers without a set pen, and remember which one is in", () => {
+  it("skip layers without an assigned pen, and remember which pen is in the holder", () => {
     expect(placesOf(["a", "b", "c"], { pens, layerPens: { g0: "red", g2: "red" } })).toEqual([]);
     expect(placesOf(["a", "b", "c"], { pens, layerPens: { g0: "red", g2: "black" } })).toEqual([0, 4]);
     expect(placesOf(["a", "b"], { pens, layerPens: { g1: "red" } })).toEqual([2]);

@@ -358,7 +358,9 @@ describe("degenerate input", () => {
     expect(draw(drawingOf(["M7 7L7 7"]), settings)).toEqual([[50, 50]]);
     expect(draw(drawingOf(["M7 7L9 7"]), settings)).toEqual([[0, 50, 100, 50]]);
   });
+});
 
+describe("a call of prepare", () => {
   it("stops on request", () => {
     expect(() => prepare(drawingOf(["M0 0L1 1"]), TRUE_SIZE, { cancel: { aborted: true } })).toThrow(
       expect.objectContaining({ code: "cancelled" }),

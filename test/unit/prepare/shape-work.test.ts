@@ -37,7 +37,7 @@ describe("place by numbers", () => {
     expect(draw(drawing, { place: { ...at, widthMm: 30, heightMm: 30 } })).toEqual([[5, 6, 35, 36]]);
   });
 
-  it("overrides the fit, and follows turning", () => {
+  it("overrides the fit, and is applied after turning", () => {
     const place = { xMm: 0, yMm: 0, widthMm: null, heightMm: null };
     expect(draw(drawing, { place, fit: true, rotateDeg: 90 })).toEqual([[10, 0, 0, 20]]);
   });
@@ -126,7 +126,7 @@ describe("hatch", () => {
     expect(lengths({ outlineFills: false })).toEqual([0, 40]);
   });
 
-  it("leaves a shape thinner than the pen empty, and ends on a tiny spacing", () => {
+  it("leaves a shape thinner than the pen empty, and does not hang with a tiny spacing", () => {
     const sliver = drawingOf([{ d: "M0 0L50 0L50 0.2L0 0.2Z", stroke: null, fill: "#000000" }]);
     expect(draw(sliver, { hatch: { spacingMm: 1, angleDeg: 0, cross: false }, outlineFills: false })).toEqual(
       [],
@@ -160,7 +160,7 @@ describe("repeated lines", () => {
     expect(draw(lines, { dropRepeatsMm: 0.05 })).toEqual(draw(lines));
   });
 
-  it("split a line if its middle exists already", () => {
+  it("split a line whose middle is already drawn", () => {
     expect(draw(drawingOf(["M40 0L60 0", "M0 0L100 0"]), { dropRepeatsMm: 0.1 })).toEqual([
       [40, 0, 60, 0],
       [0, 0, 40, 0],

@@ -30,7 +30,7 @@ export interface CommandStream extends MachineCommands {
   readonly warnings: readonly string[];
 }
 
-/** The commands of a job as this driver's own. Throws TypeError for those of another driver. */
+/** Casts a job's commands to the type of this driver. Throws TypeError for commands of another driver. */
 export function streamOf(commands: MachineCommands): CommandStream {
   if (!("steps1" in commands)) throw new TypeError("these commands are for another controller");
   return commands as CommandStream;

@@ -21,7 +21,7 @@ import {
 } from "../protocol/commands.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { checkEbbProfile } from "../protocol/ebb-controller.js";
-import { firmwareFeatures, type FirmwareFeatures } from "../protocol/firmware.js";
+import { firmwareFeatures } from "../protocol/firmware.js";
 import type { LegWriter, MotorState, RunWriter } from "./leg.js";
 import { LegRuns } from "./leg-runs.js";
 import { RunWalk } from "./run-walk.js";
@@ -97,9 +97,7 @@ class Compiler {
     const start = options.start ?? { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
     this.m1 = { steps: start.steps1, acc: start.acc1 };
     this.m2 = { steps: start.steps2, acc: start.acc2 };
-    const features = firmwareFeatures(options.firmware);
-    const walk = new RunWalk(trajectory, options.machine);
-    this.runs = runWriterFor(features, trajectory, walk, this.columns, this.m1, this.m2);
+    this.runs = this.runWriter();
     this.heights = { up: options.pen.upPct, down: options.pen.downPct };
   }
 
@@ -107,7 +105,7 @@ class Compiler {
     const { trajectory } = this;
     const { penMoves, runs } = trajectory;
     if (!Number.isFinite(trajectory.totalS)) throw new RangeError("the trajectory's time is not finite");
-    if (penMoves.count > 0) this.setUpPen();
+    if (penMoves.count > 0) this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0, -1);
     let next = 0;
     for (let r = 0; r <= runs.count; r++) {
       for (; next < penMoves.count && penMoves.beforeRun[next] <= r; next++)
@@ -119,15 +117,31 @@ class Compiler {
         inFlight.push(penMoveAt(penMoves, next));
       this.runs.write(
         r,
-        inFlight.map((move) => ({ atS: move.startS, write: (...at) => this.penMoveInFlight(move, ...at) })),
+        inFlight.map((move) => ({
+          atS: move.startS,
+          write: (planS) => this.penMoveInFlight(move, r, planS),
+        })),
       );
       for (const { waitS } of inFlight) this.waitForPen(waitS, endS);
     }
     return this.columns.finish(trajectory.totalS);
   }
 
-  private setUpPen(): void {
-    this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0, -1);
+  private runWriter(): RunWriter {
+    const { trajectory, columns, m1, m2 } = this;
+    const features = firmwareFeatures(this.options.firmware);
+    const walk = new RunWalk(trajectory, this.options.machine);
+    const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns, m1, m2);
+    switch (features.motion) {
+      case "jerk":
+        return legs(new SignedWriter(columns.text, features));
+      case "timed":
+        return legs(new TimedWriter(columns.text));
+      case "steps":
+        return legs(new SteppedWriter(columns.text, features));
+      case "slices":
+        return new SliceRuns(features, walk, columns, m1, m2);
+    }
   }
 
   /** A pen move for which the carriage waits. */
@@ -190,27 +204,6 @@ class Compiler {
   private writeIdle(line: string, ticks: number, planS: number, run: number): void {
     const { columns, m1, m2 } = this;
     columns.text.line(line);
-    columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
-  }
-}
-
-function runWriterFor(
-  features: FirmwareFeatures,
-  trajectory: Trajectory,
-  walk: RunWalk,
-  columns: StreamColumns,
-  m1: MotorState,
-  m2: MotorState,
-): RunWriter {
-  const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns, m1, m2);
-  switch (features.motion) {
-    case "jerk":
-      return legs(new SignedWriter(columns.text, features));
-    case "timed":
-      return legs(new TimedWriter(columns.text));
-    case "steps":
-      return legs(new SteppedWriter(columns.text, features));
-    case "slices":
-      return new SliceRuns(features, walk, columns, m1, m2);
+    columns.add(ticks, planS, run, m1, m2);
   }
 }

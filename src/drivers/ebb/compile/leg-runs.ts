@@ -1,6 +1,6 @@
 /**
  * Writes runs for firmware with ramps (2.5.3 and newer): cuts each run into legs, in order of time, and writes each
- * leg as one command of the kind that the firmware has.
+ * leg as one command, of a kind that the firmware knows.
  *
  *   plan    |--block--|--block--|b|b|b|----------block----------|
  *   legs    |---leg---|---leg---|--leg--|--leg--|--leg--|--leg--|     every leg at least 5 ms (8 with LM)
@@ -11,8 +11,9 @@
  * number of blocks.
  */
 import type { Trajectory } from "../../../plan/trajectory.js";
-import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
-import type { Leg, LegWriter, Midway, MotorLeg, MotorState, RunWriter } from "./leg.js";
+import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS } from "../../../units.js";
+import { MAX_TICKS, type Leg, type LegWriter, type Midway, type MotorLeg } from "./leg.js";
+import type { MotorState, RunWriter } from "./leg.js";
 import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
 import type { MotorPoint, RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
@@ -26,7 +27,7 @@ const MAX_DEVIATION_RATE = ACCUMULATOR_RANGE / 2;
 /** Max extra speed to make up for idle ticks: 32 steps/s, 0.4 mm/s at 80 steps/mm. */
 const MAX_MAKE_UP_RATE = rateFromStepsPerS(32);
 
-/** `turnTicks` for shaped motion: shorter, because its acceleration is higher, so the motor moves farther in that time. */
+/** `turnTicks` for shaped motion: fewer, because its acceleration is higher, so the motor moves farther in that time. */
 const SHAPED_TURN_TICKS = 12;
 
 /** Min ticks of the command that ends a run, about 1 ms. The idle tick must fit too. */
@@ -85,7 +86,7 @@ export class LegRuns implements RunWriter {
       isRunEnd = cut.isRunEnd;
       this.writeMidway(isRunEnd ? Infinity : columns.boardTicks);
     }
-    this.rest(run);
+    this.waitForRunEnd(run);
   }
 
   /** Writes the pen moves due by `tick`. */
@@ -94,7 +95,7 @@ export class LegRuns implements RunWriter {
       const [next, ...later] = this.midway;
       if (!next) return;
       this.midway = later;
-      next.write(this.runIndex, this.walk.planS(this.columns.boardTicks));
+      next.write(this.walk.planS(this.columns.boardTicks));
     }
   }
 
@@ -103,17 +104,17 @@ export class LegRuns implements RunWriter {
     return next ? this.walk.tickOf(next.atS) : Infinity;
   }
 
-  /** Waits if the last step of a run comes before its planned end, so that it takes the planned time on every firmware. */
-  private rest(run: number): void {
+  /** Waits if a run's last step comes before its planned end. So a run takes the planned time on every firmware. */
+  private waitForRunEnd(run: number): void {
     const { walk, columns, m1, m2 } = this;
     const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
     if (ms < 1) return;
     columns.text.line(`SM,${ms},0,0`);
     const planS = walk.planS(columns.boardTicks);
-    columns.add(ms * TICKS_PER_MS, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ms * TICKS_PER_MS, planS, run, m1, m2);
   }
 
-  /** The next cut after `tick`, which is in `block`; not before `notBefore`. */
+  /** The next cut after `tick`, which is in `block`. The cut is not before `notBefore`. */
   private nextCut(tick: number, block: number, notBefore: number): Cut {
     const { walk, writer } = this;
     const last = walk.end - 1;
@@ -152,9 +153,7 @@ export class LegRuns implements RunWriter {
     if (end < runEnd && runEnd - end < restTicks) {
       const earlier = runEnd - restTicks;
       end = earlier >= soonest && earlier < end ? earlier : runEnd;
-      k = walk.blockAt(end, block);
-      if (end === runEnd) k = last;
-      else if (k > block && end === walk.endTick(k - 1)) k--;
+      k = end === runEnd ? last : walk.blockAt(end, block);
     }
     if (end < runEnd) {
       while (k > block && walk.endTick(k - 1) >= end) k--;
@@ -165,8 +164,9 @@ export class LegRuns implements RunWriter {
   /** Where to cut a block that is long enough for a command but may be too long for one. */
   private withinBlock(tick: number, block: number, soonest: number, blockEnd: number): number {
     const { walk, writer } = this;
-    const jerkTicks = walk.hasJerk(block) ? writer.maxTicksForJerk(walk.jerk(block)) : Infinity;
-    const longest = Math.max(Math.min(writer.maxTicks, jerkTicks), soonest - tick);
+    // A constant acceleration misses the end speeds of T ticks of jerk J by J T²/12.
+    const jerkTicks = Math.floor(Math.sqrt((12 * writer.jerkErrorRate) / walk.jerk(block)));
+    const longest = Math.max(Math.min(MAX_TICKS, Math.max(writer.minTicks, jerkTicks)), soonest - tick);
     const pieces = Math.ceil((blockEnd - tick) / longest);
     return pieces > 1 ? Math.max(soonest, tick + Math.round((blockEnd - tick) / pieces)) : blockEnd;
   }
@@ -204,9 +204,9 @@ export class LegRuns implements RunWriter {
   }
 
   /**
-   * A motor that reverses too near to a leg's end for a separate leg is driven without reversing. On a long leg that
-   * moves it off the line by a quarter of its reverse speed times the leg's duration. If that is too far, the reversal
-   * gets the shortest possible leg. Returns the earlier cut; null if `cut` is good.
+   * If a motor reverses too close to a leg's end for a separate leg, it is driven without reversing. On a long leg that
+   * takes it off the line by a quarter of its reverse speed times the leg's duration. If that is too far, the reversal
+   * gets the shortest possible leg. Returns the earlier cut, or null if `cut` is good.
    */
   private cutForTurn(leg: Leg, cut: Cut, tick: number, block: number, notBefore: number): Cut | null {
     const { walk, writer } = this;
@@ -239,8 +239,8 @@ export class LegRuns implements RunWriter {
   }
 
   /**
-   * The leg with more time if a motor would have to step too fast, or if the run's end is too short for a command. The
-   * rest of the plan is delayed by that time.
+   * Gives the leg more time if a motor would have to step too fast, or if the end of the run is too short for a command.
+   * Delays the rest of the plan by that time.
    */
   private slowedDown(leg: Leg, isRunEnd: boolean): Leg {
     const peak = Math.max(peakRate(leg.m1, leg.ticks), peakRate(leg.m2, leg.ticks));
@@ -285,7 +285,7 @@ export class LegRuns implements RunWriter {
     const planS = this.walk.planS(columns.boardTicks);
     const ticks = this.writer.write(leg, m1, m2);
     if (ticks === 0) return false;
-    columns.add(ticks, planS, this.runIndex, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ticks, planS, this.runIndex, m1, m2);
     return true;
   }
 }
@@ -298,34 +298,30 @@ const legBetween = (start: MotorPoint, end: MotorPoint): MotorLeg => ({
 });
 
 const peakRate = (motor: MotorLeg, ticks: number): number =>
-  Math.max(Math.abs(motor.v0), Math.abs(motor.v1), meanRate(motor, ticks));
+  Math.max(Math.abs(motor.v0), Math.abs(motor.v1), Math.abs(meanRate(motor, ticks)));
 
-const meanRate = (motor: MotorLeg, ticks: number): number =>
-  Math.abs(rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S));
+const meanRate = ({ p0, p1 }: MotorLeg, ticks: number): number => ((p1 - p0) / ticks) * ACCUMULATOR_RANGE;
 
 /** The smaller of the end speeds if they have opposite signs, otherwise 0. */
 const backwards = ({ v0, v1 }: MotorLeg): number => (v0 * v1 < 0 ? Math.min(Math.abs(v0), Math.abs(v1)) : 0);
 
 /** True if one acceleration from v0 to v1 would miss the leg's distance. */
-function isBent(motor: MotorLeg, ticks: number): boolean {
-  const mean = rateFromStepsPerS(((motor.p1 - motor.p0) / ticks) * TICKS_PER_S);
-  return Math.abs((motor.v0 + motor.v1) / 2 - mean) > JOIN_RATE;
-}
+const isBent = (motor: MotorLeg, ticks: number): boolean =>
+  Math.abs((motor.v0 + motor.v1) / 2 - meanRate(motor, ticks)) > JOIN_RATE;
 
 /**
  * The first of two accelerations, each over half of the time T, that lead from p0, v0 to p1, v1:
  * a₁ + a₂ = 2 Δv/T and 3 a₁ + a₂ = 8 (Δp − v₀ T)/T².
  */
 function firstHalf(motor: MotorLeg, ticks: number, half: number): MotorLeg {
-  const toSteps = 1 / rateFromStepsPerS(TICKS_PER_S);
-  const v0 = motor.v0 * toSteps;
-  const v1 = motor.v1 * toSteps;
+  const v0 = motor.v0 / ACCUMULATOR_RANGE;
+  const v1 = motor.v1 / ACCUMULATOR_RANGE;
   const mean = (motor.p1 - motor.p0 - v0 * ticks) / (ticks * ticks);
   const accel = 4 * mean - (v1 - v0) / ticks;
   return {
     p0: motor.p0,
     p1: motor.p0 + v0 * half + (accel * half * half) / 2,
     v0: motor.v0,
-    v1: (v0 + accel * half) / toSteps,
+    v1: (v0 + accel * half) * ACCUMULATOR_RANGE,
   };
 }

@@ -26,6 +26,9 @@ export interface Leg {
   readonly isLast: boolean;
 }
 
+/** Max ticks of a command: 150 ms. */
+export const MAX_TICKS = 3_750;
+
 /** Predicted state of one motor. */
 export interface MotorState {
   steps: number;
@@ -37,7 +40,7 @@ export interface Midway {
   /** Trajectory seconds. */
   readonly atS: number;
   /** `planS`: the plan time at which it is written, at most a few ms after `atS`. */
-  write(run: number, planS: number): void;
+  write(planS: number): void;
 }
 
 /**
@@ -52,7 +55,6 @@ export interface RunWriter {
 export interface LegWriter {
   /** Min ticks of a command. */
   readonly minTicks: number;
-  readonly maxTicks: number;
   /**
    * A motor must not reverse within a leg. A reversal within this many ticks of the leg's start or end is tolerated,
    * because the motor moves only a few µm in that time. 0: motors may reverse anywhere.
@@ -62,8 +64,11 @@ export interface LegWriter {
   readonly idleTicks: number;
   /** One command can join any two speeds (it has a jerk). */
   readonly joinsAnySpeeds: boolean;
-  /** Max ticks of a leg with this jerk (counts per tick³ of the faster motor). */
-  maxTicksForJerk(jerk: number): number;
+  /**
+   * Max speed error at a leg's ends from replacing a jerk by a constant acceleration, counts per tick. Infinity: the
+   * command has a jerk.
+   */
+  readonly jerkErrorRate: number;
   /**
    * Returns the ticks it takes (normally `leg.ticks`), or 0 if no motor has to move yet
    * and nothing was written.

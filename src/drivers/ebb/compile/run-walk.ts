@@ -3,7 +3,7 @@
  *
  *   board tick = plan seconds × 25 000 + origin
  *
- * `origin` is reset at each run's start, and increases whenever the plan had to be slowed down.
+ * `origin` is reset at each run's start, and increases whenever the plan has to be slowed down.
  */
 import { motor1FromXy, motor2FromXy } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -16,7 +16,7 @@ export interface MotorPoint {
   readonly v: number;
 }
 
-export interface PlanPoint {
+interface PlanPoint {
   readonly m1: MotorPoint;
   readonly m2: MotorPoint;
 }

@@ -17,11 +17,6 @@ import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } 
 import { HIGHEST_RATE } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-/**
- * The unit of J is 91 mm/s³. Over a longer time, an error of half a unit would bend the line by
- * more than 2 µm.
- */
-const MAX_JERK_TICKS = 4_000;
 
 interface Arguments {
   readonly rate: number;
@@ -31,20 +26,17 @@ interface Arguments {
 
 export class SignedWriter implements LegWriter {
   readonly minTicks = 125;
-  readonly maxTicks = 3_750;
   readonly turnTicks = 0;
   readonly idleTicks: number;
   readonly joinsAnySpeeds = true;
+  /** The unit of J is 91 mm/s³: within `MAX_TICKS`, an error of half a unit bends the line by less than 2 µm. */
+  readonly jerkErrorRate = Infinity;
 
   constructor(
     private readonly text: CommandText,
     features: FirmwareFeatures,
   ) {
     this.idleTicks = features.idleTicksTimed;
-  }
-
-  maxTicksForJerk(): number {
-    return MAX_JERK_TICKS;
   }
 
   write(leg: Leg, m1: MotorState, m2: MotorState): number {

@@ -46,15 +46,15 @@ export class SliceRuns implements RunWriter {
     let written = 0;
     const writeMidway = (tick: number): void => {
       while (written < midway.length && walk.tickOf(midway[written].atS) <= tick)
-        midway[written++].write(run, walk.planS(columns.boardTicks));
+        midway[written++].write(walk.planS(columns.boardTicks));
     };
     while (!isLast) {
       writeMidway(columns.boardTicks);
       const leftTicks = walk.endTick(last) - columns.boardTicks;
       isLast = leftTicks < 1.5 * SLICE_TICKS;
       const ms = isLast ? Math.max(0, Math.round((leftTicks - features.idleTicks) / TICKS_PER_MS)) : SLICE_MS;
-      // The target is the plan's position at the slice's real end, so that rounding to whole milliseconds causes no
-      // speed error, except in the last slice.
+      // The target is the plan's position at the slice's real end. So rounding to whole milliseconds causes no speed
+      // error, except in the last slice.
       const tick = columns.boardTicks + ms * TICKS_PER_MS + features.idleTicks;
       block = isLast ? last : walk.blockAt(tick, block);
       const target = isLast ? walk.endOf(block) : walk.pointAt(tick, block);
@@ -81,7 +81,7 @@ export class SliceRuns implements RunWriter {
     const stepping = Math.max(this.step(m1, ms, steps1), this.step(m2, ms, steps2));
     // An SM without steps is a plain delay and has no idle tick.
     const ticks = stepping > 0 ? stepping + features.idleTicks : ms * TICKS_PER_MS;
-    columns.add(ticks, planS, run, m1.steps, m2.steps, m1.acc, m2.acc);
+    columns.add(ticks, planS, run, m1, m2);
   }
 
   /** Updates one motor's state. Returns the ticks until its last step. */

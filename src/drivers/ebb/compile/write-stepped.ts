@@ -19,8 +19,6 @@ import type { Leg, LegWriter, MotorLeg, MotorState } from "./leg.js";
 import { HIGHEST_RATE, SLOWEST_PART_OF_MEAN } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-/** As in write-timed.ts, but 0.5 mm/s. */
-const JERK_ERROR_RATE = rateFromStepsPerS(0.5 * 80);
 
 interface Arguments {
   /** Magnitude; the sign of `steps` gives the direction. */
@@ -31,19 +29,16 @@ interface Arguments {
 
 export class SteppedWriter implements LegWriter {
   readonly minTicks = 200;
-  readonly maxTicks = 3_750;
   readonly turnTicks = 120;
   readonly idleTicks = 0;
   readonly joinsAnySpeeds = false;
+  /** 0.5 mm/s at 80 steps/mm. */
+  readonly jerkErrorRate = rateFromStepsPerS(0.5 * 80);
 
   constructor(
     private readonly text: CommandText,
     private readonly features: FirmwareFeatures,
   ) {}
-
-  maxTicksForJerk(jerk: number): number {
-    return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
-  }
 
   write(leg: Leg, m1: MotorState, m2: MotorState): number {
     const { text } = this;

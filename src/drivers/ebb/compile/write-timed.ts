@@ -5,8 +5,8 @@
  * zero wraps to full speed. So a motor must never reverse within a leg (the compiler cuts there), and its speeds must
  * not be negative.
  *
- * The accumulator has the fraction of a step moved since the last step, in the direction of travel. After a reversal
- * that fraction counts in the wrong direction. If zero is nearer to the true position, the command clears it.
+ * The accumulator holds the fraction of a step moved since the last step, in the direction of travel. After a reversal
+ * that fraction counts in the wrong direction. If zero is closer to the true position, the command clears it.
  */
 import { ACCUMULATOR_RANGE, rateFromStepsPerS } from "../../../units.js";
 import { registersFor, sumOfRates } from "../model/accumulator.js";
@@ -15,10 +15,6 @@ import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } 
 import { HIGHEST_RATE } from "../protocol/limits.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-/**
- * Max speed error at a leg's ends from replacing a jerk by a constant acceleration: 0.25 mm/s at 80 steps/mm.
- */
-const JERK_ERROR_RATE = rateFromStepsPerS(0.25 * 80);
 /** An accumulator is cleared only if that reduces the error by more than this, steps. */
 const CLEAR_WORTH_STEPS = 0.1;
 
@@ -30,16 +26,13 @@ interface Arguments {
 
 export class TimedWriter implements LegWriter {
   readonly minTicks = 125;
-  readonly maxTicks = 3_750;
   readonly turnTicks = 30;
   readonly idleTicks = 0;
   readonly joinsAnySpeeds = false;
+  /** 0.25 mm/s at 80 steps/mm. */
+  readonly jerkErrorRate = rateFromStepsPerS(0.25 * 80);
 
   constructor(private readonly text: CommandText) {}
-
-  maxTicksForJerk(jerk: number): number {
-    return Math.max(this.minTicks, Math.floor(Math.sqrt((12 * JERK_ERROR_RATE) / jerk)));
-  }
 
   write(leg: Leg, m1: MotorState, m2: MotorState): number {
     const { text } = this;
@@ -78,7 +71,7 @@ function argumentsFor(leg: Leg, motor: MotorLeg, state: MotorState): Arguments {
   const steepest = (2 * Math.min(mean, HIGHEST_RATE - mean)) / (ticks + 1);
   const accel = Math.trunc(Math.max(-steepest, Math.min(steepest, slope)));
   const start = Math.round(mean - (accel * (ticks + 1)) / 2) + Math.trunc(accel / 2);
-  // At least 1: the sign of the rate gives the direction, and the board refuses both rates zero.
+  // At least 1: the sign of the rate gives the direction, and the board refuses a command with both rates zero.
   return { rate: keptAboveZero(direction * Math.max(1, start), accel, ticks), accel, clear };
 }
 

@@ -9,25 +9,25 @@ import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { PenSettings } from "../../../settings/pen.js";
+import { sFromTicks } from "../../../units.js";
 import type { MachineEvents } from "../../driver.js";
 import { boardRestarted } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
+import { delay } from "../../transport.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
-import { planEbbWalk } from "../compile/ebb-walk.js";
+import { planEbbWalk } from "../compile/ebb-job.js";
+import { MAX_TICKS } from "../compile/leg.js";
 import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
 import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
-import { maxAheadS, Streamer } from "../stream/streamer.js";
+import { maxAheadS, Streamer, stuck } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
 import { isButtonPressed, isPowerLow, pollLines } from "./readings.js";
 
-/** The longest motion command: the compiler splits longer ones. */
-const LONGEST_COMMAND_S = 0.15;
 /** Allowance for the connection, the board and this computer. */
 const ANSWER_MS = 30;
 /** Interval at which the board's button and queue are polled during a plot. */
@@ -100,8 +100,7 @@ export class Carriage {
     this.left = null;
     await this.untilStill(stillS);
     if (!features.hasStepQuery) throw placeUnknown();
-    const [counter1, counter2] = parseSteps(await session.query("QS"));
-    const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
+    const [steps1, steps2] = parseSteps(await session.query("QS"), this.origin);
     if (features.hasClear) {
       // The accumulators cannot be read. This clears them and adds one tick at the lowest rate, so both are 1.
       await session.send("LT,1,1,0,1,0,3");
@@ -160,7 +159,7 @@ export class Carriage {
     for (;;) {
       const moving = /[1-9]/.test(await session.query("QM", 1));
       if (!moving || boardClock.nowS() > untilS) return;
-      await new Promise<void>((resolve) => void boardClock.after(0.05, resolve));
+      await delay(boardClock, 0.05);
     }
   }
 
@@ -168,12 +167,13 @@ export class Carriage {
    * Switches the motors on if they are off, or to another microstep mode, which also zeroes their counters.
    * Returns the carriage's position.
    */
-  async ready(machine: MachineProfile, pen: PenSettings): Promise<BoardState> {
+  async ready(settings: MachineSettings): Promise<BoardState> {
+    const machine = machineOf(settings);
     const { state, microstepMode } = this;
     const wanted = ebbOf(machine).microstepMode;
     if (state && microstepMode === wanted) return state;
     const { session, features } = this.connection;
-    for (const line of setUpCommands(machine, pen, features.version)) await session.send(line);
+    for (const line of setUpCommands(machine, settings.pen, features.version)) await session.send(line);
     // Each mode has half as many steps as the one before.
     const share = state ? 2 ** (microstepMode - wanted) : 0;
     const [steps1, steps2] = [
@@ -201,7 +201,7 @@ export class Carriage {
   emergencyStopMs({ sendAheadMs }: MachineSettings): number {
     if (this.queueDepth > 1) return ANSWER_MS;
     const windowS = sendAheadMs / 1_000 + (this.connection.boardClock.latenessS?.() ?? 0);
-    return Math.round(1_000 * maxAheadS(windowS, LONGEST_COMMAND_S)) + ANSWER_MS;
+    return Math.round(1_000 * maxAheadS(windowS, sFromTicks(MAX_TICKS))) + ANSWER_MS;
   }
 
   /** For the log that users send with a report. */
@@ -232,20 +232,10 @@ export class Carriage {
           if (at) certain(at);
         }
         if (line !== "QS") this.polled(line, reply);
-        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) this.stalled(streamer);
+        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) streamer.halt(stuck());
       },
     });
     return streamer;
-  }
-
-  private stalled(streamer: Streamer): void {
-    this.connection.session.write([{ line: "ES" }]);
-    streamer.abandon(
-      new PlotwrightError(
-        "board-error",
-        "The board answers but does not finish its motion. Press its reset button or unplug it, set home and plot again.",
-      ),
-    );
   }
 
   /** Queries a second time, because a single unexpected reply may belong to another query. */
@@ -254,8 +244,7 @@ export class Carriage {
     const answer = await session.query(this.markQuery, STILL_S).catch(() => null);
     if (answer === null || Number(answer) !== 0 || !streamer.playing) return;
     this.hasRestarted = true;
-    session.write([{ line: "ES" }]);
-    streamer.abandon(boardRestarted());
+    streamer.halt(boardRestarted());
   }
 
   /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed home. */
@@ -295,17 +284,11 @@ export class Carriage {
   /** Lifts the pen and moves in a straight line to a position, at travel speed. */
   async walk(x: number, y: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
-    await this.ready(machine, settings.pen);
+    await this.ready(settings);
     if (this.penUp !== true) await this.movePen(true, settings);
     const from = this.place(machine)!;
-    const job = planEbbWalk(settings, machine, {
-      fromXMm: from.x,
-      fromYMm: from.y,
-      toXMm: x,
-      toYMm: y,
-      firmware: this.connection.features.version,
-      board: this.state!,
-    });
+    const { version } = this.connection.features;
+    const job = planEbbWalk(from, { x, y }, settings, machine, version, this.state!);
     const { trajectory } = job;
     if (trajectory.blockCount > 0) await this.perform({ trajectory, commands: job.commands() }, settings);
   }
@@ -344,7 +327,7 @@ export class Carriage {
     try {
       for (const line of penSetUpCommands(machine, pen)) await session.send(line);
       await session.send(penCommand(machine, move), move.timeMs / 1000);
-      await new Promise<void>((resolve) => void boardClock.after(move.timeMs / 1000 + SETTLE_S, resolve));
+      await delay(boardClock, move.timeMs / 1000 + SETTLE_S);
     } catch (error) {
       this.penIs(null);
       throw error;
@@ -353,10 +336,10 @@ export class Carriage {
   }
 
   /** Moves to a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is then unknown. */
-  async moveServo(machine: MachineProfile, pos: number): Promise<void> {
+  async moveServo(pos: number, settings: MachineSettings): Promise<void> {
     const { session, boardClock } = this.connection;
-    await session.send(`S2,${pos},${ebbOf(machine).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
-    await new Promise<void>((resolve) => void boardClock.after(SERVO_MS / 1000 + SETTLE_S, resolve));
+    await session.send(`S2,${pos},${ebbOf(machineOf(settings)).servoPin},0,${SERVO_MS}`, SERVO_MS / 1000);
+    await delay(boardClock, SERVO_MS / 1000 + SETTLE_S);
     this.penIs(null);
   }
 
@@ -378,8 +361,8 @@ export class Carriage {
   }
 
   /** Makes the current position home. */
-  async setHome(machine: MachineProfile, pen: PenSettings): Promise<void> {
-    await this.ready(machine, pen);
+  async setHome(settings: MachineSettings): Promise<void> {
+    await this.ready(settings);
     const { session, features } = this.connection;
     const { steps1, steps2, acc1, acc2 } = this.state!;
     this.left = null;

@@ -41,8 +41,7 @@ export class CertainPlace {
   }
 
   private placeOf(reply: string, asked: PollTime, streamer: Streamer): CertainAt | null {
-    const [counter1, counter2] = parseSteps(reply);
-    const [steps1, steps2] = [counter1 + this.origin[0], counter2 + this.origin[1]];
+    const [steps1, steps2] = parseSteps(reply, this.origin);
     const place = streamer.placeOfCounters(this.features, steps1, steps2, asked);
     return place && { place, steps1, steps2 };
   }

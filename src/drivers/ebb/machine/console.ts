@@ -25,24 +25,19 @@ export async function sendLine(carriage: Carriage, line: string): Promise<Consol
 /** Some commands answer with several lines. A query is sent after the line; all lines before its reply are returned. */
 async function answerTo(carriage: Carriage, line: string): Promise<Omit<ConsoleAnswer, "note">> {
   const { session } = carriage.connection;
-  const mark = `console: ${line}`;
-  session.log.add("note", mark);
+  session.log.add("note", `console: ${line}`);
+  const entryCount = session.log.count;
   let refused = false;
   await session.query(line, LONGEST_S).catch((error: unknown) => {
-    // An error reply is in the log too.
+    // An error reply is among the received lines.
     if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
     refused = true;
   });
   await session.query("QM", LONGEST_S);
-  const answers: string[] = [];
-  // Newest first: the answer to QM, then the earlier ones.
-  for (const one of [...session.log.tail(40)].reverse()) {
-    const [, kind, text] = /^\S+ ([<>#]) (.*)$/.exec(one) ?? [];
-    if (kind === "#" && text === mark) break;
-    if (kind === "<" && text !== undefined) answers.unshift(text);
-  }
-  // After a reply of unknown form the session sends V to match replies to queries again: drop that reply.
-  const replies = answers
+  // The last line is the answer to QM. After a reply of unknown form the session sends V to match replies to queries
+  // again: drop that reply.
+  const replies = session.log
+    .receivedSince(entryCount)
     .slice(0, -1)
     .filter((text) => commandName(line) === "V" || !/^EBBv.* Version /.test(text));
   return { replies, refused };

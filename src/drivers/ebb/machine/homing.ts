@@ -27,10 +27,10 @@ export async function seekHome(
 ): Promise<void> {
   const machine = machineOf(settings);
   const slow = withTravelSpeed(settings, SEEK_SPEED_MM_PER_S);
-  await carriage.ready(machine, settings.pen);
+  await carriage.ready(settings);
   await seekAxis(carriage, slow, homing.x, "x", machine.widthMm * SLACK);
   await seekAxis(carriage, slow, homing.y, "y", machine.heightMm * SLACK);
-  await carriage.setHome(machine, settings.pen);
+  await carriage.setHome(settings);
 }
 
 async function seekAxis(

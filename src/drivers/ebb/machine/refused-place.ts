@@ -15,6 +15,7 @@ import { isPenUpBefore } from "../../../plan/pen-moves.js";
 import { pointOfPlace, snappedPlace } from "../../../plan/place-on-drawing.js";
 import type { Place } from "../../../plan/trajectory.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
+import type { NumberedPlace } from "../stream/stop-place.js";
 import type { RefusedCommand } from "../stream/stream-types.js";
 import type { StreamPlace } from "../stream/timeline.js";
 import type { EbbPart } from "./ebb-part.js";
@@ -24,10 +25,10 @@ const BESIDE_MM = 0.08;
 /** Tolerance between mm along the motion and mm along the drawing. */
 const SNAP_MM = 0.5;
 
-export interface RefusedStop {
+interface RefusedStop {
   readonly refused: RefusedCommand;
   /** Where the board stopped, as if the refused command had run; null: nothing has run. */
-  readonly at: (StreamPlace & { readonly number: number }) | null;
+  readonly at: NumberedPlace | null;
   readonly steps1: number;
   readonly steps2: number;
 }

@@ -5,7 +5,7 @@
 import { AxisMotion, registersFor, type Registers } from "./accumulator.js";
 import type { FirmwareFeatures, TickArithmetic } from "../protocol/firmware.js";
 import { slowRate } from "./slow-rate.js";
-import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../../units.js";
+import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 
 const RANGE = ACCUMULATOR_RANGE;
 
@@ -52,8 +52,7 @@ export type Order =
       /** True for pen commands (SP, TP), whose target SP,3 can change. */
       readonly isPen: boolean;
     }
-  | { readonly kind: "enable"; readonly mode1: number; readonly mode2: number | null }
-  | { readonly kind: "output"; readonly ticks: number };
+  | { readonly kind: "enable"; readonly mode1: number; readonly mode2: number | null };
 
 const still: AxisOrder = { rate: 0, accel: 0, jerk: 0, steps: 0 };
 
@@ -67,7 +66,7 @@ export function slowMove(
 ): Order | null {
   if (steps1 === 0 && steps2 === 0) {
     const longestMs = firmware.arithmetic === "signed" ? 100_000 : 16_777_215;
-    return { kind: "delay", ticks: Math.max(1, Math.min(ms, longestMs) * (TICKS_PER_S / 1_000)) };
+    return { kind: "delay", ticks: Math.max(1, Math.min(ms, longestMs) * TICKS_PER_MS) };
   }
   const axis1 = constantAxis(firmware.arithmetic, ms, steps1);
   const axis2 = constantAxis(firmware.arithmetic, ms, steps2);

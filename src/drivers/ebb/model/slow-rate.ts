@@ -2,6 +2,7 @@
  * The rate that the board computes for SM and XM from a number of steps and milliseconds.
  * Source: ebb.c of firmware 2.x and 3.x (evil-mad/EggBot).
  */
+import { TICKS_PER_MS } from "../../../units.js";
 import type { TickArithmetic } from "../protocol/firmware.js";
 
 const SLOWEST_SHORT_MS = 30;
@@ -17,7 +18,7 @@ export function slowRate(arithmetic: TickArithmetic, ms: number, steps: number):
     const perMs = Math.fround(Math.fround(85_899_345.92) / Math.fround(ms));
     return Math.trunc(Math.fround(Math.fround(steps) * perMs));
   }
-  const ticks = 25 * ms;
+  const ticks = TICKS_PER_MS * ms;
   if (ms <= SLOWEST_SHORT_MS) return Math.floor((steps * 2 ** 15) / ticks) * 2 ** 16;
   const whole = Math.floor((Math.floor(steps / ms) * 2 ** 15) / 25);
   const rest = Math.floor(((steps % ms) * 2 ** 15) / 25);

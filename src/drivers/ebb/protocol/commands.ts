@@ -2,9 +2,10 @@
  * Command lines of the EiBotBoard: those at the start and end of a plot, pen moves, and a text writer for the commands
  * between.
  */
+import { grown } from "../../../geometry/growable.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
-import { checkEbbProfile, ebbOf } from "./ebb-controller.js";
+import { checkEbbProfile, ebbOf, STANDARD_PIN } from "./ebb-controller.js";
 import { firmwareFeatures } from "./firmware.js";
 import { servoPosFromPct } from "./servo-height.js";
 
@@ -13,8 +14,6 @@ const SERVO_PART_OF_WAIT = 0.65;
 /** A drop during travel takes its full time: a quicker one would touch the paper before the carriage arrives. */
 const WHOLE_WAIT = 1;
 const SERVO_FRAME_MS = 24;
-/** The standard servo output: the only one that SP moves. */
-const STANDARD_PIN = 4;
 
 /**
  * The commands to send before the first plot after connecting: motors on, which sets the step counters to zero, and the
@@ -103,15 +102,11 @@ function servoRate(
 }
 
 const CR = 13;
-const COMMA = 44;
-const MINUS = 45;
-const ZERO = 48;
 
 /** Writes command lines into a growing ASCII buffer. */
 export class CommandText {
-  private bytes: Uint8Array = new Uint8Array(1 << 12);
+  private bytes = new Uint8Array(1 << 12);
   private length = 0;
-  private readonly digits = new Uint8Array(16);
 
   get byteCount(): number {
     return this.length;
@@ -130,20 +125,7 @@ export class CommandText {
 
   /** Adds a comma and an integer. */
   number(value: number): void {
-    this.reserve(18);
-    this.bytes[this.length++] = COMMA;
-    let rest = value;
-    if (rest < 0) {
-      this.bytes[this.length++] = MINUS;
-      rest = -rest;
-    }
-    let count = 0;
-    do {
-      const next = Math.floor(rest / 10);
-      this.digits[count++] = ZERO + (rest - 10 * next);
-      rest = next;
-    } while (rest > 0);
-    while (count > 0) this.bytes[this.length++] = this.digits[--count]!;
+    this.name(`,${value}`);
   }
 
   end(): void {
@@ -156,9 +138,7 @@ export class CommandText {
   }
 
   private reserve(count: number): void {
-    if (this.length + count <= this.bytes.length) return;
-    const grown = new Uint8Array(2 * this.bytes.length + count);
-    grown.set(this.bytes);
-    this.bytes = grown;
+    const needed = this.length + count;
+    if (needed > this.bytes.length) this.bytes = grown(this.bytes, needed);
   }
 }

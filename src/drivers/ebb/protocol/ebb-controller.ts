@@ -18,6 +18,9 @@ export interface EbbController extends Controller {
   readonly homing?: HomingSwitches | null | undefined;
 }
 
+/** The standard servo output: the only one that SP moves. */
+export const STANDARD_PIN = 4;
+
 export interface HomingSwitches {
   readonly x: SwitchInput;
   readonly y: SwitchInput;

@@ -1,5 +1,5 @@
 /** Limits of the firmware on the plan itself. */
-import type { LayerMotion, MotionLimits, MotionSettings } from "../../../settings/motion.js";
+import type { LayerMotion, MotionSettings } from "../../../settings/motion.js";
 import type { FirmwareRules } from "../../machine-job.js";
 import { firmwareFeatures } from "./firmware.js";
 
@@ -13,13 +13,13 @@ const SLICED_ACCEL_MM_PER_S2 = 500;
  * True if `motionForFirmware` limits this firmware. Null: unknown. Throws `bad-setting`
  * for an invalid version.
  */
-export const firmwareLimitsMotion = (firmware: string | null): boolean =>
+const limitsMotion = (firmware: string | null): boolean =>
   firmware !== null && firmwareFeatures(firmware).motion === "slices";
 
 /** A version of an EBB is a bare number; those of other controllers begin with their name. */
 export const ebbFirmware: FirmwareRules = {
   isOwn: (firmware) => /^v?\d/.test(firmware),
-  limitsMotion: firmwareLimitsMotion,
+  limitsMotion,
 };
 
 /**
@@ -30,7 +30,7 @@ export const ebbFirmware: FirmwareRules = {
  * Throws `bad-setting` for an invalid version.
  */
 export function motionForFirmware(motion: MotionSettings, firmware: string | null): MotionSettings {
-  if (!firmwareLimitsMotion(firmware)) return motion;
+  if (!limitsMotion(firmware)) return motion;
   const { draw, travel, layers } = motion;
   return {
     ...motion,
@@ -41,17 +41,11 @@ export function motionForFirmware(motion: MotionSettings, firmware: string | nul
   };
 }
 
-const gentler = (limits: MotionLimits): MotionLimits => ({
-  ...limits,
-  accelMmPerS2: Math.min(limits.accelMmPerS2, SLICED_ACCEL_MM_PER_S2),
-});
+function gentler<T extends LayerMotion>(limits: T): T {
+  const { accelMmPerS2 } = limits;
+  if (accelMmPerS2 === undefined) return limits;
+  return { ...limits, accelMmPerS2: Math.min(accelMmPerS2, SLICED_ACCEL_MM_PER_S2) };
+}
 
 const gentlerLayers = (layers: Readonly<Record<string, LayerMotion>>): Record<string, LayerMotion> =>
-  Object.fromEntries(
-    Object.entries(layers).map(([id, { accelMmPerS2, ...others }]) => [
-      id,
-      accelMmPerS2 === undefined
-        ? others
-        : { ...others, accelMmPerS2: Math.min(accelMmPerS2, SLICED_ACCEL_MM_PER_S2) },
-    ]),
-  );
+  Object.fromEntries(Object.entries(layers).map(([id, limits]) => [id, gentler(limits)]));

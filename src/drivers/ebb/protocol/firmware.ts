@@ -36,15 +36,12 @@ export interface FirmwareFeatures {
   readonly enableIsQueued: boolean;
   readonly hasStepQuery: boolean;
   readonly hasGeneralQuery: boolean;
-  readonly hasLimitQuery: boolean;
   /** SP,2: lift at once, bypassing the queue. */
   readonly hasImmediateLift: boolean;
   /** ES also stops a running LT. */
   readonly stopEndsTimed: boolean;
   /** Replies can be switched to one line each, `NAME,values` (CU,10,1). */
   readonly hasFutureSyntax: boolean;
-  /** Number of values in the reply to ES. */
-  readonly stopReplyValues: 1 | 5;
 }
 
 /** [first version, changes from that version on]; later rows override earlier ones. */
@@ -62,11 +59,9 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
       enableIsQueued: false,
       hasStepQuery: false,
       hasGeneralQuery: false,
-      hasLimitQuery: false,
       hasImmediateLift: false,
       stopEndsTimed: true,
       hasFutureSyntax: false,
-      stopReplyValues: 5,
     },
   ],
   ["2.4.3", { hasStepQuery: true }],
@@ -92,10 +87,8 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
       arithmetic: "signed",
       idleTicksTimed: 1,
       maxFifoDepth: 32,
-      hasLimitQuery: true,
       stopEndsTimed: true,
       hasFutureSyntax: true,
-      stopReplyValues: 1,
     },
   ],
   ["3.0.1", { hasImmediateLift: true }],

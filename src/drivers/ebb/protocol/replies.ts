@@ -54,10 +54,13 @@ export function commandName(line: string): string {
   return (comma < 0 ? line : line.slice(0, comma)).trim().toUpperCase();
 }
 
-/** Parses the reply `m1,m2` of `QS`. */
-export function parseSteps(reply: string): readonly [number, number] {
-  const [first, second] = reply.split(",").map(Number);
-  return [first ?? 0, second ?? 0];
+/** The counters in the reply `m1,m2` of `QS`, counted from `origin`. */
+export function parseSteps(
+  reply: string,
+  origin: readonly [number, number] = [0, 0],
+): readonly [number, number] {
+  const [first = 0, second = 0] = reply.split(",").map(Number);
+  return [first + origin[0], second + origin[1]];
 }
 
 /**

@@ -73,9 +73,7 @@ export class AnswerQueue {
    * The order of replies is in doubt. Set by the session, which then sends `V`; the reply to `V` clears it.
    */
   inDoubt = false;
-  /** The waiting commands from `head` on: only a few, so no ring buffer is needed. `head` avoids shifting the array. */
-  private waiting: Waiting[] = [];
-  private head = 0;
+  private readonly waiting: Waiting[] = [];
   /** An error was just received: ignore the OK that some firmware sends after it. */
   private forgivesOk = false;
   private lastLine = "";
@@ -83,11 +81,11 @@ export class AnswerQueue {
   constructor(private readonly onStray: (line: string) => void) {}
 
   get count(): number {
-    return this.waiting.length - this.head;
+    return this.waiting.length;
   }
 
   get first(): AwaitedAnswer | null {
-    return this.waiting[this.head]?.awaited ?? null;
+    return this.waiting[0]?.awaited ?? null;
   }
 
   add(awaited: AwaitedAnswer): void {
@@ -107,31 +105,28 @@ export class AnswerQueue {
 
   /** Fails all waiting commands with one error, because the connection is lost or unreliable. */
   failAll(error: PlotwrightError): void {
-    const rest = this.waiting.slice(this.head);
-    this.waiting = [];
-    this.head = 0;
-    for (const { awaited } of rest) awaited.settle(error, "");
+    for (const { awaited } of this.waiting.splice(0)) awaited.settle(error, "");
   }
 
   /** Fails the first command only. */
   failFirst(error: PlotwrightError): void {
-    if (this.count > 0) this.shift().awaited.settle(error, "");
+    this.waiting.shift()?.awaited.settle(error, "");
   }
 
   private takeError(code: number, words: string, line: string): void {
     // The board reports "Extra parameter" after the command was answered: it concerns the previous command.
     const lateFor = code === 7 ? this.lastLine : "";
-    if (lateFor !== "" || this.count === 0) {
+    const failed = lateFor === "" ? this.waiting.shift() : undefined;
+    if (!failed) {
       this.stray(lateFor === "" ? line : `${line} (to ${lateFor})`);
       return;
     }
-    const failed = this.shift();
     this.forgivesOk = true;
     failed.awaited.settle(boardError(failed.awaited.line, code, words), "");
   }
 
   private takeOk(): void {
-    const first = this.waiting[this.head];
+    const first = this.waiting[0];
     if (!first) {
       if (!this.forgivesOk) this.stray("OK");
       this.forgivesOk = false;
@@ -139,7 +134,7 @@ export class AnswerQueue {
     }
     // A board without a name answers QT with an empty line, which the line splitter drops.
     if (isPlain(first.shape) || first.value !== null || first.name === "QT") {
-      this.finish(this.shift(), first.value ?? "");
+      this.finishFirst(first.value ?? "");
       return;
     }
     if (this.forgivesOk) {
@@ -158,7 +153,7 @@ export class AnswerQueue {
 
   /** False if the line fits no waiting command. */
   private takeValue(line: string): boolean {
-    for (let i = this.head; i < this.waiting.length; i++) {
+    for (let i = 0; i < this.waiting.length; i++) {
       const candidate = this.waiting[i];
       const named = line === candidate.name || line.startsWith(`${candidate.name},`);
       const value = named ? line.slice(candidate.name.length + 1) : line;
@@ -167,18 +162,18 @@ export class AnswerQueue {
       // A second value for the same query: one of the two is not its reply.
       if (candidate.value !== null) return false;
       // Several commands may have the same name: such a line does not prove that earlier replies were lost.
-      if (isPlain(candidate.shape) && i > this.head) return false;
-      for (let before = i - this.head; before > 0; before--) this.loseFirst();
+      if (isPlain(candidate.shape) && i > 0) return false;
+      for (let before = i; before > 0; before--) this.loseFirst();
       candidate.value = value;
       const endsHere = !candidate.shape.ok || isPlain(candidate.shape) || (named && !candidate.shape.isNamed);
-      if (endsHere) this.finish(this.shift(), value);
+      if (endsHere) this.finishFirst(value);
       return true;
     }
     return false;
   }
 
   private loseFirst(): void {
-    const lost = this.shift();
+    const lost = this.waiting.shift()!;
     this.lostCount++;
     // The later reply proves that this command was processed, so a lost OK does no harm, but a lost value does.
     if (isPlain(lost.shape) || (lost.value !== null && !this.inDoubt)) {
@@ -188,21 +183,12 @@ export class AnswerQueue {
     lost.awaited.settle(new LostAnswer(lost.awaited.line), "");
   }
 
-  private finish(done: Waiting, value: string): void {
+  private finishFirst(value: string): void {
+    const done = this.waiting.shift()!;
     this.lastLine = done.awaited.line;
     if (done.name === "V") this.inDoubt = false;
     if (this.inDoubt && !isPlain(done.shape)) done.awaited.settle(new LostAnswer(done.awaited.line), "");
     else done.awaited.settle(null, value);
-  }
-
-  private shift(): Waiting {
-    const first = this.waiting[this.head];
-    this.head++;
-    if (this.head > 64 || this.head === this.waiting.length) {
-      this.waiting = this.waiting.slice(this.head);
-      this.head = 0;
-    }
-    return first;
   }
 
   private stray(line: string): void {

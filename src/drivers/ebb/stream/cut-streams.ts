@@ -1,4 +1,5 @@
 /** Functions to cut and build command streams, for a switch from one plan to another in motion. */
+import { asciiBytes } from "../../line-splitter.js";
 import { commandLine } from "../compile/compile.js";
 import type { BoardState, CommandStream } from "../compile/command-stream.js";
 
@@ -64,7 +65,7 @@ export function restingStream(
   planS: number,
 ): CommandStream {
   const count = lines.length;
-  const characters = lines.map(([line]) => `${line}\r`).join("");
+  const text = lines.map(([line]) => `${line}\r`).join("");
   const textOffsets = new Uint32Array(count + 1);
   const boardS = new Float64Array(count + 1);
   lines.forEach(([line, durationS], i) => {
@@ -73,7 +74,7 @@ export function restingStream(
   });
   return {
     count,
-    text: Uint8Array.from(characters, (character) => character.charCodeAt(0)),
+    text: asciiBytes(text),
     textOffsets,
     boardS,
     planS: new Float64Array(count + 1).fill(planS),

@@ -8,7 +8,8 @@
  */
 import { checkObject } from "../../../check-arguments.js";
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
-import { LineSplitter } from "../../line-splitter.js";
+import { lineClosed, lineLost, silent } from "../../faults.js";
+import { asciiBytes, LineSplitter } from "../../line-splitter.js";
 import { commandName, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
@@ -32,6 +33,12 @@ export interface Outgoing {
   /** Expected wait for the reply on top of the session's patience, because of motion queued before it. */
   readonly waitS?: number;
   readonly onReply?: (error: PlotwrightError | null, value: string) => void;
+  /**
+   * A time-out fails only this command, not the session. It is then `waitS` alone.
+   *
+   * @internal
+   */
+  readonly alone?: boolean;
 }
 
 /** The board's firmware, from its reply to `V`. */
@@ -44,7 +51,6 @@ export interface BoardIdentity {
 
 interface SentCommand extends AwaitedAnswer {
   readonly waitS: number;
-  /** A time-out fails only this command, not the session. */
   readonly alone: boolean;
 }
 
@@ -103,7 +109,7 @@ export class BoardSession {
       this.findOrder();
     });
     transport.onData((bytes) => this.take(bytes));
-    transport.onClose((error) => this.lineClosed(error));
+    transport.onClose((error) => this.transportClosed(error));
   }
 
   /** Why the session can no longer be used; null while it is usable. */
@@ -146,7 +152,7 @@ export class BoardSession {
       } catch (error) {
         if (this.fault) throw this.fault;
         if (attempt < IDENTIFY_TRIES) continue;
-        const last = this.log.tail(HEARD_LINES);
+        const last = this.log.receivedSince(this.log.count - HEARD_LINES);
         // A late reply of an EiBotBoard is not a sign of another device.
         const isBoard = last.some((line) => firmwareFromReply(line) !== null);
         throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
@@ -174,7 +180,7 @@ export class BoardSession {
   /** Writes several commands at once. Never throws: errors go to each command's `onReply`. */
   write(commands: readonly Outgoing[]): void {
     if (this.fault || this.closed) {
-      const error = this.fault ?? closedError();
+      const error = this.fault ?? lineClosed();
       for (const command of commands) command.onReply?.(error, "");
       return;
     }
@@ -184,7 +190,7 @@ export class BoardSession {
       text += `${command.line}\r`;
       this.log.add("sent", command.line);
       if (hasNoReply(command.line)) silent.push(command);
-      else this.expect(command.line, command.waitS ?? 0, false, command.onReply);
+      else this.expect(command);
     }
     this.put(text);
     for (const command of silent) command.onReply?.(null, "");
@@ -195,27 +201,19 @@ export class BoardSession {
     if (this.closed) return;
     this.closed = true;
     this.silence.stop();
-    this.answers.failAll(closedError());
+    this.answers.failAll(lineClosed());
     await this.transport.close();
   }
 
   private ask(line: string, waitS: number, alone: boolean, tries = 1): Promise<string> {
     return new Promise((resolve, reject) => {
       const askOnce = (triesLeft: number): void => {
-        if (this.fault || this.closed) {
-          reject(this.fault ?? closedError());
-          return;
-        }
-        this.log.add("sent", line);
-        if (hasNoReply(line)) resolve("");
-        else {
-          this.expect(line, waitS, alone, (error, value) => {
-            if (!error) resolve(value);
-            else if (error instanceof LostAnswer && triesLeft > 1) askOnce(triesLeft - 1);
-            else reject(error);
-          });
-        }
-        this.put(`${line}\r`);
+        const onReply: Outgoing["onReply"] = (error, value) => {
+          if (!error) resolve(value);
+          else if (error instanceof LostAnswer && triesLeft > 1) askOnce(triesLeft - 1);
+          else reject(error);
+        };
+        this.write([{ line, waitS, alone, onReply }]);
       };
       askOnce(tries);
     });
@@ -229,15 +227,14 @@ export class BoardSession {
     if (this.isFindingOrder || !this.identity || this.answers.count === 0 || this.fault) return;
     this.isFindingOrder = true;
     this.answers.inDoubt = true;
-    this.log.add("sent", "V");
-    this.expect("V", this.patienceS, true, () => {
+    const onReply = (): void => {
       this.isFindingOrder = false;
       this.answers.inDoubt = false;
-    });
-    this.put("V\r");
+    };
+    this.write([{ line: "V", waitS: this.patienceS, alone: true, onReply }]);
   }
 
-  private expect(line: string, waitS: number, alone: boolean, onReply: Outgoing["onReply"]): void {
+  private expect({ line, waitS = 0, alone = false, onReply }: Outgoing): void {
     const sent: SentCommand = {
       line,
       waitS,
@@ -282,7 +279,7 @@ export class BoardSession {
     return sent.alone ? sent.waitS : this.patienceS + sent.waitS;
   }
 
-  private lineClosed(error: Error | undefined): void {
+  private transportClosed(error: Error | undefined): void {
     if (!this.closed) this.fail(error instanceof PlotwrightError ? error : lineLost(error));
   }
 
@@ -298,29 +295,6 @@ export class BoardSession {
 
 const hasNoReply = (line: string): boolean => replyShape(commandName(line)).isSilent;
 
-/** Commands are always ASCII. */
-function asciiBytes(text: string): Uint8Array {
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
-
-const closedError = (): PlotwrightError =>
-  new PlotwrightError("disconnected", "The connection to the board was closed.");
-
-const lineLost = (cause: unknown): PlotwrightError =>
-  new PlotwrightError(
-    "disconnected",
-    "The connection to the board is lost: check its USB cable and power, then connect again.",
-    { cause },
-  );
-
-const silent = (line: string): PlotwrightError =>
-  new PlotwrightError(
-    "board-timeout",
-    `The board has stopped answering (waiting on ${line}): check its USB cable and power, and that no other program uses the port.`,
-  );
-
 const silentAtStart = (cause: unknown): PlotwrightError =>
   new PlotwrightError(
     "board-timeout",
@@ -329,8 +303,7 @@ const silentAtStart = (cause: unknown): PlotwrightError =>
   );
 
 function wrongBoard(lastLines: readonly string[]): PlotwrightError {
-  const lines = lastLines.filter((line) => line.includes(" < ")).map((line) => line.split(" < ")[1]);
-  const received = lines.map((line) => JSON.stringify(line)).join(", ");
+  const received = lastLines.map((line) => JSON.stringify(line)).join(", ");
   return new PlotwrightError(
     "no-board",
     "Something answers on this port, but it is not an EiBotBoard: choose another device." +

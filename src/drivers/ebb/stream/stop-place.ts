@@ -17,8 +17,8 @@ import type { BoardState } from "../compile/command-stream.js";
 import { commandLine } from "../compile/compile.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { commandName } from "../protocol/replies.js";
-import { TICKS_PER_S } from "../../../units.js";
-import type { InFlight, StreamPlace } from "./timeline.js";
+import { sFromTicks } from "../../../units.js";
+import { placeIn, type InFlight, type StreamPlace } from "./timeline.js";
 import { MotionCommands } from "../model/motion-commands.js";
 import { RunningMove } from "../model/orders.js";
 import { Parameters } from "../model/parameters.js";
@@ -39,7 +39,7 @@ export interface StopNotes {
   stepsLeft: readonly [number, number] | null;
 }
 
-export interface StopEvidence extends Readonly<StopNotes> {
+interface StopEvidence extends Readonly<StopNotes> {
   /** The commands written last, in order. */
   readonly commands: readonly InFlight[];
   /** The one of them that the board refused and so never ran. */
@@ -66,7 +66,7 @@ export function placeOfStop(
     refused && number > refused.number ? missing : NO_STEPS;
   const last = commands[commands.length - 1];
   if (!last) return null;
-  if (!features.stopEndsTimed) return placeIn(last, last.endS);
+  if (!features.stopEndsTimed) return numbered(last, last.endS);
   const first = waitingCount === null ? 0 : Math.max(0, commands.length - 1 - waitingCount);
   const running = waitingCount === null ? commands : commands.slice(first, first + 2);
   const boardS = Math.max(evidence.boardS, running[0].startS);
@@ -80,7 +80,7 @@ export function placeOfStop(
   for (const command of fits.length > 0 ? fits : running) {
     nearest.search(command, stateBefore(command, evidence.commands), missingBefore(command));
   }
-  return nearest.command && placeIn(nearest.command, nearest.boardS);
+  return nearest.command && numbered(nearest.command, nearest.boardS);
 }
 
 /** The position with these step counters that is nearest to a board time; null if no command passes it. */
@@ -123,11 +123,10 @@ function stateBefore({ number, stream, index }: InFlight, commands: readonly InF
   return { steps1: steps1[i], steps2: steps2[i], acc1: acc1[i], acc2: acc2[i] };
 }
 
-function placeIn({ number, stream, index, startS, endS }: InFlight, boardS: number): NumberedPlace {
-  const share = Math.min(1, Math.max(0, (boardS - startS) / (endS - startS)));
-  const fromS = stream.planS[index];
-  return { number, stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1] - fromS) };
-}
+const numbered = (command: InFlight, boardS: number): NumberedPlace => ({
+  number: command.number,
+  ...placeIn(command, boardS),
+});
 
 /** Finds the tick at which the counters are nearest to those reported (ideally equal); if several, the nearest in time. */
 class NearestTick {
@@ -159,7 +158,7 @@ class NearestTick {
         before.steps1 - missing1 + move.motion1.placeAt(tick, place).net,
         before.steps2 - missing2 + move.motion2.placeAt(tick, place).net,
       );
-      this.offer(command, off, startS + tick / TICKS_PER_S);
+      this.offer(command, off, startS + sFromTicks(tick));
       // A motor makes at most one step per tick, so none of the skipped ticks can be nearer.
       tick += Math.max(1, off - this.offSteps);
     }

@@ -31,7 +31,7 @@ export async function streamCommands(
   },
 ): Promise<StreamReport & { readonly underrunCount: number }> {
   const streamer = new Streamer(session, options);
-  let stopTicking: (() => void) | null = null;
+  let stopTicking = (): void => undefined;
   const tick = (): void => {
     if (options.cancel?.aborted && streamer.playing) streamer.cut();
     else options.onProgress?.(progressOf(streamer.place()));
@@ -44,7 +44,7 @@ export async function streamCommands(
     options.onProgress?.(progressOf(streamer.place()));
     return { ...report, underrunCount: streamer.underrunCount };
   } finally {
-    (stopTicking as (() => void) | null)?.();
+    stopTicking();
   }
 }
 

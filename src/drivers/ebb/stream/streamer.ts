@@ -19,11 +19,12 @@ import type { CommandStream } from "../compile/command-stream.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { parseSteps, stepsLeft, waitingCount } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
+import { delay } from "../../transport.js";
 import { endOfLanding } from "./cut-streams.js";
 import type { BoardSession, Outgoing } from "./session.js";
 import { placeOfCounters, placeOfStop, type NumberedPlace, type StopNotes } from "./stop-place.js";
 import type { PollTime, RefusedCommand, StreamOptions, StreamReport } from "./stream-types.js";
-import { BoardTimeline, type InFlight, type StreamPlace } from "./timeline.js";
+import { BoardTimeline, placeIn, type InFlight, type StreamPlace } from "./timeline.js";
 
 /** Min time between wake-ups. */
 const MIN_WAKE_S = 0.004;
@@ -43,8 +44,6 @@ export const maxAheadS = (windowS: number, commandS: number): number =>
 export class Streamer {
   /** Number of times that the board ran out of commands during a run. */
   underrunCount = 0;
-  /** Total time of these underruns, seconds. */
-  underrunS = 0;
   /** The command that the board refused. It never ran, but those written after it may have. */
   refused: RefusedCommand | null = null;
 
@@ -145,12 +144,7 @@ export class Streamer {
   place(): StreamPlace {
     const boardS = this.timeline.boardS();
     const entry = this.timeline.at(boardS);
-    if (entry) {
-      const share = Math.max(0, (boardS - entry.startS) / (entry.endS - entry.startS));
-      const fromS = entry.stream.planS[entry.index];
-      const toS = entry.stream.planS[entry.index + 1];
-      return { stream: entry.stream, commandIndex: entry.index, planS: fromS + share * (toS - fromS) };
-    }
+    if (entry) return placeIn(entry, boardS);
     if (this.lastWritten) {
       const { stream, commandIndex } = this.lastWritten;
       return { stream, commandIndex, planS: stream.planS[commandIndex + 1] };
@@ -269,10 +263,7 @@ export class Streamer {
     const place = { stream, commandIndex: index, planS: stream.planS[index] };
     const waitS = this.timeline.longestS();
     const dryS = takesTime ? this.timeline.written(stream, index, startS, endS) : 0;
-    if (dryS > DRY_S && this.isSameRun(stream, index)) {
-      this.underrunCount++;
-      this.underrunS += dryS;
-    }
+    if (dryS > DRY_S && this.isSameRun(stream, index)) this.underrunCount++;
     this.unanswered++;
     this.lastWritten = place;
     const onReply: Outgoing["onReply"] = (error) => this.answered(error, place, takesTime);
@@ -348,9 +339,7 @@ export class Streamer {
     this.options.onPoll?.(line, reply, asked);
     const waiting = isFirst ? waitingCount(line, reply) : null;
     if (waiting !== null && this.timeline.waiting(waiting, asked.clockS)) {
-      // The commands in its queue must not be drawn if it recovers.
-      this.session.write([{ line: "ES" }]);
-      this.abandon(stuck());
+      this.halt(stuck());
     }
     if (!this.failure) this.pump();
   }
@@ -393,7 +382,7 @@ export class Streamer {
       const fields = (await this.session.query("QM")).split(",");
       if (fields.every((field) => field === "0")) return;
       if (isLast) throw stuck();
-      await new Promise<void>((resolve) => void clock.after(IDLE_POLL_S, resolve));
+      await delay(clock, IDLE_POLL_S);
     }
   }
 
@@ -411,14 +400,18 @@ export class Streamer {
 
   private async readSteps(): Promise<readonly [number, number] | null> {
     try {
-      const [counter1, counter2] = parseSteps(await this.session.query("QS"));
-      const [origin1, origin2] = this.options.origin ?? [0, 0];
-      return [counter1 + origin1, counter2 + origin2];
+      return parseSteps(await this.session.query("QS"), this.options.origin);
     } catch (error) {
       // Firmware before 2.4.3 does not report step counters.
       if (this.session.failure) throw error;
       return null;
     }
+  }
+
+  /** `abandon`, and clears the board's queue: its commands must not be drawn if the board recovers. */
+  halt(error: PlotwrightError): void {
+    this.session.write([{ line: "ES" }]);
+    this.abandon(error);
   }
 
   /** Stops writing and waiting. The board finishes the commands it has received. */
@@ -433,7 +426,7 @@ export class Streamer {
   }
 }
 
-const stuck = (): PlotwrightError =>
+export const stuck = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The board answers but does not finish its motion: press its reset button or unplug it, set home and plot again.",

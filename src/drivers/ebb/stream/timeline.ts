@@ -30,6 +30,13 @@ export interface InFlight {
   readonly index: number;
 }
 
+/** The position in its stream of a command at a board time. */
+export function placeIn({ stream, index, startS, endS }: InFlight, boardS: number): StreamPlace {
+  const share = Math.min(1, Math.max(0, (boardS - startS) / (endS - startS)));
+  const fromS = stream.planS[index];
+  return { stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1] - fromS) };
+}
+
 /**
  * If a reply takes longer than this, the board's queue was full. Board seconds.
  */

@@ -90,7 +90,7 @@ export class BoardCore {
     const { speed, framePhaseMs } = servoOptions ?? {};
     const phaseTicks = framePhaseMs === undefined ? null : framePhaseMs * TICKS_PER_MS;
     this.servo = new Servo(BOOT_SERVO_UP, speed, phaseTicks);
-    this.line = recordLine ? lineRecord(machine, springs) : null;
+    this.line = recordLine ? (springs ? new SwingingLine(machine, springs) : new DrawnLine(machine)) : null;
   }
 
   /** The firmware is this version or a newer one. */
@@ -117,8 +117,15 @@ export class BoardCore {
 
   /** The event of `nextEventTick`. */
   happen(): void {
-    if (this.running !== null && this.contactTick <= this.running.endTick) this.changeContact();
-    else this.finishRunning();
+    const { running } = this;
+    if (running === null) return;
+    if (this.contactTick <= running.endTick) {
+      this.changeContact();
+      return;
+    }
+    this.settle(running, running.endTick);
+    this.running = null;
+    this.startNext();
   }
 
   /** Freezes the running order: it neither moves nor ends. When unfrozen it continues where it was. */
@@ -161,15 +168,6 @@ export class BoardCore {
   enqueue(order: Order): void {
     if (this.running === null) this.start(order);
     else this.fifo.push(order);
-  }
-
-  /** Ends the running order (at `nowTick`) and starts the next. */
-  private finishRunning(): void {
-    const running = this.running;
-    if (running === null) return;
-    this.settle(running, running.endTick);
-    this.running = null;
-    this.startNext();
   }
 
   private startNext(): void {
@@ -298,7 +296,7 @@ export class BoardCore {
 
   private start(order: Order): void {
     if (order.kind === "move") {
-      this.startMove(RunningMove.begin(order, this.features.arithmetic, this.acc1, this.acc2), order);
+      this.startMove(RunningMove.begin(order, this.features.arithmetic, this.acc1, this.acc2));
       return;
     }
     const { lastMove } = this;
@@ -320,14 +318,15 @@ export class BoardCore {
     this.running = { order, startTick: this.nowTick, endTick: this.nowTick + ticks, move: null };
   }
 
-  private startMove(move: RunningMove, order: Order): void {
+  private startMove(move: RunningMove): void {
     if (this.autoEnable) {
       this.mode1 = this.lastMode;
       this.mode2 = this.lastMode;
     }
     this.totals.addMove(move, this.servo.arrivalTick > this.nowTick + 1);
     this.noteJoint(move);
-    this.running = { order, startTick: this.nowTick, endTick: this.nowTick + move.ticks, move };
+    const { order, ticks } = move;
+    this.running = { order, startTick: this.nowTick, endTick: this.nowTick + ticks, move };
   }
 
   /** Counts the gap and the velocity jump between the last move and this one. */
@@ -342,9 +341,11 @@ export class BoardCore {
   }
 
   private speedMmPerS(rate1: number, rate2: number): number {
-    const s1 = stepsPerSFromRate(rate1);
-    const s2 = stepsPerSFromRate(rate2);
-    return Math.hypot(xFromMotors(this.machine, s1, s2), yFromMotors(this.machine, s1, s2));
+    return this.lengthMm(stepsPerSFromRate(rate1), stepsPerSFromRate(rate2));
+  }
+
+  private lengthMm(steps1: number, steps2: number): number {
+    return Math.hypot(xFromMotors(this.machine, steps1, steps2), yFromMotors(this.machine, steps1, steps2));
   }
 
   /** Applies what a running order has done up to `tick`. */
@@ -368,7 +369,7 @@ export class BoardCore {
     this.steps2 += place2.net;
     this.acc1 = place1.acc;
     this.acc2 = place2.acc;
-    const pathMm = this.speedMmPerS(place1.net * RATE_OF_ONE_STEP_A_S, place2.net * RATE_OF_ONE_STEP_A_S);
+    const pathMm = this.lengthMm(place1.net, place2.net);
     if (this.isLifted) this.totals.travelMm += pathMm;
     else this.totals.drawnMm += pathMm;
     this.lastMove = {
@@ -404,11 +405,6 @@ export class BoardCore {
     ];
   }
 }
-
-const lineRecord = (machine: MachineProfile, springs: Springs | null): LineRecord =>
-  springs === null ? new DrawnLine(machine, false) : new SwingingLine(machine, springs);
-
-const RATE_OF_ONE_STEP_A_S = 1 / stepsPerSFromRate(1);
 
 const lastRate = (motion: RunningMove["motion1"], ticks: number): number =>
   motion.rateDuring(Math.min(ticks, motion.ticks));

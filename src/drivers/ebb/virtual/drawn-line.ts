@@ -2,6 +2,7 @@
  * The line that the virtual board has drawn: positions of both motors, sampled so densely that the straight line between
  * two samples is never farther than a microstep from the true path.
  */
+import { grown } from "../../../geometry/growable.js";
 import type { AxisState } from "../model/accumulator.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -31,15 +32,11 @@ export class DrawnLine implements LineRecord {
   private pointCount = 0;
   /** By polyline: its first point, and whether the pen was down. */
   private readonly firsts: number[] = [0];
-  private readonly downs: boolean[] = [];
+  private readonly downs: boolean[] = [false];
   private readonly place1: AxisState = { net: 0, acc: 0 };
   private readonly place2: AxisState = { net: 0, acc: 0 };
 
-  constructor(
-    private readonly machine: MachineProfile,
-    penDown: boolean,
-  ) {
-    this.downs.push(penDown);
+  constructor(private readonly machine: MachineProfile) {
     this.add(0, 0);
   }
 
@@ -110,10 +107,7 @@ export class DrawnLine implements LineRecord {
         }
       }
     }
-    if (2 * n + 2 > p.length) {
-      this.points = new Int32Array(2 * p.length);
-      this.points.set(p);
-    }
+    if (2 * n + 2 > p.length) this.points = grown(p);
     this.points[2 * n] = m1;
     this.points[2 * n + 1] = m2;
     this.pointCount++;

@@ -4,7 +4,7 @@
  * A command is answered when it is queued or, if it acts at once, done. A command that has to wait (for room in the
  * queue, or in the case of CU,4 and HM for the motors to stop) blocks all later ones, as in the board's parser.
  */
-import { ebbOf } from "../protocol/ebb-controller.js";
+import { ebbOf, STANDARD_PIN } from "../protocol/ebb-controller.js";
 import { commandName, replyShape } from "../protocol/replies.js";
 import type { BoardCore } from "./core.js";
 import { MotionCommands } from "../model/motion-commands.js";
@@ -15,8 +15,6 @@ import { TICKS_PER_MS } from "../../../units.js";
 
 const MAX_LINE_BYTES = 255;
 const MS16 = 65_535;
-/** SP moves the servo on RB1; S2 moves others. */
-const STANDARD_PIN = 4;
 
 /** The effect of a parsed command. */
 interface Action {
@@ -43,7 +41,7 @@ interface Switches {
   testMode: boolean;
 }
 
-export interface InterpreterHooks {
+interface InterpreterHooks {
   readonly send: (text: string) => void;
   /** R: restores boot defaults; the USB connection stays open. */
   readonly reset: () => void;
@@ -221,7 +219,7 @@ export class Interpreter {
       this.core.mode2 = 0;
     }
     const flag = hit ? 1 : 0;
-    const isShort = this.core.features.stopReplyValues === 1;
+    const isShort = this.core.isFrom("3.0.0");
     return { values: () => (isShort ? `${flag}` : [flag, waiting1, waiting2, left1, left2].join(",")) };
   }
 
@@ -308,13 +306,13 @@ export class Interpreter {
   private engraver(p: Parameters): Action {
     p.uint(1);
     p.optionalUint(0, 1_023);
-    return p.optionalUint(0, 1) === 1 ? { orders: [{ kind: "output", ticks: 1 }] } : {};
+    return p.optionalUint(0, 1) === 1 ? { orders: [{ kind: "delay", ticks: 1 }] } : {};
   }
 
   private servoTimeout(p: Parameters): Action {
-    const ms = p.uint();
+    p.uint();
     if (p.hasMore) this.core.servoUsed = p.uint(1) === 1;
-    return this.done(() => (this.inputs.servoTimeoutMs = ms));
+    return {};
   }
 
   // settings

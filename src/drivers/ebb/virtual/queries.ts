@@ -11,7 +11,6 @@ export interface BoardInputs {
   name: string;
   nodeCount: number;
   readonly layer: Uint8Array;
-  servoTimeoutMs: number;
 }
 
 const MOTOR_SUPPLY_VOLTS = 9.1;
@@ -26,7 +25,6 @@ export const factoryInputs = (): BoardInputs => ({
   name: "",
   nodeCount: 0,
   layer: new Uint8Array(32),
-  servoTimeoutMs: 60_000,
 });
 
 /** The state after a reset, which keeps the name in flash memory and the inputs from outside the board. */
@@ -64,7 +62,7 @@ export class BoardQueries {
     if (core.isBusy) bits |= 8;
     if (core.penUp) bits |= 16;
     if (inputs.buttonLatched) bits |= 32;
-    if (core.features.hasLimitQuery && inputs.powerLostLatched) bits |= 64;
+    if (core.isFrom("3.0.0") && inputs.powerLostLatched) bits |= 64;
     inputs.buttonLatched = false;
     inputs.powerLostLatched =
       inputs.powerThreshold > 0 && supplyReading(inputs.motorVolts) < inputs.powerThreshold;

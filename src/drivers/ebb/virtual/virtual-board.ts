@@ -15,14 +15,15 @@ import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { machineById } from "../../../machines/profiles.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
-import { TICKS_PER_S } from "../../../units.js";
+import { sFromTicks, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
+import { asciiBytes } from "../../line-splitter.js";
 import type { Clock, Transport } from "../../transport.js";
+import { VirtualLink } from "../../virtual-link.js";
 import type { BoardStatistics } from "./board-totals.js";
 import { BoardCore, type VirtualServo } from "./core.js";
 import type { DrawnPolyline } from "./drawn-line.js";
 import { InputLines } from "./input.js";
 import { Interpreter } from "./interpreter.js";
-import { VirtualLink } from "./link.js";
 import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 
 export type { BoardStatistics } from "./board-totals.js";
@@ -37,7 +38,7 @@ export interface VirtualBoardOptions {
   /** Counts real seconds. */
   readonly clock: Clock;
   /** Default "2.8.1". */
-  readonly firmware?: string;
+  readonly firmware?: string | undefined;
   /** Board seconds per clock second. Infinity: every move is over as soon as it is sent. Default 1. */
   readonly speed?: number;
   /** Default AxiDraw V3. */
@@ -54,7 +55,7 @@ export interface VirtualBoardOptions {
    * Simulate a gantry on which the pen swings, so that the drawn line rings. Reported positions and steps are still
    * those of the motors. Default: the pen is exactly where the motors are.
    */
-  readonly springs?: Springs;
+  readonly springs?: Springs | undefined;
   /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
   readonly systemBytes?: number;
 }
@@ -124,7 +125,7 @@ export class VirtualBoard {
     this.firmware = options.firmware ?? "2.8.1";
     this.speed = speed;
     this.machine = options.machine ?? machineById("axidraw-v3");
-    this.parseTicks = ((options.parseMs ?? 0) / 1_000) * TICKS_PER_S;
+    this.parseTicks = (options.parseMs ?? 0) * TICKS_PER_MS;
     this.inputLimit = options.inputBytes ?? 256;
     this.systemLimit = options.systemBytes ?? 4_096;
     this.startS = this.clock.nowS();
@@ -202,7 +203,7 @@ export class VirtualBoard {
       motorsOn: core.mode1 !== 0 || core.mode2 !== 0,
       isBusy: core.isBusy,
       waitingCount: core.fifo.length,
-      boardS: core.nowTick / TICKS_PER_S,
+      boardS: sFromTicks(core.nowTick),
     };
   }
 
@@ -425,7 +426,7 @@ export class VirtualBoard {
       this.repliesToLose--;
       return;
     }
-    this.sendBytes(Uint8Array.from(text, (c) => c.charCodeAt(0)));
+    this.sendBytes(asciiBytes(text));
   }
 
   private sendBytes(bytes: Uint8Array): void {

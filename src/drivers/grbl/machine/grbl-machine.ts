@@ -2,11 +2,11 @@
  * One connected Grbl: the position of its carriage and pen, and the operations that move them. Its work coordinates are
  * mm from home. If the position is unknown, the carriage is assumed to be at home.
  */
+import { strokesOf } from "../../../drawing/lines.js";
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { PenSettings } from "../../../settings/pen.js";
 import type { ConnectOptions, ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
 import type { Clock } from "../../transport.js";
@@ -22,12 +22,6 @@ import type { GrblSession } from "./session.js";
 const STOP_MS = 30;
 /** Makes the current position home. It stays home after a reset. */
 const SET_HOME = "G10L20P1X0Y0";
-const NO_STROKES = {
-  xy: new Float64Array(0),
-  offsets: new Uint32Array(1),
-  layer: new Uint16Array(0),
-  layers: [],
-};
 
 export class GrblMachine implements Machine {
   readonly name = null;
@@ -72,8 +66,8 @@ export class GrblMachine implements Machine {
     else await this.recovered(await this.session.reset(stopped()));
   }
 
-  async ready(profile: MachineProfile): Promise<MachineState> {
-    grblOf(profile);
+  async ready(settings: MachineSettings): Promise<MachineState> {
+    grblOf(machineOf(settings));
     if (this.isAsleep) await this.recovered(await this.session.reset(stopped()));
     this.isAsleep = false;
     if (!this.at) await this.homeIsHere();
@@ -88,7 +82,7 @@ export class GrblMachine implements Machine {
     const pct = heightPct ?? (up ? upPct : downPct);
     const share = Math.min(1, Math.max(0, (pct - downPct) / (upPct - downPct)));
     const zMm = grbl.penDownZMm + share * (grbl.penUpZMm - grbl.penDownZMm);
-    if (this.isAsleep) await this.ready(machineOf(settings));
+    if (this.isAsleep) await this.ready(settings);
     this.penUp = up;
     this.penMoving = true;
     this.options.events.changed();
@@ -114,11 +108,11 @@ export class GrblMachine implements Machine {
 
   async walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
-    await this.ready(machine);
+    await this.ready(settings);
     if (this.penUp !== true) await this.movePen(true, settings);
     const { x, y } = this.place(machine)!;
     const travel = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
-    const job = planGrblJob(NO_STROKES, settings, machine, travel);
+    const job = planGrblJob(strokesOf([]), settings, machine, travel);
     await this.perform({ trajectory: job.trajectory, commands: job.commands() });
   }
 
@@ -142,8 +136,8 @@ export class GrblMachine implements Machine {
     this.options.events.changed();
   }
 
-  async setHome(profile: MachineProfile, _pen: PenSettings): Promise<void> {
-    await this.ready(profile);
+  async setHome(settings: MachineSettings): Promise<void> {
+    await this.ready(settings);
     await this.homeIsHere();
   }
 
@@ -198,14 +192,15 @@ export class GrblMachine implements Machine {
         `${JSON.stringify(line)} was not sent: a line has at most 79 plain characters, and none of ? ! ~, which act at once.`,
       );
     }
-    this.session.received = [];
+    const { log } = this.session;
+    const entryCount = log.count;
     let refused = false;
     await this.session.send(line).catch((error: unknown) => {
       // An error reply is among the received lines.
       if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
       refused = true;
     });
-    const replies = [...this.session.received];
+    const replies = log.receivedSince(entryCount);
     if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, refused, note: null };
     await this.session.send(SYNC).catch(() => undefined);
     this.penUp = null;

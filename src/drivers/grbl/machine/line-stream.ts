@@ -1,6 +1,6 @@
 /** Plays the lines of one job: sends as many ahead as fit into Grbl's buffer. */
 import { PlotwrightError } from "../../../errors.js";
-import type { Clock } from "../../transport.js";
+import { delay, type Clock } from "../../transport.js";
 import type { GrblCommands } from "../grbl-job.js";
 import { QUEUE_MOVES } from "../model/planner.js";
 import { NOW, type Status } from "../protocol.js";
@@ -67,7 +67,7 @@ export class LineStream {
     for (let i = 0; i < REST_TRIES; i++) {
       const { state } = await this.session.status();
       if (state === "Hold:0" || state === "Idle" || state.startsWith("Alarm")) break;
-      await new Promise<void>((resolve) => void this.clock.after(POLL_S, resolve));
+      await delay(this.clock, POLL_S);
     }
     return this.stop(error);
   }

@@ -3,10 +3,11 @@
  * and detects a silent board. Knows nothing about motion.
  */
 import { PlotwrightError } from "../../../errors.js";
-import { LineSplitter } from "../../line-splitter.js";
+import { lineClosed, lineLost, silent } from "../../faults.js";
+import { asciiBytes, LineSplitter } from "../../line-splitter.js";
 import { SessionLog } from "../../session-log.js";
 import { SilenceWatch } from "../../silence-watch.js";
-import type { Clock, Transport } from "../../transport.js";
+import { delay, type Clock, type Transport } from "../../transport.js";
 import type { Axes } from "../model/planner.js";
 import {
   alarm,
@@ -40,8 +41,6 @@ export class GrblSession {
   version: string | null = null;
   /** Called when the board restarts or stops by itself; all lines sent before are lost. */
   onBreak: (error: PlotwrightError) => void = () => undefined;
-  /** Lines received until the next command of the console. */
-  received: string[] = [];
 
   private rxBytes = RX_BYTES;
   private sentBytes = 0;
@@ -72,7 +71,7 @@ export class GrblSession {
     for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
       // A Grbl that sleeps, holds or works for another program answers only after a reset.
       if (i > 0) this.now(NOW.reset);
-      const tooLate = new Promise<void>((resolve) => void this.clock.after(IDENTIFY_S, resolve));
+      const tooLate = delay(this.clock, IDENTIFY_S);
       // The empty line ends a line that another program may have left unfinished.
       const answered = Promise.allSettled([this.send(""), this.send("$I")]).then(() => undefined);
       await Promise.race([answered, tooLate]);
@@ -81,7 +80,7 @@ export class GrblSession {
       if (i > 0) await tooLate;
     }
     if (this.failure) throw this.failure;
-    if (this.version === null) throw notGrbl(this.received.slice(-4));
+    if (this.version === null) throw notGrbl(this.received());
     return this.version;
   }
 
@@ -132,7 +131,7 @@ export class GrblSession {
   async close(): Promise<void> {
     if (this.closed) return;
     this.closed = true;
-    this.fail(new PlotwrightError("disconnected", "The connection to the board was closed."));
+    this.fail(lineClosed());
     await this.transport.close();
   }
 
@@ -155,8 +154,7 @@ export class GrblSession {
   }
 
   private put(text: string): void {
-    const bytes = Uint8Array.from(text, (character) => character.charCodeAt(0));
-    this.transport.write(bytes).catch(() => this.fail(lineLost()));
+    this.transport.write(asciiBytes(text)).catch(() => this.fail(lineLost()));
   }
 
   private take(line: string): void {
@@ -168,8 +166,6 @@ export class GrblSession {
       return;
     }
     this.log.add("received", line);
-    this.received.push(line);
-    if (this.received.length > 100) this.received.shift();
     this.version = versionOf(line) ?? this.version;
     this.rxBytes = rxBytesOf(line) ?? this.rxBytes;
     const refused = /^error:(\d+)/.exec(line);
@@ -216,8 +212,12 @@ export class GrblSession {
   private noAnswer(): void {
     if (this.sent.length === 0) return;
     // A device that has answered but is not identified is not a Grbl.
-    const isOther = this.version === null && this.received.length > 0;
-    this.fail(isOther ? notGrbl(this.received.slice(-4)) : silent(this.sent[0].line));
+    const isOther = this.version === null && this.received().length > 0;
+    this.fail(isOther ? notGrbl(this.received()) : silent(this.sent[0].line));
+  }
+
+  private received(): string[] {
+    return this.log.receivedSince(0);
   }
 
   private fail(error: PlotwrightError): void {
@@ -232,18 +232,6 @@ export class GrblSession {
   }
 }
 
-const lineLost = (): PlotwrightError =>
-  new PlotwrightError(
-    "disconnected",
-    "The connection to the board is lost: check its USB cable and power, then connect again.",
-  );
-
-const silent = (waitingFor: string): PlotwrightError =>
-  new PlotwrightError(
-    "board-timeout",
-    `The board has stopped answering (waiting on ${waitingFor}): check its USB cable and power, and that no other program uses the port.`,
-  );
-
 const restarted = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
@@ -254,6 +242,6 @@ function notGrbl(received: readonly string[]): PlotwrightError {
   if (received.length === 0) return silent("its version");
   return new PlotwrightError(
     "no-board",
-    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${received.join("; ")}.`,
+    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${received.slice(-4).join("; ")}.`,
   );
 }

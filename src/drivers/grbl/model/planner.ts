@@ -7,6 +7,8 @@
 /** X, Y and Z: a position in mm, a unit vector, or the limits of the axes. */
 export type Axes = readonly [x: number, y: number, z: number];
 
+export const difference = (a: Axes, b: Axes): Axes => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+
 export interface AxisLimits {
   /** mm/s. */
   readonly speed: Axes;
@@ -34,7 +36,7 @@ const SAME = 0.999999;
 
 /** A move between two different positions. `before`: the previous move in the queue. */
 export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, before: Move | null): Move {
-  const delta: Axes = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+  const delta = difference(to, from);
   const lengthMm = Math.hypot(...delta);
   const unit: Axes = [delta[0] / lengthMm, delta[1] / lengthMm, delta[2] / lengthMm];
   const speed = Math.min(feed, alongAxes(limits.speed, unit));
@@ -57,7 +59,7 @@ export function junctionSpeed2(before: Axes, after: Axes, { accel, junctionMm }:
   if (cos > SAME) return 0;
   if (cos < -SAME) return Infinity;
   const sine = Math.sqrt((1 - cos) / 2);
-  const turn: Axes = [after[0] - before[0], after[1] - before[1], after[2] - before[2]];
+  const turn = difference(after, before);
   const size = Math.hypot(...turn);
   const along = alongAxes(accel, [turn[0] / size, turn[1] / size, turn[2] / size]);
   return (along * junctionMm * sine) / (1 - sine);

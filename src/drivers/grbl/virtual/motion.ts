@@ -51,8 +51,7 @@ export class GrblMotion {
   }
 
   get at(): Axes {
-    const unit = this.moves[0]?.unit ?? [0, 0, 0];
-    return [0, 1, 2].map((i) => this.start[i] + unit[i] * this.doneMm) as unknown as Axes;
+    return this.isEmpty ? this.start : this.along(this.moves[0].unit, this.doneMm);
   }
 
   get speedMmPerS(): number {
@@ -119,16 +118,20 @@ export class GrblMotion {
     const [move] = this.moves;
     const isOver = move.lengthMm - this.doneMm < 1e-6;
     if (isOver) {
-      this.start = [0, 1, 2].map((i) => this.start[i] + move.unit[i] * move.lengthMm) as unknown as Axes;
       // At the end of the queue, use the exact target: the sum of many moves drifts by rounding.
-      if (this.moves.length === 1) this.start = this.target;
+      this.start = this.moves.length === 1 ? this.target : this.along(move.unit, move.lengthMm);
       this.moves.shift();
       this.doneMm = 0;
       this.arrived(this.start);
     }
-    if (this.speed < 1e-6) this.speed = 0;
-    if (this.isEmpty) this.speed = 0;
-    else if (!(this.isHolding && this.speed === 0)) this.plan();
+    if (this.speed < 1e-6 || this.isEmpty) this.speed = 0;
+    if (!(this.isHolding && this.speed === 0)) this.plan();
+  }
+
+  /** The position `mm` after the start of the first move. */
+  private along(unit: Axes, mm: number): Axes {
+    const [x, y, z] = this.start;
+    return [x + unit[0] * mm, y + unit[1] * mm, z + unit[2] * mm];
   }
 
   /** Plans the rest of the first move, from its current speed. */

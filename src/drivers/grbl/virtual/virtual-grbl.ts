@@ -2,14 +2,14 @@
  * A small simulated Grbl: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's model,
  * reports, and real-time commands. It supports the commands that this driver sends, and refuses others as Grbl does.
  */
-import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
-import type { MachineProfile } from "../../../machines/profile.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
-import type { Clock, Transport } from "../../transport.js";
+import { asciiBytes } from "../../line-splitter.js";
+import type { Transport } from "../../transport.js";
 import { axisLimits, dwellS, grblOf } from "../model/grbl-controller.js";
-import { QUEUE_MOVES, type Axes } from "../model/planner.js";
+import { difference, QUEUE_MOVES, type Axes } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
+import { VirtualLink } from "../../virtual-link.js";
 import { GrblMotion } from "./motion.js";
 
 const VERSION = "1.1h";
@@ -20,13 +20,13 @@ const ERROR = { number: 2, dollar: 3, locked: 9, unknown: 20, noFeed: 22, unused
 /** Modes that are always on. */
 const FIXED_MODES = new Set(["G0", "G1", "G21", "G54", "G90", "G94"]);
 
-export interface GrblDrawn {
+interface GrblDrawn {
   readonly penDown: boolean;
   /** mm from home: x, y, x, y … */
   readonly xy: Float64Array;
 }
 
-export interface VirtualGrblState {
+interface VirtualGrblState {
   readonly state: string;
   readonly xMm: number;
   readonly yMm: number;
@@ -37,12 +37,9 @@ export interface VirtualGrblState {
 }
 
 export class VirtualGrbl implements VirtualMachine {
-  private readonly clock: Clock;
-  private readonly speed: number;
-  private readonly machine: MachineProfile;
   private readonly motion: GrblMotion;
   private readonly startS: number;
-  private line: VirtualLine | null = null;
+  private link: VirtualLink | null = null;
   private received = "";
   private lostCount = 0;
   private isLocked = false;
@@ -60,25 +57,28 @@ export class VirtualGrbl implements VirtualMachine {
   private isClosed = false;
   private readonly polylines: { penDown: boolean; xy: number[] }[] = [];
 
-  constructor({ clock, speed, machine }: VirtualMachineOptions) {
-    this.clock = clock;
-    this.speed = speed;
-    this.machine = machine;
+  constructor(private readonly options: VirtualMachineOptions) {
+    const { clock, machine } = options;
     this.startS = clock.nowS();
     this.motion = new GrblMotion(axisLimits(grblOf(machine)), () => this.record());
     this.polylines.push({ penDown: false, xy: [0, 0] });
   }
 
   transport(): Transport {
-    this.line?.drop();
-    this.line = new VirtualLine((bytes) => this.take(bytes));
-    return this.line;
+    this.link?.drop();
+    this.link = new VirtualLink(Infinity, {
+      accepting: () => true,
+      nowTick: () => 0,
+      // Not at once: a reply must not arrive during the write.
+      take: (bytes) => void Promise.resolve().then(() => this.take(bytes)),
+    });
+    return this.link;
   }
 
   close(): void {
     this.isClosed = true;
     this.cancelTimer();
-    this.line?.drop();
+    this.link?.drop();
   }
 
   state(): VirtualGrblState {
@@ -94,7 +94,7 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private get nowS(): number {
-    return (this.clock.nowS() - this.startS) * this.speed;
+    return (this.options.clock.nowS() - this.startS) * this.options.speed;
   }
 
   private take(bytes: Uint8Array): void {
@@ -124,13 +124,10 @@ export class VirtualGrbl implements VirtualMachine {
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
       this.startDueS ??= this.nowS + START_S;
-      if (this.motion.isFull || this.isWaitingForMotion()) this.startDueS = this.nowS;
+      const waitsForMotion = this.received.startsWith("G4");
+      if (this.motion.isFull || waitsForMotion) this.startDueS = this.nowS;
     }
     this.schedule();
-  }
-
-  private isWaitingForMotion(): boolean {
-    return this.received.startsWith("G4");
   }
 
   private schedule(): void {
@@ -138,8 +135,8 @@ export class VirtualGrbl implements VirtualMachine {
     if (this.isClosed) return;
     const dueS = Math.min(this.motion.nextS, this.waitUntilS ?? Infinity, this.startDueS ?? Infinity);
     if (dueS === Infinity) return;
-    const delayS = Math.max(0, dueS - this.nowS) / this.speed;
-    this.cancelTimer = this.clock.after(delayS, () => {
+    const delayS = Math.max(0, dueS - this.nowS) / this.options.speed;
+    this.cancelTimer = this.options.clock.after(delayS, () => {
       this.catchUp(dueS);
       this.work();
     });
@@ -235,7 +232,7 @@ export class VirtualGrbl implements VirtualMachine {
   private target(word: number | undefined, axis: 0 | 1 | 2, end: Axes): number {
     if (word === undefined) return end[axis];
     const mm = word + this.offset[axis];
-    const { stepsPerMm } = this.machine;
+    const { stepsPerMm } = this.options.machine;
     return axis === 2 ? mm : Math.round(mm * stepsPerMm) / stepsPerMm;
   }
 
@@ -284,22 +281,21 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private reply(line: string): void {
-    this.line?.deliver(`${line}\r\n`);
+    this.link?.deliver(asciiBytes(`${line}\r\n`));
   }
 
   private workAt(): Axes {
-    const at = this.motion.at;
-    return [at[0] - this.offset[0], at[1] - this.offset[1], at[2] - this.offset[2]];
+    return difference(this.motion.at, this.offset);
   }
 
   private isDown(z: number): boolean {
-    const { penUpZMm, penDownZMm } = grblOf(this.machine);
+    const { penUpZMm, penDownZMm } = grblOf(this.options.machine);
     return Math.abs(z - penDownZMm) < Math.abs(z - penUpZMm);
   }
 
   private onPage(x: number, y: number): { x: number; y: number } {
-    const { stepsPerMm } = this.machine;
-    return placeFromMotors(this.machine, x * stepsPerMm, y * stepsPerMm);
+    const { stepsPerMm } = this.options.machine;
+    return placeFromMotors(this.options.machine, x * stepsPerMm, y * stepsPerMm);
   }
 
   private record(): void {
@@ -316,47 +312,5 @@ export class VirtualGrbl implements VirtualMachine {
     const [x, y] = this.workAt();
     const page = this.onPage(x, y);
     this.polylines.push({ penDown, xy: [page.x, page.y] });
-  }
-}
-
-/** A connection to the virtual Grbl. Written bytes arrive almost at once. */
-class VirtualLine implements Transport {
-  private listener: (bytes: Uint8Array) => void = () => undefined;
-  private closeListener: (error?: Error) => void = () => undefined;
-  private isOpen = true;
-
-  constructor(private readonly take: (bytes: Uint8Array) => void) {}
-
-  write(bytes: Uint8Array): Promise<void> {
-    if (!this.isOpen) {
-      return Promise.reject(
-        new PlotwrightError("disconnected", "The connection to the virtual Grbl is closed: open it again."),
-      );
-    }
-    const copy = bytes.slice();
-    return Promise.resolve().then(() => this.take(copy));
-  }
-
-  onData(listener: (bytes: Uint8Array) => void): void {
-    this.listener = listener;
-  }
-
-  onClose(listener: (error?: Error) => void): void {
-    this.closeListener = listener;
-  }
-
-  close(): Promise<void> {
-    this.drop();
-    return Promise.resolve();
-  }
-
-  drop(): void {
-    if (!this.isOpen) return;
-    this.isOpen = false;
-    this.closeListener();
-  }
-
-  deliver(text: string): void {
-    if (this.isOpen) this.listener(Uint8Array.from(text, (character) => character.charCodeAt(0)));
   }
 }

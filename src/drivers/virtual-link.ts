@@ -1,8 +1,8 @@
 /**
- * The host's end of an in-process connection to the virtual board, including the operating system's buffer.
+ * The host's end of an in-process connection to a virtual board, including the operating system's buffer.
  */
-import { PlotwrightError } from "../../../errors.js";
-import type { Transport } from "../../transport.js";
+import { PlotwrightError } from "../errors.js";
+import type { Transport } from "./transport.js";
 
 interface LinkTarget {
   readonly accepting: () => boolean;
