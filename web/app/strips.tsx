@@ -1,11 +1,10 @@
 import { activeJob, otherOperator, penWait, shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { stripsText } from "./text.js";
+import { stripsText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { errorText } from "../ui/text.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
-const words = stripsText;
 const PenWait = lazyPart(async () => (await import("../queue/pen-wait.js")).PenWait);
 
 /** Messages over the paper, visible with any panel: about the server, another operator, a pen change. */

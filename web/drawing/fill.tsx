@@ -1,10 +1,9 @@
 import { usePageState } from "../state/use-store.js";
-import { fillText } from "./text.js";
+import { fillText as words } from "./text.js";
 import { formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
-const words = fillText;
 const FillFields = lazyPart(async () => (await import("./fill-fields.js")).FillFields);
 
 export const FillPanel = () => {

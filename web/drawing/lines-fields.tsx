@@ -1,11 +1,9 @@
 import { PREPARE_TABLE, type Setting } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
-import { linesText } from "./text.js";
+import { linesText as words } from "./text.js";
 import { Segments, Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePrepareChange } from "../ui/use-change.js";
-
-const words = linesText;
 
 type Key = keyof typeof PREPARE_TABLE;
 /** The numbers and switches that the settings table lists for this panel, in its order. */

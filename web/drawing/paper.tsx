@@ -8,7 +8,7 @@ import {
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { paperText } from "./text.js";
+import { paperText as words } from "./text.js";
 import { IconButton } from "../ui/button.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatSize } from "../ui/format.js";
@@ -18,7 +18,6 @@ import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
-const words = paperText;
 const PlaceFields = lazyPart(async () => (await import("./place-fields.js")).PlaceFields);
 type PrepareSettings = PlotSettings["prepare"];
 const PAPER_NAMES = Object.keys(PAPER_SIZES) as PaperName[];

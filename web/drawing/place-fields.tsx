@@ -4,12 +4,11 @@ import { boxAround, snapLinesOf } from "../scene/placing.js";
 import { deskOf } from "../preview/desk.js";
 import { frameNow } from "../preview/frame.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { placeText } from "./text.js";
+import { placeText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
-const words = placeText;
 type Place = NonNullable<PlotSettings["prepare"]["place"]>;
 
 /** Position and size of the drawing. Its proportions stay, so setting one size sets the other. */

@@ -22,13 +22,11 @@ import {
   withoutLayer,
 } from "./layer-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { layersText } from "./text.js";
+import { layersText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { Icon } from "../ui/icon.js";
 import { OwnNumber } from "../ui/own-number.js";
-
-const words = layersText;
 
 interface LayerDetailsProps {
   readonly row: PreparedLayer;

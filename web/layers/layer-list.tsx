@@ -5,14 +5,13 @@ import { PREPARE_TABLE } from "../../src/internal.js";
 import type { Planned } from "../worker/protocol.js";
 import { inWantedOrder, isLayerShown, moveLayer, showAll } from "./layer-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { layersText } from "./text.js";
+import { layersText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { Icon } from "../ui/icon.js";
 import { usePrepareChange } from "../ui/use-change.js";
 import { LayerRow } from "./layer-row.js";
 
-const words = layersText;
 type PenStop = Planned["penStops"][number];
 
 /** The layers in drawing order, each with its switch and pen, and the stops between them. */

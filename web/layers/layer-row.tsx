@@ -3,14 +3,12 @@ import { parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../..
 import { layerColor } from "../scene/color-map.js";
 import { isLayerShown, setLayerPen, showLayer } from "./layer-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { layersText } from "./text.js";
+import { layersText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatCount } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { LayerDetails } from "./layer-details.js";
 import { useRowDrag } from "../ui/row-drag.js";
-
-const words = layersText;
 
 interface LayerRowProps {
   readonly row: PreparedLayer;

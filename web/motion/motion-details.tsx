@@ -16,7 +16,7 @@ import {
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { detailsText } from "./details-text.js";
+import { detailsText as words } from "./details-text.js";
 import { Select, Switch } from "../ui/choice.js";
 import { OwnNumber } from "../ui/own-number.js";
 import { SettingField } from "../ui/setting-field.js";
@@ -24,7 +24,6 @@ import { CornerPicture } from "./corner-picture.js";
 import { useSprings } from "./use-springs.js";
 import "./motion-details.css";
 
-const words = detailsText;
 type MotionSettings = PlotSettings["motion"];
 
 /** The first values when this is switched on. */

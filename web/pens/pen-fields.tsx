@@ -1,12 +1,11 @@
 import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
-import { heightsText } from "./text.js";
+import { heightsText as words } from "./text.js";
 import { Segments, Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
 
-const words = heightsText;
 type PenSettings = PlotSettings["pen"];
 
 /** Settings for lifting and lowering the pen. Its heights are in the plotter's panel. */

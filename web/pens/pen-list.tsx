@@ -5,14 +5,12 @@ import { useState } from "react";
 import { alignmentJob, CORNERS, type Corner } from "./alignment-mark.js";
 import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-settings.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { pensText } from "./text.js";
+import { pensText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Segments, Select } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingField } from "../ui/setting-field.js";
-
-const words = pensText;
 
 export const PenList = () => {
   const pens = usePageState(({ settings }) => settings.pens);

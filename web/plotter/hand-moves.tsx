@@ -2,7 +2,7 @@ import { useMemo, useState } from "react";
 import type { HandMove } from "../../src/schema/index.js";
 import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { movesText } from "./hand-text.js";
+import { movesText as words } from "./hand-text.js";
 import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
@@ -10,7 +10,6 @@ import { JogPad } from "./jog-pad.js";
 import { boxOfDrawn } from "./drawn-box.js";
 import "./hand-moves.css";
 
-const words = movesText;
 const MAX_MM = 5_000;
 
 /** Jog pad, moves to a position, and small moves that prepare a plot. Disabled during a plot. */

@@ -1,13 +1,12 @@
 import { useRef, useState, type KeyboardEvent } from "react";
 import type { HandMove } from "../../src/schema/index.js";
-import { jogText } from "./hand-text.js";
+import { jogText as words } from "./hand-text.js";
 import { ARROW_KEYS } from "../ui/arrow-keys.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 
-const words = jogText;
 const STEPS_MM = ["0.1", "1", "10", "50"] as const;
 type StepMm = (typeof STEPS_MM)[number];
 

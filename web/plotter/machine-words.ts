@@ -1,9 +1,7 @@
 /** What a plotter is doing, in words, from its connection and its job. */
 import type { Job, Plotter } from "../../src/schema/index.js";
 import { penWait } from "../state/store.js";
-import { plotterText } from "./text.js";
-
-const words = plotterText;
+import { plotterText as words } from "./text.js";
 
 /** State of the lamp. The style sheet has its colours. */
 type Lamp = Plotter["connection"] | "held" | "waiting";

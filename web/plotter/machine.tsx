@@ -3,7 +3,7 @@ import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
-import { plotterText } from "./text.js";
+import { plotterText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { Facts } from "../ui/facts.js";
@@ -14,7 +14,6 @@ import { lampOf, penWords, plotterWords } from "./machine-words.js";
 import { saveFile } from "../ui/save-file.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
-const words = plotterText;
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
 /** The plotter's state, and the controls that every plot needs. */

@@ -6,10 +6,8 @@ import { Button } from "../ui/button.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
 import { servoFollower } from "./servo-follow.js";
-import { penText } from "./text.js";
+import { penText as words } from "./text.js";
 import "./pen-at-hand.css";
-
-const words = penText;
 
 const STEPS = ["home", "heights", "mark"] as const;
 type Step = (typeof STEPS)[number];

@@ -2,11 +2,10 @@ import { useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import { DIRECTIONS, machineTurned, type Direction } from "../../src/internal.js";
 import { useActions } from "../state/use-store.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import type { StepProps } from "./wizard-step.js";
 import { Button } from "../ui/button.js";
 
-const words = wizardText;
 const MOVE_MM = 20;
 
 type Asked = "middle" | "x" | "y" | "check";

@@ -2,12 +2,11 @@ import { useId, useMemo, useState } from "react";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions } from "../state/use-store.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import { ServoPin } from "./profile-form.js";
 import { servoFollower } from "./servo-follow.js";
 import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
-const words = wizardText;
 /** In 1/12 µs: servos accept pulses of about 0.4 to 2.6 ms. */
 const RANGE = { min: 5_000, max: 31_000, step: 100 } as const;
 

@@ -1,9 +1,7 @@
 import { usePageState } from "../state/use-store.js";
-import { hoverText } from "./text.js";
+import { hoverText as words } from "./text.js";
 import { Facts } from "../ui/facts.js";
 import { formatCount, formatMoment, formatNumber } from "../ui/format.js";
-
-const words = hoverText;
 
 /** A tooltip with the numbers of the stroke under the pointer. */
 export const HoverTip = () => {

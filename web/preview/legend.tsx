@@ -7,9 +7,8 @@ import { formatDuration, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import type { Planned } from "../worker/protocol.js";
 import { legendEntries } from "./looks.js";
-import { previewText } from "./text.js";
+import { previewText as words } from "./text.js";
 
-const words = previewText;
 const SwingLegend = lazyPart(async () => (await import("./swing-legend.js")).SwingLegend);
 const LABELS = 5;
 const SHOWN_ENTRIES = 6;

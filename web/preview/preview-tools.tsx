@@ -1,13 +1,12 @@
 import type { RefObject } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
-import { previewText } from "./text.js";
+import { previewText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import { usePrepareChange } from "../ui/use-change.js";
 import { placeOfFrame } from "../scene/placing.js";
 import type { Stage } from "./stage.js";
 
-const words = previewText;
 const ZOOM_STEP = 1.5;
 
 /** The controls on the desk beside the paper. */

@@ -2,7 +2,7 @@ import { stateAt } from "../../src/index.js";
 import { drawnUntilS } from "./drawn-until.js";
 import { activeJob, currentPlotter, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
-import { previewText } from "./text.js";
+import { previewText as words } from "./text.js";
 import { deskOf } from "./desk.js";
 import { paintCutOff } from "./cut-off.js";
 import type { Planned } from "../worker/protocol.js";
@@ -22,7 +22,6 @@ import { selectionPainter } from "./stroke.js";
 import type { Picture } from "../scene/renderer.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
-const words = previewText;
 /** Height of the looks, the legend and the tools under the paper. */
 const BELOW_PX = 88;
 
@@ -154,7 +153,7 @@ const PaperMessage = () => {
   if (fault) {
     return (
       <div className="paper-message paper-message-error" role="alert">
-        <strong>{previewText.cannotRead(drawing?.name ?? "")}</strong>
+        <strong>{words.cannotRead(drawing?.name ?? "")}</strong>
         <p>{fault.message}</p>
       </div>
     );
@@ -163,7 +162,7 @@ const PaperMessage = () => {
   if (!planned && isPlanning) {
     return (
       <div className="paper-message" role="status">
-        <p>{previewText.reading(drawing.name)}</p>
+        <p>{words.reading(drawing.name)}</p>
       </div>
     );
   }
@@ -172,13 +171,9 @@ const PaperMessage = () => {
   const isPicture = isEmptyFile && planned.fileWarnings.some(({ code }) => code === "image-not-drawn");
   return (
     <div className="paper-message">
-      <strong>{isPicture ? previewText.onlyPictures : previewText.nothingToDraw}</strong>
+      <strong>{isPicture ? words.onlyPictures : words.nothingToDraw}</strong>
       <p>
-        {isPicture
-          ? previewText.onlyPicturesHint
-          : isEmptyFile
-            ? previewText.emptyFileHint
-            : previewText.nothingToDrawHint}
+        {isPicture ? words.onlyPicturesHint : isEmptyFile ? words.emptyFileHint : words.nothingToDrawHint}
       </p>
     </div>
   );

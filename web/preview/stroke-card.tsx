@@ -6,9 +6,7 @@ import { Facts } from "../ui/facts.js";
 import { formatCount, formatLength, formatMoment, formatNumber } from "../ui/format.js";
 import { layerLooks } from "./looks.js";
 import { strokeFigures } from "./stroke.js";
-import { strokeText } from "./text.js";
-
-const words = strokeText;
+import { strokeText as words } from "./text.js";
 
 /** The clicked stroke: its numbers, and a button to plot from its beginning. */
 export const StrokeCard = () => {

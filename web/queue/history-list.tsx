@@ -2,7 +2,7 @@ import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { queueText } from "./text.js";
+import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
@@ -11,7 +11,6 @@ import { JobName, StateBadge } from "./job-head.js";
 import { expectedSOf } from "./queue-time.js";
 import { Thumb } from "../drawing/thumb.js";
 
-const words = queueText;
 const SHOWN_FIRST = 20;
 
 /** Ended jobs, newest first. Each can be plotted again. */

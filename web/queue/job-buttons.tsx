@@ -2,12 +2,10 @@ import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { mayOperate, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { jobText, queueText } from "./text.js";
+import { jobText as words, queueText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import "./jobs.css";
-
-const words = jobText;
 
 /**
  * Pause, resume, cancel, stop: the buttons for a job in its present state. Cancel asks for confirmation, because a

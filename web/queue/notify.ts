@@ -1,10 +1,8 @@
 /** Notifies the user when a plot ends or waits: on the page, and by system notifications if they are enabled. */
 import type { Job } from "../../src/schema/index.js";
-import { notifyText } from "./text.js";
+import { notifyText as words } from "./text.js";
 import { waitWords } from "../plotter/machine-words.js";
 import type { PageStore } from "../state/store.js";
-
-const words = notifyText;
 
 /** The message for a job that has changed; null if the user does not need to know. */
 export const noticeOfChange = (before: Job | null, now: Job): string | null => {

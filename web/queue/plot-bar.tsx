@@ -5,14 +5,13 @@ import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { CutOffNote } from "./cut-off-note.js";
-import { plotText } from "./text.js";
+import { plotText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Facts } from "../ui/facts.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { NumberField } from "../ui/number-field.js";
 
-const words = plotText;
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
 const MAX_COPIES = 100;
 

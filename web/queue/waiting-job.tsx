@@ -1,7 +1,7 @@
 import type { RefObject } from "react";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { plotText, queueText } from "./text.js";
+import { plotText, queueText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
@@ -12,8 +12,6 @@ import { JobName } from "./job-head.js";
 import "../ui/row-drag.css";
 import { placeAfterMove, useRowDrag } from "../ui/row-drag.js";
 import { Thumb } from "../drawing/thumb.js";
-
-const words = queueText;
 
 interface WaitingJobProps {
   readonly copies: Copies;

@@ -10,7 +10,7 @@ import {
 } from "../../src/internal.js";
 import { activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { ringingText } from "./ringing-text.js";
+import { ringingText as words } from "./ringing-text.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
@@ -21,7 +21,6 @@ import { SheetPicture } from "./sheet-picture.js";
 import { isStored, useStoreSprings } from "./use-store-springs.js";
 import { useSprings } from "../motion/use-springs.js";
 
-const words = ringingText;
 const SHEET_MM = STAIRS_MM + (RINGING_SPEEDS.length - 1) * NEXT_STAIRS_MM;
 const LABELS = RINGING_SPEEDS.map((speed) => words.speedLabel(formatNumber(speed, 0)));
 

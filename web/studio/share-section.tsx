@@ -1,9 +1,7 @@
 import { useActions, usePageState } from "../state/use-store.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { useAsked, useStudio } from "./use-studio.js";
 import { Button } from "../ui/button.js";
-
-const words = studioText;
 
 /** Links and QR codes for pairing another device, to operate or to watch. */
 export const ShareSection = () => {

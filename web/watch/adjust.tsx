@@ -1,6 +1,6 @@
 import type { Job } from "../../src/schema/index.js";
 import { NudgeJob } from "../plotter/pen-nudge.js";
-import { jobText } from "../queue/text.js";
+import { jobText as words } from "../queue/text.js";
 import { activeJob, mayOperate, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
@@ -8,7 +8,6 @@ import { Select } from "../ui/choice.js";
 import { formatCount, formatNumber } from "../ui/format.js";
 import { watchText } from "./text.js";
 
-const words = jobText;
 const STEP_MM = 10;
 const SPEED_PERCENTS: readonly number[] = [25, 50, 75, 90, 100, 110, 125, 150, 200];
 

@@ -10,9 +10,7 @@ import { usePageState } from "../state/use-store.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
 import { layerNow } from "./watch-look.js";
-import { watchText } from "./text.js";
-
-const words = watchText;
+import { watchText as words } from "./text.js";
 
 /** The plot's progress, readable from across the room, and its buttons. */
 export const StatusCard = ({ job }: { job: Job }) => {

@@ -8,9 +8,8 @@ import { usePageState } from "../state/use-store.js";
 import { deskOf } from "../preview/desk.js";
 import { lookOfJob, markerOfJob } from "./watch-look.js";
 import { FullScreenButton } from "./full-screen.js";
-import { watchText } from "./text.js";
+import { watchText as words } from "./text.js";
 
-const words = watchText;
 /** Height of the tools under the paper. */
 const BELOW_PX = 52;
 
