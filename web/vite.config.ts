@@ -77,7 +77,7 @@ export default defineConfig({
           groups: [
             {
               name: "index",
-              test: /node_modules\/(react|react-dom|scheduler|zod|zustand)\/|\/web\/ui\/(choice|format|group|icon|lazy-part|number-box|number-field|settings-group|text)\.|\/web\/(state|drawing|layers|pens|motion|queue|plotter|preview)\/text\.|\/web\/drawing\/paper\.|\/web\/scene\/placing\.|\/src\/(schema\/(?!studio|hand-moves)|drawing|machines\/(?!set-up)|errors)/,
+              test: /node_modules\/(react|react-dom|scheduler|zod|zustand)\/|\/web\/ui\/(choice|format|icon|lazy-part|number-box|number-field|settings-group|text)\.|\/web\/(state|drawing|layers|pens|motion|queue|plotter|preview)\/text\.|\/web\/drawing\/paper\.|\/web\/scene\/placing\.|\/src\/(schema\/(?!studio|hand-moves)|drawing|machines\/(?!set-up)|errors)/,
             },
           ],
         },

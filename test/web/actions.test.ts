@@ -117,7 +117,7 @@ describe("a drawing of the last visit", () => {
 });
 
 describe("a drawing that is opened", () => {
-  const fault = { code: "bad-file", message: "The file ends too soon.", stage: "import" as const };
+  const fault = { message: "The file ends too soon.", stage: "import" as const };
   const A4 = { widthMm: 297, heightMm: 210 };
 
   it("leaves the previous one on the paper, with its settings, if it can't be read", () => {

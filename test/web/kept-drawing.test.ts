@@ -58,7 +58,7 @@ describe("the last drawing", () => {
     store.setState({ drawing: { key: "drawing-1", ...SHEET } });
     plan("drawing-1");
     store.setState({ drawing: { key: "drawing-2", ...SHEET, name: "torn" }, planned: null });
-    store.setState({ fault: { code: "bad-file", message: "torn", stage: "import" } });
+    store.setState({ fault: { message: "torn", stage: "import" } });
     expect(written.map(({ name }) => name)).toEqual(["waves"]);
   });
 

@@ -20,7 +20,7 @@ class WorkerByHand implements DrawWorkerLike {
   }
   reply(id: number, isWhole: boolean): Bitmap {
     const bitmap = new Bitmap();
-    const data: DrawReply = { type: "picture", id, isWhole, bitmap };
+    const data: DrawReply = { id, isWhole, bitmap };
     this.onmessage?.({ data } as MessageEvent<DrawReply>);
     return bitmap;
   }
@@ -52,7 +52,7 @@ const picture = (): Picture => ({
   travel: { count: 0, bytes: new ArrayBuffer(0) },
   totalS: 3,
 });
-const scene = (): Scene => ({ ...picture(), topDrawMmPerS: 1, topTravelMmPerS: 1, grid: {} }) as Scene;
+const scene = (): Scene => ({ ...picture(), topDrawMmPerS: 1, grid: {} }) as Scene;
 
 const setUp = () => {
   const worker = new WorkerByHand();

@@ -1,11 +1,9 @@
 import { useEffect, useState } from "react";
 import { fetchLicences } from "../pwa/licences.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { aboutText } from "./about-text.js";
+import { aboutText as words } from "./about-text.js";
 import { Dialog } from "../ui/dialog.js";
 import "./sheets.css";
-
-const words = aboutText;
 
 /** Shows the version, and the licences of all software in the page. */
 export const AboutDialog = () => {

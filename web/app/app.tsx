@@ -1,4 +1,4 @@
-import { useCallback, useState } from "react";
+import { useState } from "react";
 import { DrawingPanel } from "../drawing/drawing.js";
 import { DrawnSize } from "../drawing/drawn-size.js";
 import { Dialogs } from "./dialogs.js";
@@ -62,12 +62,11 @@ export const App = ({ player, shortcuts }: AppProps) => {
       <MachinePanel />
     </div>
   );
-  const onFile = useCallback((file: File) => void openFile(file), [openFile]);
   if (isUnpaired) return <Pairing />;
   return (
-    <DropZone hint={drawingText.dropHere} onFile={onFile} onText={openPasted}>
+    <DropZone hint={drawingText.dropHere} onFile={openFile} onText={openPasted}>
       <div className="app" data-tab={tab} data-view={view} data-full={isFull || undefined}>
-        <SkipLink />
+        <SkipLink isWatching={isWatching} />
         <TopBar />
         <main className="centre">
           <Strips />
@@ -117,8 +116,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
 };
 
 /** For keyboard users: jumps over the header and the settings to the buttons that start or stop a plot. */
-const SkipLink = () => {
-  const isWatching = usePageState((state) => shownView(state) === "watch");
+const SkipLink = ({ isWatching }: { isWatching: boolean }) => {
   const target = isWatching ? WATCH_ID : PLOT_ID;
   return (
     <a

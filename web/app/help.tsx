@@ -1,13 +1,11 @@
 import { usePageStore } from "../state/use-store.js";
 import type { Shortcut } from "./shortcuts.js";
-import { shortcutsText } from "./text.js";
+import { shortcutsText as words } from "./text.js";
 import { previewText } from "../preview/text.js";
 import { aboutText } from "./about-text.js";
 import { Button } from "../ui/button.js";
 import { Dialog } from "../ui/dialog.js";
 import "./sheets.css";
-
-const words = shortcutsText;
 
 /** The dialog that lists all keyboard shortcuts. */
 export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {

@@ -3,6 +3,7 @@ import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { createPageBackend } from "../backend/page-backend.js";
 import { App } from "./app.js";
+import { Crash } from "./crash.js";
 import { keepPage, lookForUpdate } from "../pwa/register.js";
 import { createActions } from "../state/actions.js";
 import { replanForBoard } from "../plotter/board-watch.js";
@@ -13,13 +14,13 @@ import { Player } from "../preview/player.js";
 import { noteTakenOver, readKeptHere } from "../state/kept-here.js";
 import { listenForShortcuts, shortcutsFor } from "./shortcuts.js";
 import { applyServerEvent } from "../state/server-events.js";
-import { createPageStore, type PageStore } from "../state/store.js";
+import { createPageStore } from "../state/store.js";
 import { openWatch } from "../state/open-watch.js";
 import { PageContext } from "../state/use-store.js";
 import { appName, errorText } from "../ui/text.js";
 import { ErrorBoundary } from "../ui/error-boundary.js";
 import { saveFile } from "../ui/save-file.js";
-import { Planner } from "../worker/planner.js";
+import { openPlanner } from "../worker/planner.js";
 import "./index.css";
 
 const storage = ((): TextStore | null => {
@@ -41,28 +42,19 @@ const NOTHING_SELECTED = { momentS: null, isPlaying: false, hover: null, noteBox
 
 const remembered = readRemembered(storage);
 const store = createPageStore(remembered);
-const planner = new Planner(
-  () => new Worker(new URL("../worker/plan.worker.ts", import.meta.url), { type: "module" }),
-  {
-    after: (delayMs, callback) => {
-      const timer = setTimeout(callback, delayMs);
-      return () => clearTimeout(timer);
-    },
+const planner = openPlanner({
+  onImported: (drawingKey, page) => actions.placeForPage(drawingKey, page),
+  onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_SELECTED }),
+  onExported: (format, exported) => {
+    const name = store.getState().drawing?.name ?? appName;
+    saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
   },
-  {
-    onImported: (drawingKey, page) => actions.placeForPage(drawingKey, page),
-    onPlanned: (planned) => store.setState({ planned, isPlanning: false, fault: null, ...NOTHING_SELECTED }),
-    onExported: (format, exported) => {
-      const name = store.getState().drawing?.name ?? appName;
-      saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
-    },
-    onExportFailed: (message) => actions.notify("error", message),
-    onFault: (fault) => {
-      if (actions.wentBack(fault)) return;
-      store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_SELECTED });
-    },
+  onExportFailed: (message) => actions.notify("error", message),
+  onFault: (fault) => {
+    if (actions.wentBack(fault)) return;
+    store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_SELECTED });
   },
-);
+});
 const backend = createPageBackend();
 const actions = createActions({
   store,
@@ -73,7 +65,7 @@ const actions = createActions({
 });
 
 const drawings = browserDrawings();
-keepRemembered(store);
+keepRemembered();
 keepDrawing(store, drawings, () => actions.notify("error", errorText.notKept));
 const player = new Player(store);
 const shortcuts = shortcutsFor({ store, actions, player });
@@ -94,14 +86,14 @@ backend.listen({
 });
 replanForBoard(store, actions.replan);
 openWatch(store);
-followPlotter(store);
-void greet(store);
+followPlotter();
+void greet();
 
 const root = document.getElementById("root");
 if (!root) throw new Error("index.html has no #root");
 createRoot(root).render(
   <StrictMode>
-    <ErrorBoundary>
+    <ErrorBoundary fallback={(message) => <Crash message={message} />}>
       <PageContext value={{ store, backend, actions }}>
         <App player={player} shortcuts={shortcuts} />
       </PageContext>
@@ -110,13 +102,13 @@ createRoot(root).render(
 );
 
 /** Stores settings and view for the next visit. Sets the theme on the root element, where the style sheet reads it. */
-function keepRemembered(pageStore: PageStore): void {
+function keepRemembered(): void {
   let timer: ReturnType<typeof setTimeout> | null = null;
   const showTheme = (): void => {
-    document.documentElement.dataset.theme = pageStore.getState().view.theme;
+    document.documentElement.dataset.theme = store.getState().view.theme;
   };
   showTheme();
-  pageStore.subscribe((state, before) => {
+  store.subscribe((state, before) => {
     if (state.view.theme !== before.view.theme) showTheme();
     if (state.settings === before.settings && state.view === before.view) return;
     if (timer !== null) clearTimeout(timer);
@@ -124,7 +116,7 @@ function keepRemembered(pageStore: PageStore): void {
   });
   const write = (): void => {
     timer = null;
-    writeRemembered(storage, pageStore.getState());
+    writeRemembered(storage, store.getState());
   };
   window.addEventListener("pagehide", () => {
     if (timer !== null) write();
@@ -135,18 +127,18 @@ function keepRemembered(pageStore: PageStore): void {
  * Model, heights, pens and presets belong to the plotter. Those that an earlier version stored in this browser are
  * copied to plotters that have none.
  */
-function followPlotter(pageStore: PageStore): void {
+function followPlotter(): void {
   let kept = readKeptHere(storage);
   if (kept === null) noteTakenOver(storage);
   const takeOver = async (): Promise<void> => {
     const keptNow = kept;
-    if (keptNow === null || pageStore.getState().link !== "connected") return;
+    if (keptNow === null || store.getState().link !== "connected") return;
     kept = null;
     const isDone = await actions.takeOverKept(keptNow);
     if (isDone) noteTakenOver(storage);
     else kept = keptNow;
   };
-  pageStore.subscribe((state, before) => {
+  store.subscribe((state, before) => {
     const { plotters, plotterId, plotterSettings, machines, me, operator } = state;
     if (me !== before.me || operator !== before.operator) void takeOver();
     const hasChanged =
@@ -159,22 +151,22 @@ function followPlotter(pageStore: PageStore): void {
 }
 
 /** Restores the last drawing, if there is one, and loads the rest once the server has answered. */
-async function greet(pageStore: PageStore): Promise<void> {
+async function greet(): Promise<void> {
   const kept = await readKeptDrawing(drawings);
-  if (kept && pageStore.getState().drawing === null) actions.restoreDrawing(kept);
-  pageStore.setState({ isStarting: false });
-  await connected(pageStore);
+  if (kept && store.getState().drawing === null) actions.restoreDrawing(kept);
+  store.setState({ isStarting: false });
+  await connected();
   await Promise.all([actions.loadSamples(), actions.loadMachines()]);
   actions.takeJobSettings();
 }
 
-const connected = (pageStore: PageStore): Promise<void> =>
+const connected = (): Promise<void> =>
   new Promise((resolve) => {
     const check = (): void => {
-      if (pageStore.getState().link !== "connected") return;
+      if (store.getState().link !== "connected") return;
       stop();
       resolve();
     };
-    const stop = pageStore.subscribe(check);
+    const stop = store.subscribe(check);
     check();
   });

@@ -1,10 +1,8 @@
 import { useActions } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { appName } from "../ui/text.js";
-import { pairingText } from "./text.js";
+import { pairingText as words } from "./text.js";
 import "./pairing.css";
-
-const words = pairingText;
 
 /** Shown instead of the page on a device that the server does not know. */
 export const Pairing = () => {

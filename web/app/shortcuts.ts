@@ -1,6 +1,6 @@
 /** Keyboard shortcuts of the whole page. They are ignored while the user types into a field. */
 import type { Player } from "../preview/player.js";
-import { historyText, shortcutsText } from "./text.js";
+import { historyText, shortcutsText as words } from "./text.js";
 import { plotText } from "../queue/text.js";
 import type { Actions } from "../state/actions.js";
 import { activeJob, shownView, type PageStore } from "../state/store.js";
@@ -29,8 +29,6 @@ interface ShortcutDeps {
   readonly actions: Actions;
   readonly player: Pick<Player, "toggle">;
 }
-
-const words = shortcutsText;
 
 /** Shortcuts that change the laid-out drawing are ignored in Watch, which does not show it. */
 export const shortcutsFor = (deps: ShortcutDeps): readonly Shortcut[] => [
@@ -80,18 +78,14 @@ const pageShortcuts = ({ store, actions }: ShortcutDeps): readonly Shortcut[] =>
   },
 ];
 
-/** Listens on the document. Returns a function that stops listening. */
-export const listenForShortcuts = (shortcuts: readonly Shortcut[]): (() => void) => {
-  const onKey = (event: KeyboardEvent): void => {
+export const listenForShortcuts = (shortcuts: readonly Shortcut[]): void =>
+  document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target)) return;
     const shortcut = shortcuts.find(({ matches }) => matches(event));
     if (!shortcut) return;
     event.preventDefault();
     shortcut.run();
-  };
-  document.addEventListener("keydown", onKey);
-  return () => document.removeEventListener("keydown", onKey);
-};
+  });
 
 /** Fields handle their own keys, and a focused button handles Space. */
 const isTyping = (target: EventTarget | null): boolean =>

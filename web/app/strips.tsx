@@ -1,11 +1,10 @@
-import { activeJob, otherOperator, shownView } from "../state/store.js";
+import { activeJob, otherOperator, penWait, shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { stripsText } from "./text.js";
+import { stripsText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { errorText } from "../ui/text.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
-const words = stripsText;
 const PenWait = lazyPart(async () => (await import("../queue/pen-wait.js")).PenWait);
 
 /** Messages over the paper, visible with any panel: about the server, another operator, a pen change. */
@@ -40,11 +39,11 @@ const PenStrip = () => {
   const job = usePageState(activeJob);
   // In Watch the status card asks for the pen.
   const isWatched = usePageState((state) => shownView(state) === "watch");
-  if (isWatched) return null;
-  if (job?.state !== "paused" || job.wait === null) return null;
+  const wait = job && penWait(job);
+  if (isWatched || !wait) return null;
   return (
     <div className="strip strip-wait">
-      <PenWait job={job} wait={job.wait} />
+      <PenWait job={job} wait={wait} />
     </div>
   );
 };

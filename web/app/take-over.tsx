@@ -1,9 +1,7 @@
 import type { PageState } from "../state/store.js";
 import { Button } from "../ui/button.js";
 import { Dialog } from "../ui/dialog.js";
-import { takeOverText } from "./text.js";
-
-const words = takeOverText;
+import { takeOverText as words } from "./text.js";
 
 /** Asks before an action that only the operator may do, while another browser is the operator. */
 export const TakeOver = ({ question }: { question: NonNullable<PageState["takeOverQuestion"]> }) => (

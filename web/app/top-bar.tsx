@@ -120,7 +120,7 @@ const ThemeButton = () => {
   const theme = usePageState((state) => state.view.theme);
   const { changeView } = useActions();
   const label = `${themeText.label}: ${themeText[theme]}`;
-  const next = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length] ?? "auto";
+  const next = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
   return (
     <IconButton
       kind="tool"

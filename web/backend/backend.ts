@@ -65,7 +65,7 @@ export interface BackendListener {
 }
 
 /** Optional features. The page shows only those that the backend has. */
-export interface BackendFeatures {
+interface BackendFeatures {
   /** Other devices, keys, webhooks, several plotters, a shared queue. */
   readonly sharing: boolean;
   /** The user must first allow the page to use the plotter's port, with `connect`. */
@@ -77,8 +77,8 @@ export interface BackendFeatures {
 export interface Backend {
   readonly features: BackendFeatures;
 
-  /** Reports the whole state once, then each change. Returns a function that stops listening. */
-  listen(listener: BackendListener): () => void;
+  /** Reports the whole state once, then each change, as long as the page is open. */
+  listen(listener: BackendListener): void;
 
   addJob(job: Omit<NewJob, "drawing">, drawing: DrawingText): Promise<Job>;
   patchJob(id: string, patch: JobPatch): Promise<Job>;

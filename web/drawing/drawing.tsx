@@ -2,13 +2,11 @@ import { useId } from "react";
 import { DRAWING_EXTENSIONS } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { ExportPanel } from "./export.js";
-import { drawingText, reportText } from "./text.js";
+import { drawingText as words, reportText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingsGroup } from "../ui/settings-group.js";
-
-const words = drawingText;
 
 export const DrawingPanel = () => {
   const drawing = usePageState((state) => state.drawing);

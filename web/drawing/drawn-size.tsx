@@ -2,10 +2,8 @@ import { canBePaper, findMachine, isEmptyBox, isOnFilesPage, onFilesPage } from 
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { formatNumber, formatSize } from "../ui/format.js";
-import { drawnSizeText } from "./text.js";
+import { drawnSizeText as words } from "./text.js";
 import type { Planned } from "../worker/protocol.js";
-
-const words = drawnSizeText;
 
 /** The drawing's size on the paper, and a button for the size in its file. */
 export const DrawnSize = () => {

@@ -1,10 +1,8 @@
 import "./empty-paper.css";
 import { usePageState, useActions } from "../state/use-store.js";
-import { emptyPaperText } from "./text.js";
+import { emptyPaperText as words } from "./text.js";
 import { ChooseFile } from "./drawing.js";
 import { Thumb } from "./thumb.js";
-
-const words = emptyPaperText;
 
 /** Shown on the paper while there is no drawing: how to begin, and samples to try. */
 export const EmptyPaper = () => (

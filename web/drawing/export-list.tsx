@@ -2,12 +2,11 @@ import "./save.css";
 import { useState } from "react";
 import { boardFirmware } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { saveText } from "./text.js";
+import { saveText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { EXPORT_FORMATS, type ExportFormat } from "../worker/protocol.js";
 
-const words = saveText;
 /** One version for each set of motion commands that boards understand, newest first. */
 const FIRMWARES = ["3.0.3", "2.8.1", "2.7.0", "2.5.3"];
 

@@ -8,11 +8,10 @@ const ExportList = lazyPart(async () => (await import("./export-list.js")).Expor
 /** Saves what will be plotted as files. */
 export const ExportPanel = () => {
   const canExport = usePageState((state) => (state.planned?.strokeCount ?? 0) > 0);
-  const isOpen = usePageState(({ view }) => view.openGroups.includes("export"));
   if (!canExport) return null;
   return (
-    <SettingsGroup id="export" title={saveText.title} isPart>
-      {isOpen && <ExportList />}
+    <SettingsGroup id="export" title={saveText.title} isPart isLazy>
+      <ExportList />
     </SettingsGroup>
   );
 };

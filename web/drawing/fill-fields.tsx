@@ -1,12 +1,11 @@
 import { HATCH_TABLE, PREPARE_TABLE } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
-import { fillText } from "./text.js";
+import { fillText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
-import { usePrepareChange } from "./use-prepare-change.js";
+import { usePrepareChange } from "../ui/use-change.js";
 
-const words = fillText;
 const FIRST_SPACING_MM = 0.6;
 
 /** Filled shapes: hatch them, outline them, hide what they cover. */

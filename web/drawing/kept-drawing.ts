@@ -26,10 +26,10 @@ export const readKeptDrawing = async (storage: DrawingStorage): Promise<KeptDraw
  * Stores each drawing once it has been planned; one that can't be read is not needed at the next visit. `onFault`:
  * called the first time that a drawing can't be stored.
  */
-export const keepDrawing = (store: PageStore, storage: DrawingStorage, onFault: () => void): (() => void) => {
+export const keepDrawing = (store: PageStore, storage: DrawingStorage, onFault: () => void): void => {
   let kept = "";
   let isFaultKnown = false;
-  return store.subscribe(({ drawing, planned }) => {
+  store.subscribe(({ drawing, planned }) => {
     if (!drawing || planned?.drawingKey !== drawing.key) return;
     const { key, name, text, jobId, sourceId } = drawing;
     const now = JSON.stringify([key, jobId, sourceId]);

@@ -1,11 +1,9 @@
 import { PREPARE_TABLE, type Setting } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
-import { linesText } from "./text.js";
+import { linesText as words } from "./text.js";
 import { Segments, Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
-import { usePrepareChange } from "./use-prepare-change.js";
-
-const words = linesText;
+import { usePrepareChange } from "../ui/use-change.js";
 
 type Key = keyof typeof PREPARE_TABLE;
 /** The numbers and switches that the settings table lists for this panel, in its order. */
@@ -21,11 +19,7 @@ export const LinesFields = () => {
         label={PREPARE_TABLE.order.label}
         hint={words.orderHint}
         value={prepare.order}
-        options={[
-          { value: "none", label: words.orderNone },
-          { value: "fast", label: words.orderFast },
-          { value: "best", label: words.orderBest },
-        ]}
+        options={PREPARE_TABLE.order.choices.map((value) => ({ value, label: words.orders[value] }))}
         onChange={(order) => change("order", { order })}
       />
       {prepare.order === "best" && (
@@ -39,11 +33,7 @@ export const LinesFields = () => {
         label={PREPARE_TABLE.spread.label}
         hint={words.spreadHint}
         value={prepare.spread}
-        options={[
-          { value: "none", label: words.spreads.none },
-          { value: "interleave", label: words.spreads.interleave },
-          { value: "shuffle", label: words.spreads.shuffle },
-        ]}
+        options={PREPARE_TABLE.spread.choices.map((value) => ({ value, label: words.spreads[value] }))}
         onChange={(spread) => change("spread", { spread })}
       />
       {ROWS.map(([key, setting]) =>

@@ -12,9 +12,7 @@ import type { PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { formatCount, formatSize } from "../ui/format.js";
-import { reachText } from "./text.js";
-
-const words = reachText;
+import { reachText as words } from "./text.js";
 
 /** Whether a part of the drawing is out of the machine's reach. */
 export const isOutOfReach = ({ planned, settings }: PageState): boolean => {

@@ -8,7 +8,7 @@ import {
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { paperText } from "./text.js";
+import { paperText as words } from "./text.js";
 import { IconButton } from "../ui/button.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatSize } from "../ui/format.js";
@@ -16,9 +16,8 @@ import { SettingField } from "../ui/setting-field.js";
 import { placeOfFrame, wholeTurn } from "../scene/placing.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
-import { usePrepareChange } from "./use-prepare-change.js";
+import { usePrepareChange } from "../ui/use-change.js";
 
-const words = paperText;
 const PlaceFields = lazyPart(async () => (await import("./place-fields.js")).PlaceFields);
 type PrepareSettings = PlotSettings["prepare"];
 const PAPER_NAMES = Object.keys(PAPER_SIZES) as PaperName[];
@@ -67,7 +66,7 @@ export const PaperPanel = () => {
           else change("paper", { paper: { ...paper, widthMm: paper.widthMm + 1 } });
         }}
       />
-      {name === CUSTOM && <CustomSize paper={paper} change={change} />}
+      {name === CUSTOM && <CustomSize paper={paper} />}
       <Segments
         label={words.orientation}
         isInline
@@ -120,15 +119,11 @@ export const PaperPanel = () => {
         onChange={(unit) => changeView({ lengthUnit: unit })}
       />
       <SettingsGroup id="paper-more" isPart title={words.more}>
-        <Margins prepare={prepare} change={change} />
+        <Margins prepare={prepare} />
         <Segments
           label={PREPARE_TABLE.mirror.label}
           value={prepare.mirror}
-          options={[
-            { value: "none", label: words.mirrors.none },
-            { value: "leftRight", label: words.mirrors.leftRight },
-            { value: "upDown", label: words.mirrors.upDown },
-          ]}
+          options={PREPARE_TABLE.mirror.choices.map((value) => ({ value, label: words.mirrors[value] }))}
           onChange={(mirror) => change("mirror", { mirror })}
         />
         <Switch
@@ -146,56 +141,54 @@ export const PaperPanel = () => {
   );
 };
 
-interface CustomSizeProps {
-  readonly paper: PrepareSettings["paper"];
-  change(what: string, change: Partial<PrepareSettings>): void;
-}
-
-const CustomSize = ({ paper, change }: CustomSizeProps) => (
-  <div className="field-pair">
-    <SettingField
-      setting={PAPER_TABLE.widthMm}
-      value={paper.widthMm}
-      onChange={(widthMm) => change("paper width", { paper: { ...paper, widthMm } })}
-    />
-    <SettingField
-      setting={PAPER_TABLE.heightMm}
-      value={paper.heightMm}
-      onChange={(heightMm) => change("paper height", { paper: { ...paper, heightMm } })}
-    />
-  </div>
-);
-
-interface PartProps {
-  readonly prepare: PrepareSettings;
-  change(what: string, change: Partial<PrepareSettings>): void;
-}
+const CustomSize = ({ paper }: { paper: PrepareSettings["paper"] }) => {
+  const change = usePrepareChange();
+  return (
+    <div className="field-pair">
+      <SettingField
+        setting={PAPER_TABLE.widthMm}
+        value={paper.widthMm}
+        onChange={(widthMm) => change("paper width", { paper: { ...paper, widthMm } })}
+      />
+      <SettingField
+        setting={PAPER_TABLE.heightMm}
+        value={paper.heightMm}
+        onChange={(heightMm) => change("paper height", { paper: { ...paper, heightMm } })}
+      />
+    </div>
+  );
+};
 
 const SIDES = ["topMm", "rightMm", "bottomMm", "leftMm"] as const;
 const SIDE_WORDS = { topMm: words.top, rightMm: words.right, bottomMm: words.bottom, leftMm: words.left };
 
-const Margins = ({ prepare: { margins, marginMm }, change }: PartProps) => (
-  <>
-    <Switch
-      label={words.margins}
-      isOn={margins !== null}
-      onChange={(isOn) =>
-        change("four margins", {
-          margins: isOn ? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm } : null,
-        })
-      }
-    />
-    {margins && (
-      <div className="field-pair">
-        {SIDES.map((side) => (
-          <SettingField
-            key={side}
-            setting={{ ...PREPARE_TABLE.marginMm, label: SIDE_WORDS[side] }}
-            value={margins[side]}
-            onChange={(value) => change(`margin ${side}`, { margins: { ...margins, [side]: value } })}
-          />
-        ))}
-      </div>
-    )}
-  </>
-);
+const Margins = ({ prepare: { margins, marginMm } }: { prepare: PrepareSettings }) => {
+  const change = usePrepareChange();
+  return (
+    <>
+      <Switch
+        label={words.margins}
+        isOn={margins !== null}
+        onChange={(isOn) =>
+          change("four margins", {
+            margins: isOn
+              ? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm }
+              : null,
+          })
+        }
+      />
+      {margins && (
+        <div className="field-pair">
+          {SIDES.map((side) => (
+            <SettingField
+              key={side}
+              setting={{ ...PREPARE_TABLE.marginMm, label: SIDE_WORDS[side] }}
+              value={margins[side]}
+              onChange={(value) => change(`margin ${side}`, { margins: { ...margins, [side]: value } })}
+            />
+          ))}
+        </div>
+      )}
+    </>
+  );
+};

@@ -1,15 +1,14 @@
 import "./place.css";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { boxAround, snapLinesOf } from "../scene/placing.js";
+import { deskOf } from "../preview/desk.js";
 import { frameNow } from "../preview/frame.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { placeText } from "./text.js";
+import { placeText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
-import { orientedPaper } from "../../src/internal.js";
-import { usePrepareChange } from "./use-prepare-change.js";
+import { usePrepareChange } from "../ui/use-change.js";
 
-const words = placeText;
 type Place = NonNullable<PlotSettings["prepare"]["place"]>;
 
 /** Position and size of the drawing. Its proportions stay, so setting one size sets the other. */
@@ -59,16 +58,15 @@ interface AligningProps {
 const Aligning = ({ place, set }: AligningProps) => {
   const store = usePageStore();
   const align = (where: "across" | "down" | "fill"): void => {
-    const frame = frameNow(store.getState());
+    const state = store.getState();
+    const frame = frameNow(state);
     if (!frame) return;
-    const { paper, landscape, margins, marginMm: all } = store.getState().settings.prepare;
-    const { widthMm: width, heightMm: height } = orientedPaper(paper, landscape);
-    const sides = margins ?? { topMm: all, rightMm: all, bottomMm: all, leftMm: all };
-    const { xs, ys } = snapLinesOf({ width, height }, sides);
+    const { paperMm, margins } = deskOf(state.settings, state.view.lengthUnit);
+    const { xs, ys } = snapLinesOf(paperMm, margins);
     const { x0, y0, x1, y1 } = boxAround(frame);
     const [left, right, top, bottom] = [xs[1], xs[3], ys[1], ys[3]];
-    if (where === "across") return set({ xMm: rounded(place.xMm + (width - x0 - x1) / 2) });
-    if (where === "down") return set({ yMm: rounded(place.yMm + (height - y0 - y1) / 2) });
+    if (where === "across") return set({ xMm: rounded(place.xMm + (paperMm.width - x0 - x1) / 2) });
+    if (where === "down") return set({ yMm: rounded(place.yMm + (paperMm.height - y0 - y1) / 2) });
     const factor = Math.min((right - left) / (x1 - x0), (bottom - top) / (y1 - y0));
     if (!Number.isFinite(factor)) return;
     const widthMm = frame.widthMm * factor;

@@ -81,9 +81,7 @@ export const linesText = {
   spreads: { none: "Off", interleave: "Alternate", shuffle: "Shuffle" },
   spreadHint:
     "Does not draw neighbouring strokes one after the other, so that ink can dry and wet paper does not tear.",
-  orderNone: "As in the file",
-  orderFast: "Fast",
-  orderBest: "Fastest",
+  orders: { none: "As in the file", fast: "Fast", best: "Fastest" },
   orderHint:
     "“Fast” and “Fastest” change the order of the strokes, so that the pen travels less between them. “Fastest” searches longer.",
 };

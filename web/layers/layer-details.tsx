@@ -21,15 +21,12 @@ import {
   stopBefore,
   withoutLayer,
 } from "./layer-settings.js";
-import { usePageState } from "../state/use-store.js";
-import { layersText } from "./text.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { layersText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { Icon } from "../ui/icon.js";
 import { OwnNumber } from "../ui/own-number.js";
-import { useChange } from "../ui/use-change.js";
-
-const words = layersText;
 
 interface LayerDetailsProps {
   readonly row: PreparedLayer;
@@ -40,7 +37,7 @@ interface LayerDetailsProps {
 
 /** One layer's own settings; an empty field uses the common setting, or the code in the layer's name. */
 export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) => {
-  const change = useChange();
+  const { changeSettings } = useActions();
   return (
     <div className="layer-details">
       {row.colorCount > 1 && <p className="note">{words.colorsHint}</p>}
@@ -53,7 +50,7 @@ export const LayerDetails = ({ row, rows, index, onMove }: LayerDetailsProps) =>
         <div className="button-row">
           <Button
             kind="small"
-            onClick={() => change(`solo ${row.id}`, (settings) => showOnly(settings, rows, row.id))}
+            onClick={() => changeSettings(`solo ${row.id}`, (settings) => showOnly(settings, rows, row.id))}
           >
             <Icon name="eye" />
             {words.onlyThis}
@@ -111,7 +108,7 @@ const useInherited = (row: PreparedLayer) => {
 const MotionFields = ({ row }: RowProps) => {
   const own: LayerMotion = usePageState(({ settings }) => settings.motion.layers?.[row.id]) ?? {};
   const { motion } = useInherited(row);
-  const change = useChange();
+  const { changeSettings } = useActions();
   return (["speedMmPerS", "accelMmPerS2"] as const).map((key) => (
     <OwnNumber
       key={key}
@@ -120,7 +117,9 @@ const MotionFields = ({ row }: RowProps) => {
       inherited={motion[key] ?? null}
       resetLabel={words.reset(DRAW_TABLE[key].label)}
       onChange={(value) =>
-        change(`${key} of ${row.id}`, (settings) => setLayerMotion(settings, row.id, { [key]: value }))
+        changeSettings(`${key} of ${row.id}`, (settings) =>
+          setLayerMotion(settings, row.id, { [key]: value }),
+        )
       }
     />
   ));
@@ -137,7 +136,7 @@ const LAYER_PEN_FIELDS = [
 const PenFields = ({ row }: RowProps) => {
   const own: LayerPen = usePageState(({ settings }) => settings.pen.layers?.[row.id]) ?? {};
   const { pen } = useInherited(row);
-  const change = useChange();
+  const { changeSettings } = useActions();
   return LAYER_PEN_FIELDS.map(([key, setting]) => (
     <OwnNumber
       key={key}
@@ -146,7 +145,9 @@ const PenFields = ({ row }: RowProps) => {
       inherited={pen[key]}
       resetLabel={words.reset(setting.label)}
       onChange={(value) =>
-        change(`${key} of ${row.id}`, (settings) => setLayerPenMotion(settings, row.id, { [key]: value }))
+        changeSettings(`${key} of ${row.id}`, (settings) =>
+          setLayerPenMotion(settings, row.id, { [key]: value }),
+        )
       }
     />
   ));
@@ -155,7 +156,7 @@ const PenFields = ({ row }: RowProps) => {
 const InkFields = ({ row }: RowProps) => {
   const { layerRepeats, layerHatches, hatch } = usePageState(({ settings }) => settings.prepare);
   const own = layerHatches.find(({ layer }) => layer === row.id) ?? null;
-  const change = useChange();
+  const { changeSettings } = useActions();
   return (
     <>
       <OwnNumber
@@ -164,7 +165,7 @@ const InkFields = ({ row }: RowProps) => {
         inherited={LAYER_REPEATS.default}
         resetLabel={words.reset(LAYER_REPEATS.label)}
         onChange={(times) =>
-          change(`repeat ${row.id}`, (settings) =>
+          changeSettings(`repeat ${row.id}`, (settings) =>
             repeatLayer(settings, row.id, times === null ? null : Math.round(times)),
           )
         }
@@ -176,7 +177,7 @@ const InkFields = ({ row }: RowProps) => {
         inherited={hatch.spacingMm}
         resetLabel={words.reset(words.hatch)}
         onChange={(spacingMm) =>
-          change(`hatch of ${row.id}`, (settings) =>
+          changeSettings(`hatch of ${row.id}`, (settings) =>
             hatchLayer(settings, row.id, spacingMm === null ? null : { ...(own ?? hatch), spacingMm }),
           )
         }
@@ -189,7 +190,7 @@ const InkFields = ({ row }: RowProps) => {
           inherited={hatch.angleDeg}
           resetLabel={words.reset(words.hatchAngle)}
           onChange={(angleDeg) =>
-            change(`hatch angle of ${row.id}`, (settings) =>
+            changeSettings(`hatch angle of ${row.id}`, (settings) =>
               hatchLayer(settings, row.id, { ...own, angleDeg: angleDeg ?? hatch.angleDeg }),
             )
           }
@@ -202,7 +203,7 @@ const InkFields = ({ row }: RowProps) => {
 const StopChoice = ({ row }: RowProps) => {
   const stop = usePageState(({ settings }) => settings.layerStops[row.id]);
   const isNever = usePageState(({ settings }) => settings.penStops === "never");
-  const change = useChange();
+  const { changeSettings } = useActions();
   if (isNever) return null;
   return (
     <Segments
@@ -214,7 +215,7 @@ const StopChoice = ({ row }: RowProps) => {
         { value: "no", label: words.stops.no },
       ]}
       onChange={(value) =>
-        change(`stop before ${row.id}`, (settings) =>
+        changeSettings(`stop before ${row.id}`, (settings) =>
           stopBefore(settings, row.id, value === "auto" ? null : value === "yes"),
         )
       }

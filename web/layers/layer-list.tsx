@@ -1,23 +1,24 @@
 import "../ui/row-drag.css";
 import "./layers.css";
 import { useRef, useState } from "react";
+import { PREPARE_TABLE } from "../../src/internal.js";
 import type { Planned } from "../worker/protocol.js";
 import { inWantedOrder, isLayerShown, moveLayer, showAll } from "./layer-settings.js";
-import { usePageState } from "../state/use-store.js";
-import { layersText } from "./text.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { layersText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { Icon } from "../ui/icon.js";
+import { usePrepareChange } from "../ui/use-change.js";
 import { LayerRow } from "./layer-row.js";
-import { useChange } from "../ui/use-change.js";
 
-const words = layersText;
 type PenStop = Planned["penStops"][number];
 
 /** The layers in drawing order, each with its switch and pen, and the stops between them. */
 export const LayerList = () => {
   const planned = usePageState((state) => state.planned);
-  const change = useChange();
+  const { changeSettings } = useActions();
+  const changePrepare = usePrepareChange();
   const list = useRef<HTMLUListElement>(null);
   const [openId, setOpenId] = useState<string | null>(null);
   const settings = usePageState((state) => state.settings);
@@ -25,21 +26,15 @@ export const LayerList = () => {
   const rows = inWantedOrder(settings, planned?.layers ?? []);
   const hasHidden = rows.some((row) => !isLayerShown(settings, row));
   const move = (id: string, place: number): void =>
-    change(`order of ${id}`, (now) => moveLayer(now, rows, id, place));
+    changeSettings(`order of ${id}`, (now) => moveLayer(now, rows, id, place));
 
   return (
     <>
       <Segments
         label={words.by}
         value={mode}
-        options={[
-          { value: "group", label: words.group },
-          { value: "stroke", label: words.stroke },
-          { value: "all", label: words.all },
-        ]}
-        onChange={(layers) =>
-          change("layers from", (now) => ({ ...now, prepare: { ...now.prepare, layers } }))
-        }
+        options={PREPARE_TABLE.layers.choices.map((value) => ({ value, label: words.modes[value] }))}
+        onChange={(layers) => changePrepare("layers from", { layers })}
       />
       {planned && rows.length === 0 && <p className="note">{words.none}</p>}
       <ul className="layer-list" ref={list}>
@@ -61,20 +56,12 @@ export const LayerList = () => {
       {(hasHidden || layerOrder.length > 0) && (
         <div className="layer-links">
           {hasHidden && (
-            <Button kind="link" onClick={() => change("all layers", (now) => showAll(now, rows))}>
+            <Button kind="link" onClick={() => changeSettings("all layers", (now) => showAll(now, rows))}>
               {words.everything}
             </Button>
           )}
           {layerOrder.length > 0 && (
-            <Button
-              kind="link"
-              onClick={() =>
-                change("file order", (now) => ({
-                  ...now,
-                  prepare: { ...now.prepare, layerOrder: [] },
-                }))
-              }
-            >
+            <Button kind="link" onClick={() => changePrepare("file order", { layerOrder: [] })}>
               {words.fileOrder}
             </Button>
           )}

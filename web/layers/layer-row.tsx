@@ -2,16 +2,13 @@ import type { RefObject } from "react";
 import { parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../../src/internal.js";
 import { layerColor } from "../scene/color-map.js";
 import { isLayerShown, setLayerPen, showLayer } from "./layer-settings.js";
-import { usePageState } from "../state/use-store.js";
-import { layersText } from "./text.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { layersText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatCount } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { LayerDetails } from "./layer-details.js";
 import { useRowDrag } from "../ui/row-drag.js";
-import { useChange } from "../ui/use-change.js";
-
-const words = layersText;
 
 interface LayerRowProps {
   readonly row: PreparedLayer;
@@ -20,13 +17,13 @@ interface LayerRowProps {
   readonly list: RefObject<HTMLUListElement | null>;
   readonly isOpen: boolean;
   onToggle(): void;
-  /** `place`: the new index. */
+  /** `place`: the new index, which is clamped to the list. */
   onMove(place: number): void;
 }
 
 export const LayerRow = (props: LayerRowProps) => {
   const { row, index, rows, isOpen } = props;
-  const change = useChange();
+  const { changeSettings } = useActions();
   const name = shownLayerName(row.name);
   const isShown = usePageState(({ settings }) => isLayerShown(settings, row));
   return (
@@ -40,7 +37,7 @@ export const LayerRow = (props: LayerRowProps) => {
             aria-label={words.show(name)}
             onChange={(event) => {
               const isOn = event.target.checked;
-              change(`layer ${row.id}`, (settings) => showLayer(settings, row, isOn));
+              changeSettings(`layer ${row.id}`, (settings) => showLayer(settings, row, isOn));
             }}
           />
         </label>
@@ -73,21 +70,9 @@ export const LayerRow = (props: LayerRowProps) => {
 };
 
 const DragHandle = ({ row, index, list, onMove, name }: LayerRowProps & { readonly name: string }) => {
-  const drag = useRowDrag(list, row.id, onMove);
+  const drag = useRowDrag(list, row.id, index, onMove);
   return (
-    <Button
-      kind="tool"
-      className="layer-grip"
-      aria-label={words.drag(name)}
-      title={words.dragHint}
-      onKeyDown={(event) => {
-        const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
-        if (step === 0) return;
-        event.preventDefault();
-        onMove(Math.max(0, index + step));
-      }}
-      {...drag}
-    >
+    <Button kind="tool" className="layer-grip" aria-label={words.drag(name)} title={words.dragHint} {...drag}>
       <Icon name="grip" />
     </Button>
   );
@@ -125,7 +110,7 @@ const PenPicker = ({
 }: Pick<LayerRowProps, "row" | "index"> & { readonly name: string }) => {
   const pens = usePageState(({ settings }) => settings.pens);
   const pen = usePageState(({ settings }) => penOf(settings, row));
-  const change = useChange();
+  const { changeSettings } = useActions();
   const swatch = (
     <span className="swatch" style={{ backgroundColor: pen?.color ?? row.color ?? layerColor(index) }} />
   );
@@ -140,7 +125,7 @@ const PenPicker = ({
         value={pen?.id ?? ""}
         onChange={(event) => {
           const chosen = event.target.value;
-          change(`pen of ${row.id}`, (settings) =>
+          changeSettings(`pen of ${row.id}`, (settings) =>
             setLayerPen(settings, row.id, chosen === "" ? null : chosen),
           );
         }}

@@ -85,7 +85,7 @@ export const hatchLayer = (
 };
 
 /** Null resets a field to the common setting. */
-export type Own<T> = { readonly [K in keyof T]?: NonNullable<T[K]> | null };
+type Own<T> = { readonly [K in keyof T]?: NonNullable<T[K]> | null };
 
 export const setLayerMotion = (settings: PlotSettings, id: string, own: Own<LayerMotion>): PlotSettings => ({
   ...settings,

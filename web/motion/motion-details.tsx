@@ -16,7 +16,7 @@ import {
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { detailsText } from "./details-text.js";
+import { detailsText as words } from "./details-text.js";
 import { Select, Switch } from "../ui/choice.js";
 import { OwnNumber } from "../ui/own-number.js";
 import { SettingField } from "../ui/setting-field.js";
@@ -24,7 +24,6 @@ import { CornerPicture } from "./corner-picture.js";
 import { useSprings } from "./use-springs.js";
 import "./motion-details.css";
 
-const words = detailsText;
 type MotionSettings = PlotSettings["motion"];
 
 /** The first values when this is switched on. */
@@ -47,7 +46,7 @@ export const MotionDetails = () => {
       <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
       <AxisLimits motion={motion} />
-      <ShaperSelect shaper={motion.shaper ?? "none"} />
+      <ShaperSelect motion={motion} />
       <ModeChoice mode={motion.mode} />
       <Refinements motion={motion} />
       <SendAhead />
@@ -56,9 +55,8 @@ export const MotionDetails = () => {
 };
 
 /** Only shown for a measured machine, because shaping needs its frequencies. */
-const ShaperSelect = ({ shaper }: { shaper: Shaper }) => {
+const ShaperSelect = ({ motion }: { motion: MotionSettings }) => {
   const springs = useSprings();
-  const motion = usePageState((state) => state.settings.motion);
   const change = useMotionChange();
   if (springs === null) return null;
   const choose = (chosen: Shaper): void => {
@@ -68,7 +66,7 @@ const ShaperSelect = ({ shaper }: { shaper: Shaper }) => {
   return (
     <Select
       label={words.shaper}
-      value={shaper}
+      value={motion.shaper ?? "none"}
       options={SHAPERS.map((value) => ({ value, label: words.shapers[value] }))}
       onChange={choose}
     />

@@ -1,7 +1,7 @@
 import { QUALITIES, qualityOf, type Quality } from "../../src/internal.js";
 import { withQuality } from "../state/motion-of-machine.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { motionText } from "./text.js";
+import { motionText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatInUnit, formatNumber } from "../ui/format.js";
@@ -9,7 +9,6 @@ import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 import { useSprings } from "./use-springs.js";
 
-const words = motionText;
 const MotionDetails = lazyPart(async () => (await import("./motion-details.js")).MotionDetails);
 /** Remembered like the groups' ids. */
 const DETAILS_ID = "motion-details";
@@ -97,7 +96,6 @@ const Details = () => {
   const isOpen = openGroups.includes(DETAILS_ID);
   return (
     <details
-      className="more"
       open={isOpen}
       onToggle={(event) => {
         const isNow = event.currentTarget.open;

@@ -1,12 +1,11 @@
 import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
-import { heightsText } from "./text.js";
+import { heightsText as words } from "./text.js";
 import { Segments, Switch } from "../ui/choice.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
 
-const words = heightsText;
 type PenSettings = PlotSettings["pen"];
 
 /** Settings for lifting and lowering the pen. Its heights are in the plotter's panel. */
@@ -27,35 +26,34 @@ export const PenFields = () => {
           onChange={(dropMs) => change({ dropMs })}
         />
       </div>
-      <Gentle pen={pen} change={change} />
-      <Overlap pen={pen} change={change} />
+      <Gentle pen={pen} />
+      <Overlap pen={pen} />
     </>
   );
 };
 
-interface RefinementProps {
-  readonly pen: PenSettings;
-  change(part: Partial<PenSettings>): void;
-}
-
-const Gentle = ({ pen: { dropPctPerS }, change }: RefinementProps) => (
-  <>
-    <Switch
-      label={words.gentle}
-      isOn={Boolean(dropPctPerS)}
-      onChange={(isOn) => change({ dropPctPerS: isOn ? DROP_RATE.default : null })}
-    />
-    {dropPctPerS && (
-      <SettingField
-        setting={DROP_RATE}
-        value={dropPctPerS}
-        onChange={(rate) => change({ dropPctPerS: rate })}
+const Gentle = ({ pen: { dropPctPerS } }: { pen: PenSettings }) => {
+  const change = usePenChange();
+  return (
+    <>
+      <Switch
+        label={words.gentle}
+        isOn={Boolean(dropPctPerS)}
+        onChange={(isOn) => change({ dropPctPerS: isOn ? DROP_RATE.default : null })}
       />
-    )}
-  </>
-);
+      {dropPctPerS && (
+        <SettingField
+          setting={DROP_RATE}
+          value={dropPctPerS}
+          onChange={(rate) => change({ dropPctPerS: rate })}
+        />
+      )}
+    </>
+  );
+};
 
-const Overlap = ({ pen: { overlap, fullHeightMm }, change }: RefinementProps) => {
+const Overlap = ({ pen: { overlap, fullHeightMm } }: { pen: PenSettings }) => {
+  const change = usePenChange();
   const [, hint] = words.overlaps[overlap];
   return (
     <>

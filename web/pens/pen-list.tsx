@@ -5,21 +5,18 @@ import { useState } from "react";
 import { alignmentJob, CORNERS, type Corner } from "./alignment-mark.js";
 import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-settings.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { pensText } from "./text.js";
+import { pensText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Segments, Select, type ChoiceOption } from "../ui/choice.js";
+import { Segments, Select } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingField } from "../ui/setting-field.js";
-import { useChange } from "../ui/use-change.js";
-
-const words = pensText;
 
 export const PenList = () => {
   const pens = usePageState(({ settings }) => settings.pens);
   const penStops = usePageState(({ settings }) => settings.penStops);
   const [openId, setOpenId] = useState<string | null>(null);
-  const change = useChange();
+  const { changeSettings } = useActions();
   return (
     <>
       <ul className="pen-list">
@@ -37,7 +34,9 @@ export const PenList = () => {
         <FromColors />
         <Button
           onClick={() =>
-            change("add pen", (settings) => addPen(settings, { name: words.newName(pens.length + 1) }))
+            changeSettings("add pen", (settings) =>
+              addPen(settings, { name: words.newName(pens.length + 1) }),
+            )
           }
         >
           <Icon name="plus" />
@@ -49,7 +48,7 @@ export const PenList = () => {
           label={words.stops}
           value={penStops}
           options={PEN_STOP_MODES.map((value) => ({ value, label: words.stopModes[value] })).reverse()}
-          onChange={(value) => change("pen stops", (settings) => ({ ...settings, penStops: value }))}
+          onChange={(value) => changeSettings("pen stops", (settings) => ({ ...settings, penStops: value }))}
         />
       )}
       <ShowInPens />
@@ -61,13 +60,15 @@ export const PenList = () => {
 const FromColors = () => {
   const rows = usePageState((state) => state.planned?.layers);
   const settings = usePageState((state) => state.settings);
-  const change = useChange();
+  const { changeSettings } = useActions();
   if (!rows) return null;
   const withPens = pensFromColors(settings, rows, nameOfColor);
   const isDone = JSON.stringify(withPens.layerPens) === JSON.stringify(settings.layerPens);
   if (isDone) return null;
   return (
-    <Button onClick={() => change("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}>
+    <Button
+      onClick={() => changeSettings("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}
+    >
       {words.fromColors}
     </Button>
   );
@@ -76,7 +77,7 @@ const FromColors = () => {
 /** An approximate name of a colour. */
 const nameOfColor = (hex: string | null): string => {
   if (hex === null) return words.noColor;
-  const [r = 0, g = 0, b = 0] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
+  const [r, g, b] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
   const max = Math.max(r, g, b);
   const range = max - Math.min(r, g, b);
   if (range < 36) return max < 70 ? words.tones.black : max > 215 ? words.tones.white : words.tones.grey;
@@ -105,7 +106,7 @@ interface PenRowProps {
 }
 
 const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
-  const change = useChange();
+  const { changeSettings } = useActions();
   const facts = [
     `${formatNumber(pen.widthMm)} mm`,
     ...(pen.offsetXMm !== 0 || pen.offsetYMm !== 0
@@ -124,7 +125,7 @@ const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
           value={pen.name}
           onChange={(event) => {
             const name = event.target.value;
-            change(`name of ${pen.id}`, (settings) => changePen(settings, pen.id, { name }));
+            changeSettings(`name of ${pen.id}`, (settings) => changePen(settings, pen.id, { name }));
           }}
         />
         <span className="layer-count">{facts.join(" · ")}</span>
@@ -143,7 +144,7 @@ const PenRow = ({ pen, isOpen, onToggle }: PenRowProps) => {
 };
 
 const ColorField = ({ pen }: { pen: PlotPen }) => {
-  const change = useChange();
+  const { changeSettings } = useActions();
   return (
     <span className="color-field" data-none={pen.color === null || undefined}>
       <input
@@ -153,7 +154,7 @@ const ColorField = ({ pen }: { pen: PlotPen }) => {
         value={pen.color ?? "#808080"}
         onChange={(event) => {
           const color = event.target.value.toLowerCase();
-          change(`colour of ${pen.id}`, (settings) => changePen(settings, pen.id, { color }));
+          changeSettings(`colour of ${pen.id}`, (settings) => changePen(settings, pen.id, { color }));
         }}
       />
     </span>
@@ -161,9 +162,11 @@ const ColorField = ({ pen }: { pen: PlotPen }) => {
 };
 
 const PenDetails = ({ pen }: { pen: PlotPen }) => {
-  const change = useChange();
+  const { changeSettings } = useActions();
   const set = (part: Partial<PlotPen>): void =>
-    change(`${Object.keys(part).join()} of ${pen.id}`, (settings) => changePen(settings, pen.id, part));
+    changeSettings(`${Object.keys(part).join()} of ${pen.id}`, (settings) =>
+      changePen(settings, pen.id, part),
+    );
   return (
     <div className="layer-details">
       <SettingField
@@ -185,7 +188,7 @@ const PenDetails = ({ pen }: { pen: PlotPen }) => {
       <Mark pen={pen} />
       <Button
         kind="small"
-        onClick={() => change(`remove ${pen.id}`, (settings) => removePen(settings, pen.id))}
+        onClick={() => changeSettings(`remove ${pen.id}`, (settings) => removePen(settings, pen.id))}
       >
         <Icon name="close" />
         {words.remove(pen.name)}
@@ -202,11 +205,11 @@ const Mark = ({ pen }: { pen: PlotPen }) => {
   const { plotJob } = useActions();
   return (
     <>
-      <Select
+      <Select<Corner>
         label={words.markCorner}
         value={corner}
-        options={CORNERS.map((value): ChoiceOption<Corner> => ({ value, label: words.corners[value] }))}
-        onChange={(value) => setCorner(value)}
+        options={CORNERS.map((value) => ({ value, label: words.corners[value] }))}
+        onChange={setCorner}
       />
       <Button
         disabled={isBusy}

@@ -8,14 +8,14 @@ const PenFields = lazyPart(async () => (await import("./pen-fields.js")).PenFiel
 
 export const PenPanel = () => {
   const { liftMs, dropMs } = usePageState((state) => state.settings.pen);
-  const isOpen = usePageState((state) => state.view.openGroups.includes("pen"));
   return (
     <SettingsGroup
       id="pen"
+      isLazy
       title={heightsText.title}
       summary={`${formatNumber(liftMs)} / ${formatNumber(dropMs)} ms`}
     >
-      {isOpen && <PenFields />}
+      <PenFields />
     </SettingsGroup>
   );
 };

@@ -8,16 +8,16 @@ const PenList = lazyPart(async () => (await import("./pen-list.js")).PenList);
 /** The pens of the layers; part of the layers' panel. */
 export const PensPanel = () => {
   const pens = usePageState(({ settings }) => settings.pens);
-  const isOpen = usePageState(({ view }) => view.openGroups.includes("pens"));
   return (
     <SettingsGroup
       id="pens"
       isPart
+      isLazy
       title={pensText.title}
       summary={pens.map(({ name }) => name).join(", ")}
       help={pensText.hint}
     >
-      {isOpen && <PenList />}
+      <PenList />
     </SettingsGroup>
   );
 };

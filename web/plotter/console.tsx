@@ -3,10 +3,9 @@ import { activeJob, currentPlotter } from "../state/store.js";
 import { useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
-import { consoleText } from "./console-text.js";
+import { consoleText as words } from "./console-text.js";
 import "./console.css";
 
-const words = consoleText;
 const MAX_LINES = 500;
 
 interface Line {

@@ -1,21 +1,10 @@
 /** The box of what will be drawn, mm from home, for "Trace the frame". */
 import type { Trajectory } from "../../src/index.js";
 import type { BoxMm } from "../../src/schema/index.js";
-import type { PageState } from "../state/store.js";
-
-const boxes = new WeakMap<Trajectory, BoxMm | null>();
-
-/** Null if there is nothing to draw. The same object for the same plan. */
-export const drawnBoxMm = ({ planned }: PageState): BoxMm | null => {
-  if (!planned) return null;
-  const { trajectory } = planned;
-  if (!boxes.has(trajectory)) boxes.set(trajectory, boxOfDrawn(trajectory));
-  return boxes.get(trajectory) ?? null;
-};
 
 /**
  * The box around the ends of all blocks with the pen down. Exact for straight lines; for curves within the tolerance of
- * their flattening. A run ends where the next one begins.
+ * their flattening. A run ends where the next one begins. Null if there is nothing to draw.
  */
 export const boxOfDrawn = ({ runs, x, y, blockCount, endX, endY }: Trajectory): BoxMm | null => {
   let [minX, minY, maxX, maxY] = [Infinity, Infinity, -Infinity, -Infinity];

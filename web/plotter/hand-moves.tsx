@@ -1,16 +1,15 @@
-import { useState } from "react";
+import { useMemo, useState } from "react";
 import type { HandMove } from "../../src/schema/index.js";
 import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { movesText } from "./hand-text.js";
+import { movesText as words } from "./hand-text.js";
 import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
-import { drawnBoxMm } from "./drawn-box.js";
+import { boxOfDrawn } from "./drawn-box.js";
 import "./hand-moves.css";
 
-const words = movesText;
 const MAX_MM = 5_000;
 
 /** Jog pad, moves to a position, and small moves that prepare a plot. Disabled during a plot. */
@@ -71,7 +70,8 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
 
 const Moves = ({ isOff }: { isOff: boolean }) => {
   const { moveByHand } = useActions();
-  const boxMm = usePageState(drawnBoxMm);
+  const trajectory = usePageState((state) => state.planned?.trajectory ?? null);
+  const boxMm = useMemo(() => trajectory && boxOfDrawn(trajectory), [trajectory]);
   const moves: readonly (readonly [label: string, hint: string, move: HandMove | null])[] = [
     [words.setHome, words.setHomeHint, { kind: "set-home" }],
     [words.cyclePen, words.cyclePenHint, { kind: "cycle-pen" }],

@@ -1,12 +1,12 @@
 import { useRef, useState, type KeyboardEvent } from "react";
 import type { HandMove } from "../../src/schema/index.js";
-import { jogText } from "./hand-text.js";
+import { jogText as words } from "./hand-text.js";
+import { ARROW_KEYS } from "../ui/arrow-keys.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 
-const words = jogText;
 const STEPS_MM = ["0.1", "1", "10", "50"] as const;
 type StepMm = (typeof STEPS_MM)[number];
 
@@ -23,12 +23,6 @@ const DIRECTIONS = [
   ["downRight", 1, 1],
 ] as const;
 
-const KEY_DIRECTIONS: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
 /** Queued moves at most: more would continue after the key is released. */
 const MAX_WAITING = 2;
 
@@ -48,7 +42,7 @@ export const JogPad = ({ isOff, move }: JogPadProps) => {
     if (!isOff) queue(() => move(wanted));
   };
   const onKeyDown = (event: KeyboardEvent): void => {
-    const direction = KEY_DIRECTIONS[event.key];
+    const direction = ARROW_KEYS[event.key];
     if (!direction || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     go(...direction);

@@ -1,11 +1,9 @@
 import type { Job, Plotter } from "../../src/schema/index.js";
 import { currentPlotter, unfinishedJob, type ServerLink } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
-import { plotterText } from "./text.js";
+import { plotterText as words } from "./text.js";
 import { formatPercent } from "../ui/format.js";
 import { lampOf, plotterWords } from "./machine-words.js";
-
-const words = plotterText;
 
 /** The plotter's state in one line with a lamp, always visible. */
 export const MachineState = () => {

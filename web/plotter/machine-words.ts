@@ -1,8 +1,7 @@
 /** What a plotter is doing, in words, from its connection and its job. */
 import type { Job, Plotter } from "../../src/schema/index.js";
-import { plotterText } from "./text.js";
-
-const words = plotterText;
+import { penWait } from "../state/store.js";
+import { plotterText as words } from "./text.js";
 
 /** State of the lamp. The style sheet has its colours. */
 type Lamp = Plotter["connection"] | "held" | "waiting";
@@ -10,7 +9,8 @@ type Lamp = Plotter["connection"] | "held" | "waiting";
 /** "Waits for the pen …", "Paused", "Plotting" …, or the state of the connection. */
 export const plotterWords = ({ connection }: Plotter, job: Job | null): string => {
   if (connection === "fault" || connection === "absent") return words.connection[connection];
-  if (job?.state === "paused" && job.wait) return waitWords(job.wait);
+  const wait = job && penWait(job);
+  if (wait) return waitWords(wait);
   if (job?.state === "paused") return words.held;
   if (job?.state === "interrupted") return words.interrupted;
   if (job?.state === "plotting") return words.connection.busy;

@@ -3,9 +3,10 @@ import { MACHINES } from "../../src/index.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
-import { plotterText } from "./text.js";
+import { plotterText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
+import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand } from "./pen-at-hand.js";
@@ -13,7 +14,6 @@ import { lampOf, penWords, plotterWords } from "./machine-words.js";
 import { saveFile } from "../ui/save-file.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
-const words = plotterText;
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
 /** The plotter's state, and the controls that every plot needs. */
@@ -48,7 +48,11 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
   return (
     <section className="card machine-set-up" aria-label={words.rest}>
       <div className="group-in-card">
-        {isMine && <MoreMoves />}
+        {isMine && (
+          <SettingsGroup id="moves" isLazy title={words.moves}>
+            <HandMoves />
+          </SettingsGroup>
+        )}
         {isMine && children}
         <SettingsGroup id="plotter" title={words.more}>
           {isMine && <ModelSelect />}
@@ -101,21 +105,16 @@ const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
   const { xMm, yMm } = plotter;
   const place =
     xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
-  const facts = [
-    [words.position, place],
-    [words.pen, penWords(plotter)],
-    [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
-    [words.firmware, plotter.firmware ?? words.unknown],
-  ] as const;
   return (
-    <dl className="facts">
-      {facts.map(([label, value]) => (
-        <div key={label}>
-          <dt>{label}</dt>
-          <dd>{value}</dd>
-        </div>
-      ))}
-    </dl>
+    <Facts
+      className="facts"
+      rows={[
+        [words.position, place],
+        [words.pen, penWords(plotter)],
+        [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
+        [words.firmware, plotter.firmware ?? words.unknown],
+      ]}
+    />
   );
 };
 
@@ -150,15 +149,5 @@ const ModelSelect = () => {
       options={all.map(({ id, name }) => ({ value: id, label: name }))}
       onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
     />
-  );
-};
-
-/** The other moves by hand. Folded, so that the queue stays visible. */
-const MoreMoves = () => {
-  const isOpen = usePageState((state) => state.view.openGroups.includes("moves"));
-  return (
-    <SettingsGroup id="moves" title={words.moves}>
-      {isOpen && <HandMoves />}
-    </SettingsGroup>
   );
 };

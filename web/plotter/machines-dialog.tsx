@@ -3,13 +3,11 @@ import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
-import { machinesText } from "./machines-text.js";
+import { machinesText as words } from "./machines-text.js";
 import { saveFile } from "../ui/save-file.js";
 import { copyOf, fileOf, freeId, parseMachineFile, problemsOf } from "./profile.js";
 import { ProfileForm } from "./profile-form.js";
 import "./machines.css";
-
-const words = machinesText;
 
 /** Built-in and custom machines. A custom one is made from a copy or loaded from a file; it can be edited and saved. */
 export const MachinesDialog = () => {

@@ -6,10 +6,8 @@ import { Button } from "../ui/button.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
 import { servoFollower } from "./servo-follow.js";
-import { penText } from "./text.js";
+import { penText as words } from "./text.js";
 import "./pen-at-hand.css";
-
-const words = penText;
 
 const STEPS = ["home", "heights", "mark"] as const;
 type Step = (typeof STEPS)[number];
@@ -143,11 +141,7 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
   const { movePen } = useActions();
   const change = usePenChange();
   const follow = useMemo(
-    () =>
-      servoFollower(
-        ({ isUp, pct }: { isUp: boolean; pct: number }) => movePen(isUp, pct),
-        (delayMs, callback) => void setTimeout(callback, delayMs),
-      ),
+    () => servoFollower(({ isUp, pct }: { isUp: boolean; pct: number }) => movePen(isUp, pct)),
     [movePen],
   );
   const row = (which: "upPct" | "downPct"): ReactNode => (

@@ -1,12 +1,11 @@
 import type { Job, PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { nudgeText } from "./hand-text.js";
+import { nudgeText as words } from "./hand-text.js";
 import { IconButton } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import { usePenChange } from "../ui/use-change.js";
 import "./nudge.css";
 
-const words = nudgeText;
 /** Enough to see a difference on the paper, and little enough to be safe. */
 const STEP_PCT = 1;
 type Heights = Pick<PlotSettings["pen"], "upPct" | "downPct">;

@@ -1,10 +1,8 @@
 import { useState } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
-import { presetsText } from "./text.js";
+import { presetsText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { TextField } from "../ui/text-field.js";
-
-const words = presetsText;
 
 /** Presets: speeds, heights, pens and layers under a name. */
 export const PresetList = () => {

@@ -7,10 +7,9 @@ const PresetList = lazyPart(async () => (await import("./preset-list.js")).Prese
 
 export const PresetsPanel = () => {
   const count = usePageState((state) => state.presets.length);
-  const isOpen = usePageState((state) => state.view.openGroups.includes("presets"));
   return (
-    <SettingsGroup id="presets" title={presetsText.title} summary={count > 0 ? String(count) : ""}>
-      {isOpen && <PresetList />}
+    <SettingsGroup id="presets" isLazy title={presetsText.title} summary={count > 0 ? String(count) : ""}>
+      <PresetList />
     </SettingsGroup>
   );
 };

@@ -1,12 +1,10 @@
 import type { MachineProfile } from "../../src/index.js";
 import type { EbbController } from "../../src/internal.js";
-import { profileText } from "./machines-text.js";
+import { profileText as words } from "./machines-text.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { NumberField } from "../ui/number-field.js";
 import { TextField } from "../ui/text-field.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
-
-const words = profileText;
 
 interface ProfileFormProps {
   readonly profile: MachineProfile;

@@ -8,7 +8,7 @@ const INTERVAL_MS = 200;
 /** `move` never rejects. */
 export const servoFollower = <Position extends object>(
   move: (position: Position) => Promise<unknown>,
-  after: (delayMs: number, callback: () => void) => void,
+  after = (delayMs: number, callback: () => void): void => void setTimeout(callback, delayMs),
 ): ((position: Position) => void) => {
   let wanted: Position | null = null;
   let isFollowing = false;

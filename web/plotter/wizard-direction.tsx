@@ -2,11 +2,10 @@ import { useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import { DIRECTIONS, machineTurned, type Direction } from "../../src/internal.js";
 import { useActions } from "../state/use-store.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import type { StepProps } from "./wizard-step.js";
 import { Button } from "../ui/button.js";
 
-const words = wizardText;
 const MOVE_MM = 20;
 
 type Asked = "middle" | "x" | "y" | "check";
@@ -99,7 +98,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
       >
         {asked === "x" ? words.moveFirst : words.moveSecond}
       </Button>
-      <Answers question={words.whichWay} onAnswer={answer} onSlanted={slanted} />
+      <Answers onAnswer={answer} onSlanted={slanted} />
     </>
   );
 };
@@ -110,14 +109,13 @@ const withOtherMotors = (profile: MachineProfile): MachineProfile => ({
 });
 
 interface AnswersProps {
-  readonly question: string;
   onAnswer(went: Direction): void;
   onSlanted(): void;
 }
 
-const Answers = ({ question, onAnswer, onSlanted }: AnswersProps) => (
+const Answers = ({ onAnswer, onSlanted }: AnswersProps) => (
   <fieldset className="subgroup">
-    <legend>{question}</legend>
+    <legend>{words.whichWay}</legend>
     <div className="button-grid">
       {DIRECTIONS.map((direction) => (
         <Button key={direction} onClick={() => onAnswer(direction)}>

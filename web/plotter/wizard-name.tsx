@@ -1,15 +1,13 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import { Button } from "../ui/button.js";
 import { saveFile } from "../ui/save-file.js";
 import { TextField } from "../ui/text-field.js";
 import { fileOf, freeId, problemsOf } from "./profile.js";
 import { ReachFields } from "./profile-form.js";
 import type { StepProps } from "./wizard-step.js";
-
-const words = wizardText;
 
 /** Asks for reach and name, then saves the machine and chooses it. */
 export const NameStep = ({ profile, onNext }: StepProps) => {

@@ -4,12 +4,10 @@ import { plotterWords } from "./machine-words.js";
 import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { PortSelect } from "../studio/port-select.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import type { StepProps } from "./wizard-step.js";
-
-const words = wizardText;
 
 /** Asks for the plotter, its port, and the built-in machine that is most like it. */
 export const PlotterStep = ({ profile, onNext }: StepProps) => {

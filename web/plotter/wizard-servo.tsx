@@ -2,13 +2,11 @@ import { useId, useMemo, useState } from "react";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions } from "../state/use-store.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import { ServoPin } from "./profile-form.js";
-import { TakeOrSkip } from "./take-or-skip.js";
 import { servoFollower } from "./servo-follow.js";
-import type { StepProps } from "./wizard-step.js";
+import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
-const words = wizardText;
 /** In 1/12 µs: servos accept pulses of about 0.4 to 2.6 ms. */
 const RANGE = { min: 5_000, max: 31_000, step: 100 } as const;
 
@@ -26,10 +24,8 @@ const EbbServoStep = ({ profile, settingsWith, onNext }: StepProps & { readonly 
   const [draft, setDraft] = useState(profile);
   const follow = useMemo(
     () =>
-      servoFollower(
-        ({ pos, settings }: { pos: number; settings: PlotSettings }) =>
-          moveByHand({ kind: "servo", pos }, settings),
-        (delayMs, callback) => void setTimeout(callback, delayMs),
+      servoFollower(({ pos, settings }: { pos: number; settings: PlotSettings }) =>
+        moveByHand({ kind: "servo", pos }, settings),
       ),
     [moveByHand],
   );

@@ -2,14 +2,12 @@ import { useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import { stepsPerMmMeasured } from "../../src/internal.js";
 import { useActions } from "../state/use-store.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberField } from "../ui/number-field.js";
-import { TakeOrSkip } from "./take-or-skip.js";
-import type { StepProps } from "./wizard-step.js";
+import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
-const words = wizardText;
 const SQUARE_MM = 100;
 
 /** A square is drawn and measured with a ruler. Its real size gives the steps per mm. */

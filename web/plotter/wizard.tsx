@@ -4,7 +4,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { wizardText } from "./wizard-text.js";
+import { wizardText as words } from "./wizard-text.js";
 import { copyOf } from "./profile.js";
 import { DirectionStep } from "./wizard-direction.js";
 import { NameStep } from "./wizard-name.js";
@@ -12,8 +12,6 @@ import { PlotterStep } from "./wizard-plotter.js";
 import { ServoStep } from "./wizard-servo.js";
 import { SquareStep } from "./wizard-square.js";
 import "./machines.css";
-
-const words = wizardText;
 
 const STEPS = [PlotterStep, DirectionStep, SquareStep, ServoStep, NameStep] as const;
 
@@ -26,7 +24,7 @@ export const Wizard = () => {
   const [profile, setProfile] = useState<MachineProfile>(() =>
     copyOf(startOf(store.getState().settings), words.firstName, taken),
   );
-  const Step = STEPS[index] ?? PlotterStep;
+  const Step = STEPS[index];
   const settingsWith = (machine: MachineProfile): PlotSettings => ({
     ...store.getState().settings,
     machine: machine.id,

@@ -2,18 +2,20 @@
 import type { FourMargins } from "../../src/internal.js";
 import { rulerStep, type Size, type View } from "../scene/view.js";
 
-export interface DeskColors {
-  readonly paper: string;
-  readonly shadow: string;
-  readonly grid: string;
-  readonly gridStrong: string;
-  readonly margin: string;
-  readonly ruler: string;
-  readonly rulerText: string;
-  readonly rulerLine: string;
-  readonly accent: string;
-  readonly halo: string;
-}
+/** The style sheet has each as `--desk-NAME`. */
+const COLOR_NAMES = [
+  "paper",
+  "shadow",
+  "grid",
+  "grid-strong",
+  "margin",
+  "ruler",
+  "ruler-text",
+  "ruler-line",
+  "accent",
+  "halo",
+] as const;
+export type DeskColors = Readonly<Record<(typeof COLOR_NAMES)[number], string>>;
 
 export interface Desk {
   readonly paperMm: Size;
@@ -24,22 +26,11 @@ export interface Desk {
   readonly unitMm: number;
 }
 
-/** The colours of the theme in use, from the style sheet's custom properties. */
+/** The colours of the theme in use. */
 export const deskColors = (element: Element): DeskColors => {
   const style = getComputedStyle(element);
-  const value = (name: string): string => style.getPropertyValue(`--desk-${name}`).trim();
-  return {
-    paper: value("paper"),
-    shadow: value("shadow"),
-    grid: value("grid"),
-    gridStrong: value("grid-strong"),
-    margin: value("margin"),
-    ruler: value("ruler"),
-    rulerText: value("ruler-text"),
-    rulerLine: value("ruler-line"),
-    accent: value("accent"),
-    halo: value("halo"),
-  };
+  const colors = COLOR_NAMES.map((name) => [name, style.getPropertyValue(`--desk-${name}`).trim()]);
+  return Object.fromEntries(colors) as DeskColors;
 };
 
 /** Resizes a canvas to its box and returns its cleared context, in CSS px. */
@@ -98,7 +89,7 @@ const drawGrid = (
   const strong = unitMm * rulerStep(view.scale * unitMm, 45);
   for (const [spacing, color] of [
     [step, colors.grid],
-    [strong, colors.gridStrong],
+    [strong, colors["grid-strong"]],
   ] as const) {
     context.strokeStyle = color;
     context.lineWidth = 1;
@@ -144,7 +135,7 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   const height = reach.height * scale;
   const isShort = reach.width < paperMm.width || reach.height < paperMm.height;
   context.save();
-  context.strokeStyle = context.fillStyle = isShort ? colors.accent : colors.rulerText;
+  context.strokeStyle = context.fillStyle = isShort ? colors.accent : colors["ruler-text"];
   if (isShort) shadeBeyond(context, view, desk.paperMm, reach);
   context.globalAlpha = isShort ? 1 : 0.5;
   context.lineWidth = isShort ? 1.5 : 1;

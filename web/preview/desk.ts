@@ -1,5 +1,5 @@
 /** The desk of the preview: paper, margins and the machine's reach, from a job's settings. */
-import { findMachine, mmFromLength, type LengthUnit } from "../../src/internal.js";
+import { findMachine, mmFromLength, orientedPaper, type LengthUnit } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { formatSize } from "../ui/format.js";
 import type { Desk } from "./backdrop.js";
@@ -7,11 +7,10 @@ import { previewText } from "./text.js";
 
 export const deskOf = (settings: PlotSettings, unit: LengthUnit): Desk => {
   const { paper, landscape, margins, marginMm } = settings.prepare;
-  const long = Math.max(paper.widthMm, paper.heightMm);
-  const short = Math.min(paper.widthMm, paper.heightMm);
+  const { widthMm, heightMm } = orientedPaper(paper, landscape);
   const machine = findMachine(settings);
   return {
-    paperMm: landscape ? { width: long, height: short } : { width: short, height: long },
+    paperMm: { width: widthMm, height: heightMm },
     margins: margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm },
     reach: machine && {
       width: machine.widthMm,

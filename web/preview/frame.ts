@@ -3,7 +3,8 @@ import type { Actions } from "../state/actions.js";
 import type { PageState, PageStore } from "../state/store.js";
 import { formatNumber, formatSize } from "../ui/format.js";
 import type { LengthUnit } from "../../src/internal.js";
-import type { Drag } from "./gestures.js";
+import type { BoxMm } from "../../src/schema/index.js";
+import type { Drag, Point } from "./gestures.js";
 import {
   CORNER_PARTS,
   boxAround,
@@ -17,7 +18,7 @@ import {
   type FrameMm,
   type SnapLines,
 } from "../scene/placing.js";
-import type { Stage } from "./stage.js";
+import type { Paint, Stage } from "./stage.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
 const HANDLE_PX = 10;
@@ -45,12 +46,7 @@ const setFrame = (actions: Actions, what: string, frame: FrameMm): void =>
   }));
 
 /** Begins a drag of the frame. Null: there is none, or it is not under the pointer. */
-export const grabFrame = (
-  stage: Stage,
-  store: PageStore,
-  actions: Actions,
-  at: { x: number; y: number },
-): Drag | null => {
+export const grabFrame = (stage: Stage, store: PageStore, actions: Actions, at: Point): Drag | null => {
   const frame = frameNow(store.getState());
   if (!frame) return null;
   const { scale } = stage.view;
@@ -78,10 +74,8 @@ export const nudgeFrame = (store: PageStore, actions: Actions, dxMm: number, dyM
   return true;
 };
 
-type Painter = (context: CanvasRenderingContext2D, view: View) => void;
-
 /** Paints the frame with its handles, and the places of the shown warning. */
-export const painterOf = (state: PageState): Painter | null => {
+export const painterOf = (state: PageState): Paint | null => {
   const frame = frameNow(state);
   const { noteBoxes, planned, snapLines } = state;
   const { lengthUnit } = state.view;
@@ -94,13 +88,6 @@ export const painterOf = (state: PageState): Painter | null => {
 };
 
 type PageMap = NonNullable<PageState["planned"]>["pageToPaper"];
-
-interface BoxMm {
-  readonly xMm: number;
-  readonly yMm: number;
-  readonly widthMm: number;
-  readonly heightMm: number;
-}
 
 /** The box on the paper around a box of the page, which may be turned. */
 export const paperBoxOf = (
@@ -131,11 +118,8 @@ const paintFrame = (
   frame: FrameMm,
   unit: LengthUnit,
 ): void => {
-  const onScreen = ({ x, y }: { x: number; y: number }): [number, number] => [
-    view.offsetX + x * view.scale,
-    view.offsetY + y * view.scale,
-  ];
-  const [nw, ne, sw, se] = CORNER_PARTS.map((part) => onScreen(cornerOf(frame, part))) as [Px, Px, Px, Px];
+  const onScreen = ({ x, y }: Point): Px => [view.offsetX + x * view.scale, view.offsetY + y * view.scale];
+  const [nw, ne, sw, se] = CORNER_PARTS.map((part) => onScreen(cornerOf(frame, part)));
   const knob = onScreen(knobOf(frame, KNOB_PX / view.scale));
   context.strokeStyle = FRAME_COLOR;
   context.lineWidth = 1.5;

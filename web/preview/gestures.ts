@@ -1,18 +1,24 @@
 /** Changes the preview's view by pointer (mouse, pen or fingers), wheel and keyboard. */
 import { panBy, zoomAt, type View } from "../scene/view.js";
+import { ARROW_KEYS } from "../ui/arrow-keys.js";
+
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
 
 export interface GestureTarget {
   view(): View;
   setView(view: View): void;
   fit(): void;
   /** The pointer is at (x, y) CSS px of the element, or has left (null). */
-  hover(at: { x: number; y: number } | null): void;
+  hover(at: Point | null): void;
   /** Begins a drag of the object under (x, y). Null: there is none, and the drag pans. */
-  grab(at: { x: number; y: number }): Drag | null;
+  grab(at: Point): Drag | null;
   /** An arrow key moves a drawing placed by hand, mm. False: there is none, and the key pans. */
   nudge(dxMm: number, dyMm: number): boolean;
   /** A press without a drag. */
-  tap(at: { x: number; y: number }): void;
+  tap(at: Point): void;
 }
 
 export interface Drag {
@@ -29,7 +35,7 @@ const TAP_PX = 5;
 
 /** Listens on `element`. Returns a function that stops listening. */
 export const listenForGestures = (element: HTMLElement, target: GestureTarget): (() => void) => {
-  const pointers = new Map<number, { x: number; y: number }>();
+  const pointers = new Map<number, Point>();
   let travelled = 0;
   let held: { readonly from: Point; readonly drag: Drag } | null = null;
   const letGo = (): void => {
@@ -37,7 +43,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     held = null;
   };
 
-  const placeOf = (event: MouseEvent): { x: number; y: number } => {
+  const placeOf = (event: MouseEvent): Point => {
     const box = element.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
@@ -90,7 +96,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   };
 
   const onKey = (event: KeyboardEvent): void => {
-    const arrow = ARROWS[event.key];
+    const arrow = ARROW_KEYS[event.key];
     if (arrow && !event.ctrlKey && !event.metaKey) {
       const mm = NUDGE_MM * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
       if (target.nudge(arrow[0] * mm, arrow[1] * mm)) return event.preventDefault();
@@ -102,31 +108,18 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     else target.setView(change(target.view()));
   };
 
-  const onLeave = (): void => target.hover(null);
-  element.addEventListener("pointerdown", onDown);
-  element.addEventListener("pointermove", onMove);
-  element.addEventListener("pointerup", onUp);
-  element.addEventListener("pointercancel", onUp);
-  element.addEventListener("pointerleave", onLeave);
-  element.addEventListener("wheel", onWheel, { passive: false });
-  element.addEventListener("dblclick", target.fit);
-  element.addEventListener("keydown", onKey);
-  return () => {
-    element.removeEventListener("pointerdown", onDown);
-    element.removeEventListener("pointermove", onMove);
-    element.removeEventListener("pointerup", onUp);
-    element.removeEventListener("pointercancel", onUp);
-    element.removeEventListener("pointerleave", onLeave);
-    element.removeEventListener("wheel", onWheel);
-    element.removeEventListener("dblclick", target.fit);
-    element.removeEventListener("keydown", onKey);
-  };
+  const stop = new AbortController();
+  const { signal } = stop;
+  element.addEventListener("pointerdown", onDown, { signal });
+  element.addEventListener("pointermove", onMove, { signal });
+  element.addEventListener("pointerup", onUp, { signal });
+  element.addEventListener("pointercancel", onUp, { signal });
+  element.addEventListener("pointerleave", () => target.hover(null), { signal });
+  element.addEventListener("wheel", onWheel, { signal, passive: false });
+  element.addEventListener("dblclick", target.fit, { signal });
+  element.addEventListener("keydown", onKey, { signal });
+  return () => stop.abort();
 };
-
-interface Point {
-  readonly x: number;
-  readonly y: number;
-}
 
 /** The view after one finger has moved from `before` to `now` while the other rests: the paper follows both. */
 export const pinched = (view: View, before: Point, now: Point, other: Point): View => {
@@ -137,26 +130,13 @@ export const pinched = (view: View, before: Point, now: Point, other: Point): Vi
   return zoomAt(moved, factor, (now.x + other.x) / 2, (now.y + other.y) / 2);
 };
 
-const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
-
 const keyChange = (event: KeyboardEvent, element: HTMLElement): "fit" | ((view: View) => View) | null => {
   if (event.ctrlKey || event.metaKey || event.altKey) return null;
+  const arrow = ARROW_KEYS[event.key];
+  if (arrow) return (view) => panBy(view, -KEY_PAN_PX * arrow[0], -KEY_PAN_PX * arrow[1]);
   const middleX = element.clientWidth / 2;
   const middleY = element.clientHeight / 2;
   switch (event.key) {
-    case "ArrowLeft":
-      return (view) => panBy(view, KEY_PAN_PX, 0);
-    case "ArrowRight":
-      return (view) => panBy(view, -KEY_PAN_PX, 0);
-    case "ArrowUp":
-      return (view) => panBy(view, 0, KEY_PAN_PX);
-    case "ArrowDown":
-      return (view) => panBy(view, 0, -KEY_PAN_PX);
     case "+":
     case "=":
       return (view) => zoomAt(view, KEY_ZOOM, middleX, middleY);

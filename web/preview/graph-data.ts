@@ -1,7 +1,7 @@
 /** Speed and acceleration over time, sampled for a graph of a given width. */
 import { stateAt, type Trajectory } from "../../src/index.js";
 
-export interface GraphData {
+interface GraphData {
   readonly tS: Float64Array;
   readonly speedMmPerS: Float64Array;
   readonly accelMmPerS2: Float64Array;

@@ -3,11 +3,10 @@ import UPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Trajectory } from "../../src/index.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { timeLineText } from "./text.js";
+import { timeLineText as words } from "./text.js";
 import { formatMoment, formatNumber } from "../ui/format.js";
 import { graphData } from "./graph-data.js";
 
-const words = timeLineText;
 const HEIGHT_PX = 132;
 
 /** Speed and acceleration over time. A drag zooms, a double click shows everything, a click goes to that moment. */

@@ -1,20 +1,13 @@
 import { usePageState } from "../state/use-store.js";
-import { hoverText } from "./text.js";
+import { hoverText as words } from "./text.js";
+import { Facts } from "../ui/facts.js";
 import { formatCount, formatMoment, formatNumber } from "../ui/format.js";
-
-const words = hoverText;
 
 /** A tooltip with the numbers of the stroke under the pointer. */
 export const HoverTip = () => {
   const hover = usePageState((state) => state.hover);
   const strokeCount = usePageState((state) => state.planned?.strokeCount ?? 0);
   if (!hover) return null;
-  const figures = [
-    [words.speed, `${formatNumber(hover.speedMmPerS, 1)} mm/s`],
-    [words.accel, `${formatNumber(hover.accelMmPerS2, 0)} mm/s²`],
-    [words.time, formatMoment(hover.tS)],
-    [words.stroke, words.strokeOf(formatCount(hover.strokeNumber), formatCount(strokeCount))],
-  ] as const;
   return (
     <div
       className="hover-tip"
@@ -24,14 +17,14 @@ export const HoverTip = () => {
       style={{ left: hover.xPx, top: hover.yPx }}
     >
       <strong>{hover.layerName}</strong>
-      <dl>
-        {figures.map(([label, value]) => (
-          <div key={label}>
-            <dt>{label}</dt>
-            <dd>{value}</dd>
-          </div>
-        ))}
-      </dl>
+      <Facts
+        rows={[
+          [words.speed, `${formatNumber(hover.speedMmPerS, 1)} mm/s`],
+          [words.accel, `${formatNumber(hover.accelMmPerS2, 0)} mm/s²`],
+          [words.time, formatMoment(hover.tS)],
+          [words.stroke, words.strokeOf(formatCount(hover.strokeNumber), formatCount(strokeCount))],
+        ]}
+      />
     </div>
   );
 };

@@ -1,4 +1,3 @@
-import { useMemo } from "react";
 import { penOf } from "../../src/internal.js";
 import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
 import { legendStops, rampColor } from "../scene/color-map.js";
@@ -8,9 +7,8 @@ import { formatDuration, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import type { Planned } from "../worker/protocol.js";
 import { legendEntries } from "./looks.js";
-import { previewText } from "./text.js";
+import { previewText as words } from "./text.js";
 
-const words = previewText;
 const SwingLegend = lazyPart(async () => (await import("./swing-legend.js")).SwingLegend);
 const LABELS = 5;
 const SHOWN_ENTRIES = 6;
@@ -44,7 +42,7 @@ const Legend = ({ colorBy, planned }: { colorBy: ColorMode; planned: Planned }) 
 
 /** `data-stops` is the scale as JSON, for programs that read the page. */
 const SpeedLegend = ({ topMmPerS }: { topMmPerS: number }) => {
-  const stops = useMemo(() => legendStops(topMmPerS), [topMmPerS]);
+  const stops = legendStops(topMmPerS);
   return (
     <figure className="legend" role="img" aria-label={words.legend} data-stops={JSON.stringify(stops)}>
       <figcaption aria-hidden="true">

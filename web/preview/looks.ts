@@ -59,7 +59,7 @@ const stepped = (mm: number): number => STEP_MM * Math.max(1, Math.round(mm / ST
 export const isTrueToWidth = (colorBy: ColorMode): boolean => colorBy === "ink" || colorBy === "pen";
 
 /** A line of the legend. */
-export interface LegendEntry {
+interface LegendEntry {
   readonly color: string;
   readonly label: string;
 }

@@ -1,4 +1,5 @@
 /** Drawn over the strokes: rulers along the edges, and the pen's position. */
+import type { Box } from "../../src/internal.js";
 import type { DeskColors } from "./backdrop.js";
 import { rulerStep, type Size, type View } from "../scene/view.js";
 
@@ -11,21 +12,14 @@ export interface Marker {
   readonly penDown: boolean;
 }
 
-/** The marked part of the rulers, mm. */
-export interface RulerSpan {
-  readonly x0: number;
-  readonly y0: number;
-  readonly x1: number;
-  readonly y1: number;
-}
-
+/** `span`: the marked part of the rulers, mm. */
 export const drawRulers = (
   context: CanvasRenderingContext2D,
   view: View,
   size: Size,
   colors: DeskColors,
   unitMm: number,
-  span: RulerSpan | null,
+  span: Box | null,
 ): void => {
   const unitPx = view.scale * unitMm;
   context.fillStyle = colors.ruler;
@@ -41,11 +35,11 @@ export const drawRulers = (
   context.restore();
   context.fillStyle = colors.ruler;
   context.fillRect(0, 0, RULER_PX, RULER_PX);
-  context.fillStyle = colors.rulerText;
+  context.fillStyle = colors["ruler-text"];
   context.font = "9px Helvetica, Arial, sans-serif";
   context.textAlign = "center";
   context.fillText(unitMm === 1 ? "mm" : "in", RULER_PX / 2, RULER_PX / 2 + 3);
-  context.strokeStyle = colors.rulerLine;
+  context.strokeStyle = colors["ruler-line"];
   context.lineWidth = 1;
   context.beginPath();
   context.moveTo(0, RULER_PX + 0.5);
@@ -57,11 +51,7 @@ export const drawRulers = (
 
 const SPAN_COLOR = "rgb(47 98 216 / 22%)";
 
-const markSpan = (
-  context: CanvasRenderingContext2D,
-  { offsetX, offsetY, scale }: View,
-  span: RulerSpan,
-): void => {
+const markSpan = (context: CanvasRenderingContext2D, { offsetX, offsetY, scale }: View, span: Box): void => {
   const x = Math.max(RULER_PX, offsetX + span.x0 * scale);
   const y = Math.max(RULER_PX, offsetY + span.y0 * scale);
   context.fillStyle = SPAN_COLOR;
@@ -81,7 +71,7 @@ const drawTicks = (
   const parts = 10;
   const first = Math.floor((RULER_PX - offset) / scale / step) * step;
   const last = (lengthPx - offset) / scale;
-  context.strokeStyle = colors.rulerText;
+  context.strokeStyle = colors["ruler-text"];
   context.lineWidth = 1;
   context.beginPath();
   for (let k = 0; first + (k * step) / parts <= last; k++) {
@@ -94,7 +84,7 @@ const drawTicks = (
   context.globalAlpha = 0.55;
   context.stroke();
   context.globalAlpha = 1;
-  context.fillStyle = colors.rulerText;
+  context.fillStyle = colors["ruler-text"];
   context.font = "10px Helvetica, Arial, sans-serif";
   context.textAlign = isMirrored ? "right" : "left";
   for (let mm = first; mm <= last; mm += step) {

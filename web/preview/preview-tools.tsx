@@ -1,12 +1,12 @@
 import type { RefObject } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
-import { previewText } from "./text.js";
+import { previewText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
+import { usePrepareChange } from "../ui/use-change.js";
 import { placeOfFrame } from "../scene/placing.js";
 import type { Stage } from "./stage.js";
 
-const words = previewText;
 const ZOOM_STEP = 1.5;
 
 /** The controls on the desk beside the paper. */
@@ -35,7 +35,7 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
 const PlaceTool = () => {
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);
-  const { changeSettings } = useActions();
+  const change = usePrepareChange();
   return (
     <IconButton
       kind="tool"
@@ -43,12 +43,7 @@ const PlaceTool = () => {
       label={words.place}
       aria-pressed={isPlaced}
       disabled={!frame}
-      onClick={() =>
-        changeSettings("place by hand", (settings) => ({
-          ...settings,
-          prepare: { ...settings.prepare, place: isPlaced || !frame ? null : placeOfFrame(frame) },
-        }))
-      }
+      onClick={() => change("place by hand", { place: isPlaced || !frame ? null : placeOfFrame(frame) })}
     />
   );
 };

@@ -2,11 +2,12 @@ import { stateAt } from "../../src/index.js";
 import { drawnUntilS } from "./drawn-until.js";
 import { activeJob, currentPlotter, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
-import { previewText } from "./text.js";
+import { previewText as words } from "./text.js";
 import { deskOf } from "./desk.js";
 import { paintCutOff } from "./cut-off.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
+import type { Point } from "./gestures.js";
 import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { Looks } from "./legend.js";
@@ -21,7 +22,6 @@ import { selectionPainter } from "./stroke.js";
 import type { Picture } from "../scene/renderer.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
-const words = previewText;
 /** Height of the looks, the legend and the tools under the paper. */
 const BELOW_PX = 88;
 
@@ -44,32 +44,24 @@ export const Preview = () => (
 
 const showState = (stage: Stage, store: PageStore): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
+    const hasChanged = (...parts: readonly (keyof PageState)[]): boolean =>
+      before === null || parts.some((part) => state[part] !== before[part]);
     const swing = shownSwing(state);
     if (swing) stage.setScene(swing, null);
     else stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
-    if (state.settings !== before?.settings || state.view !== before.view) stage.setDesk(deskOfState(state));
+    if (hasChanged("settings", "view")) stage.setDesk(deskOfState(state));
     if (
-      state.view !== before?.view ||
-      state.settings.pens !== before.settings.pens ||
-      state.settings.layerPens !== before.settings.layerPens ||
-      state.planned !== before?.planned ||
-      state.live !== before?.live ||
-      state.jobs !== before.jobs ||
-      state.momentS !== before?.momentS ||
-      state.swing !== before?.swing ||
-      state.drawing !== before?.drawing
+      hasChanged("view", "planned", "live", "jobs", "momentS", "swing", "drawing") ||
+      state.settings.pens !== before?.settings.pens ||
+      state.settings.layerPens !== before.settings.layerPens
     ) {
       stage.setLook(lookOf(state));
     }
     if (state.view.theme !== before?.view.theme) stage.recolor();
     stage.setMarker(markerOf(state));
     if (
-      state.planned !== before?.planned ||
-      state.settings !== before?.settings ||
-      state.view.lengthUnit !== before?.view.lengthUnit ||
-      state.selected !== before?.selected ||
-      state.noteBoxes !== before?.noteBoxes ||
-      state.snapLines !== before.snapLines
+      hasChanged("planned", "settings", "selected", "noteBoxes", "snapLines") ||
+      state.view.lengthUnit !== before?.view.lengthUnit
     ) {
       const frame = frameNow(state);
       const cutOff = state.planned?.cutOff ?? null;
@@ -87,7 +79,7 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
   return store.subscribe(show);
 };
 
-const hoverUnder = (stage: Stage, planned: Planned, { x, y }: { x: number; y: number }): Hover | null => {
+const hoverUnder = (stage: Stage, planned: Planned, { x, y }: Point): Hover | null => {
   const [xMm, yMm] = mmFromScreen(stage.view, x, y);
   const { width, height } = stage.size;
   const at = { xPx: x, yPx: y, xMm, yMm, isRight: x > width * 0.6, isLow: y > height * 0.6 };
@@ -161,7 +153,7 @@ const PaperMessage = () => {
   if (fault) {
     return (
       <div className="paper-message paper-message-error" role="alert">
-        <strong>{previewText.cannotRead(drawing?.name ?? "")}</strong>
+        <strong>{words.cannotRead(drawing?.name ?? "")}</strong>
         <p>{fault.message}</p>
       </div>
     );
@@ -170,7 +162,7 @@ const PaperMessage = () => {
   if (!planned && isPlanning) {
     return (
       <div className="paper-message" role="status">
-        <p>{previewText.reading(drawing.name)}</p>
+        <p>{words.reading(drawing.name)}</p>
       </div>
     );
   }
@@ -179,13 +171,9 @@ const PaperMessage = () => {
   const isPicture = isEmptyFile && planned.fileWarnings.some(({ code }) => code === "image-not-drawn");
   return (
     <div className="paper-message">
-      <strong>{isPicture ? previewText.onlyPictures : previewText.nothingToDraw}</strong>
+      <strong>{isPicture ? words.onlyPictures : words.nothingToDraw}</strong>
       <p>
-        {isPicture
-          ? previewText.onlyPicturesHint
-          : isEmptyFile
-            ? previewText.emptyFileHint
-            : previewText.nothingToDrawHint}
+        {isPicture ? words.onlyPicturesHint : isEmptyFile ? words.emptyFileHint : words.nothingToDrawHint}
       </p>
     </div>
   );

@@ -4,19 +4,23 @@
  * The strokes are drawn elsewhere. Until they are drawn for a new view, the last picture is moved and scaled, so that
  * the paper follows the finger even if the drawing is large.
  */
+import type { Box } from "../../src/internal.js";
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
 import { markMoment } from "../worker/moments.js";
-import { drawMarker, drawRulers, RULER_PX, type Marker, type RulerSpan } from "./overlay.js";
+import { drawMarker, drawRulers, RULER_PX, type Marker } from "./overlay.js";
 import type { Frame, Picture } from "../scene/renderer.js";
 import { openStrokes, type Strokes } from "./strokes.js";
 import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
 
-export interface StageCanvases {
+interface StageCanvases {
   readonly box: HTMLElement;
   readonly desk: HTMLCanvasElement;
   readonly strokes: HTMLCanvasElement;
   readonly overlay: HTMLCanvasElement;
 }
+
+/** Paints over the strokes. */
+export type Paint = (context: CanvasRenderingContext2D, view: View) => void;
 
 export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
@@ -34,8 +38,8 @@ export class Stage {
   #look: FrameLook;
   #desk: Desk;
   #marker: Marker | null = null;
-  #paint: ((context: CanvasRenderingContext2D, view: View) => void) | null = null;
-  #rulerSpan: RulerSpan | null = null;
+  #paint: Paint | null = null;
+  #rulerSpan: Box | null = null;
   #colors: DeskColors;
   #size: Size = { width: 0, height: 0 };
   #view: View = { scale: 1, offsetX: 0, offsetY: 0 };
@@ -121,10 +125,7 @@ export class Stage {
   }
 
   /** Sets what is painted over the strokes in every frame (highlights, handles), and the marked part of the rulers. */
-  setPainter(
-    paint: ((context: CanvasRenderingContext2D, view: View) => void) | null,
-    rulerSpan: RulerSpan | null,
-  ): void {
+  setPainter(paint: Paint, rulerSpan: Box | null): void {
     this.#paint = paint;
     this.#rulerSpan = rulerSpan;
     this.#refresh(false);

@@ -2,12 +2,11 @@ import { useMemo } from "react";
 import { activeJob, isReady, mayOperate, selectedStroke } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { Button, IconButton } from "../ui/button.js";
+import { Facts } from "../ui/facts.js";
 import { formatCount, formatLength, formatMoment, formatNumber } from "../ui/format.js";
 import { layerLooks } from "./looks.js";
 import { strokeFigures } from "./stroke.js";
-import { strokeText } from "./text.js";
-
-const words = strokeText;
+import { strokeText as words } from "./text.js";
 
 /** The clicked stroke: its numbers, and a button to plot from its beginning. */
 export const StrokeCard = () => {
@@ -21,13 +20,6 @@ export const StrokeCard = () => {
   if (!selected || !figures) return null;
   const { of: planned, hover } = selected;
   const { widthMm } = layerLooks("pen", { planned, settings })[hover.layer];
-  const rows = [
-    [words.length, formatLength(figures.lengthMm)],
-    [words.width, `${formatNumber(widthMm, 2)} mm`],
-    [words.takes, words.seconds(formatNumber(figures.durationS, 2))],
-    [words.begins, formatMoment(figures.startS)],
-    [words.speedHere, `${formatNumber(hover.speedMmPerS, 1)} mm/s`],
-  ] as const;
   return (
     <section className="stroke-card" aria-label={words.title}>
       <header>
@@ -35,14 +27,15 @@ export const StrokeCard = () => {
         <IconButton icon="close" label={words.close} onClick={() => store.setState({ selected: null })} />
       </header>
       <p>{hover.layerName}</p>
-      <dl>
-        {rows.map(([label, value]) => (
-          <div key={label}>
-            <dt>{label}</dt>
-            <dd>{value}</dd>
-          </div>
-        ))}
-      </dl>
+      <Facts
+        rows={[
+          [words.length, formatLength(figures.lengthMm)],
+          [words.width, `${formatNumber(widthMm, 2)} mm`],
+          [words.takes, words.seconds(formatNumber(figures.durationS, 2))],
+          [words.begins, formatMoment(figures.startS)],
+          [words.speedHere, `${formatNumber(hover.speedMmPerS, 1)} mm/s`],
+        ]}
+      />
       <PlotFromHere strokeIndex={hover.strokeNumber - 1} />
     </section>
   );

@@ -2,11 +2,11 @@
 import type { Trajectory } from "../../src/index.js";
 import { PIECE_FLOATS } from "../scene/pieces.js";
 import { piecesBefore, type Scene } from "../scene/scene.js";
-import type { View } from "../scene/view.js";
 import { selectedStroke, type PageState } from "../state/store.js";
 import { layerLooks } from "./looks.js";
+import type { Paint } from "./stage.js";
 
-export interface StrokeFigures {
+interface StrokeFigures {
   readonly lengthMm: number;
   /** When it begins, and how long it takes. */
   readonly startS: number;
@@ -54,8 +54,6 @@ const pointsBetween = ({ draw }: Scene, startS: number, endS: number): Float32Ar
   return points;
 };
 
-type Painter = (context: CanvasRenderingContext2D, view: View) => void;
-
 const SELECTED_COLOR = "#1450ff";
 const CASING_COLOR = "#ffffff";
 /** A border on each side, so that the line stands out. */
@@ -63,7 +61,7 @@ const CASING_PX = 2.5;
 const MIN_PX = 2;
 
 /** Paints the selected stroke over the others, as wide as its pen's line. */
-export const selectionPainter = (state: PageState): Painter | null => {
+export const selectionPainter = (state: PageState): Paint | null => {
   const selected = selectedStroke(state);
   if (!selected) return null;
   const { of: planned, hover } = selected;

@@ -18,7 +18,7 @@ export interface Strokes {
 }
 
 /** A picture of `frame` is on the canvas. `isDone`: it is whole, and no newer frame was requested. */
-export type OnShown = (frame: Frame, isDone: boolean) => void;
+type OnShown = (frame: Frame, isDone: boolean) => void;
 
 /** The used part of a Worker. Tests pass their own. */
 export interface DrawWorkerLike {

@@ -6,10 +6,9 @@ import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import type { Planned } from "../worker/protocol.js";
 import { simulatePen } from "./simulate-pen.js";
-import { swingText } from "./swing-text.js";
+import { swingText as words } from "./swing-text.js";
 import "./swing-legend.css";
 
-const words = swingText;
 const LABELS = 5;
 
 /**

@@ -31,8 +31,6 @@ export const previewText = {
   legendTitle: "Speed with the pen down",
   legendUnit: "mm/s",
   orderTitle: (total: string) => `Order, first to last over ${total}`,
-  slow: "slow",
-  fast: "fast",
   first: "first",
   last: "last",
   hint: "Arrow keys move the paper, or a drawing placed by hand; plus and minus zoom, 0 shows the whole paper.",

@@ -1,12 +1,11 @@
 import { lazy, Suspense } from "react";
 import { drawnUntilS } from "./drawn-until.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { timeLineText } from "./text.js";
+import { timeLineText as words } from "./text.js";
 import { IconButton } from "../ui/button.js";
 import { formatMoment } from "../ui/format.js";
 import { PLAY_RATES, type Player } from "./player.js";
 
-const words = timeLineText;
 const Graph = lazy(async () => ({ default: (await import("./graph.js")).Graph }));
 const STEPS = 2_000;
 

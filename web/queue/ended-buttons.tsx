@@ -1,10 +1,8 @@
 import type { Job } from "../../src/schema/index.js";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { queueText } from "./text.js";
+import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
-
-const words = queueText;
 
 /** Buttons of a waiting or ended job: start it, resume it, or plot it again. */
 export const EndedButtons = ({ job }: { job: Job }) => {

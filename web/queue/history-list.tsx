@@ -2,15 +2,15 @@ import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { queueText } from "./text.js";
+import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
 import { canGoOn, EndedButtons } from "./ended-buttons.js";
 import { JobName, StateBadge } from "./job-head.js";
+import { expectedSOf } from "./queue-time.js";
 import { Thumb } from "../drawing/thumb.js";
 
-const words = queueText;
 const SHOWN_FIRST = 20;
 
 /** Ended jobs, newest first. Each can be plotted again. */
@@ -79,7 +79,7 @@ const EndedJob = ({ job }: { job: Job }) => {
 const timesOf = (job: Job): string => {
   const parts = job.endedAt === null ? [] : [formatWhen(job.endedAt)];
   parts.push(words.took(formatDuration(job.plottedS ?? job.elapsedS)));
-  const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
+  const expectedS = expectedSOf(job);
   if (job.state === "done" && expectedS !== null) parts.push(words.estimated(formatDuration(expectedS)));
   return parts.join(" · ");
 };

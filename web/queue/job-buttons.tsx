@@ -1,13 +1,11 @@
 import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
-import { mayOperate } from "../state/store.js";
+import { mayOperate, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { jobText, queueText } from "./text.js";
+import { jobText as words, queueText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import "./jobs.css";
-
-const words = jobText;
 
 /**
  * Pause, resume, cancel, stop: the buttons for a job in its present state. Cancel asks for confirmation, because a
@@ -49,7 +47,6 @@ const MainButton = ({ job, isOff }: ButtonProps) => {
   const { actOnJob } = useActions();
   const busy = usePageState((state) => state.busyAction);
   const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
-  const isPenChange = job.wait !== null && job.state === "paused";
   return (
     <Button
       kind={job.state === "plotting" ? "plain" : "primary"}
@@ -57,7 +54,7 @@ const MainButton = ({ job, isOff }: ButtonProps) => {
       onClick={() => void actOnJob(job.id, action)}
     >
       <Icon name={action === "pause" ? "pause" : "play"} />
-      {isPenChange ? words.continue : label}
+      {penWait(job) !== null ? words.continue : label}
     </Button>
   );
 };

@@ -1,10 +1,8 @@
 import type { Job } from "../../src/schema/index.js";
-import { ACTIVE_STATES, mayOperate } from "../state/store.js";
+import { ACTIVE_STATES, mayOperate, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { queueText } from "./text.js";
+import { queueText as words } from "./text.js";
 import "./jobs.css";
-
-const words = queueText;
 
 /**
  * A job's name as a button: opens Watch for a running job, and the drawing for another one. Watchers can't open
@@ -29,7 +27,7 @@ export const JobName = ({ job }: { job: Job }) => {
 
 export const StateBadge = ({ job }: { job: Job }) => (
   <span className="badge" data-state={job.state}>
-    {job.wait !== null && job.state === "paused" ? words.waitsForPen : words.states[job.state]}
+    {penWait(job) !== null ? words.waitsForPen : words.states[job.state]}
   </span>
 );
 

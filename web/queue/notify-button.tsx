@@ -1,9 +1,7 @@
 import { useState } from "react";
 import { useActions } from "../state/use-store.js";
-import { notifyText } from "./text.js";
+import { notifyText as words } from "./text.js";
 import { Button } from "../ui/button.js";
-
-const words = notifyText;
 
 /** Asks for permission to show notifications. Not shown if the browser has none. */
 export const NotifyButton = () => {

@@ -1,10 +1,8 @@
 /** Notifies the user when a plot ends or waits: on the page, and by system notifications if they are enabled. */
 import type { Job } from "../../src/schema/index.js";
-import { notifyText } from "./text.js";
+import { notifyText as words } from "./text.js";
 import { waitWords } from "../plotter/machine-words.js";
 import type { PageStore } from "../state/store.js";
-
-const words = notifyText;
 
 /** The message for a job that has changed; null if the user does not need to know. */
 export const noticeOfChange = (before: Job | null, now: Job): string | null => {
@@ -19,8 +17,8 @@ export const noticeOfChange = (before: Job | null, now: Job): string | null => {
   return null;
 };
 
-/** Calls `notify` with a message when a job changes. Returns a function that stops. */
-export const watchJobs = (store: PageStore, notify: (message: string, job: Job) => void): (() => void) =>
+/** Calls `notify` with a message when a job changes. */
+export const watchJobs = (store: PageStore, notify: (message: string, job: Job) => void): void => {
   store.subscribe((state, before) => {
     if (state.jobs === before.jobs || before.jobs.length === 0) return;
     const known = new Map(before.jobs.map((job) => [job.id, job]));
@@ -29,3 +27,4 @@ export const watchJobs = (store: PageStore, notify: (message: string, job: Job) 
       if (message !== null) notify(message, job);
     }
   });
+};

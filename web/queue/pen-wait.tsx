@@ -1,10 +1,8 @@
 import type { Job, PlotWait } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
-import { penWaitText } from "./text.js";
+import { penWaitText as words } from "./text.js";
 import { JobButtons } from "./job-buttons.js";
 import "./jobs.css";
-
-const words = penWaitText;
 
 /** Shown when a job waits for another pen: which pen, in its colour, and the buttons. */
 export const PenWait = ({ job, wait }: { job: Job; wait: PlotWait }) => (

@@ -5,13 +5,13 @@ import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { CutOffNote } from "./cut-off-note.js";
-import { plotText } from "./text.js";
+import { plotText as words } from "./text.js";
 import { Button } from "../ui/button.js";
+import { Facts } from "../ui/facts.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { NumberField } from "../ui/number-field.js";
 
-const words = plotText;
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
 const MAX_COPIES = 100;
 
@@ -49,21 +49,16 @@ const Figures = () => {
   const planned = usePageState((state) => state.planned);
   if (!planned) return null;
   const { stats, strokeCount } = planned;
-  const figures = [
-    [words.distance, formatLength(stats.drawMm)],
-    [words.travel, formatLength(stats.travelMm)],
-    [words.strokes, formatCount(strokeCount)],
-    [words.lifts, formatCount(stats.penLiftCount)],
-  ] as const;
   return (
-    <dl className="figures">
-      {figures.map(([label, value]) => (
-        <div key={label}>
-          <dt>{label}</dt>
-          <dd>{value}</dd>
-        </div>
-      ))}
-    </dl>
+    <Facts
+      className="figures"
+      rows={[
+        [words.distance, formatLength(stats.drawMm)],
+        [words.travel, formatLength(stats.travelMm)],
+        [words.strokes, formatCount(strokeCount)],
+        [words.lifts, formatCount(stats.penLiftCount)],
+      ]}
+    />
   );
 };
 

@@ -7,7 +7,11 @@ interface QueueTime {
   readonly isRunning: boolean;
 }
 
+/** The job's expected duration; null while it is being planned. */
+export const expectedSOf = ({ expectedS, stats }: Job): number | null =>
+  expectedS ?? stats?.durationS ?? null;
+
 export const queueTime = (jobs: readonly Job[], runsOn: boolean): QueueTime => ({
-  totalS: jobs.reduce((sum, job) => sum + (job.remainingS ?? job.expectedS ?? job.stats?.durationS ?? 0), 0),
+  totalS: jobs.reduce((sum, job) => sum + (job.remainingS ?? expectedSOf(job) ?? 0), 0),
   isRunning: jobs.some(({ state }) => state === "plotting") && (runsOn || jobs.length === 1),
 });

@@ -4,14 +4,13 @@ import { rowsOf } from "./copies.js";
 import { queueTime } from "./queue-time.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, usePageState, usePlotterJobs } from "../state/use-store.js";
-import { queueText } from "./text.js";
+import { queueText as words } from "./text.js";
 import { Segments } from "../ui/choice.js";
 import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { useNow } from "../ui/use-now.js";
 import { NotifyButton } from "./notify-button.js";
 
-const words = queueText;
 const RunningJob = lazyPart(async () => (await import("./running-job.js")).RunningJob);
 const WaitingJob = lazyPart(async () => (await import("./waiting-job.js")).WaitingJob);
 const HistoryList = lazyPart(async () => (await import("./history-list.js")).HistoryList);

@@ -1,5 +1,5 @@
 import type { Job } from "../../src/schema/index.js";
-import { shownView } from "../state/store.js";
+import { penWait, shownView } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { jobText, queueText } from "./text.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
@@ -12,7 +12,7 @@ import { PenWait } from "./pen-wait.js";
 /** The job that has the plotter, first in the queue. In Watch its buttons are on the status card. */
 export const RunningJob = ({ job }: { job: Job }) => {
   const isWatched = usePageState((state) => shownView(state) === "watch");
-  const wait = job.state === "paused" ? job.wait : null;
+  const wait = penWait(job);
   return (
     <article className="job job-active" data-state={job.state}>
       <div className="job-row">

@@ -55,7 +55,6 @@ export const queueText = {
     cancelled: "Cancelled",
   },
   start: "Start",
-  about: (duration: string) => `estimated ${duration}`,
   fromStroke: (number: string) => `from stroke ${number}`,
   atSpeed: (pct: number) => `at ${pct} %`,
   earlier: "Move earlier",

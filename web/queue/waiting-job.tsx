@@ -1,18 +1,17 @@
 import type { RefObject } from "react";
 import { activeJob, mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { plotText, queueText } from "./text.js";
+import { plotText, queueText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { MenuItem, RowMenu } from "../ui/row-menu.js";
 import type { Copies } from "./copies.js";
+import { expectedSOf } from "./queue-time.js";
 import { JobName } from "./job-head.js";
 import "../ui/row-drag.css";
 import { placeAfterMove, useRowDrag } from "../ui/row-drag.js";
 import { Thumb } from "../drawing/thumb.js";
-
-const words = queueText;
 
 interface WaitingJobProps {
   readonly copies: Copies;
@@ -25,7 +24,7 @@ interface WaitingJobProps {
 export const WaitingJob = ({ copies, rowIds, list }: WaitingJobProps) => {
   const isMine = usePageState(mayOperate);
   const [job] = copies;
-  const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
+  const expectedS = expectedSOf(job);
   return (
     <article className="job" data-state={job.state}>
       <div className="job-row">
@@ -66,7 +65,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
     // Backwards, because the first job identifies the row.
     for (const { id } of [...copies].reverse()) await removeJob(id);
   };
-  const drag = useRowDrag(list, job.id, (place) => void moveTo(place));
+  const drag = useRowDrag(list, job.id, index, (place) => void moveTo(place));
   const { name } = job;
   // Of several copies the last is removed, because the first may be about to start.
   const last = copies.at(-1) ?? job;
@@ -120,12 +119,6 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
           aria-label={words.drag(name)}
           title={words.dragHint}
           disabled={isOff}
-          onKeyDown={(event) => {
-            const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
-            if (step === 0) return;
-            event.preventDefault();
-            void moveTo(index + step);
-          }}
           {...drag}
         >
           <Icon name="grip" />

@@ -1,12 +1,11 @@
-import { useId, useState } from "react";
+import { useId } from "react";
 import { frequencyOfRipples, RINGING_SPEEDS } from "../../src/internal.js";
-import { ringingText } from "./ringing-text.js";
+import { ringingText as words } from "./ringing-text.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { NumberBox, useTypedNumber, type NumberLimits } from "../ui/number-box.js";
 import { RipplePicture, type Axis } from "./ripple-picture.js";
 
-const words = ringingText;
 const COUNTED_MM = 10;
 const COUNT: NumberLimits = { unit: "", min: 0, minExcluded: true, max: 100, step: 0.5, digits: 1 };
 const LENGTH: NumberLimits = { unit: "mm", min: 0, minExcluded: true, max: 100, step: 0.1, digits: 2 };
@@ -66,7 +65,7 @@ type ReadingFieldProps = Omit<CountAxisProps, "line">;
 
 const ReadingField = ({ axis, reading, onChange }: ReadingFieldProps) => {
   const id = useId();
-  const [from] = useState(reading.measure === "count" ? 3 : 3.3);
+  const from = reading.measure === "count" ? 3 : 3.3;
   const typed = useTypedNumber(
     reading.value,
     reading.measure === "count" ? COUNT : LENGTH,

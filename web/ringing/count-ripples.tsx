@@ -10,7 +10,7 @@ import {
 } from "../../src/internal.js";
 import { activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { ringingText } from "./ringing-text.js";
+import { ringingText as words } from "./ringing-text.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
@@ -18,10 +18,9 @@ import { CountAxis, frequencyOf, NO_READING, type Reading } from "./count-axis.j
 import { gainsOf } from "./ringing-gain.js";
 import { sheetJob } from "./ringing-job.js";
 import { SheetPicture } from "./sheet-picture.js";
-import { useStoreSprings } from "./use-store-springs.js";
+import { isStored, useStoreSprings } from "./use-store-springs.js";
 import { useSprings } from "../motion/use-springs.js";
 
-const words = ringingText;
 const SHEET_MM = STAIRS_MM + (RINGING_SPEEDS.length - 1) * NEXT_STAIRS_MM;
 const LABELS = RINGING_SPEEDS.map((speed) => words.speedLabel(formatNumber(speed, 0)));
 
@@ -78,13 +77,11 @@ const PlotSheet = () => {
 const StoreButton = ({ springs }: { springs: Springs | null }) => {
   const store = useStoreSprings();
   const known = useSprings();
-  const isStored =
-    springs !== null && known !== null && same(springs.xHz, known.xHz) && same(springs.yHz, known.yHz);
   return (
     <div className="button-row">
       <Button
         kind="primary"
-        disabled={springs === null || isStored}
+        disabled={springs === null || isStored(springs, known)}
         onClick={() => springs && void store(springs)}
       >
         {words.save}
@@ -97,9 +94,6 @@ const StoreButton = ({ springs }: { springs: Springs | null }) => {
     </div>
   );
 };
-
-/** Stored to a tenth of a Hz. */
-const same = (a: number, b: number): boolean => Math.abs(a - b) < 0.051;
 
 const Gains = ({ springs }: { springs: Springs }) => {
   const machine = usePageState(({ settings }) => findMachine(settings));

@@ -3,15 +3,13 @@ import { ringingChecks, type Springs } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import { usePageState, usePageStore, useActions } from "../state/use-store.js";
 import type { PageStore } from "../state/store.js";
-import { ringingText } from "./ringing-text.js";
+import { ringingText as words } from "./ringing-text.js";
 import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
 import { checkJobs, sheetPlace, type SheetJob } from "./ringing-job.js";
 import { SheetPicture } from "./sheet-picture.js";
 import { useSprings } from "../motion/use-springs.js";
-import { useStoreSprings } from "./use-store-springs.js";
-
-const words = ringingText;
+import { isStored, useStoreSprings } from "./use-store-springs.js";
 
 /** The second sheet: the user picks the straightest of six lines. */
 export const PickLine = () => {
@@ -88,12 +86,6 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
     </>
   );
 };
-
-const isStored = (springs: Springs | null, known: Springs | null): boolean =>
-  springs !== null &&
-  known !== null &&
-  Math.abs(springs.xHz - known.xHz) < 0.051 &&
-  Math.abs(springs.yHz - known.yHz) < 0.051;
 
 /** Plots the sheet's jobs one after the other; `at` is the index of the running one. */
 const useSheetPlot = () => {

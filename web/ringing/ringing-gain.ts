@@ -8,7 +8,7 @@ import {
 } from "../../src/index.js";
 import { motionOfQuality, penError, QUALITIES, type Quality, type Springs } from "../../src/internal.js";
 
-export interface Gain {
+interface Gain {
   readonly quality: Quality | "before";
   /** Pen down, without waits. */
   readonly drawS: number;

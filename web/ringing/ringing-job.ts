@@ -27,11 +27,10 @@ const MIN_NEXT_MM = 4;
 /**
  * Where a sheet's figures are on the paper, mm. The first is at the bottom left, each next one `nextMm` up and right.
  */
-export interface SheetPlace {
+interface SheetPlace {
   readonly xMm: number;
   readonly yMm: number;
   readonly nextMm: number;
-  readonly sizeMm: number;
 }
 
 /** Centred in the part of the paper that the machine reaches. Null: not enough room. */
@@ -44,7 +43,7 @@ export const sheetPlace = (settings: PlotSettings, figures: number): SheetPlace 
   if (room < MIN_NEXT_MM) return null;
   const nextMm = Math.min(NEXT_STAIRS_MM, Math.floor(room));
   const sizeMm = STAIRS_MM + (figures - 1) * nextMm;
-  return { xMm: (widthMm - sizeMm) / 2, yMm: (heightMm - sizeMm) / 2, nextMm, sizeMm };
+  return { xMm: (widthMm - sizeMm) / 2, yMm: (heightMm - sizeMm) / 2, nextMm };
 };
 
 /** The first sheet. The distances of its lines are fixed. Null: not enough room. */

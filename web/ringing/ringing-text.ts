@@ -14,7 +14,6 @@ export const ringingText = {
   plot: "Plot the ringing sheet",
   noRoom: (mm: number) => `The sheet needs ${mm} × ${mm} mm. Choose a larger paper first.`,
   plotting: "Plotting…",
-  picture: "The sheet: three lines of steps. Click one to choose its speed.",
   speedLabel: (speed: string) => `${speed} mm/s`,
   countTitle: "Count the ripples",
   countHint:

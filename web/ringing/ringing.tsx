@@ -1,14 +1,13 @@
 import { useState } from "react";
 import { currentPlotter } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
-import { ringingText } from "./ringing-text.js";
+import { ringingText as words } from "./ringing-text.js";
 import { Segments } from "../ui/choice.js";
 import { Sheet } from "../ui/sheet.js";
 import { CountRipples } from "./count-ripples.js";
 import { PickLine } from "./pick-line.js";
 import "./ringing.css";
 
-const words = ringingText;
 type Part = keyof typeof words.partNames;
 
 /** Measures the plotter's swing by two sheets: the user counts ripples on the first and picks a line on the second. */

@@ -17,3 +17,10 @@ export const useStoreSprings = (): ((springs: Springs) => Promise<boolean>) => {
     return (await saveMachine(measured)) !== null;
   };
 };
+
+/** Whether the machine has these springs. They are stored to a tenth of a Hz. */
+export const isStored = (springs: Springs | null, known: Springs | null): boolean =>
+  springs !== null &&
+  known !== null &&
+  Math.abs(springs.xHz - known.xHz) < 0.051 &&
+  Math.abs(springs.yHz - known.yHz) < 0.051;

@@ -76,9 +76,9 @@ const writeJoined = (source: Columns, first: number, last: number, target: Colum
     at * PIECE_FLOATS,
   );
   const s = at * PIECE_SHORTS;
-  target.shorts[s + SPEED_SHORT] = shorts[first * PIECE_SHORTS + SPEED_SHORT]!;
-  target.shorts[s + SPEED_SHORT + 1] = shorts[last * PIECE_SHORTS + SPEED_SHORT + 1]!;
-  target.shorts[s + LAYER_SHORT] = shorts[first * PIECE_SHORTS + LAYER_SHORT]!;
+  target.shorts[s + SPEED_SHORT] = shorts[first * PIECE_SHORTS + SPEED_SHORT];
+  target.shorts[s + SPEED_SHORT + 1] = shorts[last * PIECE_SHORTS + SPEED_SHORT + 1];
+  target.shorts[s + LAYER_SHORT] = shorts[first * PIECE_SHORTS + LAYER_SHORT];
 };
 
 /** Several times faster than Math.hypot, which also handles overflow. */

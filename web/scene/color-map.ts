@@ -7,7 +7,7 @@
  *
  *   share 0  deep indigo (slow, first)  …  magenta  …  orange (fast, last)  share 1
  */
-export type Rgb = readonly [r: number, g: number, b: number];
+type Rgb = readonly [r: number, g: number, b: number];
 
 export const RAMP_SIZE = 256;
 
@@ -18,7 +18,7 @@ const FIRST_HUE_DEG = 268;
 const LAST_HUE_DEG = 425;
 
 /** Converts OKLCH to sRGB 0 … 255, clamped. */
-export const rgbFromOklch = (lightness: number, chroma: number, hueDeg: number): Rgb => {
+const rgbFromOklch = (lightness: number, chroma: number, hueDeg: number): Rgb => {
   const h = (hueDeg * Math.PI) / 180;
   const a = chroma * Math.cos(h);
   const b = chroma * Math.sin(h);
@@ -52,19 +52,16 @@ export const rampBytes = (): Uint8Array => {
   return bytes;
 };
 
-const RAMP: readonly string[] = Array.from({ length: RAMP_SIZE }, (_, i) =>
-  hexFromRgb(rampAt(i / (RAMP_SIZE - 1))),
-);
+export const hexFromRgb = ([r, g, b]: Rgb): string =>
+  `#${((r << 16) | (g << 8) | b).toString(16).padStart(6, "0")}`;
 
-export function hexFromRgb([r, g, b]: Rgb): string {
-  return `#${((r << 16) | (g << 8) | b).toString(16).padStart(6, "0")}`;
-}
+/** "#rrggbb" for a share of the scale, 0 … 1: the nearest of the ramp's RAMP_SIZE colours. */
+export const rampColor = (share: number): string => {
+  const index = Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1));
+  return hexFromRgb(rampAt(index / (RAMP_SIZE - 1)));
+};
 
-/** "#rrggbb" for a share of the scale, 0 … 1. */
-export const rampColor = (share: number): string =>
-  RAMP[Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1))];
-
-export interface LegendStop {
+interface LegendStop {
   readonly mmPerS: number;
   readonly color: string;
 }

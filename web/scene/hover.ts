@@ -43,18 +43,11 @@ export const hoverAt = (
   if (!picked) return null;
   const f = picked.piece * PIECE_FLOATS;
   const floats = new Float32Array(scene.draw.bytes, f * 4, PIECE_FLOATS);
-  const [x0, y0, x1, y1, t0, t1] = floats as unknown as readonly [
-    number,
-    number,
-    number,
-    number,
-    number,
-    number,
-  ];
+  const [x0, y0, x1, y1, t0, t1] = floats;
   // The scene's times are 32-bit floats. Staying slightly inside the piece avoids the waits at its ends.
   const tS = t0 + (t1 - t0) * Math.min(0.999, Math.max(0.001, picked.share));
   const state = stateAt(trajectory, tS);
-  const layer = new Uint16Array(scene.draw.bytes)[picked.piece * PIECE_SHORTS + LAYER_SHORT] ?? 0;
+  const layer = new Uint16Array(scene.draw.bytes)[picked.piece * PIECE_SHORTS + LAYER_SHORT];
   return {
     ...at,
     xMm: x0 + (x1 - x0) * picked.share,

@@ -7,7 +7,7 @@
  * between two samples are missed, so the search looks one cell further than its radius.
  */
 import { nearestShare } from "../../src/internal.js";
-import { PIECE_FLOATS, type Pieces } from "./pieces.js";
+import { boxOfPieces, PIECE_FLOATS, type Pieces } from "./pieces.js";
 
 export interface PickGrid {
   readonly x0: number;
@@ -19,7 +19,7 @@ export interface PickGrid {
   readonly items: Uint32Array;
 }
 
-export interface Picked {
+interface Picked {
   readonly piece: number;
   /** Share of the piece before the nearest point, 0 … 1. */
   readonly share: number;
@@ -31,7 +31,7 @@ const MAX_CELLS = 1_000_000;
 
 export const buildPickGrid = ({ count, bytes }: Pieces): PickGrid => {
   const floats = new Float32Array(bytes);
-  const box = boundsOf(floats, count);
+  const box = count > 0 ? boxOfPieces(floats, 0, count) : { x0: 0, y0: 0, x1: 0, y1: 0 };
   const width = Math.max(1e-3, box.x1 - box.x0);
   const height = Math.max(1e-3, box.y1 - box.y0);
   const wanted = Math.min(MAX_CELLS, Math.max(1, count / PIECES_A_CELL));
@@ -90,21 +90,6 @@ const distanceTo = (floats: Float32Array, piece: number, x: number, y: number): 
   const share = nearestShare(x0, y0, x1, y1, x, y);
   const distanceMm = Math.hypot(x - x0 - share * (x1 - x0), y - y0 - share * (y1 - y0));
   return { piece, share, distanceMm };
-};
-
-const boundsOf = (floats: Float32Array, count: number) => {
-  let x0 = Infinity;
-  let y0 = Infinity;
-  let x1 = -Infinity;
-  let y1 = -Infinity;
-  for (let i = 0; i < count; i++) {
-    const f = i * PIECE_FLOATS;
-    x0 = Math.min(x0, floats[f], floats[f + 2]);
-    x1 = Math.max(x1, floats[f], floats[f + 2]);
-    y0 = Math.min(y0, floats[f + 1], floats[f + 3]);
-    y1 = Math.max(y1, floats[f + 1], floats[f + 3]);
-  }
-  return count > 0 ? { x0, y0, x1, y1 } : { x0: 0, y0: 0, x1: 0, y1: 0 };
 };
 
 type GridShape = Pick<PickGrid, "x0" | "y0" | "cellMm" | "columns" | "rows">;

@@ -2,7 +2,7 @@
  * Finds the pieces that are visible, by boxes around every few hundred pieces, in order. So the cost of a view depends
  * on what is in it.
  */
-import { PIECE_FLOATS, type Pieces } from "./pieces.js";
+import { boxOfPieces, type Pieces } from "./pieces.js";
 import type { Frame } from "./renderer.js";
 
 const PIECES_A_BOX = 512;
@@ -24,21 +24,8 @@ export const boxPieces = ({ count, bytes }: Pieces): PieceBoxes => {
   const piecesABox = Math.max(PIECES_A_BOX, Math.ceil(count / MAX_BOXES));
   const mm = new Float32Array(4 * Math.ceil(count / piecesABox));
   for (let at = 0, from = 0; from < count; at += 4, from += piecesABox) {
-    let x0 = Infinity;
-    let y0 = Infinity;
-    let x1 = -Infinity;
-    let y1 = -Infinity;
-    const end = Math.min(count, from + piecesABox) * PIECE_FLOATS;
-    for (let f = from * PIECE_FLOATS; f < end; f += PIECE_FLOATS) {
-      x0 = Math.min(x0, floats[f], floats[f + 2]);
-      x1 = Math.max(x1, floats[f], floats[f + 2]);
-      y0 = Math.min(y0, floats[f + 1], floats[f + 3]);
-      y1 = Math.max(y1, floats[f + 1], floats[f + 3]);
-    }
-    mm[at] = x0;
-    mm[at + 1] = y0;
-    mm[at + 2] = x1;
-    mm[at + 3] = y1;
+    const { x0, y0, x1, y1 } = boxOfPieces(floats, from, Math.min(count, from + piecesABox));
+    mm.set([x0, y0, x1, y1], at);
   }
   return { piecesABox, mm };
 };

@@ -6,6 +6,9 @@
  *      │    move     │        The knob turns about the centre. x and y are the nw corner before turning, so that
  *   sw └─────────────┘ se     turning changes neither place nor size.
  */
+import type { Box, FourMargins } from "../../src/internal.js";
+import type { Size } from "./view.js";
+
 export interface FrameMm {
   readonly xMm: number;
   readonly yMm: number;
@@ -17,7 +20,7 @@ export interface FrameMm {
 
 export const CORNER_PARTS = ["nw", "ne", "sw", "se"] as const;
 export type CornerPart = (typeof CORNER_PARTS)[number];
-export type FramePart = CornerPart | "move" | "turn";
+type FramePart = CornerPart | "move" | "turn";
 
 interface Point {
   readonly x: number;
@@ -127,7 +130,7 @@ const turnedBy = (frame: FrameMm, from: Point, to: Point): FrameMm => {
 export const wholeTurn = (deg: number): number => deg - 360 * Math.ceil((deg - 180) / 360) + 0;
 
 /** The box around the turned frame. */
-export const boxAround = (frame: FrameMm): { x0: number; y0: number; x1: number; y1: number } => {
+export const boxAround = (frame: FrameMm): Box => {
   const corners = CORNER_PARTS.map((part) => cornerOf(frame, part));
   const xs = corners.map(({ x }) => x);
   const ys = corners.map(({ y }) => y);
@@ -141,7 +144,7 @@ export interface SnapLines {
 }
 
 /** A snapped frame, and the lines that it snapped to. */
-export interface Snapped {
+interface Snapped {
   readonly frame: FrameMm;
   readonly lines: SnapLines;
 }
@@ -198,15 +201,7 @@ const nearestLine = (
 };
 
 /** The paper's edges and centre lines, and the margins. */
-export const snapLinesOf = (
-  paperMm: { readonly width: number; readonly height: number },
-  margins: {
-    readonly topMm: number;
-    readonly rightMm: number;
-    readonly bottomMm: number;
-    readonly leftMm: number;
-  },
-): SnapLines => ({
+export const snapLinesOf = (paperMm: Size, margins: FourMargins): SnapLines => ({
   xs: [0, margins.leftMm, paperMm.width / 2, paperMm.width - margins.rightMm, paperMm.width],
   ys: [0, margins.topMm, paperMm.height / 2, paperMm.height - margins.bottomMm, paperMm.height],
 });

@@ -19,9 +19,8 @@ const MAX_PIECES = 256;
 export interface Scene {
   readonly draw: Pieces;
   readonly travel: Pieces;
-  /** Top speed with the pen down, and with the pen up. */
+  /** Top speed with the pen down. */
   readonly topDrawMmPerS: number;
-  readonly topTravelMmPerS: number;
   readonly totalS: number;
   /** Finds the piece of `draw` under the pointer. */
   readonly grid: PickGrid;
@@ -72,7 +71,6 @@ export const buildScene = (
     draw: drawn,
     travel: { count: counts.travel, bytes: travel.bytes },
     topDrawMmPerS: tops.draw,
-    topTravelMmPerS: tops.travel,
     totalS: trajectory.totalS,
     grid: buildPickGrid(drawn),
   };

@@ -269,9 +269,9 @@ class Brush {
 
   #pick(ramp: Uint8Array, share: number): void {
     const at = 4 * Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1));
-    this.#r = ramp[at]!;
-    this.#g = ramp[at + 1]!;
-    this.#b = ramp[at + 2]!;
+    this.#r = ramp[at];
+    this.#g = ramp[at + 1];
+    this.#b = ramp[at + 2];
   }
 
   #blend(at: number, cover: number): void {

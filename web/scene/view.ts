@@ -18,7 +18,7 @@ const MIN_SCALE = 0.05;
 const MAX_SCALE = 400;
 
 /** Free space around the paper, CSS px; the rulers are at the top and left. */
-export interface Insets {
+interface Insets {
   readonly top: number;
   readonly right: number;
   readonly bottom: number;

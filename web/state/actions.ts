@@ -104,9 +104,7 @@ export const createActions = (deps: ActionDeps) => {
     redo: undo.redo,
     changeView: (change: Partial<ViewSettings>): void =>
       store.setState(({ view }) => ({ view: { ...view, ...change } })),
-    /** Watch shows the running job; `jobId` names an ended job to show instead. */
-    showView: (pageView: PageView, jobId?: string): void =>
-      store.setState(({ watchedId }) => ({ pageView, watchedId: jobId ?? watchedId, isFullScreen: false })),
+    showView: (pageView: PageView): void => store.setState({ pageView, isFullScreen: false }),
     ...createDrawingActions({
       store,
       backend,

@@ -23,7 +23,7 @@ interface JobActionDeps {
 }
 
 export const createJobActions = ({ store, backend, attempt, notify }: JobActionDeps) => {
-  const addToQueue = async (copies = 1, from: JobPlace | null = null): Promise<Job | null> => {
+  const addToQueue = async (copies: number, from: JobPlace | null): Promise<Job | null> => {
     const state = store.getState();
     const { drawing, settings } = state;
     if (!drawing) return null;
@@ -44,7 +44,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
 
   return {
     queueDrawing: async (copies = 1): Promise<void> => {
-      const job = await addToQueue(copies);
+      const job = await addToQueue(copies, null);
       if (job) notify("info", stateText.added(job.name));
     },
     /** With `from`, the plot waits at that place with the pen up until it is resumed. */
@@ -75,10 +75,10 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     },
     patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
     removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
-    movePen: async (up: boolean, heightPct?: number): Promise<void> => {
+    movePen: async (up: boolean, heightPct: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
       if (!id) return notify("error", stateText.notConnected);
-      await attempt("pen", () => backend.movePen(id, heightPct === undefined ? { up } : { up, heightPct }));
+      await attempt("pen", () => backend.movePen(id, { up, heightPct }));
     },
     motorsOff: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;

@@ -3,9 +3,9 @@
  * one of an older version, is replaced by its default. The rest stays.
  */
 import { z } from "zod";
-import { findMachine, LENGTH_UNITS, type LengthUnit } from "../../src/internal.js";
+import { findMachine, LENGTH_UNITS } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
-import { COLOR_MODES, type ColorMode } from "../scene/color-mode.js";
+import { COLOR_MODES } from "../scene/color-mode.js";
 import { plannable } from "./motion-of-machine.js";
 
 export const PAGE_KEY = "plotwright.page.v1";
@@ -13,22 +13,23 @@ export const PAGE_KEY = "plotwright.page.v1";
 export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
 
-export interface ViewSettings {
-  readonly showTravel: boolean;
-  readonly colorBy: ColorMode;
-  readonly showGraph: boolean;
-  readonly theme: Theme;
+const viewSchema = z.object({
+  showTravel: z.boolean(),
+  colorBy: z.enum(COLOR_MODES),
+  showGraph: z.boolean(),
+  theme: z.enum(THEMES),
   /** The unit of lengths in fields and on rulers. */
-  readonly lengthUnit: LengthUnit;
+  lengthUnit: z.enum(LENGTH_UNITS),
   /** Ids of the open groups of settings. */
-  readonly openGroups: readonly string[];
+  openGroups: z.array(z.string().max(50)).max(50),
   /** Address of the camera's picture; empty: no camera. */
-  readonly cameraUrl: string;
+  cameraUrl: z.string().max(2_000),
   /** Seconds between still pictures; 0: a stream. */
-  readonly cameraEveryS: number;
+  cameraEveryS: z.number().min(0).max(3_600),
   /** The user has closed the first-plot guide. */
-  readonly hidesFirstPlot: boolean;
-}
+  hidesFirstPlot: z.boolean(),
+});
+export type ViewSettings = Readonly<z.infer<typeof viewSchema>>;
 
 export const DEFAULT_VIEW: ViewSettings = {
   showTravel: false,
@@ -41,18 +42,6 @@ export const DEFAULT_VIEW: ViewSettings = {
   cameraEveryS: 0,
   hidesFirstPlot: false,
 };
-
-const viewSchema = z.object({
-  showTravel: z.boolean(),
-  colorBy: z.enum(COLOR_MODES),
-  showGraph: z.boolean(),
-  theme: z.enum(THEMES),
-  lengthUnit: z.enum(LENGTH_UNITS),
-  openGroups: z.array(z.string().max(50)).max(50),
-  cameraUrl: z.string().max(2_000),
-  cameraEveryS: z.number().min(0).max(3_600),
-  hidesFirstPlot: z.boolean(),
-}) satisfies z.ZodType<ViewSettings>;
 
 export interface Remembered {
   readonly settings: PlotSettings;

@@ -235,6 +235,9 @@ export const isReady = (state: PageState): boolean =>
 /** States in which a job has the plotter, or waits to get it back. */
 export const ACTIVE_STATES: readonly Job["state"][] = ["plotting", "paused", "interrupted"];
 
+/** The pen that a paused job waits for; null: it does not wait for one. */
+export const penWait = ({ state, wait }: Job): Job["wait"] => (state === "paused" ? wait : null);
+
 /** The current plotter's running or paused job, if any. */
 export const activeJob = (state: PageState): Job | null => {
   const plotterId = currentPlotter(state)?.id;

@@ -1,13 +1,11 @@
 import { useState } from "react";
 import type { AccessEntry, Role } from "../../src/schema/index.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
 import { useAsked, useStudio } from "./use-studio.js";
-
-const words = studioText;
 
 /** Paired browsers, and keys for scripts. Each can be revoked. */
 export const AccessSection = () => {

@@ -1,11 +1,10 @@
 import { useState } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { isCameraUrl } from "./camera-url.js";
 
-const words = studioText;
 const EVERY_S = [0, 1, 2, 5, 10, 30, 60] as const;
 
 /** Settings of the camera's picture, stored in this browser. */

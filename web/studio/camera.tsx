@@ -1,10 +1,8 @@
 import { useEffect, useState } from "react";
 import { usePageState } from "../state/use-store.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { freshUrl, isCameraUrl } from "./camera-url.js";
 import "./studio.css";
-
-const words = studioText;
 
 /** The camera's picture: a stream, or a still picture that is fetched repeatedly. */
 export const Camera = () => {

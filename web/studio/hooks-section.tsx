@@ -1,13 +1,11 @@
 import { useState } from "react";
 import { WEBHOOK_EVENTS, type Webhook, type WebhookEvent } from "../../src/schema/index.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
 import { Secret } from "./access-section.js";
 import { useAsked, useStudio } from "./use-studio.js";
-
-const words = studioText;
 
 /** Addresses that are notified when a plot is done, waits, or has failed. */
 export const HooksSection = () => {

@@ -1,14 +1,12 @@
 import { useState } from "react";
 import { ENDED_STATES, type Plotter } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { TextField } from "../ui/text-field.js";
 import { PortSelect, portChoices } from "./port-select.js";
 import { useAsked, useStudio } from "./use-studio.js";
-
-const words = studioText;
 
 /** The server's plotters: their names and ports, adding and removing them. */
 export const PlottersSection = () => {

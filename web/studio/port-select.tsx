@@ -1,9 +1,7 @@
 import type { Device, Plotter } from "../../src/schema/index.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { Select } from "../ui/choice.js";
 import { useAsked, useStudio } from "./use-studio.js";
-
-const words = studioText;
 
 /** Chooses a plotter's port: automatic, one of the connected boards, or the virtual board. */
 export const PortSelect = ({ plotter }: { plotter: Plotter }) => {

@@ -1,10 +1,7 @@
-import type { Pairing } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { useAsked, useStudio } from "./use-studio.js";
 import { Button } from "../ui/button.js";
-
-const words = studioText;
 
 /** Links and QR codes for pairing another device, to operate or to watch. */
 export const ShareSection = () => {
@@ -19,8 +16,18 @@ export const ShareSection = () => {
         <p className="note">{words.nameOnNetwork(namedOrigin(pairing.operateUrl, localName))}</p>
       )}
       <div className="pairings">
-        <PairingCard title={words.operate} hint={words.operateHint} {...linkOf(pairing, "operate")} />
-        <PairingCard title={words.watch} hint={words.watchHint} {...linkOf(pairing, "watch")} />
+        <PairingCard
+          title={words.operate}
+          hint={words.operateHint}
+          url={pairing.operateUrl}
+          qrSvg={pairing.operateQrSvg}
+        />
+        <PairingCard
+          title={words.watch}
+          hint={words.watchHint}
+          url={pairing.watchUrl}
+          qrSvg={pairing.watchQrSvg}
+        />
       </div>
     </>
   );
@@ -31,11 +38,6 @@ const namedOrigin = (url: string, name: string): string => {
   const { protocol, port } = new URL(url);
   return `${protocol}//${name}${port === "" ? "" : `:${port}`}`;
 };
-
-const linkOf = (pairing: Pairing, role: "operate" | "watch") =>
-  role === "operate"
-    ? { url: pairing.operateUrl, qrSvg: pairing.operateQrSvg }
-    : { url: pairing.watchUrl, qrSvg: pairing.watchQrSvg };
 
 interface PairingCardProps {
   readonly title: string;

@@ -3,7 +3,7 @@ import { MACHINES } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
 import type { Plotter, SharedJob, SharedTarget } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
@@ -11,7 +11,6 @@ import { useNow } from "../ui/use-now.js";
 import { isServerGone, leftOut, machineWanted, possibleAction } from "./shared-jobs.js";
 import { useAsked, useStudio } from "./use-studio.js";
 
-const words = studioText;
 const POLL_MS = 3_000;
 
 /** The shared queue: its jobs, which server took them, and adding the current drawing. */

@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { Sheet } from "../ui/sheet.js";
-import { studioText } from "./text.js";
+import { studioText as words } from "./text.js";
 import { Segments } from "../ui/choice.js";
 import { AccessSection } from "./access-section.js";
 import { CameraSection } from "./camera-section.js";
@@ -10,7 +10,6 @@ import { ShareSection } from "./share-section.js";
 import { SharedSection } from "./shared-section.js";
 import "./studio.css";
 
-const words = studioText;
 const SECTIONS = {
   share: ShareSection,
   access: AccessSection,

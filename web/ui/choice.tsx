@@ -1,10 +1,9 @@
-import { useId, type ReactNode } from "react";
+import { useId } from "react";
 import { useHint } from "./hint.js";
 
-export interface ChoiceOption<T extends string> {
+interface ChoiceOption<T extends string> {
   readonly value: T;
   readonly label: string;
-  readonly icon?: ReactNode;
   /** Can't be chosen now. */
   readonly isOff?: boolean;
 }
@@ -13,15 +12,15 @@ interface ChoiceProps<T extends string> {
   readonly label: string;
   readonly value: T;
   readonly options: readonly ChoiceOption<T>[];
-  readonly isLabelHidden?: boolean;
+  /** Help on demand. */
+  readonly hint?: string;
   onChange(value: T): void;
 }
 
 interface SegmentsProps<T extends string> extends ChoiceProps<T> {
+  readonly isLabelHidden?: boolean;
   /** Puts the label beside the choices; for two short ones. */
   readonly isInline?: boolean;
-  /** Help on demand. */
-  readonly hint?: string;
 }
 
 /** One of a few choices, all visible: a row of radio buttons that looks like one control. */
@@ -35,7 +34,7 @@ export const Segments = <T extends string>({
   onChange,
 }: SegmentsProps<T>) => {
   const name = useId();
-  const help = useHint(label, `${name}-note`, hint !== undefined);
+  const help = useHint(label, `${name}-note`, hint);
   return (
     <div
       role="group"
@@ -57,31 +56,19 @@ export const Segments = <T extends string>({
               disabled={option.isOff}
               onChange={() => onChange(option.value)}
             />
-            <span>
-              {option.icon}
-              {option.label}
-            </span>
+            <span>{option.label}</span>
           </label>
         ))}
       </div>
-      {hint !== undefined && (
-        <p id={`${name}-note`} className="note" hidden={!help.isShown}>
-          {hint}
-        </p>
-      )}
+      {help.note}
     </div>
   );
 };
 
-interface SelectProps<T extends string> extends ChoiceProps<T> {
-  /** Help on demand. */
-  readonly hint?: string;
-}
-
 /** One of many choices: the system's own list. */
-export const Select = <T extends string>({ label, value, options, hint, onChange }: SelectProps<T>) => {
+export const Select = <T extends string>({ label, value, options, hint, onChange }: ChoiceProps<T>) => {
   const id = useId();
-  const help = useHint(label, `${id}-note`, hint !== undefined);
+  const help = useHint(label, `${id}-note`, hint);
   return (
     <div className="field">
       <span className="field-label">
@@ -95,11 +82,7 @@ export const Select = <T extends string>({ label, value, options, hint, onChange
           </option>
         ))}
       </select>
-      {hint !== undefined && (
-        <p id={`${id}-note`} className="note" hidden={!help.isShown}>
-          {hint}
-        </p>
-      )}
+      {help.note}
     </div>
   );
 };

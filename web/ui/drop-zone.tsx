@@ -2,7 +2,7 @@ import { useEffect, useState, type ReactNode } from "react";
 
 interface DropZoneProps {
   readonly hint: string;
-  onFile(file: File): void;
+  onFile(file: File): Promise<void>;
   onText(text: string): void;
   readonly children: ReactNode;
 }
@@ -31,27 +31,23 @@ export const DropZone = ({ hint, onFile, onText, children }: DropZoneProps) => {
       const file = event.dataTransfer?.files[0];
       if (!file) return;
       event.preventDefault();
-      onFile(file);
+      void onFile(file);
     };
     const paste = (event: ClipboardEvent): void => {
       if (event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement) return;
       const file = event.clipboardData?.files[0];
       const text = event.clipboardData?.getData("text/plain") ?? "";
-      if (file) onFile(file);
+      if (file) void onFile(file);
       else if (text !== "") onText(text);
     };
-    document.addEventListener("dragenter", enter);
-    document.addEventListener("dragleave", leave);
-    document.addEventListener("dragover", over);
-    document.addEventListener("drop", drop);
-    document.addEventListener("paste", paste);
-    return () => {
-      document.removeEventListener("dragenter", enter);
-      document.removeEventListener("dragleave", leave);
-      document.removeEventListener("dragover", over);
-      document.removeEventListener("drop", drop);
-      document.removeEventListener("paste", paste);
-    };
+    const stop = new AbortController();
+    const { signal } = stop;
+    document.addEventListener("dragenter", enter, { signal });
+    document.addEventListener("dragleave", leave, { signal });
+    document.addEventListener("dragover", over, { signal });
+    document.addEventListener("drop", drop, { signal });
+    document.addEventListener("paste", paste, { signal });
+    return () => stop.abort();
   }, [onFile, onText]);
   return (
     <>

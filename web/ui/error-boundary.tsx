@@ -1,13 +1,16 @@
 import { Component, type ReactNode } from "react";
-import { Button } from "./button.js";
-import { errorText } from "./text.js";
+
+interface ErrorBoundaryProps {
+  /** Shown instead of the children when rendering them fails. */
+  fallback(message: string): ReactNode;
+  readonly children: ReactNode;
+}
 
 interface State {
   readonly message: string | null;
 }
 
-/** Shows a message instead of an empty window when rendering the page fails. */
-export class ErrorBoundary extends Component<{ readonly children: ReactNode }, State> {
+export class ErrorBoundary extends Component<ErrorBoundaryProps, State> {
   override state: State = { message: null };
 
   static getDerivedStateFromError(error: unknown): State {
@@ -15,16 +18,7 @@ export class ErrorBoundary extends Component<{ readonly children: ReactNode }, S
   }
 
   override render(): ReactNode {
-    if (this.state.message === null) return this.props.children;
-    return (
-      <main className="crash" role="alert">
-        <h1>{errorText.title}</h1>
-        <p>{errorText.unexpected}</p>
-        <p className="note">{this.state.message}</p>
-        <Button kind="primary" onClick={() => location.reload()}>
-          {errorText.reload}
-        </Button>
-      </main>
-    );
+    const { message } = this.state;
+    return message === null ? this.props.children : this.props.fallback(message);
   }
 }

@@ -4,13 +4,14 @@ import { hintText } from "./text.js";
 interface Hint {
   /** The "?" button, to be put beside what it explains. */
   readonly button: ReactNode;
-  readonly isShown: boolean;
+  /** The help, hidden until the button is pressed. */
+  readonly note: ReactNode;
 }
 
-/** Help on demand: a "?" that shows and hides the note with this id. No button without help. */
-export const useHint = (about: string, noteId: string, hasHelp: boolean): Hint => {
+/** Help on demand: a "?" that shows and hides a note with this id. Both are null without help. */
+export const useHint = (about: string, noteId: string, help: string | undefined): Hint => {
   const [isShown, setShown] = useState(false);
-  if (!hasHelp) return { button: null, isShown: false };
+  if (help === undefined) return { button: null, note: null };
   const button = (
     <button
       type="button"
@@ -24,5 +25,10 @@ export const useHint = (about: string, noteId: string, hasHelp: boolean): Hint =
       ?
     </button>
   );
-  return { button, isShown };
+  const note = (
+    <p id={noteId} className="note" hidden={!isShown}>
+      {help}
+    </p>
+  );
+  return { button, note };
 };

@@ -1,5 +1,6 @@
-import { Component, lazy, Suspense, type ComponentType, type ReactNode } from "react";
+import { lazy, Suspense, type ComponentType } from "react";
 import { Button } from "./button.js";
+import { ErrorBoundary } from "./error-boundary.js";
 import { errorText } from "./text.js";
 
 /**
@@ -8,35 +9,23 @@ import { errorText } from "./text.js";
  */
 export const lazyPart = <Props extends object>(
   load: () => Promise<ComponentType<Props>>,
-  fallback: ReactNode = null,
 ): ComponentType<Props> => {
   const Part = lazy(async () => ({ default: await load() })) as unknown as ComponentType<Props>;
   const LazyPart = (props: Props) => (
-    <PartBoundary>
-      <Suspense fallback={fallback}>
+    <ErrorBoundary fallback={() => <PartMissing />}>
+      <Suspense fallback={null}>
         <Part {...props} />
       </Suspense>
-    </PartBoundary>
+    </ErrorBoundary>
   );
   return LazyPart;
 };
 
-class PartBoundary extends Component<{ readonly children: ReactNode }, { readonly hasFailed: boolean }> {
-  override state = { hasFailed: false };
-
-  static getDerivedStateFromError(): { hasFailed: boolean } {
-    return { hasFailed: true };
-  }
-
-  override render(): ReactNode {
-    if (!this.state.hasFailed) return this.props.children;
-    return (
-      <p className="note note-error" role="alert">
-        {errorText.partMissing}{" "}
-        <Button kind="link" onClick={() => location.reload()}>
-          {errorText.reload}
-        </Button>
-      </p>
-    );
-  }
-}
+const PartMissing = () => (
+  <p className="note note-error" role="alert">
+    {errorText.partMissing}{" "}
+    <Button kind="link" onClick={() => location.reload()}>
+      {errorText.reload}
+    </Button>
+  </p>
+);

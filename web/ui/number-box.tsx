@@ -13,7 +13,7 @@ export interface NumberLimits {
   readonly max: number;
   /** Added by an arrow key; ten times as much with Shift. */
   readonly step: number;
-  readonly digits?: number;
+  readonly digits?: number | undefined;
 }
 
 /** In inches, the arrow keys use the step in mm divided by this: 1 mm becomes 0.05 in. */

@@ -6,13 +6,13 @@ interface NumberFieldProps extends NumberLimits {
   readonly label: string;
   readonly value: number;
   /** Help on demand. */
-  readonly hint?: string;
+  readonly hint?: string | undefined;
   /** Range of the slider, if the field has one: the values in everyday use, within min … max. */
-  readonly slider?: readonly [from: number, to: number];
+  readonly slider?: readonly [from: number, to: number] | undefined;
   readonly disabled?: boolean;
   onChange(value: number): void;
   /** Called in addition while the slider is dragged. */
-  onSlide?(value: number): void;
+  readonly onSlide?: ((value: number) => void) | undefined;
 }
 
 /** A number with its unit: typed, stepped by the arrow keys, or dragged. */
@@ -21,8 +21,7 @@ export const NumberField = (props: NumberFieldProps) => {
   const id = useId();
   const typed = useTypedNumber(value, props, onChange);
   const noteId = `${id}-note`;
-  const help = useHint(label, noteId, hint !== undefined);
-  const note = typed.problem ?? hint;
+  const help = useHint(label, noteId, hint);
   return (
     <div className={slider ? "field field-sliding" : "field"}>
       <span className="field-label">
@@ -47,15 +46,18 @@ export const NumberField = (props: NumberFieldProps) => {
           }}
         />
       )}
-      <NumberBox id={id} typed={typed} noteId={note ? noteId : undefined} disabled={disabled} />
-      {note && (
-        <p
-          id={noteId}
-          className={typed.problem ? "note note-error" : "note"}
-          hidden={typed.problem === null && !help.isShown}
-        >
-          {note}
+      <NumberBox
+        id={id}
+        typed={typed}
+        noteId={(typed.problem ?? hint) ? noteId : undefined}
+        disabled={disabled}
+      />
+      {typed.problem ? (
+        <p id={noteId} className="note note-error">
+          {typed.problem}
         </p>
+      ) : (
+        help.note
       )}
     </div>
   );

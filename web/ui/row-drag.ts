@@ -1,5 +1,5 @@
-/** Reordering a list by dragging one row's handle, with mouse, pen or finger. */
-import { useEffect, useRef, type PointerEvent, type RefObject } from "react";
+/** Reordering a list by one row's handle: dragged with mouse, pen or finger, or moved by the arrow keys. */
+import { useEffect, useRef, type KeyboardEvent, type PointerEvent, type RefObject } from "react";
 
 /** The new index of a row dropped at `yPx`, given the centres of the other rows from top to bottom. */
 export const placeOfDrop = (middlesPx: readonly number[], yPx: number): number =>
@@ -26,11 +26,12 @@ interface Drag {
   readonly middlesPx: readonly number[];
 }
 
-/** Handlers for the handle of the row `data-row={id}` of `list`. `onDrop` gets the new index. */
+/** Handlers for the handle of the row `data-row={id}` of `list`, now at `index`. `onMove` gets the new index. */
 export const useRowDrag = (
   list: RefObject<HTMLUListElement | null>,
   id: string,
-  onDrop: (place: number) => void,
+  index: number,
+  onMove: (place: number) => void,
 ) => {
   const drag = useRef<Drag | null>(null);
   const end = (): void => {
@@ -58,9 +59,15 @@ export const useRowDrag = (
     onPointerUp: (event: PointerEvent<HTMLElement>): void => {
       const was = drag.current;
       end();
-      if (was && event.clientY !== was.fromPx) onDrop(placeOfDrop(was.middlesPx, event.clientY));
+      if (was && event.clientY !== was.fromPx) onMove(placeOfDrop(was.middlesPx, event.clientY));
     },
     onPointerCancel: end,
+    onKeyDown: (event: KeyboardEvent): void => {
+      const step = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
+      if (step === 0) return;
+      event.preventDefault();
+      onMove(index + step);
+    },
   };
 };
 

@@ -22,10 +22,10 @@ export const SettingField = ({ setting, max, value, hint, onChange, onSlide }: S
     minExcluded={setting.minExcluded}
     max={max ?? setting.max}
     step={setting.step}
-    {...(setting.digits === undefined ? {} : { digits: setting.digits })}
-    {...(setting.slider === undefined ? {} : { slider: setting.slider })}
-    {...(hint === undefined ? {} : { hint })}
-    {...(onSlide === undefined ? {} : { onSlide })}
+    digits={setting.digits}
+    slider={setting.slider}
+    hint={hint}
+    onSlide={onSlide}
     onChange={(typed) => onChange(setting.isWhole ? Math.round(typed) : typed)}
   />
 );

@@ -1,14 +1,13 @@
 import type { Job } from "../../src/schema/index.js";
 import { NudgeJob } from "../plotter/pen-nudge.js";
-import { jobText } from "../queue/text.js";
-import { activeJob, mayOperate } from "../state/store.js";
+import { jobText as words } from "../queue/text.js";
+import { activeJob, mayOperate, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatCount, formatNumber } from "../ui/format.js";
 import { watchText } from "./text.js";
 
-const words = jobText;
 const STEP_MM = 10;
 const SPEED_PERCENTS: readonly number[] = [25, 50, 75, 90, 100, 110, 125, 150, 200];
 
@@ -17,7 +16,7 @@ export const Adjust = () => {
   const job = usePageState(activeJob);
   const canChange = usePageState((state) => mayOperate(state) && state.link === "connected");
   if (!job || !canChange) return null;
-  const isWaiting = job.state === "paused" && job.wait !== null;
+  const isWaiting = penWait(job) !== null;
   return (
     <section className="card adjust" aria-label={watchText.adjust}>
       <h2 className="card-title">{watchText.adjust}</h2>

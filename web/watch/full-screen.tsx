@@ -1,9 +1,7 @@
 import { useEffect } from "react";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { watchText } from "./text.js";
+import { watchText as words } from "./text.js";
 import { IconButton } from "../ui/button.js";
-
-const words = watchText;
 
 /** For a tablet beside the plotter: shows only the status, the sheet and the camera, and keeps the screen on. */
 export const FullScreenButton = () => {

@@ -3,20 +3,19 @@ import { EndedButtons } from "../queue/ended-buttons.js";
 import { JobButtons } from "../queue/job-buttons.js";
 import { Progress, StateBadge } from "../queue/job-head.js";
 import { PenWait } from "../queue/pen-wait.js";
-import { jobText } from "../queue/text.js";
-import { ACTIVE_STATES } from "../state/store.js";
+import { expectedSOf } from "../queue/queue-time.js";
+import { jobText, queueText } from "../queue/text.js";
+import { ACTIVE_STATES, penWait } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
 import { layerNow } from "./watch-look.js";
-import { watchText } from "./text.js";
-
-const words = watchText;
+import { watchText as words } from "./text.js";
 
 /** The plot's progress, readable from across the room, and its buttons. */
 export const StatusCard = ({ job }: { job: Job }) => {
   const isActive = ACTIVE_STATES.includes(job.state);
-  const wait = job.state === "paused" ? job.wait : null;
+  const wait = penWait(job);
   return (
     <section
       id="plot-status"
@@ -56,10 +55,10 @@ const Figures = ({ job }: { job: Job }) => {
     );
   }
   if (job.state === "queued") {
-    const expectedS = job.expectedS ?? job.stats?.durationS ?? null;
+    const expectedS = expectedSOf(job);
     return (
       <p className="status-figures">
-        {expectedS !== null && <span>{words.estimated(formatDuration(expectedS))}</span>}
+        {expectedS !== null && <span>{queueText.estimated(formatDuration(expectedS))}</span>}
       </p>
     );
   }
@@ -67,7 +66,7 @@ const Figures = ({ job }: { job: Job }) => {
     return (
       <p className="status-figures">
         <span className="status-large">{share}</span>
-        <span>{words.took(formatDuration(job.plottedS ?? job.elapsedS))}</span>
+        <span>{queueText.took(formatDuration(job.plottedS ?? job.elapsedS))}</span>
       </p>
     );
   }
@@ -80,7 +79,7 @@ const Figures = ({ job }: { job: Job }) => {
       )}
       <span className="status-share">{share}</span>
       {job.remainingS !== null && job.state === "plotting" && (
-        <span>{words.doneAt(formatClockIn(nowMs, job.remainingS))}</span>
+        <span>{jobText.doneAt(formatClockIn(nowMs, job.remainingS))}</span>
       )}
     </p>
   );

@@ -36,7 +36,7 @@ export const markerOfJob = (state: PageState, job: Job | null): Marker | null =>
   return xMm === null || yMm === null ? null : { xMm, yMm, penDown: penUp === false && !penMoving };
 };
 
-export interface LayerNow {
+interface LayerNow {
   readonly number: number;
   readonly count: number;
   readonly name: string;

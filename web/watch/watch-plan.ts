@@ -2,21 +2,17 @@
 import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { boardFirmware, type PageState, type PageStore, type WatchPlan } from "../state/store.js";
-import { Planner } from "../worker/planner.js";
+import { openPlanner, type Planner } from "../worker/planner.js";
 import type { Planned } from "../worker/protocol.js";
 
-interface WatchDeps {
-  readonly store: PageStore;
-  readonly backend: Backend;
-}
-
-const planners = new WeakMap<PageStore, Planner>();
+/** Made when the first job is watched. */
+let planner: Planner | null = null;
 
 /** Includes the start time, because a job that is started again may have other settings. */
 const keyOf = ({ id, startedAt }: Job): string => `${id} ${startedAt ?? ""}`;
 
 /** Plans the job, unless it is planned or being planned already. */
-export const planWatched = async ({ store, backend }: WatchDeps, job: Job): Promise<void> => {
+export const planWatched = async (store: PageStore, backend: Backend, job: Job): Promise<void> => {
   const key = keyOf(job);
   const state = store.getState();
   if (state.watchPlan?.key === key) return;
@@ -27,7 +23,8 @@ export const planWatched = async ({ store, backend }: WatchDeps, job: Job): Prom
     const text = await backend.jobDrawing(job.id);
     if (store.getState().watchPlan?.key !== key) return;
     const firmware = boardFirmware({ ...store.getState(), settings: job.settings });
-    plannerOf(store).request({ drawing: { key, text }, settings: job.settings, firmware });
+    planner ??= plannerFor(store);
+    planner.request({ drawing: { key, text }, settings: job.settings, firmware });
   } catch {
     // Tried again when the server is back.
     answer(store, key, null);
@@ -38,34 +35,20 @@ export const planWatched = async ({ store, backend }: WatchDeps, job: Job): Prom
 const planOnPaper = ({ drawing, planned, isPlanning }: PageState, job: Job): Planned | null =>
   drawing?.jobId === job.id && planned?.drawingKey === drawing.key && !isPlanning ? planned : null;
 
-const plannerOf = (store: PageStore): Planner => {
-  const known = planners.get(store);
-  if (known) return known;
-  const made = new Planner(
-    () => new Worker(new URL("../worker/plan.worker.ts", import.meta.url), { type: "module" }),
-    {
-      after: (delayMs, callback) => {
-        const timer = setTimeout(callback, delayMs);
-        return () => clearTimeout(timer);
-      },
+const plannerFor = (store: PageStore): Planner =>
+  openPlanner({
+    onPlanned: (planned) => {
+      const key = planned.drawingKey;
+      answer(store, key, { key, planned, fault: null });
     },
-    {
-      onPlanned: (planned) => {
-        const key = planned.drawingKey;
-        answer(store, key, { key, planned, fault: null });
-      },
-      onFault: (fault) => {
-        const key = store.getState().watchPlan?.key;
-        if (key !== undefined) answer(store, key, { key, planned: null, fault: fault.message });
-      },
-      onImported: () => undefined,
-      onExported: () => undefined,
-      onExportFailed: () => undefined,
+    onFault: (fault) => {
+      const key = store.getState().watchPlan?.key;
+      if (key !== undefined) answer(store, key, { key, planned: null, fault: fault.message });
     },
-  );
-  planners.set(store, made);
-  return made;
-};
+    onImported: () => undefined,
+    onExported: () => undefined,
+    onExportFailed: () => undefined,
+  });
 
 /** Stores the plan, unless another job is watched by now. */
 const answer = (store: PageStore, key: string, watchPlan: WatchPlan | null): void =>

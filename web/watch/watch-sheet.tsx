@@ -8,9 +8,8 @@ import { usePageState } from "../state/use-store.js";
 import { deskOf } from "../preview/desk.js";
 import { lookOfJob, markerOfJob } from "./watch-look.js";
 import { FullScreenButton } from "./full-screen.js";
-import { watchText } from "./text.js";
+import { watchText as words } from "./text.js";
 
-const words = watchText;
 /** Height of the tools under the paper. */
 const BELOW_PX = 52;
 
@@ -46,8 +45,7 @@ const watchedDesk = (state: PageState): Desk => ({
 const showState = (stage: Stage, store: PageStore): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
     const planned = plannedOf(state);
-    if (!before || planned !== plannedOf(before))
-      stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
+    stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
     if (!before || settingsOf(state) !== settingsOf(before)) stage.setDesk(watchedDesk(state));
     if (state.watchPlan !== before?.watchPlan || state.live !== before?.live || state.jobs !== before.jobs) {
       stage.setLook(lookOf(state));

@@ -4,12 +4,10 @@ import { useActions, useBackend, usePageState, usePageStore } from "../state/use
 import { Button } from "../ui/button.js";
 import { Notices } from "../ui/notices.js";
 import { StatusCard } from "./status-card.js";
-import { watchText } from "./text.js";
+import { watchText as words } from "./text.js";
 import { planWatched } from "./watch-plan.js";
 import { WatchSheet } from "./watch-sheet.js";
 import "./watch.css";
-
-const words = watchText;
 
 /** The running plot, or the last one: its progress and its sheet. */
 export const Watch = () => {
@@ -35,7 +33,7 @@ const usePlan = (): void => {
   const isLinked = usePageState((state) => state.link === "connected");
   useEffect(() => {
     const job = watchedJob(store.getState());
-    if (job && isLinked) void planWatched({ store, backend }, job);
+    if (job && isLinked) void planWatched(store, backend, job);
   }, [store, backend, id, startedAt, isLinked]);
 };
 

@@ -1,9 +1,9 @@
 /** The lines that the margins cut off, few enough to be drawn over the paper in every frame. */
-import { cutOffLines } from "../../src/internal.js";
+import { cutOffLines, type Box } from "../../src/internal.js";
 
 export interface CutOffPicture {
   /** Lines outside this box are cut off, mm. */
-  readonly limit: { readonly x0: number; readonly y0: number; readonly x1: number; readonly y1: number };
+  readonly limit: Box;
   /** Lines that are completely outside, and lines that are drawn in part. */
   readonly outsideCount: number;
   readonly partCount: number;

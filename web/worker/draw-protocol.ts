@@ -7,7 +7,6 @@ export type DrawRequest =
   | { readonly type: "show"; readonly id: number; readonly frame: Frame };
 
 export interface DrawReply {
-  readonly type: "picture";
   /** The frame's id. */
   readonly id: number;
   /** False for a coarse picture. The whole one follows, unless another frame is requested. */

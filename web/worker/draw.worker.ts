@@ -13,7 +13,7 @@ const canvas = new OffscreenCanvas(1, 1);
 const ids = new WeakMap<Frame, number>();
 const painter = paintOn(canvas, (frame, isWhole) => {
   const bitmap = canvas.transferToImageBitmap();
-  scope.postMessage({ type: "picture", id: ids.get(frame) ?? 0, isWhole, bitmap }, [bitmap]);
+  scope.postMessage({ id: ids.get(frame) ?? 0, isWhole, bitmap }, [bitmap]);
 });
 
 scope.onmessage = ({ data }) => {

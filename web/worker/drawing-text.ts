@@ -5,7 +5,10 @@ import { encodingOf, textOfBytes } from "../../src/internal.js";
 export type DrawingText = string | ArrayBuffer;
 
 /** Files from this size on stay bytes. Only the worker decodes them. */
-export const LARGE_BYTES = 1_000_000;
+const LARGE_BYTES = 1_000_000;
+
+export const textOf = (drawing: DrawingText): string =>
+  typeof drawing === "string" ? drawing : textOfBytes(new Uint8Array(drawing));
 
 /** Decodes a file, except a large one in UTF-8. */
 export const contentOf = (buffer: ArrayBuffer): DrawingText => {

@@ -1,11 +1,12 @@
 /** The prepared drawing as files. Loaded when the first one is saved, so the compiler is not part of the first load. */
 import { planJob, toSvg, type Prepared } from "../../src/index.js";
 import { machineOf, svgOptionsOf, toJson } from "../../src/internal.js";
-import type { ExportFormat, PlanSettings } from "./protocol.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { ExportFormat } from "./protocol.js";
 
 export const exportText = (
   prepared: Prepared,
-  settings: PlanSettings,
+  settings: PlotSettings,
   format: ExportFormat,
   firmware: string,
 ): string => {

@@ -16,25 +16,23 @@ import {
 import {
   boxOfPoints,
   unreachedCount,
-  textOfBytes,
   machineOf,
   penStopsOf,
   placeDrawing,
-  pointCount,
   prepareSettingsOf,
   strokeCount,
   unusedSettings,
   type Placement,
 } from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
 import { lineGapMm } from "../scene/density.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
-import type { DrawingText } from "./drawing-text.js";
+import { textOf, type DrawingText } from "./drawing-text.js";
 import type {
   ExportRequest,
-  PlanSettings,
   Planned,
   PlannedReply,
   PlanFault,
@@ -60,7 +58,7 @@ let prepared: {
   result: Prepared;
   placement: Placement;
   cutOff: CutOffPicture | null;
-  settings: PlanSettings;
+  settings: PlotSettings;
 } | null = null;
 
 /** The plan that was answered last. */
@@ -91,23 +89,17 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   const { id, drawingKey, settings, firmware } = request;
   let stage: PlanFault["stage"] = "import";
   try {
-    const t0 = performance.now();
     const drawing = await drawingOf(request);
     const { widthMm, heightMm } = drawing;
     scope.postMessage({ type: "imported", id, drawingKey, page: { widthMm, heightMm } }, []);
-    const t1 = performance.now();
     if (await isSuperseded()) return null;
     stage = "plan";
     const { result: ready, placement, cutOff } = preparedOf(drawingKey, drawing, request);
-    const t2 = performance.now();
     if (await isSuperseded()) return null;
     const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
-    const t3 = performance.now();
     if (await isSuperseded()) return null;
     const scene = buildScene(trajectory, ready.strokes.layer, shiftsOf(ready.strokes.layers));
     const stats = trajectoryStats(trajectory);
-    const gapMm = lineGapMm(scene.grid, stats.drawMm);
-    const t4 = performance.now();
     const planned: Planned = {
       drawingKey,
       settings,
@@ -125,18 +117,16 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       cutOff,
       unreachedCount: unreachedCount(ready.strokes, machineOf(settings)),
       strokeCount: strokeCount(ready.strokes),
-      pointCount: pointCount(ready.strokes),
       stats,
       trajectory,
       scene,
-      lineGapMm: gapMm,
+      lineGapMm: lineGapMm(scene.grid, stats.drawMm),
       picture: pictureOf(scene),
-      tookMs: { import: t1 - t0, prepare: t2 - t1, plan: t3 - t2, scene: t4 - t3 },
     };
     answered = { id, strokes: ready.strokes };
     return { type: "planned", id, planned };
   } catch (error) {
-    return { type: "fault", id, fault: faultOf(error, stage) };
+    return { type: "fault", id, fault: { message: messageOf(error), stage } };
   }
 }
 
@@ -152,9 +142,8 @@ async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
 
 /** The readers are loaded when the first file is opened. */
 async function drawingIn(content: DrawingText): Promise<Drawing> {
-  const text = typeof content === "string" ? content : textOfBytes(new Uint8Array(content));
   const { importDrawing } = await import("./formats.js");
-  return importDrawing("", text);
+  return importDrawing("", textOf(content));
 }
 
 function preparedOf(
@@ -201,8 +190,7 @@ async function exportAs({ format, firmware }: ExportRequest): Promise<void> {
     const { exportText } = await import("./exports.js");
     scope.postMessage({ type: "exported", format, text: exportText(result, settings, format, firmware) }, []);
   } catch (error) {
-    const message = error instanceof Error ? error.message : String(error);
-    scope.postMessage({ type: "export-failed", message }, []);
+    scope.postMessage({ type: "export-failed", message: messageOf(error) }, []);
   }
 }
 
@@ -212,11 +200,7 @@ const isSuperseded = async (): Promise<boolean> => {
   return newest !== null;
 };
 
-const faultOf = (error: unknown, stage: PlanFault["stage"]): PlanFault => ({
-  code: error instanceof Error && "code" in error ? String(error.code) : "internal",
-  message: error instanceof Error ? error.message : String(error),
-  stage,
-});
+const messageOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 
 /** The trajectory's columns and the scene's buffers, each once. */
 function transferables({ planned: { trajectory, scene, picture } }: PlannedReply): Transferable[] {

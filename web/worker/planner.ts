@@ -8,15 +8,9 @@
  */
 import type { StrokeSet } from "../../src/index.js";
 import type { PaperSize } from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingText } from "./drawing-text.js";
-import type {
-  ExportFormat,
-  PlanFault,
-  Planned,
-  PlanSettings,
-  WorkerReply,
-  WorkerRequest,
-} from "./protocol.js";
+import type { ExportFormat, PlanFault, Planned, WorkerReply, WorkerRequest } from "./protocol.js";
 import { markMoment } from "./moments.js";
 
 const PATIENCE_MS = 1_500;
@@ -30,11 +24,11 @@ export interface WorkerLike {
   onerror: ((event: ErrorEvent) => void) | null;
 }
 
-export interface PlannerTimer {
+interface PlannerTimer {
   after(delayMs: number, callback: () => void): () => void;
 }
 
-export interface PlannerListener {
+interface PlannerListener {
   /** Called before each plan. */
   onImported(drawingKey: string, page: PaperSize): void;
   onPlanned(planned: Planned): void;
@@ -51,10 +45,23 @@ export interface PlannerDrawing {
 
 export interface PlannerTask {
   readonly drawing: PlannerDrawing;
-  readonly settings: PlanSettings;
+  readonly settings: PlotSettings;
   /** Firmware of the board that will plot it; null: unknown. */
   readonly firmware: string | null;
 }
+
+/** A planner with a worker of this page. */
+export const openPlanner = (listener: PlannerListener): Planner =>
+  new Planner(
+    () => new Worker(new URL("./plan.worker.ts", import.meta.url), { type: "module" }),
+    {
+      after: (delayMs, callback) => {
+        const timer = setTimeout(callback, delayMs);
+        return () => clearTimeout(timer);
+      },
+    },
+    listener,
+  );
 
 export class Planner {
   readonly #start: () => WorkerLike;
@@ -96,8 +103,7 @@ export class Planner {
     if (!this.#isBusy) this.#worker?.postMessage({ type: "strokes", id: this.#newestId });
   }
 
-  /** Terminates the worker. */
-  close(): void {
+  #close(): void {
     this.#stopWaiting?.();
     this.#stopWaiting = null;
     this.#stopReading?.();
@@ -120,9 +126,8 @@ export class Planner {
     this.#sentKey = null;
     worker.onmessage = ({ data }) => this.#take(data);
     worker.onerror = (event) => {
-      this.close();
+      this.#close();
       this.#listener.onFault({
-        code: "internal",
         message:
           event.message || "The planner stopped. The drawing may be too large for this device's memory.",
         stage: "plan",
@@ -152,16 +157,15 @@ export class Planner {
   }
 
   #endReading(): void {
-    this.close();
+    this.#close();
     this.#listener.onFault({
-      code: "bad-file",
       message: "This file takes too long to read. It may be damaged. Simplify it, or export it again.",
       stage: "import",
     });
   }
 
   #restart(): void {
-    this.close();
+    this.#close();
     if (this.#latest) this.#send(this.#latest);
   }
 }

@@ -17,16 +17,13 @@ import type { Scene } from "../scene/scene.js";
 import type { CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 
-/** All settings, because the plan depends on the machine too. */
-export type PlanSettings = PlotSettings;
-
 /** `drawingKey` identifies the text. The worker stores the last drawing, so the text is sent once. */
 export interface PlanRequest {
   readonly type: "plan";
   readonly id: number;
   readonly drawingKey: string;
   readonly text: DrawingText | null;
-  readonly settings: PlanSettings;
+  readonly settings: PlotSettings;
   /** Firmware of the board that will plot it; null: unknown. */
   readonly firmware: string | null;
 }
@@ -54,7 +51,7 @@ export type WorkerRequest = PlanRequest | ExportRequest | StrokesRequest;
 /** The data that the page shows for one drawing with one set of settings. */
 export interface Planned {
   readonly drawingKey: string;
-  readonly settings: PlanSettings;
+  readonly settings: PlotSettings;
   readonly pageWidthMm: number;
   readonly pageHeightMm: number;
   /** Maps the file's page to the paper, both in mm: x′ = a x + c y + e, y′ = b x + d y + f. */
@@ -80,7 +77,6 @@ export interface Planned {
   /** The number of strokes that the machine can't reach, or only in part. */
   readonly unreachedCount: number;
   readonly strokeCount: number;
-  readonly pointCount: number;
   readonly stats: TrajectoryStats;
   readonly trajectory: Trajectory;
   readonly scene: Scene;
@@ -88,24 +84,16 @@ export interface Planned {
   readonly lineGapMm: number;
   /** A copy of the scene's pieces for the drawing worker. The planning worker makes it, to save the page time. */
   readonly picture: Picture;
-  /** The worker's time per stage, ms. */
-  readonly tookMs: {
-    readonly import: number;
-    readonly prepare: number;
-    readonly plan: number;
-    readonly scene: number;
-  };
 }
 
 export interface PlanFault {
-  readonly code: string;
   readonly message: string;
   /** What failed: reading the file, or preparing and planning it. */
   readonly stage: "import" | "plan";
 }
 
 /** The file has been read; `page` is the size of its page. */
-export interface ImportedReply {
+interface ImportedReply {
   readonly type: "imported";
   readonly id: number;
   readonly drawingKey: string;

@@ -1,5 +1,5 @@
 /** The page's backend without a server: a worker of the page, or of another tab, operates the plotter. */
-import { contentOf, type DrawingText } from "../../worker/drawing-text.js";
+import { textOf, type DrawingText } from "../../worker/drawing-text.js";
 import { BackendFault, type Backend, type StudioBackend } from "../backend.js";
 import { whyNoPort } from "./capabilities.js";
 import { HostClient } from "./host-client.js";
@@ -70,9 +70,7 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
 
 const textUpTo = (drawing: DrawingText, maxBytes: number): string | null => {
   const size = typeof drawing === "string" ? drawing.length : drawing.byteLength;
-  if (size > maxBytes) return null;
-  const content = typeof drawing === "string" ? drawing : contentOf(drawing);
-  return typeof content === "string" ? content : new TextDecoder().decode(content);
+  return size > maxBytes ? null : textOf(drawing);
 };
 
 /** Opens the browser's own dialog, which works only in a click handler. */

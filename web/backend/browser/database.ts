@@ -7,7 +7,7 @@
  */
 
 /** One store for each kind of record. Keys are ids. Values are plain JSON, except drawings, which are text or bytes. */
-export const STORES = ["jobs", "plotters", "settings", "journals", "machines", "drawings"] as const;
+const STORES = ["jobs", "plotters", "settings", "journals", "machines", "drawings"] as const;
 export type StoreName = (typeof STORES)[number];
 
 const VERSION = 1;

@@ -7,7 +7,7 @@ import { parseWith } from "../../../host/parse-with.js";
 import { jobApi, type JobApiParts } from "./job-api.js";
 import { plotterApi, type PlotterApiParts } from "./plotter-api.js";
 
-export interface HostParts extends JobApiParts, PlotterApiParts {
+interface HostParts extends JobApiParts, PlotterApiParts {
   readonly notices: Notices;
 }
 

@@ -1,6 +1,5 @@
 /** A page's side of the channel: starts the worker, calls the host, and receives its events. */
-import type { BackendListener } from "../backend.js";
-import { BackendFault } from "../backend.js";
+import { BackendFault, type BackendListener } from "../backend.js";
 import type { HostMethod } from "./host-api.js";
 import { hasLocks, provideRandomIds } from "./capabilities.js";
 import { browserText } from "./text.js";
@@ -67,10 +66,9 @@ export class HostClient {
   }
 
   /** The first event of a host is a snapshot. This asks a host that is already running for another one. */
-  listen(listener: BackendListener): () => void {
+  listen(listener: BackendListener): void {
     this.#listeners.add(listener);
     this.#send({ to: "host", type: "hello", tab: this.tab });
-    return () => this.#listeners.delete(listener);
   }
 
   /** Makes this page's worker the host. Rejects with `busy` while another host is plotting. */

@@ -41,7 +41,7 @@ export interface Host {
   close(): Promise<void>;
 }
 
-export interface HostPage {
+interface HostPage {
   /** Called with every event, in order, after the change that it reports is stored. */
   send(event: ServerEvent): void;
   isPageHidden(): boolean;

@@ -3,10 +3,10 @@
  * waits.
  */
 import { importDrawing } from "../../../src/index.js";
-import { prepareJob, textOfBytes } from "../../../src/internal.js";
+import { prepareJob } from "../../../src/internal.js";
 import { faultOf, type FromWorker, type ToWorker } from "../../../host/planning/messages.js";
 import { answerOf, buffersOf, type ThreadInput } from "../../../host/planning/stages.js";
-import type { DrawingText } from "../../worker/drawing-text.js";
+import { textOf, type DrawingText } from "../../worker/drawing-text.js";
 
 /** The first message. All others are `ToWorker`. */
 export interface PlannerStart extends ThreadInput {
@@ -21,10 +21,9 @@ const scope = globalThis as unknown as {
 scope.onmessage = ({ data }) => {
   const input = data as PlannerStart;
   try {
-    const { drawing } = input;
-    const text = typeof drawing === "string" ? drawing : textOfBytes(new Uint8Array(drawing));
     // Without a file name the format is detected from the content.
-    const { prepared, warnings } = prepareJob(importDrawing("", text), input.settings, input.machine);
+    const drawing = importDrawing("", textOf(input.drawing));
+    const { prepared, warnings } = prepareJob(drawing, input.settings, input.machine);
     scope.onmessage = (event) => {
       const answer = answerOf(prepared, warnings, input, event.data as ToWorker);
       scope.postMessage(answer, answer.type === "planned" ? buffersOf(answer.plot) : []);

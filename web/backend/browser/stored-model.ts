@@ -21,7 +21,7 @@ interface StoredPlotter extends PlotterRow {
 type Changes = Pick<Database, "put" | "remove">;
 
 /** The records read from IndexedDB, by key. */
-export interface StoredRecords {
+interface StoredRecords {
   readonly jobs: ReadonlyMap<string, unknown>;
   readonly plotters: ReadonlyMap<string, unknown>;
   readonly settings: ReadonlyMap<string, unknown>;

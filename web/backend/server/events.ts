@@ -10,10 +10,10 @@ const SLOW_RETRY_MS = 6_000;
 const ASLEEP_MS = 15_000;
 
 /**
- * Returns a function that closes it. The browser does not retry after an HTTP error (from a server that is just
- * starting), so the stream is opened again here. It is also opened again when the network is back.
+ * The browser does not retry after an HTTP error (from a server that is just starting), so the stream is opened again
+ * here. It is also opened again when the network is back or the device wakes up.
  */
-export const openEvents = (path: string, listener: BackendListener): (() => void) => {
+export const openEvents = (path: string, listener: BackendListener): void => {
   let source: EventSource | null = null;
   let failures = 0;
   let retry: ReturnType<typeof setTimeout> | null = null;
@@ -42,32 +42,17 @@ export const openEvents = (path: string, listener: BackendListener): (() => void
       retry ??= setTimeout(open, failures > QUICK_RETRIES ? SLOW_RETRY_MS : RETRY_MS);
     };
   };
-  const stopWatching = watchNetwork(open, () => {
+  let hiddenAtMs: number | null = null;
+  window.addEventListener("online", open);
+  window.addEventListener("offline", () => {
     close();
     listener.onLink(false);
   });
-  open();
-  return () => {
-    stopWatching();
-    close();
-  };
-};
-
-/** Calls `onBack` when the network is back or the device wakes up, and `onGone` when the network is lost. */
-const watchNetwork = (onBack: () => void, onGone: () => void): (() => void) => {
-  let hiddenAtMs: number | null = null;
-  const onVisibility = (): void => {
+  document.addEventListener("visibilitychange", () => {
     if (document.visibilityState === "hidden") hiddenAtMs = Date.now();
-    else if (hiddenAtMs !== null && Date.now() - hiddenAtMs > ASLEEP_MS) onBack();
-  };
-  window.addEventListener("online", onBack);
-  window.addEventListener("offline", onGone);
-  document.addEventListener("visibilitychange", onVisibility);
-  return () => {
-    window.removeEventListener("online", onBack);
-    window.removeEventListener("offline", onGone);
-    document.removeEventListener("visibilitychange", onVisibility);
-  };
+    else if (hiddenAtMs !== null && Date.now() - hiddenAtMs > ASLEEP_MS) open();
+  });
+  open();
 };
 
 /** Null for an unknown event, which a newer server may send. */
