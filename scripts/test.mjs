@@ -17,15 +17,15 @@ const typesOf = (folder) => [nodeModule("typescript", "bin", "tsc"), "-p", `${fo
 
 /** The longest first: it runs beside the build. */
 const CHECKS = [
+  {
+    name: "format",
+    args: [nodeModule("prettier", "bin", "prettier.cjs"), "--check", "--log-level", "warn", "."],
+  },
   { name: "lint", args: [nodeModule("oxlint", "bin", "oxlint"), "--deny-warnings"] },
   // One program with all code, and one without the types of Node and DOM. The build checks server without DOM; the lint
   // rules keep Node out of web.
   { name: "types", args: typesOf("test") },
   { name: "types of src and host", args: typesOf("host") },
-  {
-    name: "format",
-    args: [nodeModule("prettier", "bin", "prettier.cjs"), "--check", "--log-level", "warn", "."],
-  },
   { name: "package (publint)", args: [nodeModule("publint", "src", "cli.js"), "--strict"] },
 ];
 
