@@ -26,7 +26,7 @@ const SPEED_MM_PER_S = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS;
  */
 const SUPPLY_INTERVAL_S = 0.25 + 0.3;
 const WINDOW_S = 0.3;
-const MOST_OVERLAP_MM = SPEED_MM_PER_S * (SUPPLY_INTERVAL_S + WINDOW_S);
+const MAX_OVERLAP_MM = SPEED_MM_PER_S * (SUPPLY_INTERVAL_S + WINDOW_S);
 /** Drawn beside the path before a board with a blocked parser can be stopped. */
 const WINDOW_MM = SPEED_MM_PER_S * (WINDOW_S + 0.15);
 const GAP_MM = 0.05;
@@ -40,7 +40,7 @@ const ROUND_AND_ROUND = strokesOf(
 );
 const STRAIGHT = strokesOf([10, 10, 200, 10], [200, 20, 10, 90]);
 
-interface Broken {
+interface Interrupted {
   readonly world: ManualClock;
   readonly driver: PlotterDriver;
   readonly board: VirtualBoard;
@@ -49,13 +49,13 @@ interface Broken {
   readonly message: string;
 }
 
-/** A plot until it is interrupted by an event at that instant. */
-async function brokenOff(
+/** Plots until `happen` interrupts the plot, `afterS` seconds after its start. */
+async function interrupt(
   firmware: string,
   afterS: number,
   happen: (board: VirtualBoard) => void,
   strokes = FAULT_DRAWING,
-): Promise<Broken> {
+): Promise<Interrupted> {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
@@ -78,13 +78,13 @@ async function brokenOff(
   return { world, driver, board, strokes, journal, message };
 }
 
-/** Until it is planned and has begun. */
+/** Waits until the plot is planned and has begun. */
 async function underWay(world: ManualClock, journal: readonly JournalEntry[]): Promise<void> {
   while (journal.length === 0) await world.advance(0.05);
 }
 
-/** The rest of it, from the journal's place, and what is on the paper then. */
-async function goneOn({ world, driver, board, strokes, journal }: Broken) {
+/** Resumes the plot from the journal's place, and compares the paper with the drawing. */
+async function resumeAndCompare({ world, driver, board, strokes, journal }: Interrupted) {
   const from = journal[journal.length - 1]?.place ?? { stroke: 0, alongMm: 0 };
   const run = await world.run(driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, { from }));
   await world.advance(1);
@@ -98,17 +98,17 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
   it("whose motors lose their supply resumes from the last good reading", { timeout: 60_000 }, async () => {
     const random = seeded(5);
     for (let i = 0; i < COUNT; i++) {
-      const broken = await brokenOff(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
-      expect(broken.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
+      const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
+      expect(plot.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
       // In steps, so that pending promises settle in between.
-      for (let step = 0; step < 40; step++) await broken.world.advance(0.05);
-      expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: false });
-      broken.board.setMotorVolts(9.1);
-      await broken.world.advance(5);
-      expect(broken.driver.state).toMatchObject({ connection: "idle", xMm: null });
-      const { gapMm, overlapMm } = await goneOn(broken);
+      for (let step = 0; step < 40; step++) await plot.world.advance(0.05);
+      expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
+      plot.board.setMotorVolts(9.1);
+      await plot.world.advance(5);
+      expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
+      const { gapMm, overlapMm } = await resumeAndCompare(plot);
       expect(gapMm).toBeLessThan(GAP_MM);
-      expect(overlapMm).toBeLessThan(MOST_OVERLAP_MM);
+      expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
     }
   });
 
@@ -118,13 +118,13 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
     async () => {
       const random = seeded(6);
       for (let i = 0; i < COUNT; i++) {
-        const broken = await brokenOff(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.restart());
-        expect(broken.message).toMatch(/^board-error: The board restarted.*overlap a little/);
-        expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: false });
-        expect(broken.driver.state).toMatchObject({ connection: "idle", xMm: null });
-        const { gapMm, overlapMm } = await goneOn(broken);
+        const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.restart());
+        expect(plot.message).toMatch(/^board-error: The board restarted.*overlap a little/);
+        expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
+        expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
+        const { gapMm, overlapMm } = await resumeAndCompare(plot);
         expect(gapMm).toBeLessThan(GAP_MM);
-        expect(overlapMm).toBeLessThan(MOST_OVERLAP_MM);
+        expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
       }
     },
   );
@@ -136,14 +136,14 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
       const random = seeded(7);
       let refused = 0;
       for (let i = 0; i < 2 * COUNT; i++) {
-        const broken = await brokenOff(firmware, 0.4 + 9 * random(), (one) => one.refuseNext(), STRAIGHT);
+        const plot = await interrupt(firmware, 0.4 + 9 * random(), (one) => one.refuseNext(), STRAIGHT);
         // It may have been a query: those are repeated.
-        if (broken.message === "done") continue;
+        if (plot.message === "done") continue;
         refused++;
-        expect(broken.message).toMatch(/^board-error: The board refused /);
-        expect(broken.board.state()).toMatchObject({ penUp: true, motorsOn: true });
-        expect(broken.driver.state.xMm).not.toBeNull();
-        const { gapMm, overlapMm, awayMm } = await goneOn(broken);
+        expect(plot.message).toMatch(/^board-error: The board refused /);
+        expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: true });
+        expect(plot.driver.state.xMm).not.toBeNull();
+        const { gapMm, overlapMm, awayMm } = await resumeAndCompare(plot);
         expect(gapMm).toBeLessThan(GAP_MM);
         expect(overlapMm).toBeLessThan(GAP_MM);
         expect(awayMm).toBeLessThan(GAP_MM);
@@ -155,9 +155,9 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
   it("with a refused command on a curve leaves nothing out", { timeout: 60_000 }, async () => {
     const random = seeded(8);
     for (let i = 0; i < COUNT; i++) {
-      const broken = await brokenOff(firmware, 0.4 + 6 * random(), (one) => one.refuseNext());
-      if (broken.message === "done") continue;
-      const { gapMm, overlapMm } = await goneOn(broken);
+      const plot = await interrupt(firmware, 0.4 + 6 * random(), (one) => one.refuseNext());
+      if (plot.message === "done") continue;
+      const { gapMm, overlapMm } = await resumeAndCompare(plot);
       expect(gapMm).toBeLessThan(GAP_MM);
       // If the board's parser is free, it is stopped before any command after the refused one.
       expect(overlapMm).toBeLessThan(firmware === "3.0.3" ? GAP_MM : WINDOW_MM);
