@@ -103,6 +103,8 @@ export class Stage {
   }
 
   setLook(look: FrameLook): void {
+    // While another drawing is plotted, the state changes several times a second, and these strokes do not.
+    if (isSame(look, this.#look)) return;
     this.#look = look;
     this.#refresh(true);
   }
@@ -223,6 +225,8 @@ export class Stage {
     style.transform = drawn === this.#view ? "" : transformBetween(drawn, this.#view);
   }
 }
+
+const isSame = (one: FrameLook, other: FrameLook): boolean => JSON.stringify(one) === JSON.stringify(other);
 
 /** The CSS transform that shows a picture drawn for `from` in the view `to`. */
 const transformBetween = (from: View, to: View): string => {
