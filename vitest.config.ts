@@ -48,7 +48,6 @@ const MOSTLY_WAITING = { maxWorkers: 5 };
 
 /** The files that take longest, the slowest first. */
 const SLOWEST = [
-  "test/e2e/without-server-samples.test.ts",
   "test/e2e/accessibility.test.ts",
   "test/e2e/without-server.test.ts",
   "test/e2e/both-backends.test.ts",

@@ -15,7 +15,6 @@ import { ROOT, checkNode, ensureBuild, ensureDependencies, nodeModule } from "./
 
 const typesOf = (folder) => [nodeModule("typescript", "bin", "tsc"), "-p", `${folder}/tsconfig.json`];
 
-/** The longest first: it runs beside the build. */
 const CHECKS = [
   {
     name: "format",
@@ -29,16 +28,12 @@ const CHECKS = [
   { name: "package (publint)", args: [nodeModule("publint", "src", "cli.js"), "--strict"] },
 ];
 
-/** A little below normal, so that the tests that run at the same time respond in time. */
-const CHECKS_PRIORITY = 5;
+/** The lowest, so that the tests that run at the same time respond in time. */
+const CHECKS_PRIORITY = 19;
 const HAS_PSEUDO_TERMINALS = process.platform !== "win32";
 
-/**
- * The projects of vitest.config.ts that may run in parallel with each other and with the checks, and those that run
- * alone after them.
- */
+/** The projects of vitest.config.ts that run at the same time. Each of the others runs by itself. */
 const SHARED_RUN = ["together", "commands", "processes"];
-const UNDISTURBED_RUNS = HAS_PSEUDO_TERMINALS ? [["real-time"], ["load"]] : [];
 
 /**
  * Only the tests in a real browser get a second attempt, which the end of the output shows. Their whole files run again,
@@ -142,16 +137,17 @@ if (process.argv.includes(FULL)) process.env.PLOTWRIGHT_FULL = "1";
 const filters = process.argv.slice(2).filter((argument) => argument !== FULL);
 ensureDependencies();
 await findOrInstallBrowser();
-const checks = filters.length === 0 ? runChecks() : Promise.resolve();
-// Blocks until dist/ is built; the first check runs on another core meanwhile.
 ensureBuild();
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-test-"));
 try {
   await runTests(SHARED_RUN, filters, folder);
+  // The tests in real time mostly wait, so the checks take no time from them.
+  const checks = filters.length === 0 ? runChecks() : Promise.resolve();
+  if (HAS_PSEUDO_TERMINALS) await runTests(["real-time"], filters, folder);
   await checks;
-  for (const projects of UNDISTURBED_RUNS) await runTests(projects, filters, folder);
-  if (!HAS_PSEUDO_TERMINALS) {
+  if (HAS_PSEUDO_TERMINALS) await runTests(["load"], filters, folder);
+  else {
     console.log(
       "Left out on Windows, which has no pseudo-terminals and no signals: POSIX_ONLY in vitest.config.ts",
     );

@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
+import { IS_FULL } from "../support/full-run.js";
 import { plotting } from "../support/live-plot.js";
 import { openTab } from "../support/page-actions.js";
 import { done, storedJob, strokesOf, useSerialPages } from "../support/serial-page.js";
@@ -9,10 +10,11 @@ import { done, storedJob, strokesOf, useSerialPages } from "../support/serial-pa
 /** The samples take 10 to 20 minutes each on a real board. */
 const BOARD_SPEED = 100;
 const SAMPLES = [
-  ["Hello paper", "hello-paper"],
   ["Whirling triangles", "whirling-triangles"],
+  ["Hello paper", "hello-paper"],
   ["Flower meadow", "flower-meadow"],
 ] as const;
+const PLOTTED = IS_FULL ? SAMPLES : SAMPLES.slice(0, 1);
 
 const startPages = useSerialPages();
 
@@ -27,7 +29,7 @@ async function waitWithPen(page: Page): Promise<void> {
 }
 
 describe("the page without a server", () => {
-  it.each(SAMPLES)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
+  it.each(PLOTTED)("plots the sample %s to the step", { timeout: 300_000 }, async (title, file) => {
     const pages = await startPages(BOARD_SPEED);
     const page = await pages.openPage();
     await page.getByRole("button", { name: title }).click();
