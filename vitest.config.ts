@@ -62,6 +62,7 @@ const SLOWEST = [
   "test/server/shared-begin.test.ts",
   "test/serial/hidden-tab.test.ts",
   "test/serial/plot-faults.test.ts",
+  "test/serial/busy-host.test.ts",
   "test/serial/pen-flight-faults.test.ts",
 ];
 
