@@ -159,9 +159,10 @@ export class LeastBending {
       x2 = x1;
       x1 = x;
       const free = RELAXATION * x + carry[i];
-      y[i] = Math.min(high[i], Math.max(low[i], free));
-      carry[i] = free - RELAXATION * y[i];
-      halfway[i] = right[i] + boundWeight[i] * (2 * y[i] - free);
+      const bounded = free < low[i] ? low[i] : free > high[i] ? high[i] : free;
+      y[i] = bounded;
+      carry[i] = free - RELAXATION * bounded;
+      halfway[i] = right[i] + boundWeight[i] * (2 * bounded - free);
     }
   }
 }

@@ -114,9 +114,9 @@ export class SoftLine {
     const left = this.left[i];
     const along = dx * bx + dy * by;
     const rest = left * left - dx * dx - dy * dy;
-    const inwards = along / (2 * s);
-    const room = Math.sqrt(Math.max(0, rest + inwards * inwards)) - inwards;
-    return Math.min((2 * room) / s, half);
+    // 2 room / s, where d·b = along / (2 s).
+    const max = (Math.sqrt(Math.max(0, 4 * s * s * rest + along * along)) - along) / (s * s);
+    return Math.min(max, half);
   }
 
   private unchanged(path: RunPath, limits: RunLimits): RunPath {
