@@ -159,10 +159,13 @@ export class LeastBending {
       x2 = x1;
       x1 = x;
       const free = RELAXATION * x + carry[i];
-      const bounded = free < low[i] ? low[i] : free > high[i] ? high[i] : free;
+      const bounded = clamped(free, low[i], high[i]);
       y[i] = bounded;
       carry[i] = free - RELAXATION * bounded;
       halfway[i] = right[i] + boundWeight[i] * (2 * bounded - free);
     }
   }
 }
+
+export const clamped = (a: number, low: number, high: number): number =>
+  a < low ? low : a > high ? high : a;

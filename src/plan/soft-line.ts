@@ -30,7 +30,7 @@
  * point's s). That amount is subtracted from δ at the point and at its neighbours.
  */
 import { capSegments, type RunLimits } from "./limits.js";
-import { LeastBending } from "./least-bending.js";
+import { clamped, LeastBending } from "./least-bending.js";
 import { RunPath } from "./run-path.js";
 
 /** Max s of a bend that is part of a curve (41°). */
@@ -301,5 +301,3 @@ export class SoftLine {
 function halfPerCosine(s2: number): number {
   return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }
-
-const clamped = (a: number, low: number, high: number): number => Math.min(high, Math.max(low, a));
