@@ -46,8 +46,8 @@ export class BlockColumns {
   private grow(needed: number): void {
     const { segmentsDone, blocksDone } = this;
     const likely = segmentsDone > 0 ? 1.02 * this.segmentsExpected * (blocksDone / segmentsDone) : 4 * needed;
-    // At most 32 times as much, since the first strokes may not be typical.
-    this.resize(Math.min(likely > needed ? likely : 2 * needed, 32 * needed) + 64);
+    // At most 500 times as much, since the first strokes may not be typical.
+    this.resize(Math.min(likely > needed ? likely : 2 * needed, 500 * needed) + 64);
   }
 
   /** Appends one block and advances the clock. */

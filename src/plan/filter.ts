@@ -28,60 +28,60 @@ const SAME_S = 1e-12;
 export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, out: BlockColumns): void {
   const { count } = from;
   addRests(from, end);
-  const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay } = from;
-  const { alongMm } = from;
+  const { durationS, x: px, y: py, vx: pvx, vy: pvy, ax: pax, ay: pay, alongMm } = from;
   const { rate, change } = alongRates(from, count);
-  // Position of each tap in the input: its block, and the seconds since the block's start and until its end.
-  const weight = [1 / widthS, -1 / widthS];
-  const block = [0, count + 1];
-  const since = [0, 0];
-  const left = [durationS[0], widthS];
+  const per = 1 / widthS;
+  // The taps: 1 is not delayed, 0 is delayed by w. For each: its block, and the seconds since the block's start and
+  // until its end.
+  let k1 = 0;
+  let t1 = 0;
+  let left1 = durationS[0];
+  let k0 = count + 1;
+  let t0 = 0;
+  let left0 = widthS;
   let x = px[0];
   let y = py[0];
-  let along = from.alongMm[0];
+  let along = alongMm[0];
   for (;;) {
-    const dt = left[1] < left[0] ? left[1] : left[0];
+    const dt = Math.min(left0, left1);
     if (dt === Infinity) break;
-    let vx = 0;
-    let vy = 0;
-    let ax = 0;
-    let ay = 0;
+    let vx: number;
+    let vy: number;
+    let ax: number;
+    let ay: number;
     let jx = 0;
     let jy = 0;
-    let alongV = 0;
-    let alongA = 0;
-    let alongJ = 0;
-    for (let i = 0; i < 2; i++) {
-      const k = block[i];
-      const t = since[i];
-      const w = weight[i];
-      const ax1 = pax[k];
-      const ay1 = pay[k];
-      const vx1 = pvx[k] + t * ax1;
-      const vy1 = pvy[k] + t * ay1;
-      const alongV1 = rate[k] + t * change[k];
-      // The weights sum to zero, so positions are taken relative to the output's position: this keeps
-      // precision far from the origin.
-      vx += w * (px[k] - x + (t * (pvx[k] + vx1)) / 2);
-      vy += w * (py[k] - y + (t * (pvy[k] + vy1)) / 2);
-      ax += w * vx1;
-      ay += w * vy1;
-      jx += w * ax1;
-      jy += w * ay1;
-      alongV += w * (alongMm[k] - along + (t * (rate[k] + alongV1)) / 2);
-      alongA += w * alongV1;
-      alongJ += w * change[k];
-    }
-    if (block[0] === block[1]) {
+    if (k0 === k1) {
       // Both taps are in one block, where the mean is known exactly. Differences would add up rounding errors.
-      const k = block[0];
-      const t = since[0] - widthS / 2;
-      ax = pax[k]!;
-      ay = pay[k]!;
-      vx = pvx[k] + t * ax;
-      vy = pvy[k] + t * ay;
-      jx = jy = 0;
+      const t = t1 - widthS / 2;
+      ax = pax[k1]!;
+      ay = pay[k1]!;
+      vx = pvx[k1] + t * ax;
+      vy = pvy[k1] + t * ay;
+    } else {
+      const vx1 = pvx[k1] + t1 * pax[k1];
+      const vy1 = pvy[k1] + t1 * pay[k1];
+      const vx0 = pvx[k0] + t0 * pax[k0];
+      const vy0 = pvy[k0] + t0 * pay[k0];
+      // Positions are taken relative to the output's position: this keeps precision far from the origin.
+      const x1 = px[k1] - x + (t1 * (pvx[k1] + vx1)) / 2;
+      const y1 = py[k1] - y + (t1 * (pvy[k1] + vy1)) / 2;
+      const x0 = px[k0] - x + (t0 * (pvx[k0] + vx0)) / 2;
+      const y0 = py[k0] - y + (t0 * (pvy[k0] + vy0)) / 2;
+      vx = per * x1 - per * x0;
+      vy = per * y1 - per * y0;
+      ax = per * vx1 - per * vx0;
+      ay = per * vy1 - per * vy0;
+      jx = per * pax[k1] - per * pax[k0];
+      jy = per * pay[k1] - per * pay[k0];
     }
+    const rate1 = rate[k1] + t1 * change[k1];
+    const rate0 = rate[k0] + t0 * change[k0];
+    const along1 = alongMm[k1] - along + (t1 * (rate[k1] + rate1)) / 2;
+    const along0 = alongMm[k0] - along + (t0 * (rate[k0] + rate0)) / 2;
+    const alongV = per * along1 - per * along0;
+    const alongA = per * rate1 - per * rate0;
+    const alongJ = per * change[k1] - per * change[k0];
     if (dt > 2 * SAME_S) {
       out.push(dt, x, y, vx, vy, ax, ay, along);
       out.setJerk(jx, jy);
@@ -89,14 +89,20 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
     x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
     y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
     along += dt * (alongV + dt * (alongA / 2 + (dt * alongJ) / 6));
-    for (let i = 0; i < 2; i++) {
-      since[i] += dt;
-      left[i] -= dt;
-      if (left[i] > SAME_S) continue;
+    t1 += dt;
+    left1 -= dt;
+    if (left1 <= SAME_S) {
+      k1++;
+      t1 = 0;
+      left1 = durationS[k1]!;
+    }
+    t0 += dt;
+    left0 -= dt;
+    if (left0 <= SAME_S) {
       // Block 0 follows the rest before the start.
-      block[i] = block[i] > count ? 0 : block[i] + 1;
-      since[i] = 0;
-      left[i] = durationS[block[i]]!;
+      k0 = k0 > count ? 0 : k0 + 1;
+      t0 = 0;
+      left0 = durationS[k0]!;
     }
   }
 }
