@@ -50,7 +50,7 @@ export class BlockColumns {
     this.resize(Math.min(likely > needed ? likely : 2 * needed, 500 * needed) + 64);
   }
 
-  /** Appends one block and advances the clock. */
+  /** Appends one block and advances the clock. Without jerk columns the jerk is ignored. */
   push(
     durationS: number,
     x: number,
@@ -60,6 +60,8 @@ export class BlockColumns {
     ax: number,
     ay: number,
     alongMm: number,
+    jx = 0,
+    jy = 0,
   ): void {
     if (this.count === this.durationS.length) this.grow(this.count + 1);
     const k = this.count++;
@@ -73,7 +75,8 @@ export class BlockColumns {
     this.alongMm[k] = alongMm;
     this.startS[k] = this.clockS;
     this.clockS += durationS;
-    if (this.jx !== null && this.jy !== null) this.jx[k] = this.jy[k] = 0;
+    if (this.jx !== null) this.jx[k] = jx;
+    if (this.jy !== null) this.jy[k] = jy;
   }
 
   /** The blocks as a trajectory has them. The arrays are the same, not copies. */
@@ -86,13 +89,6 @@ export class BlockColumns {
   pushFrom(from: BlockColumns, i: number): void {
     const { durationS, x, y, vx, vy, ax, ay, alongMm } = from;
     this.push(durationS[i], x[i], y[i], vx[i], vy[i], ax[i], ay[i], alongMm[i]);
-  }
-
-  /** Sets the jerk of the last block; ignored without jerk columns. */
-  setJerk(jx: number, jy: number): void {
-    if (this.jx === null || this.jy === null) return;
-    this.jx[this.count - 1] = jx;
-    this.jy[this.count - 1] = jy;
   }
 
   /** Moves the blocks from `first` on in time. */

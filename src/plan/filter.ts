@@ -82,10 +82,7 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
     const alongV = per * along1 - per * along0;
     const alongA = per * rate1 - per * rate0;
     const alongJ = per * change[k1] - per * change[k0];
-    if (dt > 2 * SAME_S) {
-      out.push(dt, x, y, vx, vy, ax, ay, along);
-      out.setJerk(jx, jy);
-    }
+    if (dt > 2 * SAME_S) out.push(dt, x, y, vx, vy, ax, ay, along, jx, jy);
     x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
     y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
     along += dt * (alongV + dt * (alongA / 2 + (dt * alongJ) / 6));
