@@ -2,7 +2,7 @@
  * `npm test`: all checks and tests, also in a fresh clone. Ends with "N passed, N failed".
  *
  *   npm test                       types, lint, format, package, and every test, in real Chromium too: some minutes
- *   npm run test:full              the same with all cases, firmware, kills, faults and page states: over an hour
+ *   npm run test:full              the same with all cases, firmware, kills, faults and page states: about an hour
  *   npm test -- test/unit/plan     only these tests
  */
 import { spawn } from "node:child_process";
