@@ -7,6 +7,7 @@ import {
   type PlotterSettings,
 } from "../../src/schema/index.js";
 import { BackendFault, type Backend } from "../../web/backend/backend.js";
+import { addPen } from "../../web/layers/layer-settings.js";
 import { createActions } from "../../web/state/actions.js";
 import { noteTakenOver, readKeptHere } from "../../web/state/kept-here.js";
 import { DEFAULT_VIEW, type TextStore } from "../../web/state/persist.js";
@@ -116,6 +117,18 @@ describe("two pages of one plotter", () => {
       ["Fineliner"],
       "axidraw-se-a3",
     ]);
+  });
+
+  it("change nothing when the server has stored a new pen", async () => {
+    const plotters = new Plotters();
+    const { actions, store } = plotters.open();
+    actions.changeSettings("pens", (settings) => addPen(settings, { name: "Red" }));
+    const { settings, undoStack } = store.getState();
+    await settle();
+    expect(plotters.putCount).toBe(1);
+    // Another object would be planned again.
+    expect(store.getState().settings).toBe(settings);
+    expect(store.getState().undoStack).toEqual(undoStack);
   });
 
   it("undo on each of them what was changed on either", async () => {

@@ -125,7 +125,15 @@ const partOf = ({ settings, presets }: Shown): PlotterSettings => ({
   presets: [...presets],
 });
 
-const isSame = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
+/** Equal as JSON. The order of keys does not count, because the server's answer may have another one. */
+const isSame = (a: unknown, b: unknown): boolean => sortedJson(a) === sortedJson(b);
+
+const sortedJson = (value: unknown): string =>
+  JSON.stringify(value, (_key, part: unknown) =>
+    typeof part === "object" && part !== null && !Array.isArray(part)
+      ? Object.fromEntries(Object.entries(part).sort(([one], [other]) => (one < other ? -1 : 1)))
+      : part,
+  );
 
 const profileOf = ({ machines }: PageState, id: string | null): MachineProfile | null =>
   [...MACHINES, ...machines].find((machine) => machine.id === id) ?? null;
