@@ -134,7 +134,7 @@ export class JobQueue {
     const wanted = settings ?? job.settings;
     const firmware = this.#firmwareOf(plotterId ?? job.plotterId, wanted);
     const before = this.#firmwareOf(job.plotterId, wanted);
-    if (settings === undefined && isPlannedAlike(machineOf(wanted), firmware, before)) return {};
+    if (settings === undefined && isPlannedAlike(machineOf(wanted), wanted.pen, firmware, before)) return {};
     const drawing = this.#parts.store.drawingOf(id);
     const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, requester);
     this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");

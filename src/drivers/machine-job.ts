@@ -79,8 +79,8 @@ export interface DriverPlanOptions {
 export interface FirmwareRules {
   /** Whether a version reported by a machine belongs to this controller. */
   isOwn(firmware: string): boolean;
-  /** Whether plans for this version are slower than the settings ask for; null: the version is unknown. */
-  limitsMotion(firmware: string | null): boolean;
+  /** Whether a plan with these pen settings for one version is also right for the other; null: the version is unknown. */
+  isPlannedAlike(pen: PenSettings, a: string | null, b: string | null): boolean;
 }
 
 /** Makes a job from strokes, and from settings with the codes of the layer names applied. */

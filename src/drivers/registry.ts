@@ -6,6 +6,7 @@
 import { PlotwrightError } from "../errors.js";
 import { checkController, checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
+import type { PenSettings } from "../settings/pen.js";
 import type { ControllerDescription, Driver, UsbId } from "./driver.js";
 import * as ebb from "./ebb/controller.js";
 import * as grbl from "./grbl/controller.js";
@@ -41,10 +42,15 @@ export function firmwareFor(machine: MachineProfile, firmware: string | null): s
   return firmware !== null && controllerOf(machine).firmware.isOwn(firmware) ? firmware : null;
 }
 
-/** Whether a plan for one version is also right for the other. */
-export function isPlannedAlike(machine: MachineProfile, a: string | null, b: string | null): boolean {
-  const { limitsMotion } = controllerOf(machine).firmware;
-  return limitsMotion(firmwareFor(machine, a)) === limitsMotion(firmwareFor(machine, b));
+/** Whether a plan with these pen settings for one version is also right for the other. */
+export function isPlannedAlike(
+  machine: MachineProfile,
+  pen: PenSettings,
+  a: string | null,
+  b: string | null,
+): boolean {
+  const { firmware } = controllerOf(machine);
+  return firmware.isPlannedAlike(pen, firmwareFor(machine, a), firmwareFor(machine, b));
 }
 
 function ofKind<T>(table: ByKind<T>, { name, controller }: MachineProfile): T {

@@ -17,6 +17,10 @@
  * and the same rules are safe for both.
  *
  * With "safe" the tip counts as clear at the hop height, with "fast" already at the contact height.
+ *
+ * So with "fast" the drop begins up to `landingMm` before the stroke. A machine that loses its connection may then lack
+ * the end of the travel, and would put the pen down there. For such a machine (`dropsAtStroke`) "fast" lifts the pen as
+ * above, but begins the drop only within `NEAR_MM`.
  */
 import type { PenSettings } from "../settings/pen.js";
 import { liftTiming, penOfLayer } from "./pen-times.js";
@@ -43,6 +47,8 @@ export interface Approach {
   readonly endS: number;
   /** The travel's acceleration limit, mm/s². */
   readonly accel: number;
+  /** The drop begins only within `NEAR_MM` of the stroke. */
+  readonly dropsAtStroke: boolean;
 }
 
 export interface Lowering {
@@ -77,18 +83,18 @@ export function hopLift(pen: PenSettings): Lift {
 export function lowerDuring(
   pen: PenSettings,
   { heightPct, liftS }: { readonly heightPct: number; readonly liftS: number },
-  { startS, endS, accel }: Approach,
+  { startS, endS, accel, dropsAtStroke }: Approach,
 ): Lowering {
   const nearS = endS - nearTime(accel);
   const up = liftRate(pen);
   const down = dropRate(pen);
-  const clearPct = clearHeight(pen);
   const hopPct = hopHeight(pen);
+  const clearPct = dropsAtStroke ? hopPct : clearHeight(pen);
   const topPct = Math.min(heightPct, hopPct);
   const firstFrameS = liftS + FRAME_S;
   let fromPct = topPct;
   let dropS = nearS - Math.max(0, topPct - clearPct) / down;
-  if (dropS < firstFrameS + (topPct - pen.downPct) / up) {
+  if (clearPct < hopPct && dropS < firstFrameS + (topPct - pen.downPct) / up) {
     // The pen turns back before it reaches the top: t + (down + up rate (t − first frame) − clear) / down rate = near.
     dropS = (down * nearS + clearPct - pen.downPct + up * firstFrameS) / (down + up);
     fromPct = Math.max(clearPct, pen.downPct + up * (dropS - firstFrameS));
@@ -104,7 +110,10 @@ export function lowerDuring(
   return { hoverS, dropS, downS: endS + waitS };
 }
 
-/** Max distance of the carriage from the stroke when the drop begins, mm; 0 if the carriage waits for the whole drop. */
+/**
+ * Max distance of the carriage from the stroke when the drop begins, mm; 0 if the carriage waits for the whole drop. With
+ * `dropsAtStroke` it is less.
+ */
 export function landingMm(pen: PenSettings, accel: number): number {
   const layers = Object.keys(pen.layers ?? {}).map((id) => penOfLayer(pen, id));
   return Math.max(...[pen, ...layers].map((one) => (dropsInFlight(one) ? landingOf(one, accel) : 0)));

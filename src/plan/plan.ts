@@ -61,6 +61,13 @@ export interface PlanOptions {
    * @internal
    */
   readonly runs?: WritesRuns | undefined;
+  /**
+   * Lower the pen only at the stroke, also with "fast" (pen-flight.ts): for a machine that may lose the end of a travel
+   * with its connection. Default false.
+   *
+   * @internal
+   */
+  readonly dropsAtStroke?: boolean | undefined;
   /** Checked before every stroke. An AbortSignal fits. */
   readonly cancel?: { readonly aborted: boolean } | undefined;
 }
@@ -80,8 +87,8 @@ export function plan(
   checkStrokes("plan", strokes);
   checkSettings(motion, pen, options.machine);
   const from = checkPlace(options.from, strokeCount(strokes));
-  const { machine, runs, startX = 0, startY = 0, penBesideMm = 0 } = options;
-  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, runs);
+  const { machine, startX = 0, startY = 0, penBesideMm = 0 } = options;
+  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, options);
   if (options.liftFirst ?? false) builder.liftFirst();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
@@ -141,6 +148,7 @@ class PlanBuilder {
    * Wait before a layer's first stroke, s. If a layer was split (`partOf`), only its first part has one.
    */
   private readonly waitsS: readonly number[];
+  private readonly dropsAtStroke: boolean;
   /** The pen settings of the current or last stroke. */
   private pen: PenSettings;
   private penUp = true;
@@ -156,13 +164,14 @@ class PlanBuilder {
     machine: MachineProfile | undefined,
     private x: number,
     private y: number,
-    runs?: WritesRuns,
+    { runs, dropsAtStroke = false }: Pick<PlanOptions, "runs" | "dropsAtStroke"> = {},
   ) {
     if (!(Math.abs(x) + Math.abs(y) < Infinity)) {
       throw new RangeError(`the start is (${x}, ${y}): it must be finite, in mm`);
     }
     this.pen = pen;
     this.heightPct = pen.upPct;
+    this.dropsAtStroke = dropsAtStroke;
     this.pens = strokes.layers.map((layer) => penOfLayer(pen, settingsIdOf(layer)));
     this.drawLimits = strokes.layers.map((layer) =>
       runLimits(drawLimitsOf(motion, settingsIdOf(layer)), motion, machine),
@@ -251,14 +260,14 @@ class PlanBuilder {
   /** @param travelS start of the travel that has just ended; null if the carriage has waited since */
   private drop(travelS: number | null): void {
     if (!this.penUp) return;
-    const { blocks, pen, heightPct, liftS } = this;
+    const { blocks, pen, heightPct, liftS, dropsAtStroke } = this;
     const endS = blocks.clockS;
     if (travelS === null || travelS === endS || liftS === null || !dropsInFlight(pen)) {
       const { waitS } = dropTiming(pen, heightPct);
       this.movePen(false, { heightPct: pen.downPct, waitS, moveS: waitS });
       return;
     }
-    const travel = { startS: travelS, endS, accel: this.motion.travel.accelMmPerS2 };
+    const travel = { startS: travelS, endS, accel: this.motion.travel.accelMmPerS2, dropsAtStroke };
     const { hoverS, dropS, downS } = lowerDuring(pen, { heightPct, liftS }, travel);
     if (hoverS !== null) this.movePen(true, hopLift(pen), hoverS);
     const { waitS: moveS } = dropTiming(pen, this.heightPct);

@@ -7,7 +7,7 @@ import { once } from "node:events";
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/types.js";
-import { machineById, plan } from "../../src/index.js";
+import { machineById, planJob } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";
 import { childScript } from "../support/child-script.js";
 import { untilIdle, untilUnderWay, waitS } from "../support/faulty-plots.js";
@@ -118,8 +118,9 @@ describe.concurrent("a pen in flight", () => {
       const max = { gapMm: 0, overlapMm: 0, besideMm: 0 };
       for (let i = 0; i < COUNT; i++) {
         const one = caseOf(firstCase + i);
-        const { motion, pen } = penSettings(one.overlap);
-        const afterS = instant(plan(HOPS, motion, pen, { machine: machineById("axidraw-v3") }), random);
+        const { overlap, firmware } = one;
+        const job = planJob({ strokes: HOPS }, penSettings(overlap), machineById("axidraw-v3"), { firmware });
+        const afterS = instant(job.trajectory, random);
         const { gapMm, overlapMm, awayMm } = await resumed(interrupt, one, Math.max(0.3, afterS));
         const besideMm = awayMm / BESIDE_MM[one.overlap];
         if (gapMm > UNSEEN_MM || overlapMm > UNSEEN_MM || besideMm > 1) {

@@ -3,6 +3,7 @@
  * from the planner's assumptions.
  */
 import { describe, expect, it } from "vitest";
+import { asciiBytes } from "../../src/drivers/line-splitter.js";
 import type { PenOverlap } from "../../src/internal.js";
 import {
   flyingPlot,
@@ -76,6 +77,26 @@ describe.each(TRIED)("a pen in flight, %s, on firmware %s", (overlap, firmware, 
       expect(max.awayMm).toBeLessThan(BESIDE_MM[overlap] + UNSEEN_MM / 2);
     },
   );
+});
+
+describe.each(CASES)("an unplugged cable during %s on firmware %s", (overlap, firmware, servos) => {
+  it("leaves no mark beside a stroke, at any instant", { timeout: 600_000 }, async () => {
+    const away: [unpluggedS: number, awayMm: number][] = [];
+    for (let afterS = 1; afterS < 5; afterS += IS_FULL ? 0.01 : 0.05) {
+      const world = new ManualClock();
+      const { board, run } = await flyingPlot(world, overlap, firmware, servos[away.length % servos.length]);
+      run.finished.catch(() => undefined);
+      await world.advance(afterS);
+      board.unplug();
+      // It performs what it has read. Then the pen is lifted, so that the board records where it was down.
+      await world.advance(1);
+      board.receive(asciiBytes("SP,1,0\r"));
+      await world.advance(1);
+      away.push([afterS, marksOn(board.drawn()).awayMm]);
+    }
+    expect(away.length).toBeGreaterThan(75);
+    expect(away.filter(([, awayMm]) => awayMm > BESIDE_MM[overlap])).toEqual([]);
+  });
 });
 
 it("lifts the pen with the emergency stop itself, before anything is asked of the board", async () => {

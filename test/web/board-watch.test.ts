@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import type { PenOverlap } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { replanForBoard } from "../../web/plotter/board-watch.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
@@ -26,5 +27,19 @@ describe("the plan on the page", () => {
     expect(counted({ plotterId: "new" })).toBe(1);
     stop();
     expect(counted({ plotterId: "old" })).toBe(0);
+  });
+
+  it("is computed again for a board that lowers the pen differently, if that is set to fast", () => {
+    const replans = (overlap: PenOverlap): number => {
+      const pen = { ...DEFAULT_PLOT_SETTINGS.pen, overlap };
+      const store = createPageStore({ settings: { ...DEFAULT_PLOT_SETTINGS, pen }, view: DEFAULT_VIEW });
+      store.setState({ plotters: [makePlotter("one", { firmware: "2.8.1" })], plotterId: "one" });
+      let count = 0;
+      const stop = replanForBoard(store, () => count++);
+      store.setState({ plotters: [makePlotter("one", { firmware: "3.0.3" })] });
+      stop();
+      return count;
+    };
+    expect([replans("safe"), replans("fast")]).toEqual([0, 1]);
   });
 });

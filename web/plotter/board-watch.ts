@@ -7,5 +7,6 @@ export const replanForBoard = (store: PageStore, replan: () => void): (() => voi
   store.subscribe((state, before) => {
     if (state.plotters === before.plotters && state.plotterId === before.plotterId) return;
     const machine = findMachine(state.settings);
-    if (machine && !isPlannedAlike(machine, boardFirmware(state), boardFirmware(before))) replan();
+    const { pen } = state.settings;
+    if (machine && !isPlannedAlike(machine, pen, boardFirmware(state), boardFirmware(before))) replan();
   });

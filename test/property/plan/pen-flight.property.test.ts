@@ -41,13 +41,21 @@ interface Job {
   readonly pen: PenSettings;
   readonly motion?: MotionSettings;
   readonly firmware?: string;
+  readonly dropsAtStroke?: boolean;
   readonly machine?: MachineProfile;
 }
 
 /** Plans and compiles a job. The result answers what the tip of a servo draws. */
 function planned(job: Job): (servo: TipServo) => TipMarks {
-  const { strokes, pen, motion = DEFAULT_MOTION, firmware = "3.0.3", machine = unmeasured } = job;
-  const trajectory = plan(strokes, motionForFirmware(motion, firmware), pen, { machine });
+  const {
+    strokes,
+    pen,
+    motion = DEFAULT_MOTION,
+    firmware = "3.0.3",
+    machine = unmeasured,
+    dropsAtStroke,
+  } = job;
+  const trajectory = plan(strokes, motionForFirmware(motion, firmware), pen, { machine, dropsAtStroke });
   const stream = compile(trajectory, { machine, firmware, pen });
   return (servo) => tipMarks(trajectory, stream, machine, pen, servo);
 }
@@ -114,6 +122,7 @@ const arbitraryJob = (overlap: PenOverlap): fc.Arbitrary<Job> =>
         travel: { ...DEFAULT_MOTION.travel, accelMmPerS2: accel },
       })),
     firmware: fc.constantFrom(...FIRMWARES),
+    dropsAtStroke: fc.boolean(),
   });
 
 /** The motion is shaped for a machine that swings. */

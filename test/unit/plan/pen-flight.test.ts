@@ -5,6 +5,7 @@ import {
   plan,
   stateAt,
   type PenSettings,
+  type PlanOptions,
   type Trajectory,
 } from "../../../src/index.js";
 import { comeToRest } from "../../../src/plan/come-to-rest.js";
@@ -18,12 +19,24 @@ const FAST: PenSettings = { ...DEFAULT_PEN, overlap: "fast" };
 const SAFE: PenSettings = { ...DEFAULT_PEN, overlap: "safe" };
 
 /** Three strokes, with a short travel, then a long one, between them; then the travel home. */
-const planned = (pen: PenSettings): Trajectory =>
+const planned = (pen: PenSettings, options?: PlanOptions): Trajectory =>
   plan(
     strokeSetOf([[[0, 0], [5, 0]], [[5, 6], [0, 6]], [[100, 100], [90, 90]]]), // prettier-ignore
     DEFAULT_MOTION,
     pen,
+    options,
   );
+
+/** Distance of the carriage from the stroke at the beginning of each drop in flight, mm. */
+const dropsMm = (t: Trajectory): number[] =>
+  penMovesOf(t)
+    .filter(({ up }) => !up)
+    .slice(1)
+    .map(({ startS, beforeRun }) => {
+      const block = t.runs.firstBlock[beforeRun];
+      const { x, y } = stateAt(t, startS);
+      return Math.hypot(x - t.x[block], y - t.y[block]);
+    });
 
 /** The same on a machine that swings. */
 const shaped = (pen: PenSettings): Trajectory =>
@@ -66,19 +79,31 @@ describe("a pen in flight", () => {
     for (const pen of [SAFE, FAST, { ...FAST, dropMs: 500 }]) {
       const t = planned(pen);
       const { accelMmPerS2 } = DEFAULT_MOTION.travel;
-      const awayMm = penMovesOf(t)
-        .filter(({ up }) => !up)
-        .slice(1)
-        .map(({ startS, beforeRun }) => {
-          const block = t.runs.firstBlock[beforeRun];
-          const { x, y } = stateAt(t, startS);
-          return Math.hypot(x - t.x[block], y - t.y[block]);
-        });
+      const awayMm = dropsMm(t);
       expect(Math.max(...awayMm)).toBeLessThanOrEqual(landingMm(pen, accelMmPerS2) + 1e-9);
       expect(Math.max(...awayMm)).toBeGreaterThan(0.9 * landingMm(pen, accelMmPerS2));
     }
     expect(landingMm(SAFE, 1_000)).toBeCloseTo(0.1, 9);
     expect(landingMm({ ...FAST, overlap: "off" }, 1_000)).toBe(0);
+  });
+
+  it("begins to come down only at the stroke if the machine may lose the end of a travel", () => {
+    const t = planned(FAST, { dropsAtStroke: true });
+    expect(Math.max(...dropsMm(t))).toBeLessThanOrEqual(0.1 + 1e-6);
+    expect(Math.min(...dropsMm(t))).toBeGreaterThan(0.05);
+    const waitsOf = (one: Trajectory) => penMovesOf(one).flatMap(({ up, waitS }) => (up ? [waitS] : []));
+    expect(waitsOf(t)).toEqual(waitsOf(planned(FAST)));
+    expect(t.totalS).toBeLessThan(planned(SAFE).totalS);
+    expect(planned(SAFE, { dropsAtStroke: true })).toEqual(planned(SAFE));
+  });
+
+  it("then comes down at the stroke also after a travel so short that it is still rising", () => {
+    const strokes = strokeSetOf([[[0, 0], [5, 0]], [[5, 0.3], [0, 0.3]]]); // prettier-ignore
+    const t = plan(strokes, DEFAULT_MOTION, FAST, { dropsAtStroke: true });
+    const [, drop] = penMovesOf(t).filter(({ up }) => !up);
+    expect(dropsMm(t)[0]).toBeCloseTo(0.1, 6);
+    // The wait assumes that it falls from the hop height: 65 % of 300 ms, without the time to brake over 0.1 mm.
+    expect(drop.waitS).toBeCloseTo(0.181, 9);
   });
 
   it("waits for the whole first drop, because the height of the pen is not known", () => {

@@ -7,7 +7,7 @@ import type { MotionSettings } from "../../../settings/motion.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../../machine-job.js";
 import { closingCommands, setUpCommands } from "../protocol/commands.js";
-import { motionForFirmware } from "../protocol/firmware-motion.js";
+import { dropsAtStroke, motionForFirmware } from "../protocol/firmware-motion.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { commandLine, compile } from "./compile.js";
 
@@ -31,6 +31,7 @@ export function planEbbJob(
     endY: options.endYMm,
     penBesideMm: penBesideMmOf(motion, machine),
     liftFirst: options.liftFirst,
+    dropsAtStroke: dropsAtStroke(firmware),
     cancel: options.cancel,
   });
   return ebbJob(trajectory, machine, firmware, settings.pen, options.board as BoardState | undefined);

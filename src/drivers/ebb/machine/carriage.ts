@@ -19,6 +19,7 @@ import { planEbbWalk } from "../compile/ebb-job.js";
 import { MAX_TICKS } from "../compile/leg.js";
 import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
 import { ebbOf } from "../protocol/ebb-controller.js";
+import { queueDepthOf } from "../protocol/firmware.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
@@ -69,8 +70,7 @@ export class Carriage {
     readonly connection: Connection,
     private readonly events: MachineEvents,
   ) {
-    // Without QU,6 (3.0.0) the fill level of a deep queue is unknown.
-    this.queueDepth = connection.features.hasImmediateLift ? connection.features.maxFifoDepth : 1;
+    this.queueDepth = queueDepthOf(connection.features);
   }
 
   /** Called after connecting. A board that was not restarted still has the position in its counters. */

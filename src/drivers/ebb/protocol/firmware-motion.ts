@@ -1,7 +1,8 @@
 /** Limits of the firmware on the plan itself. */
 import type { LayerMotion, MotionSettings } from "../../../settings/motion.js";
+import type { PenSettings } from "../../../settings/pen.js";
 import type { FirmwareRules } from "../../machine-job.js";
-import { firmwareFeatures } from "./firmware.js";
+import { firmwareFeatures, queueDepthOf } from "./firmware.js";
 
 /**
  * mm/s². Slices of constant speed last about 10 ms, so the speed changes in jumps of A · 10 ms: 5 mm/s at
@@ -16,10 +17,21 @@ const SLICED_ACCEL_MM_PER_S2 = 500;
 const limitsMotion = (firmware: string | null): boolean =>
   firmware !== null && firmwareFeatures(firmware).motion === "slices";
 
+/**
+ * Whether pens are lowered only at the stroke. A board with a queue of one reads only two commands ahead. If it is
+ * unplugged, it may have read a drop, but not the rest of the travel to the stroke. Null: unknown, so it may be such a
+ * board. Throws `bad-setting` for an invalid version.
+ */
+export const dropsAtStroke = (firmware: string | null): boolean =>
+  firmware === null || queueDepthOf(firmwareFeatures(firmware)) === 1;
+
+const isPlannedAlike = ({ overlap }: PenSettings, a: string | null, b: string | null): boolean =>
+  limitsMotion(a) === limitsMotion(b) && (overlap !== "fast" || dropsAtStroke(a) === dropsAtStroke(b));
+
 /** A version of an EBB is a bare number; those of other controllers begin with their name. */
 export const ebbFirmware: FirmwareRules = {
   isOwn: (firmware) => /^v?\d/.test(firmware),
-  limitsMotion,
+  isPlannedAlike,
 };
 
 /**

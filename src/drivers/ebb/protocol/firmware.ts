@@ -124,6 +124,13 @@ export function firmwareFeatures(version: string): FirmwareFeatures {
   return features;
 }
 
+/**
+ * Commands that wait behind the running one during a plot. Without QU,6 (3.0.0) the fill level of a deep queue is
+ * unknown, so only one does.
+ */
+export const queueDepthOf = ({ hasImmediateLift, maxFifoDepth }: FirmwareFeatures): number =>
+  hasImmediateLift ? maxFifoDepth : 1;
+
 function parseVersion(version: string): readonly [number, number, number] {
   const match = /^v?(\d{1,4})\.(\d{1,4})(?:\.(\d{1,4}))?$/.exec(String(version).trim());
   if (match === null) {
