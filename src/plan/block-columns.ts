@@ -85,7 +85,7 @@ export class BlockColumns {
     return { blockCount, durationS, x, y, vx, vy, ax, ay, jx, jy, startS, alongMm };
   }
 
-  /** Appends block i of `from`, without its jerk. `from` may be this object if block i is beyond the current end. */
+  /** Appends block i of `from`, without its jerk. */
   pushFrom(from: BlockColumns, i: number): void {
     const { durationS, x, y, vx, vy, ax, ay, alongMm } = from;
     this.push(durationS[i], x[i], y[i], vx[i], vy[i], ax[i], ay[i], alongMm[i]);
@@ -95,6 +95,29 @@ export class BlockColumns {
   shift(first: number, byS: number): void {
     for (let k = first; k < this.count; k++) this.startS[k] += byS;
     this.clockS += byS;
+  }
+
+  /** Removes the blocks of zero duration from `first` on, and recomputes the start times. They must have no jerk. */
+  removeEmpty(first: number): void {
+    const { count, durationS, x, y, vx, vy, ax, ay, startS, alongMm } = this;
+    let clockS = startS[first];
+    let to = first;
+    for (let k = first; k < count; k++) {
+      if (durationS[k] === 0) continue;
+      durationS[to] = durationS[k];
+      x[to] = x[k];
+      y[to] = y[k];
+      vx[to] = vx[k];
+      vy[to] = vy[k];
+      ax[to] = ax[k];
+      ay[to] = ay[k];
+      alongMm[to] = alongMm[k];
+      startS[to] = clockS;
+      clockS += durationS[to];
+      to++;
+    }
+    this.count = to;
+    this.clockS = clockS;
   }
 
   /** Removes all blocks; the arrays stay allocated. */

@@ -14,8 +14,8 @@
  *   |w| ≤ V and |a₁|, |a₂| ≤ A     (velocity is linear in each half, so the extremes are at the ends)
  *   it deviates from the planned line by at most ε
  *
- * At each block, start with a group about as long as the previous one. The group grows until it fails, or
- * shrinks until it passes (greedy, no backtracking). Linear in the number of blocks.
+ * At each block, start with a group as long as the previous one, or with the shortest if that failed. The group grows
+ * until it fails, or shrinks until it passes (greedy, no backtracking). Linear in the number of blocks.
  *
  * A pair may take slightly longer than its blocks (STRETCH). Its velocity oscillates slightly around that of an
  * arc, so on an arc drawn at V or A almost no pair would be allowed without extra time.
@@ -36,8 +36,11 @@ const SHORT_S = 0.024;
 /** Factor from one trial length to the next. */
 const GROWTH = 1.25;
 
-/** Blocks in the first trial group. */
-const FIRST_GROUP = 8;
+/** Shortest group from which merging always saves a block. */
+const MIN_GROUP = 3;
+
+/** A group is not merged if it takes longer than this for each block saved, s: few long blocks are no load for a board. */
+const LONGEST_PER_SAVED_S = 0.2;
 
 export interface MergeRules {
   /** ε, mm. */
@@ -64,12 +67,6 @@ export const SHAPED_RULES: MergeRules = {
   isShaped: true,
 };
 
-/** Two blocks that take `wholeS` seconds together. They replace the blocks before `end`. */
-interface Pair {
-  readonly end: number;
-  readonly wholeS: number;
-}
-
 /** Merges the blocks of one run, from `first` to the last one, in place. The run ends at rest at `at`. */
 export function mergeBlocks(
   blocks: BlockColumns,
@@ -81,117 +78,110 @@ export function mergeBlocks(
   const last = blocks.count;
   // Add a row for the end state of the last block, so that every block has a successor.
   blocks.push(0, at.x, at.y, 0, 0, 0, 0, at.alongMm);
-  blocks.count = first;
-  blocks.clockS = blocks.startS[first];
-  let size = FIRST_GROUP;
+  let firstPair = last;
+  let size = MIN_GROUP;
   let i = first;
   while (i < last) {
-    const pair = longestPair(blocks, i, Math.min(i + size, last), last, limits, rules);
-    if (pair) {
-      writePair(blocks, i, pair);
-      size = pair.end - i;
-      i = pair.end;
+    const end = longestGroup(blocks, i, Math.min(i + size, last), last, limits, rules);
+    if (end > i) {
+      writePair(blocks, i, end, allowedTime(blocks, i, end, limits, rules));
+      firstPair = Math.min(firstPair, i);
+      size = Math.max(MIN_GROUP, end - i);
+      i = end;
     } else {
-      blocks.pushFrom(blocks, i);
-      size = Math.max(MIN_GROUP, Math.floor(size / 2));
+      size = MIN_GROUP;
       i += 1;
     }
   }
+  blocks.removeEmpty(firstPair);
 }
 
-/** Merging a group of at least this many blocks always saves some. */
-const MIN_GROUP = 3;
-
 /**
- * Finds a group that begins at block i and can be replaced by a pair. Tries the group that ends at `guess` first, then
- * grows or shrinks it. Returns the pair for the longest group that passed; null if none did.
+ * Finds a group of blocks [i, end) that can be replaced by a pair. Tries the group that ends at `guess` first, then grows
+ * or shrinks it. Returns the end of the longest group that passed; i if none did.
  */
-function longestPair(
+function longestGroup(
   blocks: BlockColumns,
   i: number,
   guess: number,
   last: number,
   limits: RunLimits,
   rules: MergeRules,
-): Pair | null {
+): number {
   let end = guess;
-  let longest = pairFor(blocks, i, end, limits, rules);
-  while (!longest && end > i + 2) {
+  while (!canMerge(blocks, i, end, limits, rules)) {
+    if (end <= i + 2) return i;
     end = i + Math.floor((end - i) / GROWTH);
-    longest = pairFor(blocks, i, end, limits, rules);
   }
-  if (end < guess) return longest;
-  while (longest && longest.end < last) {
-    end = Math.min(i + Math.ceil(GROWTH * (longest.end - i)), last);
-    const longer = pairFor(blocks, i, end, limits, rules);
-    if (!longer) break;
-    longest = longer;
+  if (end < guess) return end;
+  while (end < last) {
+    const longer = Math.min(i + Math.ceil(GROWTH * (end - i)), last);
+    if (!canMerge(blocks, i, longer, limits, rules)) break;
+    end = longer;
   }
-  return longest;
+  return end;
 }
 
-/** The pair that replaces blocks [i, m); null if it saves nothing or breaks a limit. */
-function pairFor(
-  blocks: BlockColumns,
-  i: number,
-  m: number,
-  limits: RunLimits,
-  rules: MergeRules,
-): Pair | null {
-  if (!isWorth(blocks, i, m, rules.floorS)) return null;
-  let wholeS = blocks.startS[m] - blocks.startS[i];
-  if (!isWithinLimits(blocks, i, m, wholeS, limits, rules)) {
-    wholeS *= 1 + STRETCH;
-    if (rules.isShaped || !isWithinLimits(blocks, i, m, wholeS, limits, rules)) return null;
-  }
-  return isNear(blocks, i, m, wholeS, limits, rules) ? { end: m, wholeS } : null;
+/** Whether a pair can replace blocks [i, m): false if it saves nothing or breaks a limit. */
+function canMerge(blocks: BlockColumns, i: number, m: number, limits: RunLimits, rules: MergeRules): boolean {
+  if (!isWorth(blocks, i, m, rules.floorS)) return false;
+  const wholeS = allowedTime(blocks, i, m, limits, rules);
+  return wholeS > 0 && isNear(blocks, i, m, wholeS, limits, rules);
 }
 
 /** One axis of the pair's velocity in its middle. */
-const middleVelocity = (p0: number, p1: number, v0: number, v1: number, wholeS: number): number =>
-  (2 * (p1 - p0)) / wholeS - (v0 + v1) / 2;
+const middleVelocity = (d: number, v0: number, v1: number, wholeS: number): number =>
+  (2 * d) / wholeS - (v0 + v1) / 2;
 
 /**
- * False if the pair breaks V, A or a motor limit, or if a half reverses direction (the position along the drawing is
- * interpolated by speed).
+ * The duration of the pair, s: that of its blocks, or slightly longer. 0 if with both it breaks V, A or a motor limit, or
+ * a half reverses direction (the position along the drawing is interpolated by speed).
  */
-function isWithinLimits(
-  { x, y, vx, vy }: BlockColumns,
+function allowedTime(
+  { startS, x, y, vx, vy }: BlockColumns,
   i: number,
   m: number,
-  wholeS: number,
   limits: RunLimits,
   { isShaped }: MergeRules,
-): boolean {
+): number {
   const { stretchX, stretchY } = limits;
+  const dx = x[m] - x[i];
+  const dy = y[m] - y[i];
   const vx0 = vx[i];
   const vy0 = vy[i];
   const vx1 = vx[m];
   const vy1 = vy[m];
-  const wx = middleVelocity(x[i], x[m], vx0, vx1, wholeS);
-  const wy = middleVelocity(y[i], y[m], vy0, vy1, wholeS);
-  const maxChange = (limits.accel * SLACK * wholeS) / 2;
-  return (
-    isShorter(wx - vx0, wy - vy0, maxChange, isShaped) &&
-    isShorter(vx1 - wx, vy1 - wy, maxChange, isShaped) &&
-    isShorter(wx / stretchX, wy / stretchY, limits.speed * SLACK, isShaped) &&
-    vx0 * wx + vy0 * wy >= 0 &&
-    wx * vx1 + wy * vy1 >= 0 &&
-    canReach(limits, wx / stretchX, wy / stretchY)
-  );
+  const blocksS = startS[m] - startS[i];
+  const maxS = isShaped ? blocksS : blocksS * (1 + STRETCH);
+  for (let wholeS = blocksS; wholeS <= maxS; wholeS *= 1 + STRETCH) {
+    const wx = middleVelocity(dx, vx0, vx1, wholeS);
+    const wy = middleVelocity(dy, vy0, vy1, wholeS);
+    const maxChange = (limits.accel * SLACK * wholeS) / 2;
+    if (
+      isShorter(wx - vx0, wy - vy0, maxChange, isShaped) &&
+      isShorter(vx1 - wx, vy1 - wy, maxChange, isShaped) &&
+      isShorter(wx / stretchX, wy / stretchY, limits.speed * SLACK, isShaped) &&
+      vx0 * wx + vy0 * wy >= 0 &&
+      wx * vx1 + wy * vy1 >= 0 &&
+      canReach(limits, wx / stretchX, wy / stretchY)
+    ) {
+      return wholeS;
+    }
+  }
+  return 0;
 }
 
 const isShorter = (x: number, y: number, maxLength: number, inEachAxis: boolean): boolean =>
   inEachAxis ? Math.abs(x) <= maxLength && Math.abs(y) <= maxLength : x * x + y * y <= maxLength * maxLength;
 
 /**
- * A pair is useful if it saves blocks. It is also useful if it replaces two blocks, one of them shorter than the floor, by
- * two that are not.
+ * A pair is useful if it saves blocks that are not long anyway. It is also useful if it replaces two blocks, one of them
+ * shorter than the floor, by two that are not.
  */
 function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floorS: number): boolean {
   const wholeS = startS[m] - startS[i];
   if (wholeS > LONGEST_S) return false;
-  if (m - i >= MIN_GROUP) return true;
+  if (m - i >= MIN_GROUP) return wholeS <= LONGEST_PER_SAVED_S * (m - i - 2);
   return m - i === 2 && wholeS >= 2 * floorS && Math.min(durationS[i], durationS[i + 1]) < floorS;
 }
 
@@ -222,8 +212,8 @@ function isNear(
   const y1 = y[m];
   const vx1 = vx[m];
   const vy1 = vy[m];
-  const wx = middleVelocity(x0, x1, vx0, vx1, wholeS);
-  const wy = middleVelocity(y0, y1, vy0, vy1, wholeS);
+  const wx = middleVelocity(x1 - x0, vx0, vx1, wholeS);
+  const wy = middleVelocity(y1 - y0, vy0, vy1, wholeS);
   const a1x = (wx - vx0) / halfS;
   const a1y = (wy - vy0) / halfS;
   const a2x = (vx1 - wx) / halfS;
@@ -258,28 +248,27 @@ function isNear(
   return true;
 }
 
-function writePair(blocks: BlockColumns, i: number, { end: m, wholeS }: Pair): void {
-  const { x, y, vx, vy, alongMm } = blocks;
+/** Writes the pair over blocks i and i + 1. The others of [i, m) get zero duration, so that they are removed later. */
+function writePair(blocks: BlockColumns, i: number, m: number, wholeS: number): void {
+  const { durationS, x, y, vx, vy, ax, ay, alongMm } = blocks;
   const halfS = wholeS / 2;
-  // The pushes may overwrite row i.
-  const x0 = x[i];
-  const y0 = y[i];
-  const vx0 = vx[i];
-  const vy0 = vy[i];
-  const vx1 = vx[m];
-  const vy1 = vy[m];
-  const along = alongMm[i];
-  const wx = middleVelocity(x0, x[m], vx0, vx1, wholeS);
-  const wy = middleVelocity(y0, y[m], vy0, vy1, wholeS);
+  const wx = middleVelocity(x[m] - x[i], vx[i], vx[m], wholeS);
+  const wy = middleVelocity(y[m] - y[i], vy[i], vy[m], wholeS);
   const middle = lengthOf(wx, wy);
-  const first = lengthOf(vx0, vy0) + middle;
-  const second = middle + lengthOf(vx1, vy1);
+  const first = lengthOf(vx[i], vy[i]) + middle;
+  const second = middle + lengthOf(vx[m], vy[m]);
   const share = first > 0 ? first / (first + second) : 0;
-  const halfway = along + share * (alongMm[m] - along);
-  blocks.push(halfS, x0, y0, vx0, vy0, (wx - vx0) / halfS, (wy - vy0) / halfS, along);
-  const kx = x0 + (halfS * (vx0 + wx)) / 2;
-  const ky = y0 + (halfS * (vy0 + wy)) / 2;
-  blocks.push(halfS, kx, ky, wx, wy, (vx1 - wx) / halfS, (vy1 - wy) / halfS, halfway);
+  for (let k = i + 2; k < m; k++) durationS[k] = 0;
+  durationS[i] = durationS[i + 1] = halfS;
+  ax[i] = (wx - vx[i]) / halfS;
+  ay[i] = (wy - vy[i]) / halfS;
+  alongMm[i + 1] = alongMm[i] + share * (alongMm[m] - alongMm[i]);
+  x[i + 1] = x[i] + (halfS * (vx[i] + wx)) / 2;
+  y[i + 1] = y[i] + (halfS * (vy[i] + wy)) / 2;
+  vx[i + 1] = wx;
+  vy[i + 1] = wy;
+  ax[i + 1] = (vx[m] - wx) / halfS;
+  ay[i + 1] = (vy[m] - wy) / halfS;
 }
 
 const lengthOf = (x: number, y: number): number => Math.sqrt(x * x + y * y);
