@@ -46,8 +46,6 @@ const EVEN = 0.3;
 const KEEP_SHARE = 0.75;
 /** Max displacement of two neighbours relative to each other, as a share of their segment's length. */
 const SHEAR = 0.5;
-/** Below this s the direction of the bend is uncertain. */
-const UNCERTAIN_SINE = 0.015;
 /** Added to a divisor that is 0 on straight lines, to keep the quotient finite; negligible elsewhere. */
 const TINY = 1e-6;
 
@@ -72,11 +70,6 @@ export class SoftLine {
   /** mm of δ that moving along the line takes at each point, and mm of δ that remain there. */
   private taken = new Float64Array(0);
   private left = new Float64Array(0);
-  /**
-   * How far inside its point the curve of a bend passes, mm. With less room than this, for the point or its
-   * neighbours, the pen would have to slow down again.
-   */
-  private depth = new Float64Array(0);
   /** mm from the evened line. */
   private shiftX = new Float64Array(0);
   private shiftY = new Float64Array(0);
@@ -189,41 +182,32 @@ export class SoftLine {
   /** Computes the turns of the evened line, and how far its points may move to the left and to the right. */
   private bound(corner: number): void {
     const { segmentCount: n, length, ux, uy } = this.even;
-    const { sine, kind, taken, left, depth, bending } = this;
+    const { sine, kind, taken, left, bending } = this;
     bending.reserve(n + 1);
     const { low, high, turn } = bending;
-    sine[0] = turn[0] = low[0] = high[0] = depth[0] = 0;
-    sine[n] = turn[n] = low[n] = high[n] = depth[n] = 0;
+    sine[0] = turn[0] = low[0] = high[0] = 0;
+    sine[n] = turn[n] = low[n] = high[n] = 0;
     for (let i = 1; i < n; i++) {
-      const cross = ux[i - 1] * uy[i] - uy[i - 1] * ux[i];
-      depth[i] = 0;
-      if (kind[i] === FREE) {
-        // 2 sin(φ/2) from sin φ.
-        turn[i] = cross * (1 + (cross * cross) / 8);
-        sine[i] = Math.abs(turn[i]) / 2;
-        depth[i] = (sine[i] * Math.min(length[i - 1], length[i])) / 4;
-      } else {
-        const dx = ux[i] - ux[i - 1];
-        const dy = uy[i] - uy[i - 1];
-        sine[i] = Math.sqrt(dx * dx + dy * dy) / 2;
-        turn[i] = cross < 0 ? -2 * sine[i] : 2 * sine[i];
-      }
-    }
-    for (let i = 1; i < n; i++) {
+      const dx = ux[i] - ux[i - 1];
+      const dy = uy[i] - uy[i - 1];
+      const s = Math.sqrt(dx * dx + dy * dy) / 2;
+      const isLeftTurn = ux[i - 1] * uy[i] > uy[i - 1] * ux[i];
+      sine[i] = s;
+      turn[i] = isLeftTurn ? 2 * s : -2 * s;
       const rest = corner - Math.max(taken[i - 1], taken[i], taken[i + 1]);
       left[i] = rest;
+      let outwards = rest;
+      let inwards: number;
       if (kind[i] === FREE) {
-        const inside = Math.max(0, rest - Math.max(depth[i - 1], depth[i], depth[i + 1]));
-        const side = clamped(turn[i] / (2 * UNCERTAIN_SINE), -1, 1);
-        const more = (rest - inside) / 2;
-        const middle = -side * more;
-        const half = inside + Math.abs(side) * more;
-        low[i] = middle - half;
-        high[i] = middle + half;
+        // The curve passes this far inside its point. With less room than that the pen would have to slow down again.
+        const depth = (s * Math.min(length[i - 1], length[i])) / 4;
+        inwards = Math.max(0, rest - depth);
       } else {
-        const outwards = Math.min(kind[i], rest);
-        low[i] = high[i] = turn[i] >= 0 ? -outwards : outwards;
+        outwards = Math.min(kind[i], rest);
+        inwards = -outwards;
       }
+      low[i] = isLeftTurn ? -outwards : -inwards;
+      high[i] = isLeftTurn ? inwards : outwards;
     }
   }
 
@@ -290,7 +274,6 @@ export class SoftLine {
     this.kind = new Float64Array(size);
     this.taken = new Float64Array(size);
     this.left = new Float64Array(size);
-    this.depth = new Float64Array(size);
     this.shiftX = new Float64Array(size);
     this.shiftY = new Float64Array(size);
     this.isSheared = new Uint8Array(size);
