@@ -48,7 +48,6 @@ describe.each(TRIED)("a pen in flight, %s, on firmware %s", (overlap, firmware, 
     ["an emergency stop", cases(25, 4), 0],
   ] as const)(
     "%s at any instant leaves no gap, no doubled stretch and no mark between strokes",
-    { timeout: 600_000 },
     async (what, count, leadS) => {
       const random = seeded(31 * (1 + CASES.findIndex(([a, b]) => a === overlap && b === firmware)) + leadS);
       const max = { gapMm: 0, overlapMm: 0, awayMm: 0 };
@@ -80,7 +79,7 @@ describe.each(TRIED)("a pen in flight, %s, on firmware %s", (overlap, firmware, 
 });
 
 describe.each(CASES)("an unplugged cable during %s on firmware %s", (overlap, firmware, servos) => {
-  it("leaves no mark beside a stroke, at any instant", { timeout: 600_000 }, async () => {
+  it("leaves no mark beside a stroke, at any instant", async () => {
     const away: [unpluggedS: number, awayMm: number][] = [];
     for (let afterS = 1; afterS < 5; afterS += IS_FULL ? 0.01 : 0.05) {
       const world = new ManualClock();

@@ -136,9 +136,6 @@ const shaped = (jobs: fc.Arbitrary<Job>, shaper: "zv" | "ei"): fc.Arbitrary<Job>
       machine: swinging(springs),
     }));
 
-/** The full run draws many: longer than the limit of other tests. */
-const TIMEOUT_MS = 600_000;
-
 /** The longest marks of all drawings; the full run prints them. */
 class Longest {
   private strayMm = 0;
@@ -156,7 +153,7 @@ class Longest {
   }
 }
 
-describe("random drawings", { timeout: TIMEOUT_MS }, () => {
+describe("random drawings", () => {
   it("have no stray marks and late starts in mode safe, even if the servo deviates", () => {
     const longest = new Longest("random drawings, safe");
     fc.assert(
@@ -222,7 +219,7 @@ const EXTREMES: readonly TipServo[] = [
   { speed: 0.8, phaseMs: 23, contact: 0.45 },
 ].slice(0, cases(4, 2));
 
-describe.each(samples)("the sample %s", { timeout: TIMEOUT_MS }, (name) => {
+describe.each(samples)("the sample %s", (name) => {
   const strokes = sampleStrokes(name);
   const safe = planned({ strokes, pen: penOf("safe") });
 
