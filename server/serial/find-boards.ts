@@ -1,12 +1,12 @@
 import { usbIds, type UsbId } from "../../src/internal.js";
 import type { FoundBoard } from "../../host/plotter/devices.js";
+import { sysfsPorts } from "./sysfs-ports.js";
 
 export type { FoundBoard } from "../../host/plotter/devices.js";
 
 /** All boards on USB with these ids, sorted by path; default: those that some driver knows. */
 export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<readonly FoundBoard[]> {
-  const { SerialPort } = await import("serialport");
-  const ports = await SerialPort.list();
+  const ports = await serialPorts();
   return ports
     .filter((port) =>
       ids.some(
@@ -21,3 +21,23 @@ export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<read
     }))
     .sort((a, b) => (a.path < b.path ? -1 : 1));
 }
+
+interface PortOnUsb {
+  readonly path: string;
+  readonly vendorId?: string | undefined;
+  readonly productId?: string | undefined;
+  readonly manufacturer?: string | undefined;
+  readonly serialNumber?: string | undefined;
+}
+
+async function serialPorts(): Promise<readonly PortOnUsb[]> {
+  const { SerialPort } = await import("serialport");
+  return SerialPort.list().catch((error: unknown) => {
+    // On Linux serialport runs udevadm, which not every system has.
+    if (process.platform === "linux" && isMissingProgram(error)) return sysfsPorts();
+    throw error;
+  });
+}
+
+const isMissingProgram = (error: unknown): boolean =>
+  error instanceof Error && "code" in error && error.code === "ENOENT";
