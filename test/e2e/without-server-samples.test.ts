@@ -5,7 +5,8 @@ import { describe, expect, it } from "vitest";
 import { IS_FULL } from "../support/full-run.js";
 import { plotting } from "../support/live-plot.js";
 import { openTab } from "../support/page-actions.js";
-import { done, storedJob, strokesOf, useSerialPages } from "../support/serial-page.js";
+import { done, storedJob, useSerialPages } from "../support/serial-page.js";
+import { strokesInBrowser } from "../support/strokes-in-browser.js";
 
 /** The samples take 10 to 20 minutes each on a real board. */
 const BOARD_SPEED = 100;
@@ -37,7 +38,7 @@ describe("the page without a server", () => {
     await pages.plot(page);
     await done(page);
     const { settings } = await storedJob(page);
-    const strokes = strokesOf(readFileSync(`samples/${file}.svg`, "utf8"), settings);
+    const strokes = await strokesInBrowser(page, readFileSync(`samples/${file}.svg`, "utf8"), settings);
     const { world, board, run } = await plotting(
       settings.motion.mode,
       strokes,

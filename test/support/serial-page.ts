@@ -4,15 +4,14 @@
  */
 import type { Browser, BrowserContext, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
-import { importDrawing, type StrokeSet } from "../../src/index.js";
-import { machineOf, prepareJob } from "../../src/internal.js";
-import { ENDED_STATES, jobSchema, type Job, type PlotSettings } from "../../src/schema/index.js";
+import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
 import { storedRecords } from "./backends.js";
 import { launchBrowser, PLAIN } from "./browser.js";
 import { compareDrawn } from "./drawn-truth.js";
 import { FAKE_SERIAL_SCRIPT } from "./fake-serial-script.js";
 import { dropFile, plotBar, statusCard, waitForPlan } from "./page-actions.js";
 import { startStaticApp, type StaticApp } from "./static-app.js";
+import { strokesOf } from "./svg-strokes.js";
 import type { TabbedBrowser } from "./tabbed-browser.js";
 
 const PATIENCE_MS = 90_000;
@@ -25,9 +24,6 @@ async function newContext(browser: Browser): Promise<TabbedBrowser> {
   const context = await browser.newContext({ ...PLAIN, viewport: { width: 900, height: 600 } });
   return { context, close: () => context.close() };
 }
-
-export const strokesOf = (text: string, settings: PlotSettings): StrokeSet =>
-  prepareJob(importDrawing("", text), settings, machineOf(settings)).prepared.strokes;
 
 /** Long lines that do not touch each other. */
 const comb = (lines: number): string =>
