@@ -1,6 +1,6 @@
 import { usbIds, type UsbId } from "../../src/internal.js";
 import type { FoundBoard } from "../../host/plotter/devices.js";
-import { sysfsPorts } from "./sysfs-ports.js";
+import { sysfsPorts, type UsbPort } from "./sysfs-ports.js";
 
 export type { FoundBoard } from "../../host/plotter/devices.js";
 
@@ -22,15 +22,7 @@ export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<read
     .sort((a, b) => (a.path < b.path ? -1 : 1));
 }
 
-interface PortOnUsb {
-  readonly path: string;
-  readonly vendorId?: string | undefined;
-  readonly productId?: string | undefined;
-  readonly manufacturer?: string | undefined;
-  readonly serialNumber?: string | undefined;
-}
-
-async function serialPorts(): Promise<readonly PortOnUsb[]> {
+async function serialPorts(): Promise<readonly UsbPort[]> {
   const { SerialPort } = await import("serialport");
   return SerialPort.list().catch((error: unknown) => {
     // On Linux serialport runs udevadm, which not every system has.

@@ -2,26 +2,32 @@
 import { readdirSync, readFileSync, realpathSync } from "node:fs";
 import path from "node:path";
 
-export interface SysfsPort {
+/** A serial port, with what its USB device says of itself; undefined if it says nothing. */
+export interface UsbPort {
   readonly path: string;
-  readonly vendorId: string;
-  readonly productId: string;
-  readonly manufacturer: string | undefined;
-  readonly serialNumber: string | undefined;
+  readonly vendorId?: string | undefined;
+  readonly productId?: string | undefined;
+  readonly manufacturer?: string | undefined;
+  readonly serialNumber?: string | undefined;
 }
 
 /**
- * The USB modems (ttyACM*) under `root`. Each one's `device` is a link to an interface of the USB device, and the folder
+ * The modems (ttyACM*) under `root`. Each one's `device` is a link to an interface of the USB device, and the folder
  * above it has the ids and names of the device.
  */
-export function sysfsPorts(root = "/sys/class/tty"): readonly SysfsPort[] {
+export function sysfsPorts(root = "/sys/class/tty"): readonly UsbPort[] {
   return folderNames(root).flatMap((name) => {
     if (!name.startsWith("ttyACM")) return [];
     const read = (file: string): string | undefined => textOf(path.join(root, name, "device"), file);
-    const [vendorId, productId] = [read("idVendor"), read("idProduct")];
-    if (vendorId === undefined || productId === undefined) return [];
-    const [manufacturer, serialNumber] = [read("manufacturer"), read("serial")];
-    return [{ path: `/dev/${name}`, vendorId, productId, manufacturer, serialNumber }];
+    return [
+      {
+        path: `/dev/${name}`,
+        vendorId: read("idVendor"),
+        productId: read("idProduct"),
+        manufacturer: read("manufacturer"),
+        serialNumber: read("serial"),
+      },
+    ];
   });
 }
 

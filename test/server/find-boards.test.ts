@@ -26,7 +26,7 @@ function addDevice(tty: string, files: Readonly<Record<string, string>>): void {
 }
 
 describe("the serial ports of a Linux without udev", () => {
-  it("are the USB modems, with the ids and names of their devices", () => {
+  it("are the modems, with the ids and names of their USB devices", () => {
     addDevice("ttyACM0", { idVendor: "04d8", idProduct: "fd92", manufacturer: "EiBotBoard", serial: "NO1" });
     addDevice("ttyACM1", { idVendor: "2341", idProduct: "0043" });
     addDevice("ttyS0", { idVendor: "04d8", idProduct: "fd92" });
@@ -40,6 +40,7 @@ describe("the serial ports of a Linux without udev", () => {
         serialNumber: "NO1",
       },
       { path: "/dev/ttyACM1", vendorId: "2341", productId: "0043" },
+      { path: "/dev/ttyACM2" },
     ]);
   });
 
