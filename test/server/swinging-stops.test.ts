@@ -17,7 +17,12 @@ import { inQuality, SPRINGS, swinging } from "../support/swinging.js";
 
 /** A gap or a doubled stretch that is invisible, mm. */
 const UNSEEN_MM = 0.05;
-/** Lines farther than this from the drawing are marks beside it, mm. */
+/**
+ * After an emergency stop the pen may swing off a corner along the next side, which is drawn again later. That is narrower
+ * than a fine pen's line, mm.
+ */
+const NARROW_MM = 0.3;
+/** Lines farther than this from the drawing are marks beside it, mm. Undisturbed plots stay within 0.065 mm. */
 const BESIDE_MM = 0.08;
 /** Time between a stop and resuming, s: the pen is at rest by then. */
 const RESUMED_AFTER_S = 1;
@@ -35,7 +40,7 @@ const DRAWING: StrokeSet = strokesOf(
   [70, 60, 100, 90],
   [20, 70, 50, 70],
   [60, 70, 60, 100],
-  curve(161, (i) => [20 + i / 4, 85 + 4 * Math.sin(i / 8)]),
+  curve(141, (i) => [20 + i / 4, 85 + 4 * Math.sin(i / 14)]),
   [120, 20, 124, 21],
   [120, 26, 124, 27],
 );
@@ -102,7 +107,7 @@ describe.each(["2.8.1", "3.0.3"])("the pen of a swinging machine, firmware %s", 
       }
       if (count > 50) console.info(firmware, count, what, max);
       expect(max.gapMm).toBeLessThan(UNSEEN_MM);
-      expect(max.overlapMm).toBeLessThan(UNSEEN_MM);
+      expect(max.overlapMm).toBeLessThan(what === "a hold" ? UNSEEN_MM : NARROW_MM);
       // A sudden stop of the motors makes the pen swing by v/ω, off the line at corners and in curves.
       if (what === "a hold") expect(max.besideMm).toBeLessThan(UNSEEN_MM);
       else expect(max.besideShare).toBeLessThan(1);
