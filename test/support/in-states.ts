@@ -81,7 +81,8 @@ async function inGroup(
   };
   try {
     const page = await openOther();
-    if (!isFirstVisit) await chooseSample(page);
+    // The screenshots of the documentation show it.
+    if (!isFirstVisit) await chooseSample(page, "Flower meadow");
     for (const state of states) {
       await state.reach({ page, server, restart, openOther });
       // The plan under way is a state of its own, which is not a passing one.

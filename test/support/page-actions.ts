@@ -66,9 +66,9 @@ export async function waitForSamples(page: Page): Promise<void> {
   await page.locator(".sample img").first().waitFor();
 }
 
-/** How a first visit begins: one click on a sample. Waits for its plan. */
-export async function chooseSample(page: Page): Promise<void> {
-  await page.getByRole("button", { name: "Flower meadow" }).click();
+/** How a first visit begins: one click on a sample, by default the one that is planned fastest. Waits for its plan. */
+export async function chooseSample(page: Page, name = "Whirling triangles"): Promise<void> {
+  await page.getByRole("button", { name }).click();
   await waitForPlan(page);
 }
 
