@@ -1,5 +1,6 @@
 /** Places on the strokes themselves: how long a stroke is, where a place lies, and which place is near a point. */
 import type { StrokeSet } from "../drawing/stroke-set.js";
+import { nearestShare } from "../geometry/polyline.js";
 import type { Place } from "./trajectory.js";
 
 /** A place moved along the drawing by whole strokes or by mm; it stays within the drawing. */
@@ -97,4 +98,29 @@ export function snappedPlace(
     fromMm += step > 0 ? lengthMm : -lengthOf(i - 1);
     i += step;
   }
+}
+
+/**
+ * The place nearest to (x, y) on the same stroke, and the distance to it. At most `withinMm` along the stroke from
+ * `place`; infinitely far if there is none.
+ */
+export function nearestPlace(
+  { xy, offsets }: StrokeSet,
+  { stroke, alongMm }: Place,
+  { x, y }: { readonly x: number; readonly y: number },
+  withinMm: number,
+): { readonly place: Place; readonly awayMm: number } {
+  let [nearestMm, awayMm] = [alongMm, Infinity];
+  let fromMm = 0;
+  for (let i = offsets[stroke]; i + 1 < offsets[stroke + 1] && fromMm <= alongMm + withinMm; i++) {
+    const [fromX, fromY] = [xy[2 * i], xy[2 * i + 1]];
+    const [dx, dy] = [xy[2 * i + 2] - fromX, xy[2 * i + 3] - fromY];
+    const lengthMm = Math.hypot(dx, dy);
+    const share = nearestShare(fromX, fromY, fromX + dx, fromY + dy, x, y);
+    const pieceMm = Math.hypot(fromX + share * dx - x, fromY + share * dy - y);
+    const onMm = fromMm + share * lengthMm;
+    if (pieceMm < awayMm && Math.abs(onMm - alongMm) <= withinMm) [nearestMm, awayMm] = [onMm, pieceMm];
+    fromMm += lengthMm;
+  }
+  return { place: { stroke, alongMm: nearestMm }, awayMm };
 }

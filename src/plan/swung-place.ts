@@ -10,25 +10,36 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { Springs } from "../machines/profile.js";
-import { pointOfPlace, snappedPlace } from "./place-on-drawing.js";
+import { nearestPlace } from "./place-on-drawing.js";
 import { SpringAxis } from "./spring-pen.js";
 import { blockState, drawnAt, newMotionState, stateAt, type Place, type Trajectory } from "./trajectory.js";
 
-const STEP_S = 0.001;
+const STEP_S = 0.0002;
 /** A pen farther from the line than this does not draw it, mm. */
 const NEAR_MM = 0.08;
 
-/** @param place where the pen was drawing in `trajectory` at `tS` */
+/** A sudden stop of the motors. */
+export interface SuddenStop {
+  /** When, in time of the trajectory. */
+  readonly tS: number;
+  /** The place that the pen was drawing. */
+  readonly place: Place;
+  /** Where the carriage stopped, mm. Whole steps put it beside the trajectory. */
+  readonly x: number;
+  readonly y: number;
+}
+
 export function swungPlace(
   strokes: StrokeSet,
   trajectory: Trajectory,
-  tS: number,
-  place: Place,
+  { tS, place, x: stopX, y: stopY }: SuddenStop,
   springs: Springs,
 ): Place {
   const carriage = stateAt(trajectory, tS);
   if (carriage.stroke !== place.stroke) return place;
   const [axisX, axisY] = swingAt(trajectory, tS, springs);
+  axisX.d += carriage.x - stopX;
+  axisY.d += carriage.y - stopY;
   axisX.rate += carriage.vx;
   axisY.rate += carriage.vy;
   const untilS = 1 / (2 * Math.min(springs.xHz, springs.yHz));
@@ -36,12 +47,12 @@ export function swungPlace(
   for (let s = 0; s < untilS; s += STEP_S) {
     axisX.advance(STEP_S, 0);
     axisY.advance(STEP_S, 0);
-    const [x, y] = [carriage.x + axisX.d, carriage.y + axisY.d];
-    const pen = { x, y, vx: axisX.rate, vy: axisY.rate };
-    now = snappedPlace(strokes, now, pen, STEP_S * Math.hypot(pen.vx, pen.vy) + NEAR_MM);
-    // Once the pen has turned back, its place no longer changes, and the pen moves away from it.
-    const on = pointOfPlace(strokes, now);
-    if (Math.hypot(on.x - x, on.y - y) > NEAR_MM) break;
+    const pen = { x: stopX + axisX.d, y: stopY + axisY.d };
+    // At a corner the nearest place may pass from one side to the next, each up to NEAR_MM away.
+    const reachMm = STEP_S * Math.hypot(axisX.rate, axisY.rate) + 2 * NEAR_MM;
+    const nearest = nearestPlace(strokes, now, pen, reachMm);
+    if (nearest.awayMm > NEAR_MM) break;
+    now = nearest.place;
     if (now.alongMm > furthest.alongMm) furthest = now;
   }
   return furthest;

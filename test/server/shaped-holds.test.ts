@@ -126,11 +126,12 @@ describe("an emergency stop in shaped motion", () => {
         await world.run(run.emergencyStop());
         const ticks = ranTicks(board) - (hasClear ? 1 + idleTicksTimed : 0);
         const planS = planSAfter(plot.commands, ticks);
-        const { stroke, alongMm } = stateAt(plot.trajectory, planS);
+        const { stroke, alongMm, x, y } = stateAt(plot.trajectory, planS);
+        const stop = { tS: planS, place: { stroke, alongMm }, x, y };
         const truthMm =
           stroke < 0
             ? drawnUntilMm(DRAWING, plot, planS)
-            : mmOf(DRAWING, swungPlace(DRAWING, plot.trajectory, planS, { stroke, alongMm }, springs));
+            : mmOf(DRAWING, swungPlace(DRAWING, plot.trajectory, stop, springs));
         expect(Math.abs(mmOf(DRAWING, run.holdPlace!) - truthMm)).toBeLessThan(UNSEEN_MM);
         await world.run(Promise.all([run.cancel(), run.finished]));
       }

@@ -282,18 +282,19 @@ export class EbbRun implements MachineRun {
     const { steps1, steps2 } = this.carriage.state!;
     const at = streamer.placeOfStop(this.carriage.connection.features, steps1, steps2) ?? streamer.place();
     const { x, y } = this.carriage.place(machineOf(this.settings))!;
-    const place = this.afterSwing(at, this.placeOrEnd(at, x, y));
+    const place = this.afterSwing(at, x, y);
     this.stopped = { place };
     this.carriage.penUp = null;
     return place;
   }
 
-  /** After a sudden stop of the motors the pen swings past the stop, along the line. */
-  private afterSwing({ stream, planS }: StreamPlace, place: Place | null): Place | null {
+  /** The place of a sudden stop of the motors at (x, y). A pen that swings draws on past the stop. */
+  private afterSwing(at: StreamPlace, x: number, y: number): Place | null {
+    const place = this.placeOrEnd(at, x, y);
     const { springs } = machineOf(this.settings);
     if (!springs || !place) return place;
-    const { trajectory } = this.progress.partOf(stream);
-    return swungPlace(this.strokes, trajectory, planS, place, springs);
+    const { trajectory } = this.progress.partOf(at.stream);
+    return swungPlace(this.strokes, trajectory, { tS: at.planS, place, x, y }, springs);
   }
 
   /** The board refused one command. The counters still show how far it drew. */
