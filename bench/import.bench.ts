@@ -69,7 +69,7 @@ function bestOf(folder: string, text: string, then: string): Result {
     const out = execFileSync(process.execPath, [child, file, then], { encoding: "utf8" });
     return JSON.parse(out) as Result;
   });
-  return results.sort((a, b) => (a.planMs ?? a.importMs) - (b.planMs ?? b.importMs))[0]!;
+  return results.sort((a, b) => (a.planMs ?? a.importMs) - (b.planMs ?? b.importMs))[0];
 }
 
 const BIG_FILES: readonly (readonly [string, (random: () => number) => string])[] = [
@@ -113,6 +113,6 @@ function generator(): () => number {
   return () => (seed = (seed * 16_807) % 2_147_483_647) / 2_147_483_647;
 }
 
-const load = (): string => `Load while it ran: ${loadavg()[0]!.toFixed(1)} on ${cpus().length} cores.`;
+const load = (): string => `Load while it ran: ${loadavg()[0].toFixed(1)} on ${cpus().length} cores.`;
 
 const seconds = (ms: number): number => Number((ms / 1000).toFixed(2));

@@ -59,16 +59,16 @@ export default function planBench(report: Report): void {
     }),
   );
   report("Planning one million segments (1 000 strokes), one thread", [
-    ...FLOORS.map(({ what }, i) => ({ what, "processor ms": Math.round(floorsMs[i]!), blocks: floor.count })),
+    ...FLOORS.map(({ what }, i) => ({ what, "processor ms": Math.round(floorsMs[i]), blocks: floor.count })),
     ...motions.map(([what], i) => {
       const { blockCount, bytes } = planned.get(what)!;
-      const { ms, ratios } = measured[i]!;
+      const { ms, ratios } = measured[i];
       return {
         what,
         "processor ms": Math.round(median(ms)),
         blocks: blockCount,
         "bytes/block": Math.round(bytes / blockCount),
-        ...Object.fromEntries(FLOORS.map(({ of }, f) => [of, spread(ratios[f]!)])),
+        ...Object.fromEntries(FLOORS.map(({ of }, f) => [of, spread(ratios[f])])),
       };
     }),
   ]);
@@ -133,8 +133,8 @@ function growth(): Record<string, string | number>[] {
   return sizes.map((segments, i) => ({
     segments,
     plans: maxSegments / segments,
-    "processor ms": Math.round(times[i]!),
-    "ns/segment": Math.round((1e6 * times[i]!) / maxSegments),
+    "processor ms": Math.round(times[i]),
+    "ns/segment": Math.round((1e6 * times[i]) / maxSegments),
   }));
 }
 
@@ -175,8 +175,8 @@ function shaped(): Record<string, string | number>[] {
       "plain, ms": Number(median(rounds.map(({ plainMs }) => plainMs)).toFixed(2)),
       "shaped, ms": Number(median(rounds.map(({ shapedMs }) => shapedMs)).toFixed(2)),
       ratio: Number(median(rounds.map(({ ratio }) => ratio)).toFixed(2)),
-      "plain bytes/stroke": Math.round(rounds[0]!.bytes / strokeCount),
-      "shaped bytes/stroke": Math.round(rounds[0]!.shapedBytes / strokeCount),
+      "plain bytes/stroke": Math.round(rounds[0].bytes / strokeCount),
+      "shaped bytes/stroke": Math.round(rounds[0].shapedBytes / strokeCount),
     };
   });
 }
@@ -213,10 +213,10 @@ function inTurns(
       const ms = processorMs(run);
       const after = floors.map(processorMs);
       if (round === 0) return;
-      measured[i]!.ms.push(ms);
+      measured[i].ms.push(ms);
       floors.forEach((_, f) => {
-        measured[i]!.ratios[f]!.push((2 * ms) / (before[f]! + after[f]!));
-        floorsMs[f]!.push(before[f]!, after[f]!);
+        measured[i].ratios[f].push((2 * ms) / (before[f] + after[f]));
+        floorsMs[f].push(before[f], after[f]);
       });
     });
   }
@@ -231,14 +231,14 @@ function processorMs(run: () => unknown): number {
 }
 
 function median(values: readonly number[]): number {
-  return [...values].sort((a, b) => a - b)[values.length >> 1]!;
+  return [...values].sort((a, b) => a - b)[values.length >> 1];
 }
 
 /** Processor ms of each, the minimum of REPEATS, alternating. */
 function best(runs: readonly (() => unknown)[]): number[] {
   const ms = runs.map(() => Infinity);
   for (let round = 0; round < REPEATS; round++) {
-    runs.forEach((run, i) => (ms[i] = Math.min(ms[i]!, processorMs(run))));
+    runs.forEach((run, i) => (ms[i] = Math.min(ms[i], processorMs(run))));
   }
   return ms;
 }
@@ -304,11 +304,11 @@ function prepareFloor(drawing: StrokeSet): Floor {
   const planned = plan(drawing, { ...DEFAULT_MOTION, mode: "junction", fit: null }, DEFAULT_PEN);
   // The corner limits: the speeds of the plan itself.
   for (let i = 0; i <= segments; i++) {
-    floor.x[i] = drawing.xy[2 * i]!;
-    floor.y[i] = drawing.xy[2 * i + 1]!;
+    floor.x[i] = drawing.xy[2 * i];
+    floor.y[i] = drawing.xy[2 * i + 1];
     if (i === 0) continue;
-    const dx = floor.x[i]! - floor.x[i - 1]!;
-    const dy = floor.y[i]! - floor.y[i - 1]!;
+    const dx = floor.x[i] - floor.x[i - 1];
+    const dy = floor.y[i] - floor.y[i - 1];
     const l = Math.hypot(dx, dy);
     floor.length[i - 1] = l;
     floor.ux[i - 1] = dx / l;
@@ -317,7 +317,7 @@ function prepareFloor(drawing: StrokeSet): Floor {
   const stops = new Set(drawing.offsets);
   const at = new Map<string, number>();
   for (let k = 0; k < planned.blockCount; k++) {
-    at.set(`${planned.x[k]},${planned.y[k]}`, planned.vx[k]! ** 2 + planned.vy[k]! ** 2);
+    at.set(`${planned.x[k]},${planned.y[k]}`, planned.vx[k] ** 2 + planned.vy[k] ** 2);
   }
   for (let i = 0; i <= segments; i++) {
     floor.limit2[i] = stops.has(i) || i === segments ? 0 : (at.get(`${floor.x[i]},${floor.y[i]}`) ?? 0);
@@ -344,8 +344,8 @@ function firstLoop(floor: Floor): void {
   const { accelMmPerS2: accel, speedMmPerS: speed } = DEFAULT_MOTION.draw;
   const max2 = speed * speed;
   v2[n] = 0;
-  for (let i = n - 1; i >= 0; i--) v2[i] = Math.min(limit2[i]!, v2[i + 1]! + 2 * accel * length[i]!);
-  for (let i = 0; i < n; i++) v2[i + 1] = Math.min(v2[i + 1]!, v2[i]! + 2 * accel * length[i]!);
+  for (let i = n - 1; i >= 0; i--) v2[i] = Math.min(limit2[i], v2[i + 1] + 2 * accel * length[i]);
+  for (let i = 0; i < n; i++) v2[i + 1] = Math.min(v2[i + 1], v2[i] + 2 * accel * length[i]);
   let k = 0;
   let clock = 0;
   let along = 0;
@@ -353,25 +353,25 @@ function firstLoop(floor: Floor): void {
     const t = (2 * d) / (w0 + w1);
     const a = (w1 - w0) / t;
     durationS[k] = t;
-    bx[k] = x[i]! + ux[i]! * from;
-    by[k] = y[i]! + uy[i]! * from;
-    vx[k] = ux[i]! * w0;
-    vy[k] = uy[i]! * w0;
-    ax[k] = ux[i]! * a;
-    ay[k] = uy[i]! * a;
+    bx[k] = x[i] + ux[i] * from;
+    by[k] = y[i] + uy[i] * from;
+    vx[k] = ux[i] * w0;
+    vy[k] = uy[i] * w0;
+    ax[k] = ux[i] * a;
+    ay[k] = uy[i] * a;
     startS[k] = clock;
     alongMm[k] = along + from;
     clock += t;
     k++;
   };
   for (let i = 0; i < n; i++) {
-    const l = length[i]!;
-    const w0 = Math.sqrt(v2[i]!);
-    const w1 = Math.sqrt(v2[i + 1]!);
-    const peak2 = Math.min(max2, (v2[i]! + v2[i + 1]!) / 2 + accel * l);
+    const l = length[i];
+    const w0 = Math.sqrt(v2[i]);
+    const w1 = Math.sqrt(v2[i + 1]);
+    const peak2 = Math.min(max2, (v2[i] + v2[i + 1]) / 2 + accel * l);
     const peak = Math.sqrt(peak2);
-    const rise = (peak2 - v2[i]!) / (2 * accel);
-    const fall = (peak2 - v2[i + 1]!) / (2 * accel);
+    const rise = (peak2 - v2[i]) / (2 * accel);
+    const fall = (peak2 - v2[i + 1]) / (2 * accel);
     const cruise = l - rise - fall;
     if (rise > 1e-9) put(i, 0, w0, peak, rise);
     if (cruise > 1e-9) put(i, rise, peak, peak, cruise);
@@ -388,19 +388,19 @@ function tightLoop(floor: Floor): void {
   const { accelMmPerS2: accel, speedMmPerS: speed } = DEFAULT_MOTION.draw;
   const max2 = speed * speed;
   v2[n] = 0;
-  for (let i = n - 1; i >= 0; i--) v2[i] = Math.min(limit2[i]!, v2[i + 1]! + 2 * accel * length[i]!);
-  for (let i = 0; i < n; i++) v2[i + 1] = Math.min(v2[i + 1]!, v2[i]! + 2 * accel * length[i]!);
+  for (let i = n - 1; i >= 0; i--) v2[i] = Math.min(limit2[i], v2[i + 1] + 2 * accel * length[i]);
+  for (let i = 0; i < n; i++) v2[i + 1] = Math.min(v2[i + 1], v2[i] + 2 * accel * length[i]);
   let k = 0;
   let clock = 0;
   let along = 0;
   for (let i = 0; i < n; i++) {
-    const l = length[i]!;
-    const v0 = Math.sqrt(v2[i]!);
-    const v1 = Math.sqrt(v2[i + 1]!);
-    const peak2 = Math.min(max2, (v2[i]! + v2[i + 1]!) / 2 + accel * l);
+    const l = length[i];
+    const v0 = Math.sqrt(v2[i]);
+    const v1 = Math.sqrt(v2[i + 1]);
+    const peak2 = Math.min(max2, (v2[i] + v2[i + 1]) / 2 + accel * l);
     const peak = Math.sqrt(peak2);
-    const rise = (peak2 - v2[i]!) / (2 * accel);
-    const fall = (peak2 - v2[i + 1]!) / (2 * accel);
+    const rise = (peak2 - v2[i]) / (2 * accel);
+    const fall = (peak2 - v2[i + 1]) / (2 * accel);
     const cruise = l - rise - fall;
     for (let phase = 0; phase < 3; phase++) {
       const d = phase === 0 ? rise : phase === 1 ? cruise : fall;
@@ -411,12 +411,12 @@ function tightLoop(floor: Floor): void {
       const t = (2 * d) / (w0 + w1);
       const a = (w1 - w0) / t;
       durationS[k] = t;
-      bx[k] = x[i]! + ux[i]! * from;
-      by[k] = y[i]! + uy[i]! * from;
-      vx[k] = ux[i]! * w0;
-      vy[k] = uy[i]! * w0;
-      ax[k] = ux[i]! * a;
-      ay[k] = uy[i]! * a;
+      bx[k] = x[i] + ux[i] * from;
+      by[k] = y[i] + uy[i] * from;
+      vx[k] = ux[i] * w0;
+      vy[k] = uy[i] * w0;
+      ax[k] = ux[i] * a;
+      ay[k] = uy[i] * a;
       startS[k] = clock;
       alongMm[k] = along + from;
       clock += t;

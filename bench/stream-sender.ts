@@ -82,7 +82,7 @@ const { underrunCount, steps1, steps2 } = await streamCommands(session, commands
 });
 const report: SenderReport = {
   commandCount: commands.count,
-  plannedS: commands.boardS[commands.count]!,
+  plannedS: commands.boardS[commands.count],
   underrunCount,
   steps1: steps1!,
   steps2: steps2!,

@@ -29,7 +29,7 @@ export default async function streamBench(report: Report): Promise<void> {
   const loads: number[] = [];
   for (const { what, task } of CASES) {
     rows.push({ what, ...(await measure(task)) });
-    loads.push(loadavg()[0]!);
+    loads.push(loadavg()[0]);
   }
   const load = `${Math.min(...loads).toFixed(1)} to ${Math.max(...loads).toFixed(1)}`;
   report("Streaming", rows, `Load while it ran: ${load} on ${cpus().length} cores.`);

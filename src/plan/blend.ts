@@ -131,12 +131,12 @@ export class BlendPlanner {
       if (rest > SHORTEST_STRAIGHT_MM) {
         straight.x = x[i] + ux[i] * used;
         straight.y = y[i] + uy[i] * used;
-        straight.ux = ux[i]!;
-        straight.uy = uy[i]!;
+        straight.ux = ux[i];
+        straight.uy = uy[i];
         straight.length = rest;
         straight.v0 = v0;
         straight.v1 = v1;
-        straight.cap2 = cap2[i]!;
+        straight.cap2 = cap2[i];
         straight.alongMm = along + used * perMm;
         straight.alongPerMm = perMm;
         writeStraight(straight, accel, out);

@@ -54,8 +54,8 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
     if (k0 === k1) {
       // Both taps are in one block, where the mean is known exactly. Differences would add up rounding errors.
       const t = t1 - widthS / 2;
-      ax = pax[k1]!;
-      ay = pay[k1]!;
+      ax = pax[k1];
+      ay = pay[k1];
       vx = pvx[k1] + t * ax;
       vy = pvy[k1] + t * ay;
     } else {
@@ -91,7 +91,7 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
     if (left1 <= SAME_S) {
       k1++;
       t1 = 0;
-      left1 = durationS[k1]!;
+      left1 = durationS[k1];
     }
     t0 += dt;
     left0 -= dt;
@@ -99,7 +99,7 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
       // Block 0 follows the rest before the start.
       k0 = k0 > count ? 0 : k0 + 1;
       t0 = 0;
-      left0 = durationS[k0]!;
+      left0 = durationS[k0];
     }
   }
 }

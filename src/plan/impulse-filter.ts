@@ -78,11 +78,11 @@ class Axis {
   begin(first: number, p: number): void {
     for (let i = 0; i < this.block.length; i++) {
       this.block[i] = first - 1;
-      this.leavesS[i] = this.delayS[i]!;
+      this.leavesS[i] = this.delayS[i];
     }
     this.startS = this.v = this.a = 0;
     this.p = p;
-    this.endS = this.delayS[0]!;
+    this.endS = this.delayS[0];
   }
 
   /** Sets the next piece. Row `end` of the input's columns is the rest after the last block. */
@@ -105,7 +105,7 @@ class Axis {
         const k = ++block[i];
         leavesS[i] = k < end ? delayS[i] + startS[k + 1] - startS[first] : Infinity;
       }
-      if (leavesS[i] < endS) endS = leavesS[i]!;
+      if (leavesS[i] < endS) endS = leavesS[i];
       const w = weight[i];
       const k = block[i];
       if (k < first) p1 += w * p[first];
@@ -177,7 +177,7 @@ export class ImpulseFilter {
       }
       tS = nextS;
     }
-    while (out.count > firstOut && isRest(out, out.count - 1)) out.clockS = out.startS[--out.count]!;
+    while (out.count > firstOut && isRest(out, out.count - 1)) out.clockS = out.startS[--out.count];
     return beginS;
   }
 }

@@ -14,14 +14,14 @@ export function writeJunctionRun(path: RunPath, limits: RunLimits, out: BlockCol
   const straight = newStraight();
   straight.alongMm = path.startAlong;
   for (let i = 0; i < n; i++) {
-    straight.x = x[i]!;
-    straight.y = y[i]!;
-    straight.ux = ux[i]!;
-    straight.uy = uy[i]!;
-    straight.length = length[i]!;
+    straight.x = x[i];
+    straight.y = y[i];
+    straight.ux = ux[i];
+    straight.uy = uy[i];
+    straight.length = length[i];
     straight.v0 = Math.sqrt(v2[i]);
     straight.v1 = Math.sqrt(v2[i + 1]);
-    straight.cap2 = cap2[i]!;
+    straight.cap2 = cap2[i];
     writeStraight(straight, limits.accel, out);
     straight.alongMm += length[i];
   }
@@ -47,12 +47,12 @@ function lookAhead(v2: Float64Array, length: Float64Array, segmentCount: number,
   for (let i = segmentCount - 1; i >= 0; i--) {
     const reachable = next + twoA * length[i];
     if (v2[i] > reachable) v2[i] = reachable;
-    next = v2[i]!;
+    next = v2[i];
   }
   let previous = v2[0];
   for (let i = 0; i < segmentCount; i++) {
     const reachable = previous + twoA * length[i];
     if (v2[i + 1] > reachable) v2[i + 1] = reachable;
-    previous = v2[i + 1]!;
+    previous = v2[i + 1];
   }
 }

@@ -216,14 +216,14 @@ class PlanBuilder {
     this.wait(waitS);
     this.lastLayer = layer;
     path.startAt(this.x, this.y);
-    this.pen = this.pens[layer]!;
+    this.pen = this.pens[layer];
     this.drop(waitS > 0 ? null : travelS);
     this.beginRun(stroke);
     if (motion.ease) path.ease(motion.ease.lengthMm);
     const limits = slower(this.drawLimits[layer], strokes.speedFactor?.[stroke] ?? 1);
     this.writer.write(path, limits, this.blocks, this.planned);
-    this.x = path.x[path.segmentCount]!;
-    this.y = path.y[path.segmentCount]!;
+    this.x = path.x[path.segmentCount];
+    this.y = path.y[path.segmentCount];
   }
 
   travel(x: number, y: number): void {

@@ -21,9 +21,9 @@ export function fillAlong(shaped: Trajectory, planned: Trajectory, delayS: numbe
       const tS = startS[i] - delayS;
       while (k < last && endS <= tS) {
         k++;
-        fromS = planned.startS[k]!;
+        fromS = planned.startS[k];
         endS = fromS + durationS[k];
-        from = planned.alongMm[k]!;
+        from = planned.alongMm[k];
         const d = durationS[k];
         const v0 = Math.sqrt(vx[k] * vx[k] + vy[k] * vy[k]);
         const x1 = vx[k] + d * ax[k];

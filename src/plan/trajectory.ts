@@ -152,7 +152,7 @@ export function stateAt(
     if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
     return rest(out, k + 1 === trajectory.blockCount ? endOf(trajectory) : [out.x, out.y]);
   }
-  out.stroke = runs.stroke[run]!;
+  out.stroke = runs.stroke[run];
   blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
   if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
   return out;

@@ -122,7 +122,7 @@ describe("a plan in blend mode", () => {
         let before = 0;
         for (let k = t.runs.firstBlock[run]; k < t.runs.firstBlock[run + 1]; k++) {
           expect(t.alongMm[k]).toBeGreaterThanOrEqual(before - 1e-12 * size);
-          before = t.alongMm[k]!;
+          before = t.alongMm[k];
         }
         let whole = 0;
         points.slice(1).forEach(([x, y], i) => (whole += Math.hypot(x - points[i][0], y - points[i][1])));
