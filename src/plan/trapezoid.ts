@@ -56,7 +56,6 @@ export function writeStraight(straight: Straight, accel: number, out: BlockColum
   const peak = Math.sqrt(peak2);
   const cruise = length - rise - fall;
   const cruises = cruise > Math.max(NEGLIGIBLE * length, negligible2 / (2 * accel));
-  // The last phase gets the remaining length, so that it ends exactly at the end of the straight.
   let from = 0;
   let speed = v0;
   if (rise > 0 && (fall > 0 || cruises)) {
@@ -71,7 +70,9 @@ export function writeStraight(straight: Straight, accel: number, out: BlockColum
     from += d;
     speed = peak;
   }
-  writePhase(straight, from, length - from, speed, v1, out);
+  // After another phase, `length - from` would be too inexact on a very long straight: a short phase would break A.
+  const last = fall > 0 && from > 0 ? fall : length - from;
+  writePhase(straight, length - last, last, speed, v1, out);
 }
 
 /** `d` mm from speed w0 to speed w1. */

@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 import { DEFAULT_PEN, plan, type MotionSettings, type Trajectory } from "../../../src/index.js";
 import { DEFAULT_FIT, MOTION_MODES } from "../../../src/internal.js";
 import { blockState, newMotionState } from "../../../src/plan/trajectory.js";
-import { arbitraryGridStroke, arbitraryLimits, strokeSetOf } from "../../support/arbitraries.js";
+import { arbitraryGridStroke, arbitraryLimits, strokeSetOf, type Point } from "../../support/arbitraries.js";
 import { cases } from "../../support/full-run.js";
 import { swinging } from "../../support/swinging.js";
 import { worstOf } from "../../support/trajectory-checks.js";
@@ -105,6 +105,19 @@ describe("limits of single axes", () => {
     )
       .durationS // prettier-ignore
       .reduce((sum, s) => sum + s, 0);
+
+  it("hold on a line of 2 km that bends a little, where rounding could stretch a short phase", () => {
+    const line: Point[] = [
+      [0, 0],
+      [955336.489, 295520.207],
+      [1910672.978, 591040.413],
+      [1910672.988, 591040.416],
+    ];
+    const draw = { speedMmPerS: 100, accelMmPerS2: 1_500, cornerMm: 0.025, jerkMmPerS3: 1 };
+    const axes = { speedXMmPerS: 5, accelXMmPerS2: 20, accelYMmPerS2: 25.416961697007732 };
+    const motion: MotionSettings = { mode: "blend", fit: null, draw, travel: draw, ...axes };
+    expectWithin(plan(strokeSetOf([line]), motion, DEFAULT_PEN), motion);
+  });
 
   it("slow only motion along that axis", () => {
     expect(timeOf(100, 0, { accelYMmPerS2: 250 })).toBeCloseTo(timeOf(100, 0, {}), 9);
