@@ -85,9 +85,8 @@ export function mergeBlocks(
   let size = FIRST_GROUP;
   let i = first;
   while (i < last) {
-    const end = longestGroup(blocks, i, Math.min(i + size, last), last, limits, rules);
+    const end = mergeGroup(blocks, i, Math.min(i + size, last), last, limits, rules);
     if (end > i) {
-      writePair(blocks, i, end, allowedTime(blocks, i, end, limits, rules));
       firstPair = Math.min(firstPair, i);
       size = end - i;
       i = end;
@@ -100,10 +99,10 @@ export function mergeBlocks(
 }
 
 /**
- * Finds a group of blocks [i, end) that can be replaced by a pair. Tries the group that ends at `guess` first, then grows
- * or shrinks it. Returns the end of the longest group that passed; i if none did.
+ * Replaces a group of blocks [i, end) by a pair. Tries the group that ends at `guess` first, then grows or shrinks it.
+ * Returns the end of the longest group that passed; i if none did.
  */
-function longestGroup(
+function mergeGroup(
   blocks: BlockColumns,
   i: number,
   guess: number,
@@ -112,24 +111,28 @@ function longestGroup(
   rules: MergeRules,
 ): number {
   let end = guess;
-  while (!canMerge(blocks, i, end, limits, rules)) {
+  let wholeS = pairTime(blocks, i, end, limits, rules);
+  while (wholeS === 0) {
     if (end <= i + 2) return i;
     end = i + Math.floor((end - i) / GROWTH);
+    wholeS = pairTime(blocks, i, end, limits, rules);
   }
-  if (end < guess) return end;
-  while (end < last) {
+  while (end >= guess && end < last) {
     const longer = Math.min(i + Math.ceil(GROWTH * (end - i)), last);
-    if (!canMerge(blocks, i, longer, limits, rules)) break;
+    const longerS = pairTime(blocks, i, longer, limits, rules);
+    if (longerS === 0) break;
     end = longer;
+    wholeS = longerS;
   }
+  writePair(blocks, i, end, wholeS);
   return end;
 }
 
-/** Whether a pair can replace blocks [i, m): false if it saves nothing or breaks a limit. */
-function canMerge(blocks: BlockColumns, i: number, m: number, limits: RunLimits, rules: MergeRules): boolean {
-  if (!isWorth(blocks, i, m, rules.floorS)) return false;
+/** Duration of the pair that can replace blocks [i, m), s; 0 if none can, or if it saves nothing. */
+function pairTime(blocks: BlockColumns, i: number, m: number, limits: RunLimits, rules: MergeRules): number {
+  if (!isWorth(blocks, i, m, rules.floorS)) return 0;
   const wholeS = allowedTime(blocks, i, m, limits, rules);
-  return wholeS > 0 && isNear(blocks, i, m, wholeS, limits, rules);
+  return wholeS > 0 && isNear(blocks, i, m, wholeS, limits, rules) ? wholeS : 0;
 }
 
 /** One axis of the pair's velocity in its middle. */
