@@ -41,7 +41,7 @@ const FAST = 4;
  * A point moves along the line by this share of the difference between its two segments' lengths, to even
  * them out.
  */
-const EVEN = 0.4;
+const EVEN = 0.3;
 /** Moving along the line must leave this share of δ. */
 const KEEP_SHARE = 0.75;
 /** Max displacement of two neighbours relative to each other, as a share of their segment's length. */

@@ -198,7 +198,7 @@ function energyOf(y: readonly number[], turn: readonly number[], length: Float64
   for (let i = 1; i + 1 < y.length; i++) {
     const [before, after] = [length[i - 1], length[i]];
     const t = turn[i] + (y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before;
-    sum += (t * t) / Math.min(before, after);
+    sum += ((before + after) / 2 / Math.min(before, after) ** 2) * t * t;
   }
   return sum;
 }
