@@ -146,16 +146,14 @@ export class BlendPlanner {
       if (tau === 0) continue;
       const wx = ux[i] * v1;
       const wy = uy[i] * v1;
-      out.push(
-        2 * tau,
-        x[i + 1] - wx * tau,
-        y[i + 1] - wy * tau,
-        wx,
-        wy,
-        (ux[i + 1] * after - wx) / (2 * tau),
-        (uy[i + 1] * after - wy) / (2 * tau),
-        along - v1 * tau * perMm,
-      );
+      const k = out.add(2 * tau);
+      out.x[k] = x[i + 1] - wx * tau;
+      out.y[k] = y[i + 1] - wy * tau;
+      out.vx[k] = wx;
+      out.vy[k] = wy;
+      out.ax[k] = (ux[i + 1] * after - wx) / (2 * tau);
+      out.ay[k] = (uy[i + 1] * after - wy) / (2 * tau);
+      out.alongMm[k] = along - v1 * tau * perMm;
     }
   }
 }

@@ -82,7 +82,18 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
     const alongV = per * along1 - per * along0;
     const alongA = per * rate1 - per * rate0;
     const alongJ = per * change[k1] - per * change[k0];
-    if (dt > 2 * SAME_S) out.push(dt, x, y, vx, vy, ax, ay, along, jx, jy);
+    if (dt > 2 * SAME_S) {
+      const k = out.add(dt);
+      out.x[k] = x;
+      out.y[k] = y;
+      out.vx[k] = vx;
+      out.vy[k] = vy;
+      out.ax[k] = ax;
+      out.ay[k] = ay;
+      out.alongMm[k] = along;
+      if (out.jx !== null) out.jx[k] = jx;
+      if (out.jy !== null) out.jy[k] = jy;
+    }
     x += dt * (vx + dt * (ax / 2 + (dt * jx) / 6));
     y += dt * (vy + dt * (ay / 2 + (dt * jy) / 6));
     along += dt * (alongV + dt * (alongA / 2 + (dt * alongJ) / 6));

@@ -171,9 +171,14 @@ export class ImpulseFilter {
       // Leave out the rest at the beginning: a move along one axis begins with the first impulse of that axis.
       if (out.count === firstOut && vx === 0 && vy === 0 && x.a === 0 && y.a === 0) beginS = nextS;
       else {
-        const px = x.p + (sx * (x.v + vx)) / 2;
-        const py = y.p + (sy * (y.v + vy)) / 2;
-        out.push(nextS - tS, px, py, vx, vy, x.a, y.a, 0);
+        const k = out.add(nextS - tS);
+        out.x[k] = x.p + (sx * (x.v + vx)) / 2;
+        out.y[k] = y.p + (sy * (y.v + vy)) / 2;
+        out.vx[k] = vx;
+        out.vy[k] = vy;
+        out.ax[k] = x.a;
+        out.ay[k] = y.a;
+        out.alongMm[k] = 0;
       }
       tS = nextS;
     }

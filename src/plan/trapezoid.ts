@@ -46,7 +46,7 @@ export const newStraight = (): Straight => ({
 
 /** Appends the blocks of a straight under |a| ≤ `accel`. */
 export function writeStraight(straight: Straight, accel: number, out: BlockColumns): void {
-  const { length, v0, v1, cap2 } = straight;
+  const { x, y, ux, uy, length, v0, v1, cap2, alongMm, alongPerMm } = straight;
   const start2 = v0 * v0;
   const end2 = v1 * v1;
   const peak2 = Math.min((start2 + end2) / 2 + accel * length, Math.max(cap2, start2, end2));
@@ -54,37 +54,29 @@ export function writeStraight(straight: Straight, accel: number, out: BlockColum
   const rise = peak2 - start2 > negligible2 ? (peak2 - start2) / (2 * accel) : 0;
   const fall = peak2 - end2 > negligible2 ? (peak2 - end2) / (2 * accel) : 0;
   const peak = Math.sqrt(peak2);
-  const cruise = length - rise - fall;
-  const cruises = cruise > Math.max(NEGLIGIBLE * length, negligible2 / (2 * accel));
+  const rest = length - rise - fall;
+  const cruises = rest > Math.max(NEGLIGIBLE * length, negligible2 / (2 * accel));
+  // Lengths of the phases, mm; 0: missing. Without a cruise, the rounding error goes to the first phase there is.
+  const first = rise === 0 || cruises ? rise : length - fall;
+  const cruise = cruises || (rise === 0 && fall === 0) ? rest : 0;
+  const last = first === 0 && cruise === 0 ? length : fall;
   let from = 0;
-  let speed = v0;
-  if (rise > 0 && (fall > 0 || cruises)) {
-    const d = cruises ? rise : length - fall;
-    writePhase(straight, 0, d, v0, peak, out);
-    from = d;
-    speed = peak;
-  }
-  if (fall > 0 && cruises) {
-    const d = length - from - fall;
-    writePhase(straight, from, d, speed, peak, out);
+  let w0 = v0;
+  for (let phase = 0; phase < 3; phase++) {
+    const d = phase === 0 ? first : phase === 1 ? cruise : last;
+    if (d === 0) continue;
+    const isLast = phase === 2 || (last === 0 && (phase === 1 || cruise === 0));
+    const w1 = isLast ? v1 : peak;
+    const a = ((w1 - w0) * (w1 + w0)) / (2 * d);
+    const k = out.add((2 * d) / (w0 + w1));
+    out.x[k] = x + ux * from;
+    out.y[k] = y + uy * from;
+    out.vx[k] = ux * w0;
+    out.vy[k] = uy * w0;
+    out.ax[k] = ux * a;
+    out.ay[k] = uy * a;
+    out.alongMm[k] = alongMm + from * alongPerMm;
     from += d;
-    speed = peak;
+    w0 = w1;
   }
-  // After another phase, `length - from` would be too inexact on a very long straight: a short phase would break A.
-  const last = fall > 0 && from > 0 ? fall : length - from;
-  writePhase(straight, length - last, last, speed, v1, out);
-}
-
-/** `d` mm from speed w0 to speed w1. */
-function writePhase(
-  { x, y, ux, uy, alongMm, alongPerMm }: Straight,
-  from: number,
-  d: number,
-  w0: number,
-  w1: number,
-  out: BlockColumns,
-): void {
-  const a = ((w1 - w0) * (w1 + w0)) / (2 * d);
-  const along = alongMm + from * alongPerMm;
-  out.push((2 * d) / (w0 + w1), x + ux * from, y + uy * from, ux * w0, uy * w0, ux * a, uy * a, along);
 }
