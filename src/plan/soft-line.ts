@@ -60,7 +60,7 @@ const BENDS = 2;
 export class SoftLine {
   /** mm of the drawing that each segment covers. */
   along = new Float64Array(0);
-  private readonly even = new RunPath();
+  /** The evened line, then the soft line. */
   private readonly soft = new RunPath();
   private readonly bending = new LeastBending();
   /** s at each point of the drawing, then of the evened line. */
@@ -88,11 +88,10 @@ export class SoftLine {
     if (curves === NOTHING) return this.unchanged(path, limits);
     this.evenOut(path, limits.corner);
     this.bound(limits.corner);
-    const { bending } = this;
-    if (curves === BENDS) bending.solve(n, this.even.length);
+    const { bending, soft } = this;
+    if (curves === BENDS) bending.solve(n, soft.length);
     else bending.y.set(bending.low.subarray(0, n + 1));
     if (!this.move(n)) return this.unchanged(path, limits);
-    const { soft } = this;
     capSegments(soft, limits);
     return soft;
   }
@@ -151,15 +150,15 @@ export class SoftLine {
   /** Moves points of bends along the line, away from the nearer neighbour. */
   private evenOut(path: RunPath, corner: number): void {
     const { segmentCount: n, x, y, length, ux, uy } = path;
-    const { even, sine, kind, taken, along } = this;
-    even.copyLayout(path);
-    even.x[0] = x[0];
-    even.y[0] = y[0];
+    const { soft, sine, kind, taken, along } = this;
+    soft.copyLayout(path);
+    soft.x[0] = x[0];
+    soft.y[0] = y[0];
     taken[0] = 0;
     let previousTau = 0;
     for (let i = 1; i <= n; i++) {
-      even.x[i] = x[i];
-      even.y[i] = y[i];
+      soft.x[i] = x[i];
+      soft.y[i] = y[i];
       taken[i] = 0;
       let tau = 0;
       if (kind[i] === FREE) {
@@ -169,19 +168,19 @@ export class SoftLine {
         const limit = Math.min((SHEAR / 2) * Math.min(length[i - 1], length[i]), mayLeave);
         tau = clamped(EVEN * (length[i] - length[i - 1]), -limit, limit);
         const per = tau * halfPerCosine(s * s);
-        even.x[i] += per * (ux[i - 1] + ux[i]);
-        even.y[i] += per * (uy[i - 1] + uy[i]);
+        soft.x[i] += per * (ux[i - 1] + ux[i]);
+        soft.y[i] += per * (uy[i - 1] + uy[i]);
         taken[i] = Math.abs(tau) * leaves;
       }
       along[i - 1] = length[i - 1] + tau - previousTau;
       previousTau = tau;
     }
-    even.measure();
+    soft.measure();
   }
 
   /** Computes the turns of the evened line, and how far its points may move to the left and to the right. */
   private bound(corner: number): void {
-    const { segmentCount: n, length, ux, uy } = this.even;
+    const { segmentCount: n, length, ux, uy } = this.soft;
     const { sine, kind, taken, left, bending } = this;
     bending.reserve(n + 1);
     const { low, high, turn } = bending;
@@ -216,13 +215,12 @@ export class SoftLine {
    * sheared after that.
    */
   private move(n: number): boolean {
-    const { even, soft, shiftX, shiftY } = this;
+    const { soft, shiftX, shiftY } = this;
     this.shift(n);
     if (this.stayWhereSheared(n) > 0 && this.stayWhereSheared(n) > 0) return false;
-    soft.copyLayout(even);
     for (let i = 0; i <= n; i++) {
-      soft.x[i] = even.x[i] + shiftX[i];
-      soft.y[i] = even.y[i] + shiftY[i];
+      soft.x[i] += shiftX[i];
+      soft.y[i] += shiftY[i];
     }
     soft.measure();
     return true;
@@ -230,7 +228,7 @@ export class SoftLine {
 
   private shift(n: number): void {
     const { sine, kind, shiftX, shiftY } = this;
-    const { ux, uy } = this.even;
+    const { ux, uy } = this.soft;
     const { y: moves } = this.bending;
     shiftX.fill(0, 0, n + 1);
     shiftY.fill(0, 0, n + 1);
@@ -250,7 +248,7 @@ export class SoftLine {
 
   /** Returns the number of sheared segments, and resets both ends of each. */
   private stayWhereSheared(n: number): number {
-    const { length } = this.even;
+    const { length } = this.soft;
     const { shiftX, shiftY, isSheared } = this;
     let count = 0;
     for (let i = 0; i < n; i++) {
