@@ -63,25 +63,20 @@ export function writeFiltered(from: BlockColumns, end: RunEnd, widthS: number, o
       const vy1 = pvy[k1] + t1 * pay[k1];
       const vx0 = pvx[k0] + t0 * pax[k0];
       const vy0 = pvy[k0] + t0 * pay[k0];
-      // Positions are taken relative to the output's position: this keeps precision far from the origin.
-      const x1 = px[k1] - x + (t1 * (pvx[k1] + vx1)) / 2;
-      const y1 = py[k1] - y + (t1 * (pvy[k1] + vy1)) / 2;
-      const x0 = px[k0] - x + (t0 * (pvx[k0] + vx0)) / 2;
-      const y0 = py[k0] - y + (t0 * (pvy[k0] + vy0)) / 2;
-      vx = per * x1 - per * x0;
-      vy = per * y1 - per * y0;
-      ax = per * vx1 - per * vx0;
-      ay = per * vy1 - per * vy0;
-      jx = per * pax[k1] - per * pax[k0];
-      jy = per * pay[k1] - per * pay[k0];
+      // Differences between the blocks' positions come first: this keeps precision far from the origin.
+      vx = per * (px[k1] - px[k0] + (t1 * (pvx[k1] + vx1) - t0 * (pvx[k0] + vx0)) / 2);
+      vy = per * (py[k1] - py[k0] + (t1 * (pvy[k1] + vy1) - t0 * (pvy[k0] + vy0)) / 2);
+      ax = per * (vx1 - vx0);
+      ay = per * (vy1 - vy0);
+      jx = per * (pax[k1] - pax[k0]);
+      jy = per * (pay[k1] - pay[k0]);
     }
     const rate1 = rate[k1] + t1 * change[k1];
     const rate0 = rate[k0] + t0 * change[k0];
-    const along1 = alongMm[k1] - along + (t1 * (rate[k1] + rate1)) / 2;
-    const along0 = alongMm[k0] - along + (t0 * (rate[k0] + rate0)) / 2;
-    const alongV = per * along1 - per * along0;
-    const alongA = per * rate1 - per * rate0;
-    const alongJ = per * change[k1] - per * change[k0];
+    const covered = (t1 * (rate[k1] + rate1) - t0 * (rate[k0] + rate0)) / 2;
+    const alongV = per * (alongMm[k1] - alongMm[k0] + covered);
+    const alongA = per * (rate1 - rate0);
+    const alongJ = per * (change[k1] - change[k0]);
     if (dt > 2 * SAME_S) {
       const k = out.add(dt);
       out.x[k] = x;

@@ -56,17 +56,17 @@ export function writeStraight(straight: Straight, accel: number, out: BlockColum
   const peak = Math.sqrt(peak2);
   const rest = length - rise - fall;
   const cruises = rest > Math.max(NEGLIGIBLE * length, negligible2 / (2 * accel));
-  // Lengths of the phases, mm; 0: missing. Without a cruise, the rounding error goes to the first phase there is.
-  const first = rise === 0 || cruises ? rise : length - fall;
-  const cruise = cruises || (rise === 0 && fall === 0) ? rest : 0;
-  const last = first === 0 && cruise === 0 ? length : fall;
+  // Lengths of the blocks, mm; 0: missing. The last one ends at v1, whichever phase it is. Of two phases without a cruise
+  // between them, the rounding error goes to the first.
+  const first = cruises ? rise : rise > 0 && fall > 0 ? length - fall : 0;
+  const cruise = cruises && fall > 0 ? rest : 0;
+  const last = first + cruise === 0 ? length : fall > 0 ? fall : rest;
   let from = 0;
   let w0 = v0;
-  for (let phase = 0; phase < 3; phase++) {
-    const d = phase === 0 ? first : phase === 1 ? cruise : last;
+  for (let block = 0; block < 3; block++) {
+    const d = block === 0 ? first : block === 1 ? cruise : last;
     if (d === 0) continue;
-    const isLast = phase === 2 || (last === 0 && (phase === 1 || cruise === 0));
-    const w1 = isLast ? v1 : peak;
+    const w1 = block === 2 ? v1 : peak;
     const a = ((w1 - w0) * (w1 + w0)) / (2 * d);
     const k = out.add((2 * d) / (w0 + w1));
     out.x[k] = x + ux * from;
