@@ -14,6 +14,8 @@
  * result does not depend on the direction of the polyline.
  */
 
+import { clamped, greater } from "./choose.js";
+
 const ROUNDS = 4;
 /** Penalty weight of the bounds, as a share of the diagonal. */
 const BOUND_WEIGHT = 0.3;
@@ -79,19 +81,18 @@ export class LeastBending {
   private weigh(n: number, length: Float64Array): void {
     const { low, high, turn, weight, bending, perLength, isFree } = this;
     weight[0] = bending[0] = weight[n] = bending[n] = 0;
-    isFree[0] = isFree[n] = 0;
+    isFree[0] = 0;
+    isFree[1] = low[1] === high[1] ? 0 : 1;
     perLength[0] = 1 / length[0];
-    for (let i = 1; i < n; i++) {
-      isFree[i] = low[i] === high[i] ? 0 : 1;
-      perLength[i] = 1 / length[i];
-    }
     let y0 = low[0];
     let y1 = isFree[1] === 1 ? 0 : low[1];
     for (let i = 1; i < n; i++) {
+      isFree[i + 1] = low[i + 1] === high[i + 1] ? 0 : 1;
+      perLength[i] = 1 / length[i];
       const a = perLength[i - 1];
       const c = perLength[i];
       const y2 = isFree[i + 1] === 1 ? 0 : low[i + 1];
-      const max = Math.max(a, c);
+      const max = greater(a, c);
       weight[i] = ((length[i - 1] + length[i]) / 2) * max * max;
       bending[i] = weight[i] * (turn[i] + (y2 - y1) * c - (y1 - y0) * a);
       y0 = y1;
@@ -166,6 +167,3 @@ export class LeastBending {
     }
   }
 }
-
-export const clamped = (a: number, low: number, high: number): number =>
-  a < low ? low : a > high ? high : a;
