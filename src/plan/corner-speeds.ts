@@ -95,7 +95,7 @@ export class CornerSpeeds {
       used = q;
       const turned = Math.sqrt((v0 - v1) * (v0 - v1) + 4 * s * s * v0 * v1);
       const excess = turned - q;
-      if (Math.abs(excess) <= ROUNDING * maxSpeed) break;
+      if (Math.abs(excess) <= ROUNDING * maxSpeed + ACCURACY * q) break;
       if (excess > 0) low = q;
       else high = q;
       const isSlow = Math.abs(excess) > before / 2;
@@ -111,6 +111,9 @@ export class CornerSpeeds {
 
 /** Relative differences of speed below this are rounding errors. */
 const ROUNDING = 2e-15;
+
+/** Relative accuracy of q, and so of |a| in the curve. */
+const ACCURACY = 1e-9;
 
 /**
  * A first estimate of q for a corner that is limited on one side only.
