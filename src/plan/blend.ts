@@ -77,7 +77,7 @@ export class BlendPlanner {
         const half = lesser(length[i - 1], length[i]) / 2;
         tangent[i] = line.reach(i, bx, by, s, half);
         sine[i] = s;
-        maxSpeed[i] = Math.sqrt(lesser(cap, (accel * tangent[i]) / s));
+        maxSpeed[i] = Math.sqrt(Math.min(cap, (accel * tangent[i]) / s));
       } else {
         tangent[i] = sine[i] = 0;
         maxSpeed[i] = Math.sqrt(cap);

@@ -2,8 +2,9 @@
  * Min, max and clamp for the inner loops of `blend`: exact, and without a branch. No argument may be NaN.
  *
  * V8 compiles Math.min, Math.max and comparisons to branches, and on the lengths and turns of a drawing a processor
- * guesses every second one wrong. With those in place of these functions, planning a million segments takes 262 ms
- * in place of 236 in `blend`, and 567 ms in place of 516 in `scurve`.
+ * guesses every second one wrong. These functions read the result from an array instead: a comparison gives its
+ * index, 0 or 1. With branches, planning a million segments takes 262 ms in place of 236 in `blend`, and 567 ms in
+ * place of 516 in `scurve`.
  */
 const candidates = new Float64Array(3);
 

@@ -113,7 +113,7 @@ export class SoftLine {
     if (rest >= depth * depth + (half * along) / 2) return half;
     // 2 room / s, where d·b = along / (2 s).
     const max = (Math.sqrt(Math.max(0, 4 * s * s * rest + along * along)) - along) / (s * s);
-    return lesser(max, half);
+    return Math.min(max, half);
   }
 
   private unchanged(path: RunPath, limits: RunLimits): RunPath {
