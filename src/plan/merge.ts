@@ -209,46 +209,52 @@ function isNear(
   rules: MergeRules,
 ): boolean {
   const tolerance = wholeS < SHORT_S ? rules.shortToleranceMm : rules.toleranceMm;
-  const halfS = wholeS / 2;
+  // The pair in the time of its blocks: faster if it takes longer than they do.
+  const start = startS[i];
+  const blocksS = startS[m] - start;
+  const faster = wholeS / blocksS;
+  const halfS = blocksS / 2;
   const x0 = x[i];
   const y0 = y[i];
-  const vx0 = vx[i];
-  const vy0 = vy[i];
+  const vx0 = vx[i] * faster;
+  const vy0 = vy[i] * faster;
   const x1 = x[m];
   const y1 = y[m];
-  const vx1 = vx[m];
-  const vy1 = vy[m];
-  const wx = middleVelocity(x1 - x0, vx0, vx1, wholeS);
-  const wy = middleVelocity(y1 - y0, vy0, vy1, wholeS);
+  const vx1 = vx[m] * faster;
+  const vy1 = vy[m] * faster;
+  const wx = middleVelocity(x1 - x0, vx0, vx1, blocksS);
+  const wy = middleVelocity(y1 - y0, vy0, vy1, blocksS);
   const a1x = (wx - vx0) / halfS;
   const a1y = (wy - vy0) / halfS;
   const a2x = (vx1 - wx) / halfS;
   const a2y = (vy1 - wy) / halfS;
-  const start = startS[i];
-  const stretch = wholeS / (startS[m] - start);
   const slow2 = rules.isSmooth ? 16 * tolerance * accel : Infinity;
   for (let k = i; k < m; k++) {
     const d = durationS[k];
-    const t = (startS[k] - start) * stretch;
+    const t = startS[k] - start;
     const isFirst = t < halfS;
-    const u = isFirst ? t : t - wholeS;
+    const u = isFirst ? t : t - blocksS;
     const dx = isFirst ? x0 + u * (vx0 + (u * a1x) / 2) - x[k] : x1 + u * (vx1 + (u * a2x) / 2) - x[k];
     const dy = isFirst ? y0 + u * (vy0 + (u * a1y) / 2) - y[k] : y1 + u * (vy1 + (u * a2y) / 2) - y[k];
-    // In the block that contains the pair's middle, use the half whose acceleration differs more.
-    const hasMiddle = isFirst && t + d > halfS;
-    const isSecondWorse =
-      hasMiddle && lengthOf(a2x - ax[k], a2y - ay[k]) > lengthOf(a1x - ax[k], a1y - ay[k]);
-    const usesFirst = isFirst && !isSecondWorse;
-    const ex = (((usesFirst ? a1x : a2x) - ax[k]) * d * d) / 8;
-    const ey = (((usesFirst ? a1y : a2y) - ay[k]) * d * d) / 8;
-    const rest = tolerance - Math.abs(ex) - Math.abs(ey);
+    // e in the middle of the block, if the pair's acceleration there is that of its first or its second half. Both are
+    // possible in the block that contains the pair's middle.
+    const isSecond = !isFirst || t + d > halfS;
+    const first = isFirst ? (d * d) / 8 : 0;
+    const second = isSecond ? (d * d) / 8 : 0;
+    const e1x = first * (a1x - ax[k]);
+    const e1y = first * (a1y - ay[k]);
+    const e2x = second * (a2x - ax[k]);
+    const e2y = second * (a2y - ay[k]);
+    const rest = tolerance - Math.max(Math.abs(e1x) + Math.abs(e1y), Math.abs(e2x) + Math.abs(e2y));
     if (rest > 0 && dx * dx + dy * dy <= rest * rest) continue;
     const ux = vx[k];
     const uy = vy[k];
     const v2 = ux * ux + uy * uy;
     if (v2 < slow2) return false;
-    const across = Math.abs(dx * uy - dy * ux) + Math.abs(ex * uy - ey * ux);
-    const along = Math.abs(dx * ux + dy * uy) + Math.abs(ex * ux + ey * uy);
+    const across =
+      Math.abs(dx * uy - dy * ux) + Math.max(Math.abs(e1x * uy - e1y * ux), Math.abs(e2x * uy - e2y * ux));
+    const along =
+      Math.abs(dx * ux + dy * uy) + Math.max(Math.abs(e1x * ux + e1y * uy), Math.abs(e2x * ux + e2y * uy));
     if (across / Math.sqrt(v2) + (accel * along * along) / (v2 * v2) > tolerance) return false;
   }
   return true;
