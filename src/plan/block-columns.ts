@@ -45,7 +45,7 @@ export class BlockColumns {
 
   private grow(needed: number): void {
     const { segmentsDone, blocksDone } = this;
-    const likely = segmentsDone > 0 ? 1.02 * this.segmentsExpected * (blocksDone / segmentsDone) : 4 * needed;
+    const likely = segmentsDone > 0 ? 1.01 * this.segmentsExpected * (blocksDone / segmentsDone) : 4 * needed;
     // At most 500 times as much, since the first strokes may not be typical.
     this.resize(Math.min(likely > needed ? likely : 2 * needed, 500 * needed) + 64);
   }

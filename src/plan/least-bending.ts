@@ -6,7 +6,7 @@
  *   ℓ     mm     lengths of its segments
  *
  *   tᵢ = φᵢ + (yᵢ₊₁ − yᵢ)/ℓᵢ − (yᵢ − yᵢ₋₁)/ℓᵢ₋₁       new turn, to first order
- *   Σ wᵢ tᵢ²      wᵢ = (ℓᵢ₋₁ + ℓᵢ)/2 / min(ℓᵢ₋₁, ℓᵢ)²     minimised: ∫ κ² ds with κ = tᵢ / shorter segment
+ *   Σ wᵢ tᵢ²      wᵢ = 1 / min(ℓᵢ₋₁, ℓᵢ)     minimised: ∫ κ² ds over curves as long as the shorter segment
  *
  * Method: alternating directions (Boyd et al. 2011, section 5.2) with over-relaxation. Each round solves the
  * problem without bounds, a symmetric five-diagonal system whose factors stay the same, and then applies the
@@ -16,7 +16,7 @@
 
 import { clamped, greater } from "./choose.js";
 
-const ROUNDS = 4;
+const ROUNDS = 6;
 /** Penalty weight of the bounds, as a share of the diagonal. */
 const BOUND_WEIGHT = 0.3;
 const RELAXATION = 1.8;
@@ -92,8 +92,7 @@ export class LeastBending {
       const a = perLength[i - 1];
       const c = perLength[i];
       const y2 = isFree[i + 1] === 1 ? 0 : low[i + 1];
-      const max = greater(a, c);
-      weight[i] = ((length[i - 1] + length[i]) / 2) * max * max;
+      weight[i] = greater(a, c);
       bending[i] = weight[i] * (turn[i] + (y2 - y1) * c - (y1 - y0) * a);
       y0 = y1;
       y1 = y2;
