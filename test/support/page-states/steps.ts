@@ -21,10 +21,10 @@ export async function lay(page: Page, name: string, text: string): Promise<void>
   await waitForPlan(page);
 }
 
+/** Plots a drawing. Watch then opens by itself, with the queue below it on a phone. */
 export async function start(page: Page, name: string, text: string): Promise<void> {
   await lay(page, name, text);
   await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
-  await openTab(page, "Queue");
   await queuePanel(page).getByRole("progressbar").waitFor();
 }
 
