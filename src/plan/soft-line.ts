@@ -44,6 +44,8 @@ export class SoftLine {
   private readonly soft = new RunPath();
   private readonly bending = new LeastBending();
   private corner = 0;
+  /** mm outwards at each corner; 0 elsewhere. */
+  private outwards = new Float64Array(0);
   /** s at each point of the drawing. */
   private sine = new Float64Array(0);
   /** mm from the drawing's point. */
@@ -65,7 +67,6 @@ export class SoftLine {
     if (found === NOTHING) return this.unchanged(path);
     const { bending, soft, shiftX, shiftY } = this;
     if (found === BENDS) bending.solve(n, path.length);
-    else bending.y.set(bending.low.subarray(0, n + 1));
     this.shift(path);
     // A point that stays may in turn shear its other segment.
     if (this.stayWhereSheared(path) > 0 && this.stayWhereSheared(path) > 0) return this.unchanged(path);
@@ -102,7 +103,7 @@ export class SoftLine {
   /** Sets the turn at each point, and how far it may move to the left. Returns what can be softened. */
   private bound(path: RunPath, { accel, corner }: RunLimits): number {
     const { segmentCount: n, length, ux, uy, cap2 } = path;
-    const { sine, bending } = this;
+    const { sine, outwards, bending } = this;
     bending.reserve(n + 1);
     const { low, high, turn } = bending;
     let found = NOTHING;
@@ -112,34 +113,39 @@ export class SoftLine {
       const dx = ux[i] - ux[i - 1];
       const dy = uy[i] - uy[i - 1];
       const s = Math.sqrt(dx * dx + dy * dy) / 2;
-      const isLeftTurn = ux[i - 1] * uy[i] > uy[i - 1] * ux[i];
+      // Positive: to the left. Where the line goes straight back, to neither side.
+      const side = Math.sign(ux[i - 1] * uy[i] - uy[i - 1] * ux[i]);
       const half = lesser(length[i - 1], length[i]) / 2;
       // How far the longest curve passes inside its point.
       const depth = (half * s) / 2;
       const v2 = Math.min(cap2[i - 1], cap2[i]);
-      let outwards = 0;
-      let inwards = 0;
+      // To the outside and to the inside of the turn.
+      let most = 0;
+      let least = 0;
+      outwards[i] = 0;
       if (depth > corner) {
-        outwards = Math.max(0, Math.min(corner, depth - corner, (v2 * s * s) / (2 * accel) - corner));
-        inwards = -outwards;
-        if (outwards > 0 && found === NOTHING) found = CORNERS;
+        outwards[i] = Math.max(0, Math.min(corner, depth - corner, (v2 * s * s) / (2 * accel) - corner));
+        // This moves the ends of both segments across them by cos(φ/2) of it.
+        most = outwards[i] * Math.sqrt(Math.max(0, 1 - s * s));
+        least = most;
+        if (outwards[i] > 0 && found === NOTHING) found = CORNERS;
       } else if (s <= SMOOTH && accel * half < FAST * v2 * s) {
-        outwards = corner;
+        most = corner;
         // With less room than its depth the pen would have to slow down again.
-        inwards = corner - depth;
+        least = depth - corner;
         found = BENDS;
       }
       sine[i] = s;
-      turn[i] = isLeftTurn ? 2 * s : -2 * s;
-      low[i] = isLeftTurn ? -outwards : -inwards;
-      high[i] = isLeftTurn ? inwards : outwards;
+      turn[i] = side * 2 * s;
+      low[i] = side > 0 ? -most : least;
+      high[i] = side > 0 ? -least : most;
     }
     return found;
   }
 
   private shift(path: RunPath): void {
     const { segmentCount: n, ux, uy } = path;
-    const { sine, shiftX, shiftY } = this;
+    const { sine, outwards, shiftX, shiftY } = this;
     const { y: moves, low, high } = this.bending;
     shiftX[0] = shiftY[0] = shiftX[n] = shiftY[n] = 0;
     for (let i = 1; i < n; i++) {
@@ -148,8 +154,7 @@ export class SoftLine {
         shiftX[i] = -per * (uy[i - 1] + uy[i]);
         shiftY[i] = per * (ux[i - 1] + ux[i]);
       } else {
-        // Outwards, which is to the right in a left turn.
-        const per = moves[i] === 0 ? 0 : -Math.abs(moves[i]) / (2 * sine[i]);
+        const per = outwards[i] === 0 ? 0 : -outwards[i] / (2 * sine[i]);
         shiftX[i] = per * (ux[i] - ux[i - 1]);
         shiftY[i] = per * (uy[i] - uy[i - 1]);
       }
@@ -176,6 +181,7 @@ export class SoftLine {
   private reserve(points: number): void {
     if (this.sine.length >= points) return;
     const size = Math.max(points, 2 * this.sine.length);
+    this.outwards = new Float64Array(size);
     this.sine = new Float64Array(size);
     this.shiftX = new Float64Array(size);
     this.shiftY = new Float64Array(size);

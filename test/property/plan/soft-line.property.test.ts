@@ -182,13 +182,13 @@ function pathOf(points: readonly Point[]): RunPath {
 
 const strokesOf = (points: readonly Point[]): StrokeSet => strokeSetOf([points]);
 
-/** Σ w φ², which the soft line minimises. */
+/** Σ φ²/min(ℓ), which the soft line minimises. */
 function bending({ segmentCount: n, ux, uy, length }: RunPath): number {
   let sum = 0;
   for (let i = 1; i < n; i++) {
     const shorter = Math.min(length[i - 1], length[i]);
     const turn = Math.atan2(ux[i - 1] * uy[i] - uy[i - 1] * ux[i], ux[i - 1] * ux[i] + uy[i - 1] * uy[i]);
-    sum += ((length[i - 1] + length[i]) / 2 / shorter ** 2) * turn ** 2;
+    sum += turn ** 2 / shorter;
   }
   return sum;
 }
@@ -198,7 +198,7 @@ function energyOf(y: readonly number[], turn: readonly number[], length: Float64
   for (let i = 1; i + 1 < y.length; i++) {
     const [before, after] = [length[i - 1], length[i]];
     const t = turn[i] + (y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before;
-    sum += ((before + after) / 2 / Math.min(before, after) ** 2) * t * t;
+    sum += (t * t) / Math.min(before, after);
   }
   return sum;
 }
