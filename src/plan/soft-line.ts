@@ -119,7 +119,7 @@ export class SoftLine {
       // How far the longest curve passes inside its point.
       const depth = (half * s) / 2;
       const v2 = Math.min(cap2[i - 1], cap2[i]);
-      // To the outside and to the inside of the turn.
+      // Max and min displacement to the outside of the turn.
       let most = 0;
       let least = 0;
       outwards[i] = 0;
