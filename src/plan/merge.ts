@@ -14,8 +14,8 @@
  *   |w| ≤ V and |a₁|, |a₂| ≤ A     (velocity is linear in each half, so the extremes are at the ends)
  *   it deviates from the planned line by at most ε
  *
- * At each block, start with a group about as long as the previous one. The group grows until it fails, or
- * shrinks until it passes (greedy, no backtracking). Linear in the number of blocks.
+ * At each block, start with a group as long as the one merged just before, or else with the shortest. The group grows
+ * until it fails, or shrinks until it passes (greedy, no backtracking). Linear in the number of blocks.
  *
  * A pair may take slightly longer than its blocks (STRETCH). Its velocity oscillates slightly around that of an
  * arc, so on an arc drawn at V or A almost no pair would be allowed without extra time.
@@ -35,9 +35,6 @@ const SHORT_S = 0.024;
 
 /** Factor from one trial length to the next. */
 const GROWTH = 1.25;
-
-/** Blocks in the first trial group. */
-const FIRST_GROUP = 8;
 
 /** Shortest group from which merging always saves a block. */
 const MIN_GROUP = 3;
@@ -82,18 +79,13 @@ export function mergeBlocks(
   // Add a row for the end state of the last block, so that every block has a successor.
   blocks.push(0, at.x, at.y, 0, 0, 0, 0, at.alongMm);
   let firstPair = last;
-  let size = FIRST_GROUP;
+  let size = MIN_GROUP;
   let i = first;
   while (i < last) {
     const end = mergeGroup(blocks, i, Math.min(i + size, last), last, limits, rules);
-    if (end > i) {
-      firstPair = Math.min(firstPair, i);
-      size = end - i;
-      i = end;
-    } else {
-      size = Math.max(MIN_GROUP, Math.floor(size / 2));
-      i += 1;
-    }
+    if (end > i) firstPair = Math.min(firstPair, i);
+    size = Math.max(MIN_GROUP, end - i);
+    i = Math.max(i + 1, end);
   }
   blocks.removeEmpty(firstPair);
 }
