@@ -35,6 +35,7 @@ const SMOOTH = 0.35;
 const FAST = 4;
 /** Max displacement of two neighbours relative to each other, as a share of their segment's length. */
 const SHEAR = 0.5;
+
 /** What can be softened on a path. */
 const NOTHING = 0;
 const CORNERS = 1;
