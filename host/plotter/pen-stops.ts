@@ -10,13 +10,13 @@ import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 
 export class PenStops {
   readonly #stops: readonly PenStop[];
-  /** Stops at or before this stroke have been answered. */
-  #answeredTo: number;
+  /** The stop answered last: its pen is in the holder. */
+  #answered: PenStop | undefined;
 
   /** `from`: where an interrupted plot continues. Continuing answers the stop that the plot had reached. */
   constructor(strokes: StrokeSet, settings: PlotSettings, from: Place | null) {
     this.#stops = penStopsOf(strokes, settings);
-    this.#answeredTo = from?.stroke ?? -1;
+    if (from !== null) this.answer(from);
   }
 
   /** The strokes before which the plot goes home and waits. */
@@ -26,21 +26,25 @@ export class PenStops {
 
   /** The pen to insert before the plot continues at a place; null if none. */
   due(place: Place | null): PlotWait | null {
-    const stroke = place?.stroke ?? 0;
-    const stop = this.#stops.filter(({ strokeIndex }) => strokeIndex <= stroke).at(-1);
-    if (stop === undefined || stop.strokeIndex <= this.#answeredTo) return null;
+    const stop = this.#reached(place);
+    if (stop === undefined || stop === this.#answered) return null;
     const { layerName, penName, color } = stop;
     return { kind: "pen", layerName, penName, color };
   }
 
   /** The user has inserted the pen that was due at a place. */
   answer(place: Place | null): void {
-    this.#answeredTo = Math.max(this.#answeredTo, place?.stroke ?? 0);
+    this.#answered = this.#reached(place);
   }
 
-  /** The user has moved the place: a stop that is ahead again becomes due again. */
+  /**
+   * The user has moved the place. If it moved back past a stop, that stop becomes due again when the plot reaches it,
+   * and the pen of the stop before it is due now, unless it is in the holder.
+   */
   moved(place: Place): void {
-    this.#answeredTo = Math.min(this.#answeredTo, place.stroke);
+    const [stop, answered] = [this.#reached(place), this.#answered];
+    if (answered === undefined || place.stroke >= answered.strokeIndex) return;
+    if (stop === undefined || hasSamePen(stop, answered)) this.#answered = stop;
   }
 
   /** The next stroke at which a plot from a place will wait; null if it runs to the end. */
@@ -48,4 +52,13 @@ export class PenStops {
     const stroke = place?.stroke ?? 0;
     return this.#stops.find(({ strokeIndex }) => strokeIndex > stroke)?.strokeIndex ?? null;
   }
+
+  /** The last stop at or before a place. */
+  #reached(place: Place | null): PenStop | undefined {
+    const stroke = place?.stroke ?? 0;
+    return this.#stops.filter(({ strokeIndex }) => strokeIndex <= stroke).at(-1);
+  }
 }
+
+const hasSamePen = (a: PenStop, b: PenStop): boolean =>
+  a.penName === null ? a.layerId === b.layerId : a.penName === b.penName;

@@ -37,13 +37,14 @@ const PROGRESS_S = 0.06;
 const JOURNAL_S = 0.25;
 /** Max time between the last journal entry and the end of what was sent to the board, in real seconds. */
 const LEFT_S = 1.5;
-/** Max time between two journal entries, including what is sent in that time. */
+/** Max time between two journal entries, plus the motion sent ahead in that time. */
 const UNTIL_NEXT_ENTRY_S = JOURNAL_S + 2 * PROGRESS_S;
-/** Time to plan a change, beyond what is in flight, in real seconds; longer if planning took longer before. */
+/** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
 
-type Wish = "run" | "hold" | "cancel";
+/** The state that the user asked for. */
+type RequestedState = "run" | "hold" | "cancel";
 type HeldListener = (held: boolean, wait?: PlotWait | null) => void;
 
 export class MachinePlot implements LivePlotRun {
@@ -51,7 +52,7 @@ export class MachinePlot implements LivePlotRun {
   /** While held, the place from which the plot resumes; before that, the place where it starts. */
   holdPlace: Place | null;
 
-  #wish: Wish = "run";
+  #requested: RequestedState = "run";
   #held = false;
   /** What the plot waits for, if it was not held by the user. */
   #wait: PlotWait | null = null;
@@ -66,12 +67,14 @@ export class MachinePlot implements LivePlotRun {
   #whole: Promise<PlaceTimes> | null = null;
   #planningS = 0;
   #changing: Promise<void> | null = null;
-  /** Moves to the hold point; nothing else may move until they have finished. */
+  /** Moves to the hold place; nothing else may move until they have finished. */
   #walking: Promise<void> = Promise.resolve();
   #journalDueS = -Infinity;
   #stopTicking: () => void = () => undefined;
-  #wakeWisher: (() => void) | null = null;
+  #wakeHold: (() => void) | null = null;
   #cancelPlanning: ((error: PlotwrightError) => void) | null = null;
+  /** The last request was an emergency stop: the carriage stays where it is until the next one. */
+  #staysPut = false;
   readonly #heldListeners: HeldListener[] = [];
   readonly #progressListeners: ((progress: PlotProgress) => void)[] = [];
   readonly #waiters = new Waiters();
@@ -96,7 +99,7 @@ export class MachinePlot implements LivePlotRun {
       },
     });
     this.holdPlace = start.from ? this.#placeLeft(start.from) : null;
-    if (start.held ?? this.holdPlace !== null) this.#wish = "hold";
+    if (start.held ?? this.holdPlace !== null) this.#requested = "hold";
     this.finished = this.#run().then(
       (outcome) => {
         this.#waiters.end(true);
@@ -120,40 +123,41 @@ export class MachinePlot implements LivePlotRun {
     if (this.#stream.progress.latest) listener(this.#stream.progress.latest);
   }
 
-  /** A stop before the first stroke may come before the listener is added, so it is reported here. */
+  /** If the plot already waits for its first pen, the listener learns it now. */
   onHeld(listener: HeldListener): void {
     this.#heldListeners.push(listener);
     if (this.#held && this.#wait) listener(true, this.#wait);
   }
 
   pause(): Promise<void> {
-    if (this.#wish === "run") this.#ask("hold");
-    return this.#waiters.until(() => this.#held || this.#wish === "cancel");
+    if (this.#requested === "run") this.#request("hold");
+    return this.#waiters.until(() => this.#held || this.#requested === "cancel");
   }
 
   resume(): Promise<void> {
-    if (this.#wish === "hold") this.#ask("run");
+    if (this.#requested === "hold") this.#request("run");
     return this.#waiters.until(() => !this.#held);
   }
 
   cancel(): Promise<void> {
-    this.#ask("cancel");
+    this.#request("cancel");
     this.#cancelPlanning?.(cancelled());
     return this.#waiters.until(() => false);
   }
 
   emergencyStop(): Promise<void> {
-    if (this.#wish === "run") this.#wish = "hold";
+    if (this.#requested === "run") this.#requested = "hold";
+    this.#staysPut = true;
     if (this.#stream.playing) this.#stream.stopAtOnce();
     else this.#machine.stopAtOnce();
-    return this.#waiters.until(() => this.#held || this.#wish === "cancel");
+    return this.#waiters.until(() => this.#held || this.#requested === "cancel");
   }
 
   /** The board no longer follows commands: nothing more is sent, and `finished` rejects. */
   fail(error: PlotwrightError): void {
     this.#failure ??= error;
     this.#stream.fail(error);
-    this.#wakeWisher?.();
+    this.#wakeHold?.();
   }
 
   async change(change: PlotChange): Promise<void> {
@@ -213,10 +217,11 @@ export class MachinePlot implements LivePlotRun {
     return this.holdPlace;
   }
 
-  #ask(wish: Wish): void {
-    this.#wish = wish;
-    if (wish !== "run") this.#stream.slowToRest();
-    this.#wakeWisher?.();
+  #request(state: RequestedState): void {
+    this.#requested = state;
+    this.#staysPut = false;
+    if (state !== "run") this.#stream.slowToRest();
+    this.#wakeHold?.();
   }
 
   async #run(): Promise<PlotOutcome> {
@@ -228,16 +233,17 @@ export class MachinePlot implements LivePlotRun {
     }
     await this.#liftWhatWasLeft();
     for (;;) {
-      if (this.#wish === "run" && this.#stops.due(this.holdPlace)) this.#wish = "hold";
-      if (this.#wish === "hold") await this.#hold();
-      if (this.#wish === "cancel") return this.#goHome();
+      if (this.#requested === "run" && this.#stops.due(this.holdPlace)) this.#requested = "hold";
+      if (this.#requested === "hold") await this.#hold();
+      if (this.#requested === "cancel") return this.#goHome();
       const until = this.#stops.nextAfter(this.holdPlace);
+      const { changeCount } = this.#settings;
       const plot = await this.#planFromRest().catch((error: unknown) => {
-        if (this.#wish === "cancel") return null;
+        if (this.#requested === "cancel") return null;
         throw error;
       });
       if (!plot) return this.#goHome();
-      if (this.#wish !== "run") continue;
+      if (this.#requested !== "run" || this.#settings.changeCount !== changeCount) continue;
       await this.#stream.play(plot, this.#afterPartS, () => this.#streamBegun());
       const next = this.#stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
       if (next) this.holdPlace = next;
@@ -315,13 +321,14 @@ export class MachinePlot implements LivePlotRun {
   /** Plans the rest with the new settings, and switches to it at a place that was not yet sent to the board. */
   async #changeInMotion(): Promise<void> {
     const { speed, clock } = this.#machine;
-    for (let tries = 0; this.#wish === "run" && tries < CHANGE_TRIES;) {
+    let tries = 0;
+    while (this.#requested === "run" && tries < CHANGE_TRIES) {
       const { playing } = this.#stream;
       const over = this.#stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.#planningS * 2 ** tries);
       if (over) {
         tries++;
         const plot = await this.#plan(over.from, over.x, over.y, over.board);
-        if (this.#wish !== "run" || this.#stream.playing !== playing) return;
+        if (this.#requested !== "run" || this.#stream.playing !== playing) return;
         if (over.switchTo(plot, this.#afterPartS)) return;
       } else if (!this.#stream.isSwitching) return;
       else await new Promise<void>((resolve) => void clock.after(PROGRESS_S * speed, resolve));
@@ -331,32 +338,34 @@ export class MachinePlot implements LivePlotRun {
   async #hold(): Promise<void> {
     this.#setHeld(true, this.#stops.due(this.holdPlace));
     if (this.#wait) this.#writeJournal(this.holdPlace);
-    while (this.#wish === "hold" && !this.#failure) {
+    while (this.#requested === "hold" && !this.#failure) {
       await new Promise<void>((resolve) => {
-        this.#wakeWisher = resolve;
+        this.#wakeHold = resolve;
       });
     }
-    this.#wakeWisher = null;
+    this.#wakeHold = null;
     await this.#untilWalked();
     if (this.#failure) throw this.#failure;
-    if (this.#wish === "run") this.#stops.answer(this.holdPlace);
+    if (this.#requested === "run") this.#stops.answer(this.holdPlace);
     this.#setHeld(false, null);
   }
 
   async #untilWalked(): Promise<void> {
-    for (let last: Promise<void> | null = null; last !== this.#walking;) {
+    let last: Promise<void>;
+    do {
       last = this.#walking;
       await last;
-    }
+    } while (last !== this.#walking);
   }
 
   /** Handles a stop after everything was drawn, on the way home. */
   async #endedOnItsWayHome(): Promise<PlotOutcome> {
     const { kind } = await this.#goHome();
-    return { kind: this.#wish === "cancel" ? kind : "done" };
+    return { kind: this.#requested === "cancel" ? kind : "done" };
   }
 
   async #goHome(): Promise<PlotOutcome> {
+    if (this.#staysPut) return { kind: "cancelled" };
     try {
       await this.#machine.walk(0, 0, this.#settings.current);
     } catch (error) {
@@ -375,7 +384,7 @@ export class MachinePlot implements LivePlotRun {
 
   #streamBegun(): void {
     // A request that came before the stream existed.
-    if (this.#wish !== "run") this.#stream.slowToRest();
+    if (this.#requested !== "run") this.#stream.slowToRest();
     this.#stopTicking = this.#tick();
   }
 

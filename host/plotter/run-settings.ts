@@ -3,6 +3,8 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlotChange } from "./types.js";
 
 export class RunSettings {
+  /** How many changes were made so far. */
+  changeCount = 0;
   #speedPct = 100;
 
   constructor(public current: PlotSettings) {}
@@ -14,15 +16,16 @@ export class RunSettings {
       motion: motion ?? this.current.motion,
     };
     this.#speedPct = speedPct ?? this.#speedPct;
+    this.changeCount++;
   }
 
-  /** The settings for planning, with the speeds scaled by the percentage. */
+  /** The settings for planning, with the speeds scaled by `speedPct`. */
   get planned(): PlotSettings {
-    const share = this.#speedPct / 100;
-    if (share === 1) return this.current;
+    const factor = this.#speedPct / 100;
+    if (factor === 1) return this.current;
     const { draw, travel, layers = {} } = this.current.motion;
     const scaled = <T extends { readonly speedMmPerS?: number | undefined }>(limits: T): T =>
-      limits.speedMmPerS === undefined ? limits : { ...limits, speedMmPerS: limits.speedMmPerS * share };
+      limits.speedMmPerS === undefined ? limits : { ...limits, speedMmPerS: limits.speedMmPerS * factor };
     const scaledLayers = Object.entries(layers).map(([id, limits]) => [id, scaled(limits)] as const);
     return {
       ...this.current,

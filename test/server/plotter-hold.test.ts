@@ -1,8 +1,23 @@
 /** Hold and emergency stop: what they leave on the paper, and where the motors end. */
 import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import type { PlannedPlot, PlanRequest } from "../../host/planning/plot-planner.js";
+import type { StrokeSet } from "../../src/index.js";
 import { MOTION_MODES, type MotionMode } from "../../src/internal.js";
 import { cases } from "../support/full-run.js";
-import { drawnMm, DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
+import {
+  drawnMm,
+  DRAWING,
+  expectDrawn,
+  plotting,
+  seamsMm,
+  seeded,
+  settingsOf,
+  type LivePlot,
+} from "../support/live-plot.js";
+import { LocalPlanner } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 
 /**
  * From pause to held: the motion in flight (a window and a command), slowing down from 150 mm/s, the lift, a
@@ -12,6 +27,21 @@ const HELD_WITHIN_S = 0.5 + 0.15 + 0.25 + 0.05;
 
 /** Accuracy of a drawn length: one step. */
 const STEP_MM = 0.0125;
+
+/** A planner that takes 3 s. */
+class SlowPlanner extends LocalPlanner {
+  constructor(
+    strokes: StrokeSet,
+    private readonly world: ManualClock,
+  ) {
+    super(strokes);
+  }
+
+  override async plan(request: PlanRequest): Promise<PlannedPlot> {
+    await new Promise<void>((resolve) => void this.world.after(3, resolve));
+    return super.plan(request);
+  }
+}
 
 /** What an uninterrupted plot draws. */
 async function wholeMm(mode: MotionMode, firmware?: string): Promise<number> {
@@ -118,6 +148,61 @@ describe("an emergency stop after everything is sent", () => {
     await world.run(run.finished);
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
     expectDrawn(board, DRAWING, 0.05);
+  });
+});
+
+describe("an emergency stop while the carriage would go home by itself", () => {
+  /** Both motors' steps, now and a while later. */
+  const expectStill = async ({ world, board }: LivePlot): Promise<void> => {
+    const { steps1, steps2 } = board.state();
+    expect(Math.abs(steps1) + Math.abs(steps2)).toBeGreaterThan(100);
+    await world.advance(10);
+    expect(board.state()).toMatchObject({ steps1, steps2, penUp: true, isBusy: false });
+  };
+
+  it("ends a plot that is being cancelled where it is", async () => {
+    const plot = await plotting("junction");
+    const { world, run } = plot;
+    await world.advance(3);
+    const cancelled = run.cancel();
+    await world.advance(0.02);
+    await world.run(run.emergencyStop());
+    expect(await world.run(run.finished)).toEqual({ kind: "cancelled" });
+    await world.run(cancelled);
+    await expectStill(plot);
+  });
+
+  it("holds a plot that is drawn, and it goes home when resumed", async () => {
+    const plot = await plotting("junction");
+    const { world, board, run } = plot;
+    const lastLine = DRAWING.offsets.length - 1;
+    const drawnLines = (): number =>
+      board.drawn().filter(({ penDown, xy }) => penDown && xy.length > 2).length;
+    while (drawnLines() < lastLine || !board.state().penUp) await world.advance(0.02);
+    await world.advance(0.2);
+    await world.run(run.emergencyStop());
+    expect(plot.driver.state.activity).toBe("held");
+    await expectStill(plot);
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+    expectDrawn(board, DRAWING, 0.05);
+  });
+});
+
+describe("a change while the rest is being planned", () => {
+  it("is part of the plan that is drawn", async () => {
+    const world = new ManualClock();
+    const driver = new PlotterDriver({ device: "virtual", clock: world });
+    await world.run(driver.start());
+    const planner = new SlowPlanner(DRAWING, world);
+    const run = await world.run(driver.plot(planner, settingsOf("junction")));
+    await world.advance(1);
+    await world.run(run.change({ speedPct: 50 }));
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    const { draw } = settingsOf("junction").motion;
+    expect(planner.requests.at(-1)?.settings.motion.draw.speedMmPerS).toBe(draw.speedMmPerS / 2);
+    expectDrawn(virtualBoardOf(driver), DRAWING, 0.05);
   });
 });
 

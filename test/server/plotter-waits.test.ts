@@ -31,6 +31,8 @@ const SETTINGS: PlotSettings = {
 };
 const BLACK: PlotWait = { kind: "pen", layerName: "Ink", penName: "Black", color: "#111111" };
 
+const BLUE: PlotWait = { kind: "pen", layerName: "Sky", penName: "Blue", color: "#0000ff" };
+
 async function plotting(settings: PlotSettings = SETTINGS, start: PlotStart = {}, strokes = DRAWING) {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world });
@@ -170,6 +172,27 @@ describe("a plot with a change of pens", () => {
     await world.run(run.resume());
     await world.run(run.finished);
     expect(drawnRows()).toEqual([10, 20, 30, 30, 50]);
+  });
+
+  it("asks for the previous pen when the user moves back before a change that was made", async () => {
+    const { world, run, held, nextHold, drawnRows } = await plotting({ ...SETTINGS, layerStops: {} });
+    await world.run(run.resume());
+    await world.run(nextHold());
+    await world.run(run.resume());
+    await world.advance(1);
+    await world.run(run.pause());
+    run.moveHoldPlace({ strokes: -2 });
+    expect(held[held.length - 1]).toEqual([true, BLUE]);
+    // The black pen is still in the holder.
+    run.moveHoldPlace({ strokes: 2 });
+    expect(held[held.length - 1]).toEqual([true, null]);
+    run.moveHoldPlace({ strokes: -2 });
+    await world.run(run.resume());
+    await world.run(nextHold());
+    expect(held[held.length - 1]).toEqual([true, BLACK]);
+    await world.run(run.resume());
+    await world.run(run.finished);
+    expect(drawnRows().slice(-3)).toEqual([30, 40, 50]);
   });
 
   it("can be held, changed and cancelled while it waits", async () => {

@@ -120,6 +120,6 @@ export const penWaitText = {
   put: (pen: string) => `Put in the pen “${pen}”`,
   putForLayer: (layer: string) => `Put in the pen for “${layer}”`,
   layer: (layer: string) => `for the layer “${layer}”`,
-  hint: "The pen is up and the carriage is home. Continue when the new pen is fixed.",
-  watcherHint: "The pen is up and the carriage is home. Another device continues the plot.",
+  hint: "The pen is up. Continue when the new pen is fixed.",
+  watcherHint: "The pen is up. Another device continues the plot.",
 };
