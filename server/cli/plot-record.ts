@@ -1,8 +1,8 @@
 /**
- * Stores a plot of the command line, so that it can resume after a crash: its drawing, its settings, and the journal of
- * its driver. One folder per device, deleted when the plot has ended.
+ * Stores a plot started from the command line, so that it can resume after a crash: its drawing, its settings, and the
+ * driver's journal. One folder per device, deleted when the plot has ended.
  */
-import { copyFileSync, existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
@@ -10,12 +10,14 @@ import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js
 import type { JournalEntry } from "../../host/plotter/types.js";
 import { makeDataFolder } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
+import { isAlive, thisProcess } from "../storage/process-owner.js";
 
-const plotSchema = z.object({
+/** The process that begins or resumes a plot. */
+const ownerSchema = z.object({ pid: z.number(), began: z.string().default("") });
+const plotSchema = ownerSchema.extend({
   name: z.string(),
   settings: plotSettingsSchema,
   only: z.array(z.string()).optional(),
-  pid: z.number(),
 });
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
 const entrySchema = z.object({
@@ -24,8 +26,8 @@ const entrySchema = z.object({
   progress: z.number(),
 });
 
-/** A plot: its drawing, settings and layers. */
-export interface Plotted {
+/** What is stored of a plot when it begins, beside its drawing. */
+export interface StoredPlot {
   readonly name: string;
   readonly settings: PlotSettings;
   /** The layers that are drawn, by name. Absent: all. */
@@ -33,7 +35,7 @@ export interface Plotted {
 }
 
 /** An interrupted plot. */
-export interface CutShort extends Plotted {
+export interface InterruptedPlot extends StoredPlot {
   readonly from: JournalEntry["place"];
   readonly sent: JournalEntry["sent"];
   /** 0 … 1. */
@@ -44,9 +46,13 @@ export class PlotRecord {
   readonly #folder: string;
   readonly #dataDir: string;
   readonly #names: readonly string[];
+  readonly #device: string;
+  /** False while another process stores its plot in this folder. */
+  #isOurs = true;
 
   constructor(dataDir: string, device = "auto") {
     this.#dataDir = dataDir;
+    this.#device = device;
     this.#names = ["command-line", encodeURIComponent(device)];
     this.#folder = join(dataDir, ...this.#names);
   }
@@ -56,48 +62,49 @@ export class PlotRecord {
     return join(this.#folder, "drawing");
   }
 
-  begin(path: string, plot: Plotted): void {
+  /**
+   * Only one process can open a serial port, but several can plot on a virtual board: then only the first plot is
+   * stored. Throws `bad-file` if the drawing can't be read, `bad-setting` if the data folder can't be written to.
+   */
+  begin(path: string, plot: StoredPlot): void {
+    this.#isOurs = this.#device !== "virtual" || !this.#isPlottingElsewhere();
+    if (!this.#isOurs) return;
+    const drawing = readDrawing(path);
     makeDataFolder(this.#dataDir, ...this.#names);
-    try {
+    this.#mustWrite(() => {
       rmSync(join(this.#folder, "journal.json"), { force: true });
-      copyFileSync(path, this.drawingPath);
-      this.takeOver(plot);
-    } catch (cause) {
-      throw new PlotwrightError(
-        "bad-setting",
-        `The data folder ${this.#dataDir} can't be written to: ${fileFault(cause)}. Choose another one with --data.`,
-        { cause },
-      );
-    }
+      writeFileSync(this.drawingPath, drawing);
+    });
+    this.takeOver(plot);
   }
 
-  /** Call when this process begins or resumes a plot. */
-  takeOver({ name, settings, only }: Plotted): void {
-    this.#write("plot.json", { name, settings, only, pid: process.pid });
+  /** Call when this process begins or resumes a plot. Throws `bad-setting` if the data folder can't be written to. */
+  takeOver({ name, settings, only }: StoredPlot): void {
+    this.#mustWrite(() => this.#write("plot.json", { name, settings, only, ...thisProcess() }));
   }
 
-  /** `progress`: 0 … 1. */
+  /** `progress`: 0 … 1. Throws the system's error if the disk is full. */
   save(entry: JournalEntry, progress: number): void {
-    this.#write("journal.json", { ...entry, progress });
+    if (this.#isOurs) this.#write("journal.json", { ...entry, progress });
   }
 
   end(): void {
-    rmSync(this.#folder, { recursive: true, force: true });
+    if (this.#isOurs) rmSync(this.#folder, { recursive: true, force: true });
   }
 
   /** Null if the last plot ended, had drawn nothing, or still runs in another process. */
-  find(): CutShort | null {
+  find(): InterruptedPlot | null {
     const plot = plotSchema.safeParse(this.#read("plot.json"));
     const entry = entrySchema.safeParse(this.#read("journal.json"));
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
-    if (plot.data.pid !== process.pid && isRunning(plot.data.pid)) return null;
+    if (this.#isPlottingElsewhere()) return null;
     const { name, settings, only } = plot.data;
     const { place, sent, progress } = entry.data;
     return { name, settings, only, from: place, sent, progress };
   }
 
   /** Throws `not-found`. */
-  mustFind(): CutShort {
+  mustFind(): InterruptedPlot {
     const found = this.find();
     if (found !== null) return found;
     throw new PlotwrightError(
@@ -106,11 +113,28 @@ export class PlotRecord {
     );
   }
 
+  #isPlottingElsewhere(): boolean {
+    const { success, data } = ownerSchema.safeParse(this.#read("plot.json"));
+    return success && data.pid !== process.pid && isAlive(data);
+  }
+
   #read(name: string): unknown {
     try {
       return JSON.parse(readFileSync(join(this.#folder, name), "utf8"));
     } catch {
       return null;
+    }
+  }
+
+  #mustWrite(write: () => void): void {
+    try {
+      write();
+    } catch (cause) {
+      throw new PlotwrightError(
+        "bad-setting",
+        `The data folder ${this.#dataDir} can't be written to: ${fileFault(cause)}. Choose another one with --data.`,
+        { cause },
+      );
     }
   }
 
@@ -122,11 +146,10 @@ export class PlotRecord {
   }
 }
 
-function isRunning(pid: number): boolean {
+function readDrawing(path: string): Buffer {
   try {
-    process.kill(pid, 0);
-    return true;
-  } catch {
-    return false;
+    return readFileSync(path);
+  } catch (cause) {
+    throw new PlotwrightError("bad-file", `${path} can't be read: ${fileFault(cause)}.`, { cause });
   }
 }

@@ -7,6 +7,7 @@ import { PlotwrightError } from "../../src/index.js";
 import { machineOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
+import { fileFault } from "../storage/file-fault.js";
 import type { OpenPlanner } from "../../host/planning/open-planner.js";
 import { openPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
@@ -16,7 +17,7 @@ import { mustBeReadable, nameOf, withDrawingFile } from "./files.js";
 import type { CliIo } from "./io.js";
 import { withPlotter } from "./machine-commands.js";
 import type { DeviceOptions } from "./options.js";
-import { PlotRecord, type CutShort } from "./plot-record.js";
+import { PlotRecord, type InterruptedPlot } from "./plot-record.js";
 import { cancelled, waitForPaper, watch } from "./plot-watch.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
@@ -34,8 +35,8 @@ interface Plot {
   readonly path: string;
   readonly settings: PlotSettings;
   readonly only: readonly string[] | undefined;
-  readonly from: CutShort["from"] | null;
-  readonly sent: CutShort["sent"];
+  readonly from: InterruptedPlot["from"] | null;
+  readonly sent: InterruptedPlot["sent"];
 }
 
 /** Returns the exit code: 0, or 5 when it was cancelled. Failures are thrown. */
@@ -142,14 +143,35 @@ async function onPlotter(
   const isLost = plotter.snapshot().xMm === null;
   let progress = 0;
   begin();
-  const journal = { record: (entry: JournalEntry) => record.save(entry, progress) };
+  const journal = journalIn(record, () => progress, io);
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
   const start: PlotStart = { from, sent, journal, held: from !== null && io.hasKeyboard };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : { isLost };
   const code = await watch(run, { name, isQuiet: options.quiet === true, resumed }, io);
-  record.end();
-  await plotter.motorsOff();
+  try {
+    await plotter.motorsOff();
+  } finally {
+    record.end();
+  }
   return code;
 }
+
+/** A full disk must not stop the pen in mid-stroke: each entry is tried, as the disk may soon have room again. */
+function journalIn(record: PlotRecord, progress: () => number, io: CliIo): NonNullable<PlotStart["journal"]> {
+  let isReported = false;
+  return {
+    record: (entry: JournalEntry) => {
+      try {
+        record.save(entry, progress());
+      } catch (error) {
+        if (!isReported) io.err(`\n${notStored(error)}\n`);
+        isReported = true;
+      }
+    },
+  };
+}
+
+const notStored = (cause: unknown): string =>
+  `The progress can't be stored: ${fileFault(cause)}. The plot continues, but if it is interrupted, it resumes from an earlier place or not at all.`;

@@ -1,25 +1,19 @@
 /**
  * One server per data folder.
  *
- * The lock is a file with the owner's process id and the start time of that process. Node has no flock(), so
- * a killed owner leaves the file behind. The file is stale when no process has that id, or when the process
- * with that id started at another time (ids are reused, and are always small in a container).
+ * The lock is a file that names the process that owns it. Node has no flock(), so a killed owner leaves the file
+ * behind. It is stale when that process has ended.
  */
 import { linkSync, readFileSync, renameSync, rmSync, unlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { randomBytes } from "node:crypto";
 import { PlotwrightError } from "../../src/index.js";
-
-interface Owner {
-  readonly pid: number;
-  /** Start time: clock ticks since boot plus boot id on Linux; "" where it is not available. */
-  readonly began: string;
-}
+import { isAlive, thisProcess, type ProcessOwner } from "./process-owner.js";
 
 /** Takes the lock or throws `conflict`; the returned function releases it. */
 export function lockDataDir(dir: string): () => void {
   const path = join(dir, "server.lock");
-  const mine: Owner = { pid: process.pid, began: processBegan(process.pid) };
+  const mine = thisProcess();
   const draft = `${path}.${randomBytes(6).toString("hex")}`;
   try {
     writeFileSync(draft, JSON.stringify(mine), { mode: 0o600 });
@@ -61,12 +55,12 @@ function tryLink(from: string, to: string): boolean {
   }
 }
 
-function release(path: string, mine: Owner): void {
+function release(path: string, mine: ProcessOwner): void {
   const owner = readOwner(path);
   if (owner?.pid === mine.pid && owner.began === mine.began) rmSync(path, { force: true });
 }
 
-function readOwner(path: string): Owner | null {
+function readOwner(path: string): ProcessOwner | null {
   try {
     const value: unknown = JSON.parse(readFileSync(path, "utf8"));
     if (typeof value !== "object" || value === null) return null;
@@ -76,27 +70,6 @@ function readOwner(path: string): Owner | null {
       : null;
   } catch {
     return null;
-  }
-}
-
-function isAlive(owner: Owner): boolean {
-  try {
-    process.kill(owner.pid, 0);
-  } catch (error) {
-    // EPERM: the process is alive and belongs to another user.
-    if ((error as NodeJS.ErrnoException).code !== "EPERM") return false;
-  }
-  return owner.began === "" || owner.began === processBegan(owner.pid);
-}
-
-/** Field 22 of /proc/PID/stat. The name in field 2 may contain spaces, so count from its closing bracket. */
-function processBegan(pid: number): string {
-  try {
-    const stat = readFileSync(`/proc/${pid}/stat`, "utf8");
-    const ticks = stat.slice(stat.lastIndexOf(")") + 2).split(" ")[19] ?? "";
-    return `${ticks}@${readFileSync("/proc/sys/kernel/random/boot_id", "utf8").trim()}`;
-  } catch {
-    return "";
   }
 }
 

@@ -2,7 +2,7 @@
 import { execFileSync, spawn } from "node:child_process";
 import { createServer as createHttpServer } from "node:http";
 import type { AddressInfo } from "node:net";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
@@ -24,7 +24,10 @@ beforeEach(() => {
   file = join(dir, "a.svg");
   writeFileSync(file, SVG);
 });
-afterEach(() => rmSync(dir, { recursive: true, force: true }));
+afterEach(() => {
+  vi.restoreAllMocks();
+  rmSync(dir, { recursive: true, force: true });
+});
 
 function plot(io: CaughtIo, ...args: string[]): Promise<CliRun> {
   return cliWith(io, "plot", ...args, "--device", "virtual", "--virtual-speed", "100", "--data", dir);
@@ -71,12 +74,12 @@ describe("plotwright plot", () => {
     "does not begin after an interrupted plot, unless asked to restart",
     async () => {
       const record = new PlotRecord(dir, "virtual");
-      const cutShort = (): void => {
+      const interrupt = (): void => {
         record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
         const [place, sent] = [3, 4].map((alongMm) => ({ stroke: 0, alongMm }));
         record.save({ place, sent, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
       };
-      cutShort();
+      interrupt();
       const refused = await plot(new CaughtIo(), file);
       expect(refused.err).toMatch(/plot of b\.svg was interrupted at 40 %.*plot --resume/);
       expect(refused.code).toBe(5);
@@ -88,12 +91,12 @@ describe("plotwright plot", () => {
       }
       const resumed = await plot(withoutKeyboard(), "--resume", "--quiet");
       expect(resumed).toEqual({ code: 0, out: "", err: "" });
-      cutShort();
+      interrupt();
       const again = await plot(withoutKeyboard(), "--resume");
       expect(again.err).toMatch(/^Resuming b\.svg\.\nDone: b\.svg/);
       expect([again.code, record.find()]).toEqual([0, null]);
       expect((await plot(new CaughtIo(), "--resume")).err).toMatch(/nothing to resume/);
-      cutShort();
+      interrupt();
       expect((await plot(new CaughtIo(), file, "--restart")).code).toBe(0);
     },
     LIMIT_MS,
@@ -111,6 +114,41 @@ describe("plotwright plot", () => {
       expect(io.errText).not.toMatch(/Done/);
       io.line();
       expect((await plotted).code).toBe(0);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "continues while the progress can't be stored, reports it once and tries again",
+    async () => {
+      const save = vi.spyOn(PlotRecord.prototype, "save").mockImplementation(() => {
+        throw Object.assign(new Error("ENOSPC: no space left on device, write"), { code: "ENOSPC" });
+      });
+      const full = await plot(new CaughtIo(), file);
+      expect(full.code).toBe(0);
+      expect(full.err.match(/can't be stored: the disk is full\. The plot continues/g)).toHaveLength(1);
+      expect(full.err).toMatch(/Done: a\.svg/);
+      expect(save.mock.calls.length).toBeGreaterThan(1);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "on the virtual board, leaves the record of another process that is plotting there",
+    async () => {
+      const record = new PlotRecord(dir, "virtual");
+      record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
+      record.save({ place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
+      const folder = join(dir, "command-line", "virtual");
+      const stored = JSON.parse(readFileSync(join(folder, "plot.json"), "utf8")) as object;
+      writeFileSync(join(folder, "plot.json"), JSON.stringify({ ...stored, pid: process.ppid, began: "" }));
+      const contents = (): string[] =>
+        readdirSync(folder).map((name) => name + readFileSync(join(folder, name), "utf8"));
+      const before = contents();
+      const other = join(dir, "other.svg");
+      writeFileSync(other, SVG.replace("h9", "h8"));
+      expect(await plot(new CaughtIo(), other, "--quiet")).toEqual({ code: 0, out: "", err: "" });
+      expect(contents()).toEqual(before);
     },
     LIMIT_MS,
   );

@@ -234,7 +234,7 @@ describe("each option in docs/cli.md", async () => {
   it.each(await optionCases())(
     "$name $flag runs",
     async ({ name, flag, args }) => {
-      if (flag === "--resume") leaveCutShort();
+      if (flag === "--resume") leaveInterruptedPlot();
       const { code, err } = await runLine(name, [name, ...additionsOf(name, args), ...args]);
       expect([args, code, err]).toEqual([args, 0, expect.any(String)]);
     },
@@ -359,7 +359,7 @@ describe("docs/cli.md", () => {
   it.each(lines)(
     "$line",
     async ({ name, line }) => {
-      if (line.endsWith("--resume")) leaveCutShort();
+      if (line.endsWith("--resume")) leaveInterruptedPlot();
       const args = line.split(" ").slice(1);
       const { code, err } = await runLine(name, [...args, ...additionsOf(name, args)]);
       expect([err, code]).toEqual([expect.any(String), CODES[line] ?? 0]);
@@ -382,7 +382,7 @@ async function runLine(name: string, args: readonly string[]): Promise<CliRun> {
   return running;
 }
 
-function leaveCutShort(): void {
+function leaveInterruptedPlot(): void {
   const record = new PlotRecord(join(folder, "data"), "virtual");
   record.begin(join(folder, "drawing.svg"), {
     name: "drawing.svg",
