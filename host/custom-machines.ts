@@ -1,20 +1,20 @@
-/** The built-in machine profiles and the user's custom ones, which are stored by `keeper`. */
+/** The built-in machine profiles and the user's custom ones, which are stored by `store`. */
 import { MACHINES, PlotwrightError, type MachineProfile } from "../src/index.js";
 import type { ListedMachine, PlotSettings } from "../src/schema/index.js";
 
 /** Stores custom profiles. A method returns only after the change is stored. */
-export interface MachineKeeper {
+export interface MachineStore {
   save(machine: MachineProfile): void;
   remove(id: string): void;
 }
 
 export class CustomMachines {
-  readonly #keeper: MachineKeeper;
+  readonly #store: MachineStore;
   readonly #custom: Map<string, MachineProfile>;
 
-  constructor(custom: readonly MachineProfile[], keeper: MachineKeeper) {
+  constructor(custom: readonly MachineProfile[], store: MachineStore) {
     this.#custom = new Map(custom.map((machine) => [machine.id, machine]));
-    this.#keeper = keeper;
+    this.#store = store;
   }
 
   /** Built-in machines first. */
@@ -28,17 +28,19 @@ export class CustomMachines {
 
   /** Stores the profile before it is used. Throws `conflict` for the id of a built-in machine. */
   save(machine: MachineProfile): MachineProfile {
-    mustBeCustom(machine.id);
-    this.#keeper.save(machine);
+    mustBeCustom(machine.id, "can't be changed. Save yours under another id.");
+    this.#store.save(machine);
     this.#custom.set(machine.id, machine);
     return machine;
   }
 
-  /** Jobs that use the machine keep their copy. Throws `not-found`. */
+  /** Jobs that use the machine keep their copy. Throws `conflict` for a built-in machine, or `not-found`. */
   remove(id: string): void {
-    mustBeCustom(id);
-    if (!this.#custom.delete(id)) throw new PlotwrightError("not-found", `There is no machine ${id}.`);
-    this.#keeper.remove(id);
+    mustBeCustom(id, "can't be removed.");
+    if (!this.#custom.has(id)) throw new PlotwrightError("not-found", `There is no machine ${id}.`);
+    // Storage first: if it fails, the machine is still listed and can be removed later.
+    this.#store.remove(id);
+    this.#custom.delete(id);
   }
 
   /** Adds the profile to settings that name a custom machine without containing its profile. */
@@ -51,10 +53,7 @@ export class CustomMachines {
 
 export const isBuiltInMachine = (id: string): boolean => MACHINES.some((machine) => machine.id === id);
 
-function mustBeCustom(id: string): void {
-  if (!isBuiltInMachine(id)) return;
-  throw new PlotwrightError(
-    "conflict",
-    `${id} is a built-in machine and can't be changed. Save yours under another id.`,
-  );
+function mustBeCustom(id: string, otherwise: string): void {
+  if (isBuiltInMachine(id))
+    throw new PlotwrightError("conflict", `${id} is a built-in machine and ${otherwise}`);
 }

@@ -1,4 +1,4 @@
-/** Messages between the planner and its thread. Large arrays are transferred, not copied. */
+/** Messages between the planner and its worker thread. Large arrays are transferred, not copied. */
 import { PlotwrightError, type ErrorCode, type StrokeSet } from "../../src/index.js";
 import type { JobStats } from "../../src/schema/index.js";
 import type { PlanRequest, PlannedPlot } from "./plot-planner.js";

@@ -6,7 +6,7 @@ import { mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync
 import { join } from "node:path";
 import type { MachineProfile } from "../../src/index.js";
 import { firstFault, machineProfileSchema } from "../../src/schema/index.js";
-import { CustomMachines, isBuiltInMachine, type MachineKeeper } from "../../host/custom-machines.js";
+import { CustomMachines, isBuiltInMachine, type MachineStore } from "../../host/custom-machines.js";
 
 export class MachineFiles extends CustomMachines {
   /** Why files were skipped. */
@@ -28,12 +28,12 @@ export class MachineFiles extends CustomMachines {
         warnings.push(`${join(dir, name)} is skipped: ${(error as Error).message}`);
       }
     }
-    super(own, keeperOf(dir));
+    super(own, storeIn(dir));
     this.warnings = warnings;
   }
 }
 
-const keeperOf = (dir: string): MachineKeeper => ({
+const storeIn = (dir: string): MachineStore => ({
   save: (machine) => {
     mkdirSync(dir, { recursive: true, mode: 0o700 });
     const path = join(dir, `${machine.id}.json`);

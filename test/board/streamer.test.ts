@@ -296,6 +296,27 @@ describe("cutting and replacing", () => {
   });
 });
 
+describe("a stream that sends no command", () => {
+  it("because it has none reports its progress and the board's position", async () => {
+    const rig = await newRig();
+    const seen: StreamProgress[] = [];
+    const onProgress = (progress: StreamProgress): unknown => seen.push(progress);
+    const played = streamCommands(rig.session, makeStream([]), { clock: rig.world, onProgress });
+    expect(await rig.world.run(played)).toMatchObject({ complete: true, exact: true, steps1: 0, steps2: 0 });
+    expect(seen.at(-1)).toMatchObject({ fraction: 1, leftS: 0 });
+  });
+
+  it("because it is cancelled before it begins leaves the board alone", async () => {
+    const rig = await newRig();
+    const said = rig.session.log.text();
+    const cancel = { aborted: true };
+    const played = streamCommands(rig.session, makeStream(wavyRows(100, 20)), { clock: rig.world, cancel });
+    expect(await rig.world.run(played)).toMatchObject({ complete: false, end: { commandIndex: -1 } });
+    await rig.world.advance(1);
+    expect(rig.session.log.text()).toBe(said);
+  });
+});
+
 describe("a board that fails in mid-stream", () => {
   it("names the command that it refused", async () => {
     const rig = await newRig();

@@ -1,15 +1,35 @@
 /**
- * Handlers for entities that the DXF parser skips or reads only partly: TEXT, ATTRIB, MTEXT and HATCH;
- * LWPOLYLINE, where it loses vertices or hangs if other groups are between them; and POLYLINE, where it hangs
- * if another entity takes the place of a VERTEX or SEQEND. They read group by group (AutoCAD DXF reference,
- * ENTITIES) and return entities in the parser's form.
+ * Handlers for entities that the DXF parser skips or reads only partly: TEXT, ATTRIB, MTEXT and HATCH; CIRCLE
+ * and ELLIPSE, where it skips the extrusion; LWPOLYLINE, where it loses vertices or hangs if other groups are
+ * between them; and POLYLINE, where it hangs if another entity takes the place of a VERTEX or SEQEND. They
+ * read group by group (AutoCAD DXF reference, ENTITIES) and return entities in the parser's form.
  */
 import type { DxfEntity, DxfGroup, DxfHandler, DxfPoint, DxfScanner } from "dxf-parser/dist/dxf-parser.js";
 import { aciColor } from "./aci-color.js";
 import { bulgedVertices, readHatchLoops } from "./dxf-hatch.js";
 import { readPattern } from "./dxf-pattern.js";
 
+/** Flags of a POLYLINE. */
+const IS_3D = 8;
+const IS_POLYGON_MESH = 16;
+const IS_POLYFACE_MESH = 64;
+
 const READERS: Readonly<Record<string, (scanner: DxfScanner) => DxfEntity>> = {
+  CIRCLE: (scanner) => {
+    const groups = groupsOf(scanner);
+    return { ...commonOf("CIRCLE", groups), center: centerIn(groups), radius: numberIn(groups, 40) ?? 0 };
+  },
+  ELLIPSE: (scanner) => {
+    const groups = groupsOf(scanner);
+    return {
+      ...commonOf("ELLIPSE", groups),
+      center: centerIn(groups),
+      majorAxisEndPoint: pointIn(groups, 11) ?? { x: 0, y: 0 },
+      axisRatio: numberIn(groups, 40) ?? 1,
+      startAngle: numberIn(groups, 41) ?? 0,
+      endAngle: numberIn(groups, 42) ?? 2 * Math.PI,
+    };
+  },
   LWPOLYLINE: (scanner) => {
     const groups = groupsOf(scanner);
     return { ...commonOf("LWPOLYLINE", groups), shape: isClosed(groups), vertices: bulgedVertices(groups) };
@@ -20,7 +40,16 @@ const READERS: Readonly<Record<string, (scanner: DxfScanner) => DxfEntity>> = {
     while (scanner.lastReadGroup.value === "VERTEX") vertices.push(vertexOf(groupsOf(scanner)));
     // Without a SEQEND the line ends where another entity begins.
     if (scanner.lastReadGroup.value === "SEQEND") groupsOf(scanner);
-    return { ...commonOf("POLYLINE", groups), shape: isClosed(groups), vertices };
+    const flags = numberIn(groups, 70) ?? 0;
+    // The vertices of a mesh are not in the order of a line. A type of its own, which is not drawn but reported.
+    if ((flags & (IS_POLYGON_MESH | IS_POLYFACE_MESH)) !== 0) return commonOf("POLYLINE mesh", groups);
+    return {
+      ...commonOf("POLYLINE", groups),
+      // A 3D polyline is in world coordinates.
+      ...((flags & IS_3D) === 0 ? {} : { extrusionDirectionZ: 1 }),
+      shape: isClosed(groups),
+      vertices,
+    };
   },
   TEXT: (scanner) => textOf("TEXT", groupsOf(scanner), 73),
   ATTRIB: (scanner) => textOf("ATTRIB", groupsOf(scanner), 74),
@@ -72,6 +101,8 @@ function pointIn(groups: readonly DxfGroup[], code: number): DxfPoint | undefine
   const y = numberIn(groups, code + 10);
   return x === undefined || y === undefined ? undefined : { x, y };
 }
+
+const centerIn = (groups: readonly DxfGroup[]): DxfPoint => pointIn(groups, 10) ?? { x: 0, y: 0 };
 
 const vertexOf = (groups: readonly DxfGroup[]): DxfPoint => ({
   x: numberIn(groups, 10) ?? 0,

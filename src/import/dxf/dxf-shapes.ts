@@ -33,7 +33,8 @@ export function drawDxfEntity(entity: DxfEntity, shape: ShapeBuffer, arcToleranc
       return true;
     }
     case "POINT":
-      if (entity.position !== undefined) drawVertices([entity.position, entity.position], false, shape, 1);
+      if (entity.position !== undefined)
+        drawVertices([entity.position, entity.position], false, shape, arcTolerance);
       return true;
     case "CIRCLE":
     case "ARC":
@@ -51,7 +52,7 @@ export function drawDxfEntity(entity: DxfEntity, shape: ShapeBuffer, arcToleranc
 }
 
 /**
- * Vertices with bulges: a bulge is the tangent of a quarter of the arc's angle, positive anticlockwise.
+ * Vertices with bulges: bulge = tan(θ/4) for an arc of angle θ, positive if anticlockwise.
  * Radius = chord (1 + b²) / (4 |b|).
  */
 function drawVertices(
@@ -92,8 +93,11 @@ function drawDxfEllipse(entity: DxfEntity, shape: ShapeBuffer, arcTolerance: num
   const { center, majorAxisEndPoint: axis, axisRatio = 1 } = entity;
   if (center === undefined || axis === undefined) return;
   const rx = Math.hypot(axis.x, axis.y);
-  const start = entity.startAngle ?? 0;
-  const sweep = turnBetween(start, entity.endAngle ?? 2 * Math.PI);
+  const from = entity.startAngle ?? 0;
+  const to = entity.endAngle ?? 2 * Math.PI;
+  // With a normal that points down the ellipse runs clockwise: from a to b is anticlockwise from -b to -a.
+  const [start, end] = (entity.extrusionDirectionZ ?? 1) < 0 ? [-to, -from] : [from, to];
+  const sweep = turnBetween(start, end);
   if (rx > 0)
     drawArcOf(shape, center, rx, rx * axisRatio, Math.atan2(axis.y, axis.x), start, sweep, arcTolerance);
 }

@@ -55,6 +55,8 @@ const MAX_ENTITIES = 1_000_000;
 const ARC_TOLERANCE_MM = 2e-5;
 /** mm: max error of the ends of hatch lines at a curved border. */
 const CHORD_TOLERANCE_MM = 1e-3;
+/** Types in world coordinates, for any extrusion (AutoCAD DXF reference, Object Coordinate Systems). */
+const WORLD_TYPES: readonly string[] = ["LINE", "POINT", "3DFACE", "ELLIPSE", "SPLINE"];
 const BY_BLOCK = 0;
 const BLACK_OR_WHITE = 7;
 
@@ -207,7 +209,8 @@ class DxfImport {
     const isHidden = layer?.frozen === true || layer?.visible === false;
     const group = this.groupOf(layerName, isHidden);
     if (isHidden) return;
-    const isMirrored = (entity.extrusionDirection?.z ?? entity.extrusionDirectionZ ?? 1) < 0;
+    const extrusionZ = entity.extrusionDirection?.z ?? entity.extrusionDirectionZ ?? 1;
+    const isMirrored = extrusionZ < 0 && !WORLD_TYPES.includes(entity.type);
     const map = isMirrored ? compose(from.map, scaling(-1, 1)) : from.map;
     if (entity.type === "INSERT" || entity.type === "DIMENSION") {
       this.pushInsert(entity, map, from, stack);

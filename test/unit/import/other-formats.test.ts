@@ -19,6 +19,10 @@ const dxf = (entities: string, more: { header?: string; tables?: string; blocks?
 const draw = (entities: string, more?: Parameters<typeof dxf>[1]) =>
   importDrawing("a.dxf", dxf(entities, more));
 const FRAME = "0 LINE 8 0 10 0 20 0 11 100 21 100";
+const DOWN = "210 0 220 0 230 -1";
+/** A POLYLINE whose extrusion points down. */
+const polyline = (flags: number): string =>
+  `0 POLYLINE 8 0 66 1 70 ${flags} ${DOWN} 0 VERTEX 8 0 10 50 20 0 0 VERTEX 8 0 10 55 20 5 0 SEQEND`;
 
 describe("the registry of formats", () => {
   it("knows a file by each of its endings, in any case", () => {
@@ -63,6 +67,49 @@ describe("DXF", () => {
     const drawing = draw(`${FRAME} 0 ELLIPSE 8 0 10 50 20 50 11 0 21 40 40 0.5 41 0 42 6.283185307179586`);
     for (const [x, y] of pointsOf(drawing, 1))
       expect(Math.hypot((x - 50) / 20, (y - 50) / 40)).toBeCloseTo(1, 5);
+  });
+
+  it.each([
+    ["mirrors a circle", `0 CIRCLE 8 0 10 50 20 0 40 5 ${DOWN}`, -55, -45],
+    ["mirrors an arc", `0 ARC 8 0 10 50 20 0 40 5 50 0 51 90 ${DOWN}`, -55, -50],
+    ["mirrors a solid", `0 SOLID 8 0 10 50 20 0 11 55 21 0 12 50 22 5 13 55 23 5 ${DOWN}`, -55, -50],
+    ["mirrors a new polyline", `0 LWPOLYLINE 8 0 90 2 70 0 10 50 20 0 10 55 20 5 ${DOWN}`, -55, -50],
+    ["mirrors a 2D polyline", polyline(0), -55, -50],
+    ["keeps a 3D polyline", polyline(8), 50, 55],
+    ["keeps a line", `0 LINE 8 0 10 10 20 0 11 20 21 0 ${DOWN}`, 10, 20],
+    ["keeps a point", `0 POINT 8 0 10 10 20 0 ${DOWN}`, 10, 10],
+    ["keeps a face", `0 3DFACE 8 0 10 10 20 0 11 20 21 0 12 20 22 5 13 10 23 5 ${DOWN}`, 10, 20],
+    ["keeps a spline", `0 SPLINE 8 0 71 1 40 0 40 0 40 1 40 1 10 10 20 0 10 20 20 5 ${DOWN}`, 10, 20],
+  ])("%s whose extrusion points down", (_name, entity, from, to) => {
+    const drawing = draw(`${FRAME} ${entity}`);
+    const [[zero]] = pointsOf(drawing, 0);
+    const xs = pointsOf(drawing, 1).map(([x]) => x - zero);
+    expect(Math.min(...xs)).toBeCloseTo(from, 4);
+    expect(Math.max(...xs)).toBeCloseTo(to, 4);
+  });
+
+  it.each([
+    ["11 40 21 0", [50, 70], [90, 50]],
+    ["11 0 21 40", [70, 50], [50, 10]],
+  ])("draws an ellipse clockwise if its extrusion points down: %s", (axis, start, end) => {
+    const quarter = `41 0 42 ${Math.PI / 2}`;
+    const drawing = draw(`${FRAME} 0 ELLIPSE 8 0 10 50 20 50 ${axis} 40 0.5 ${quarter} ${DOWN}`);
+    const points = pointsOf(drawing, 1).map((point) => point.map((mm) => Math.round(mm * 100) / 100));
+    expect([points[0], points.at(-1)]).toEqual([start, end]);
+    for (const at of [0, 1]) {
+      const values = points.map((point) => point[at]);
+      const ends = [start[at], end[at]];
+      expect([Math.min(...values), Math.max(...values)]).toEqual([Math.min(...ends), Math.max(...ends)]);
+    }
+  });
+
+  it.each([16, 64])("reports a mesh, and draws no line through its vertices: flag %i", (flag) => {
+    const corners =
+      "0 VERTEX 8 0 10 10 20 10 70 192 0 VERTEX 8 0 10 90 20 10 70 192 0 VERTEX 8 0 10 90 20 90 70 192";
+    const face = "0 VERTEX 8 0 10 0 20 0 70 128 71 1 72 2 73 3";
+    const drawing = draw(`0 POLYLINE 8 0 66 1 70 ${flag} ${corners} ${face} 0 SEQEND 8 0 ${FRAME}`);
+    expect(shapesOf(drawing)).toEqual(["M0 100L100 0"]);
+    expect(codes(drawing)).toEqual(["not-supported"]);
   });
 
   it("draws bulges as arcs on the right side", () => {

@@ -14,8 +14,9 @@ export interface StreamProgress extends StreamPlace {
 }
 
 /**
- * Plays one stream to its end and compares the board's step counters with the prediction. After `cancel`, it sends
- * nothing more and ends when the commands already sent are done.
+ * Sends a command stream, waits until the board has executed it, and compares the board's step counters with the
+ * prediction. After `cancel`, it sends no more commands and ends when those already sent are done. If `cancel` is
+ * aborted from the start, it sends nothing, and the report has no step counters.
  */
 export async function streamCommands(
   session: BoardSession,
@@ -30,6 +31,10 @@ export async function streamCommands(
     readonly progressEveryS?: number;
   },
 ): Promise<StreamReport & { readonly underrunCount: number }> {
+  if (options.cancel?.aborted) {
+    const end = { stream, commandIndex: -1, planS: stream.planS[0] };
+    return { steps1: null, steps2: null, exact: true, end, complete: false, underrunCount: 0 };
+  }
   const streamer = new Streamer(session, options);
   let stopTicking = (): void => undefined;
   const tick = (): void => {
@@ -41,7 +46,9 @@ export async function streamCommands(
   tick();
   try {
     const report = await played;
-    options.onProgress?.(progressOf(streamer.place()));
+    const { end } = report;
+    // Where the last command ends; for an empty stream, where it starts.
+    options.onProgress?.(progressOf({ ...end, planS: end.stream.planS[end.commandIndex + 1] }));
     return { ...report, underrunCount: streamer.underrunCount };
   } finally {
     stopTicking();
