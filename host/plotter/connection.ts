@@ -5,7 +5,7 @@ import type { Devices } from "./devices.js";
 
 export interface ConnectOptions {
   readonly driver: Driver;
-  /** Devices that are certainly the driver's. */
+  /** USB ids that only this driver's boards use. */
   readonly usbIds: readonly UsbId[];
   /** "auto": the first board on USB with one of `usbIds`, else the virtual one. "virtual", or a serial port's path. */
   readonly device: string;
@@ -15,7 +15,7 @@ export interface ConnectOptions {
   /** "auto" with no board on USB: true for the virtual one, false to reject with `no-board`. */
   readonly virtualIfNone: boolean;
   readonly clock: Clock;
-  /** How many times faster than real time the machine runs; not 1 only for a virtual one. */
+  /** How many times faster than real time the machine runs. Always 1 for a real one. */
   readonly speed: number;
   /** The built-in virtual machine, created when needed; the same one after a lost connection. */
   readonly virtualMachine: () => VirtualMachine;
@@ -62,8 +62,8 @@ function identified(transport: Transport, options: ConnectOptions): Promise<Mach
 }
 
 /**
- * The clock of a virtual board that runs `speed` times faster than real time.
- * A stream that uses it keeps the same window of board time ahead at any speed.
+ * The clock of a virtual board that runs `speed` times faster than real time. The streamer uses it too, so the motion
+ * sent ahead is the same in board time at any speed.
  */
 function scaledClock(clock: Clock, speed: number): Clock {
   if (speed === 1) return clock;

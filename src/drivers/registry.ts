@@ -1,7 +1,7 @@
 /**
  * The drivers, by the `kind` of a machine's controller. There are three tables instead of one because a bundler keeps or
- * drops a table as a whole. The page loads the descriptions (2 kB), its worker the planners (26 kB), and only code that
- * connects to a machine the drivers (64 kB).
+ * drops a table as a whole. The page loads only the descriptions (2 kB), and its worker also the planners (26 kB). Only
+ * code that connects to a machine loads the drivers (64 kB).
  */
 import { PlotwrightError } from "../errors.js";
 import { checkController, checkProfile } from "../machines/check-profile.js";
@@ -22,10 +22,10 @@ type ByKind<T> = Readonly<Record<keyof typeof CONTROLLERS, T>>;
 /** Throws `bad-setting` for a profile with an unknown controller, as do the functions below. */
 export const controllerOf = (machine: MachineProfile): ControllerDescription => ofKind(CONTROLLERS, machine);
 
-/** Plans jobs for a machine. */
+/** The function that plans jobs for a machine. */
 export const plannerOf = (machine: MachineProfile): PlanForMachine => ofKind(PLANNERS, machine);
 
-/** Connects machines. */
+/** The driver that connects to a machine. */
 export const driverOf = (machine: MachineProfile): Driver => ofKind(DRIVERS, machine);
 
 /** The USB devices of all drivers. */
@@ -37,7 +37,7 @@ export function checkMachine(machine: MachineProfile): void {
   checkController(machine, controllerOf(machine).fields);
 }
 
-/** The version to plan for: null if it belongs to a different controller. */
+/** The firmware version to plan for; null if unknown, or if it is that of another controller. */
 export function firmwareFor(machine: MachineProfile, firmware: string | null): string | null {
   return firmware !== null && controllerOf(machine).firmware.isOwn(firmware) ? firmware : null;
 }

@@ -1,4 +1,4 @@
-/** Axis-parallel boxes, mm. An empty box has x0 > x1. */
+/** Axis-aligned boxes, mm. A box is empty if x0 > x1 or y0 > y1. */
 export interface Box {
   readonly x0: number;
   readonly y0: number;

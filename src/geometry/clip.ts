@@ -1,5 +1,5 @@
 /**
- * Clips polylines to an axis-parallel box: Liang and Barsky's parametric clipping, segment by segment.
+ * Clips polylines to an axis-aligned box: Liang and Barsky's parametric clipping, segment by segment.
  * (Y.-D. Liang, B. A. Barsky, "A New Concept and Method for Line Clipping", ACM TOG 3(1), 1984)
  *
  *   p(t) = p0 + t (p1 − p0), 0 ≤ t ≤ 1: each side of the box bounds t from below (entering) or from above (leaving).

@@ -8,7 +8,7 @@
  *   tᵢ = φᵢ + (yᵢ₊₁ − yᵢ)/ℓᵢ − (yᵢ − yᵢ₋₁)/ℓᵢ₋₁       new turn, to first order
  *   Σ wᵢ tᵢ²      wᵢ = 1 / min(ℓᵢ₋₁, ℓᵢ)     minimised: ∫ κ² ds over curves as long as the shorter segment
  *
- * Method: alternating directions (Boyd et al. 2011, section 5.2) with over-relaxation. Each round solves the
+ * Method: ADMM, the alternating direction method of multipliers (Boyd et al. 2011, section 5.2), with over-relaxation. Each round solves the
  * problem without bounds, a symmetric five-diagonal system whose factors stay the same, and then applies the
  * bounds. A few rounds are accurate enough, because distant points hardly affect each other. Linear time. The
  * result does not depend on the direction of the polyline.
@@ -147,8 +147,9 @@ export class LeastBending {
   }
 
   /**
-   * Substitutes backward, then clamps each point to its bounds. y is the over-relaxed solution plus the sum of what
-   * earlier rounds clamped off (the dual variable). Afterwards `halfway` holds the next right-hand side.
+   * Substitutes backward, then clamps each point to its bounds. `carry` is the scaled dual variable, the sum of what
+   * earlier rounds clamped off, plus (1 − RELAXATION) times the previous y. Afterwards `halfway` holds the next
+   * right-hand side.
    */
   private substituteBackward(n: number): void {
     const { y, low, high, inverse, below1, below2, right, boundWeight, halfway, carry } = this;

@@ -30,7 +30,7 @@ const STRETCH = 0.012;
 /** Longest pair, s: the position along the drawing is only interpolated inside a block. */
 const LONGEST_S = 0.6;
 
-/** A deviation that lasts for less than this is too quick to make a gantry of 10 to 40 Hz swing, s. */
+/** A deviation that lasts for less than this is too short to excite a gantry that resonates at 10 to 40 Hz, s. */
 const SHORT_S = 0.024;
 
 /** Factor from one trial length to the next. */
@@ -39,7 +39,7 @@ const GROWTH = 1.25;
 /** Shortest group from which merging always saves a block. */
 const MIN_GROUP = 3;
 
-/** A group is not merged if it takes longer than this for each block saved, s: few long blocks are no load for a board. */
+/** Max duration of a group for each block saved, s: a board handles long blocks easily, so merging them gains nothing. */
 const LONGEST_PER_SAVED_S = 0.2;
 
 export interface MergeRules {
@@ -56,8 +56,8 @@ export interface MergeRules {
 }
 
 /**
- * For the blocks of a shaped motion. The tolerance is small, because a deviation excites the swing again unless it
- * is too short for the gantry to follow. The floor is above the 5 ms that a command may take the board.
+ * For the blocks of a shaped motion. The tolerance is small, because a deviation excites the vibration again unless
+ * it is too short for the gantry to follow. The floor is above the 5 ms that the board may need for a command.
  */
 export const SHAPED_RULES: MergeRules = {
   toleranceMm: 0.005,
@@ -122,7 +122,7 @@ function mergeGroup(
 
 /** Duration of the pair that can replace blocks [i, m), s; 0 if none can, or if it saves nothing. */
 function pairTime(blocks: BlockColumns, i: number, m: number, limits: RunLimits, rules: MergeRules): number {
-  if (!isWorth(blocks, i, m, rules.floorS)) return 0;
+  if (!isWorthMerging(blocks, i, m, rules.floorS)) return 0;
   const wholeS = allowedTime(blocks, i, m, limits, rules);
   return wholeS > 0 && isNear(blocks, i, m, wholeS, limits, rules) ? wholeS : 0;
 }
@@ -132,8 +132,8 @@ const middleVelocity = (d: number, v0: number, v1: number, wholeS: number): numb
   (2 * d) / wholeS - (v0 + v1) / 2;
 
 /**
- * The duration of the pair, s: that of its blocks, or slightly longer. 0 if with both it breaks V, A or a motor limit, or
- * a half reverses direction (the position along the drawing is interpolated by speed).
+ * The duration of the pair, s: that of its blocks, or slightly longer. 0 if with either duration the pair exceeds V, A or
+ * a motor limit, or reverses direction in one half (the position along the drawing is interpolated by speed).
  */
 function allowedTime(
   { startS, x, y, vx, vy }: BlockColumns,
@@ -176,7 +176,7 @@ const isShorter = (x: number, y: number, maxLength: number, inEachAxis: boolean)
  * A pair is useful if it saves blocks that are not long anyway. It is also useful if it replaces two blocks, one of them
  * shorter than the floor, by two that are not.
  */
-function isWorth({ startS, durationS }: BlockColumns, i: number, m: number, floorS: number): boolean {
+function isWorthMerging({ startS, durationS }: BlockColumns, i: number, m: number, floorS: number): boolean {
   const wholeS = startS[m] - startS[i];
   if (wholeS > LONGEST_S) return false;
   if (m - i >= MIN_GROUP) return wholeS <= LONGEST_PER_SAVED_S * (m - i - 2);
@@ -220,6 +220,7 @@ function isNear(
   const a1y = (wy - vy0) / halfS;
   const a2x = (vx1 - wx) / halfS;
   const a2y = (vy1 - wy) / halfS;
+  // Slower than this, the line can bend with a radius of 16 ε or less: too tight to tell along from across.
   const slow2 = rules.isSmooth ? 16 * tolerance * accel : Infinity;
   for (let k = i; k < m; k++) {
     const d = durationS[k];

@@ -11,7 +11,7 @@ export class PenMoveWriter implements PenMoveColumns {
   readonly moveS: Float64Array;
   readonly heightPct: Float64Array;
 
-  /** @param max the max number of moves that will be pushed */
+  /** @param max the maximum number of moves */
   constructor(max: number) {
     this.beforeRun = new Uint32Array(max);
     this.up = new Uint8Array(max);
@@ -31,7 +31,7 @@ export class PenMoveWriter implements PenMoveColumns {
     this.heightPct[i] = move.heightPct;
   }
 
-  /** Plain columns, which can cross threads. */
+  /** Plain columns, which can be posted to a worker. */
   finish(): PenMoveColumns {
     const { count, beforeRun, up, startS, waitS, moveS, heightPct } = this;
     return { count, beforeRun, up, startS, waitS, moveS, heightPct };
@@ -47,7 +47,11 @@ export const penMoveAt = (moves: PenMoveColumns, i: number): PenMove => ({
   heightPct: moves.heightPct[i],
 });
 
-export const penMovesOf = ({ penMoves }: { readonly penMoves: PenMoveColumns }): PenMove[] =>
+interface WithPenMoves {
+  readonly penMoves: PenMoveColumns;
+}
+
+export const penMovesOf = ({ penMoves }: WithPenMoves): PenMove[] =>
   Array.from({ length: penMoves.count }, (_, i) => penMoveAt(penMoves, i));
 
 export function penMoveColumns(moves: readonly PenMove[]): PenMoveColumns {
@@ -56,7 +60,7 @@ export function penMoveColumns(moves: readonly PenMove[]): PenMoveColumns {
   return writer.finish();
 }
 
-/** The height to which the last pen move before `tS` lifts the pen; null if it lowers it, or there is none. */
+/** The height to which the last pen move before `tS` lifts the pen; null if that move lowers the pen, or if there is none. */
 export function liftedTo({ penMoves }: WithPenMoves, tS: number): number | null {
   const last = lastBefore(penMoves, tS);
   return last >= 0 && penMoves.up[last] === 1 ? penMoves.heightPct[last] : null;
@@ -66,10 +70,6 @@ export function liftedTo({ penMoves }: WithPenMoves, tS: number): number | null 
 export function isPenUpBefore({ penMoves }: WithPenMoves, tS: number): boolean {
   const last = lastBefore(penMoves, tS);
   return last < 0 || penMoves.up[last] === 1;
-}
-
-interface WithPenMoves {
-  readonly penMoves: PenMoveColumns;
 }
 
 /** The last pen move that begins before `tS`; −1 if there is none. */

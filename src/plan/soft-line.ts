@@ -3,7 +3,7 @@
  * faster.
  *
  *   δ     mm    corner deviation            s     sin(φ/2), φ the turn angle at a point
- *   ℓ/2   mm    half the shorter segment at a point
+ *   ℓ     mm    length of the shorter segment at a point
  *   room  mm    max distance between a corner's curve and its own point
  *
  *          ·       P' moved outwards           A sharp corner's curve may pass δ inside P. If P moves
@@ -13,7 +13,7 @@
  *      /       \                               (least-bending.ts): tight bends become wider, and small
  *    /  drawing  \                             unevenness, which only costs speed, disappears.
  *
- * There are three kinds of points. Corners so sharp that their curve cannot use half a segment (ℓ s/2 > 2 δ) move
+ * There are three kinds of points. Corners so sharp that their curve cannot use half a segment (ℓ s/4 > δ) move
  * outwards. Bends below SMOOTH whose speed is limited by A move so that the line bends less. All others stay.
  *
  * Why this stays within δ: the stadium of a segment PQ is the set of points within δ of it. It is convex, and
@@ -69,7 +69,7 @@ export class SoftLine {
     const { bending, soft, shiftX, shiftY } = this;
     if (found === BENDS) bending.solve(n, path.length);
     this.shift(path);
-    // A point that stays may in turn shear its other segment.
+    // Resetting a point can shear its other segment, so check again.
     if (this.stayWhereSheared(path) > 0 && this.stayWhereSheared(path) > 0) return this.unchanged(path);
     soft.copyLayout(path);
     for (let i = 0; i <= n; i++) {
@@ -151,7 +151,8 @@ export class SoftLine {
     shiftX[0] = shiftY[0] = shiftX[n] = shiftY[n] = 0;
     for (let i = 1; i < n; i++) {
       if (low[i] < high[i]) {
-        const per = moves[i] * halfPerCosine(sine[i] * sine[i]);
+        // u0 + u1 is 2 cos(φ/2) long.
+        const per = moves[i] / (2 * Math.sqrt(1 - sine[i] * sine[i]));
         shiftX[i] = -per * (uy[i - 1] + uy[i]);
         shiftY[i] = per * (ux[i - 1] + ux[i]);
       } else {
@@ -188,9 +189,4 @@ export class SoftLine {
     this.shiftY = new Float64Array(size);
     this.isSheared = new Uint8Array(size);
   }
-}
-
-/** 1/(2 cos(φ/2)) from s², for bends: too small by less than 0.01 %. */
-function halfPerCosine(s2: number): number {
-  return 0.5 + s2 * (0.25 + s2 * (0.1875 + s2 * 0.15625));
 }

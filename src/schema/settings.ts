@@ -42,7 +42,7 @@ const positive = (max: number) => z.number().gt(0).max(max);
 const anywhere = z.number().min(-100_000).max(100_000);
 const paperSizeSchema = z.object(shapeOf(PAPER_TABLE));
 const layerId = z.string().max(500);
-/** More layers than anyone could plot. */
+/** Keeps the size of requests bounded. */
 const MAX_LAYERS = 10_000;
 const layerIds = z.array(layerId).max(MAX_LAYERS);
 const byLayer = <T extends z.ZodType>(value: T) =>
@@ -51,7 +51,7 @@ const byLayer = <T extends z.ZodType>(value: T) =>
     .refine((record) => Object.keys(record).length <= MAX_LAYERS, `at most ${MAX_LAYERS} layers`);
 const hatchSchema = z.object(shapeWithDefaults(HATCH_TABLE));
 
-// Everything has a default, so that jobs and presets stored by an older version stay readable.
+// Every field has a default, so that jobs and presets stored by an older version stay readable.
 export const prepareSettingsSchema = z.object({
   ...shapeWithDefaults(PREPARE_TABLE),
   paper: paperSizeSchema.default(DEFAULT_PREPARE.paper),
@@ -114,7 +114,7 @@ const penShape = {
   ).optional(),
 };
 
-/** Replaced by `overlap`; settings and jobs stored before may still have them. */
+/** Fields of older versions that `overlap` replaced. Stored settings and jobs may still contain them. */
 const replacedPenSchema = z.object({
   upPct: numberSchema(PEN_TABLE.upPct),
   downPct: numberSchema(PEN_TABLE.downPct),
@@ -124,7 +124,10 @@ const replacedPenSchema = z.object({
   hop: z.object({ longestMm: z.number(), upPct: numberSchema(PEN_TABLE.upPct) }).nullish(),
 });
 
-/** Both were heights at which the pen is clear of the paper: the higher of the two becomes the contact height. */
+/**
+ * `hop.upPct` and `clearPct` were heights at which the pen is clear of the paper: the higher one becomes the contact
+ * height.
+ */
 function upgradePen(stored: unknown): unknown {
   const replaced = replacedPenSchema.safeParse(stored);
   if (!replaced.success || "overlap" in (stored as object)) return stored;
@@ -186,9 +189,9 @@ export const DEFAULT_PLOT_SETTINGS: PlotSettings = {
   },
   motion: DEFAULT_MOTION,
   pen: DEFAULT_PEN,
-  ...NO_PENS,
   pens: [],
   layerPens: {},
+  penStops: NO_PENS.penStops,
   layerStops: {},
   ...defaultsOf(STREAM_TABLE),
   customMachine: null,

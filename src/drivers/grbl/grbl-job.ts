@@ -1,5 +1,5 @@
 /**
- * Makes a job for a Grbl from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
+ * Makes a job for a Grbl controller from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
  */
 import type { StrokeSet } from "../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../machines/profile.js";
@@ -17,13 +17,13 @@ export interface GrblCommands extends MachineCommands {
   readonly lines: readonly string[];
 }
 
-/** The commands of a job as this driver's own. Throws TypeError for those of another driver. */
+/** Narrows a job's commands to the type of this driver. Throws TypeError for those of another driver. */
 export function grblCommandsOf(commands: MachineCommands): GrblCommands {
   if (!("lines" in commands)) throw new TypeError("these commands are for another controller");
   return commands as GrblCommands;
 }
 
-/** mm, absolute coordinates, mm/min. Sent again after a reset, which may restore other defaults. */
+/** mm, absolute coordinates, mm/min. Sent again after a reset, which may change these modes. */
 export const MODES = "G21G90G94";
 /** The reply comes when everything before it is done. */
 export const SYNC = "G4P0";
@@ -60,7 +60,7 @@ function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
   const waits = Object.entries(layers).map(([id, { beforeMs }]) => {
     return [id, beforeMs ? { beforeMs: 1_000 * dwellS(beforeMs / 1_000) } : {}] as const;
   });
-  // A Grbl moves the pen at rest only.
+  // Grbl moves the pen only at rest.
   const heights = { upPct, downPct, overlap: "off", contactPct, fullHeightMm } as const;
   return { ...heights, liftMs: ms, dropMs: ms, layers: Object.fromEntries(waits) };
 }

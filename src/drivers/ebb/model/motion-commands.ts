@@ -3,7 +3,7 @@
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { rateFromStepsPerS, TICKS_PER_S } from "../../../units.js";
-import { slowMove, steppedAxis, type AxisOrder, type MoveOrder, type Order } from "./orders.js";
+import { stepperMove, steppedAxis, type AxisOrder, type MoveOrder, type Order } from "./orders.js";
 import { BoardFault, type Parameters } from "./parameters.js";
 
 const INT31 = 2 ** 31 - 1;
@@ -21,7 +21,7 @@ export class MotionCommands {
     const b = mixed || p.hasMore ? p.int() : 0;
     const clear = this.clearBits(p, 3);
     if (ms === 0) throw new BoardFault(6, "Err: Invalid parameter value");
-    const order = slowMove(this.features, ms, mixed ? a + b : a, mixed ? a - b : b, clear);
+    const order = stepperMove(this.features, ms, mixed ? a + b : a, mixed ? a - b : b, clear);
     if (order === null) throw new BoardFault(0, "Err: <axis1> step rate too high");
     return [order];
   }

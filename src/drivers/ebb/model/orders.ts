@@ -57,7 +57,7 @@ export type Order =
 const still: AxisOrder = { rate: 0, accel: 0, jerk: 0, steps: 0 };
 
 /** SM and XM. Returns null if a rate is out of range. */
-export function slowMove(
+export function stepperMove(
   firmware: FirmwareFeatures,
   ms: number,
   steps1: number,
@@ -90,7 +90,7 @@ function constantAxis(arithmetic: TickArithmetic, ms: number, steps: number): Ax
   return { rate: Math.sign(steps) * rate, accel: 0, jerk: 0, steps: Math.abs(steps) };
 }
 
-/** One motor of LM or L3; negative steps reverse the move. Null for arguments that the board refuses. */
+/** One motor of LM or L3; negative steps negate rate and acceleration, but not the jerk, as the firmware does. Null for arguments that the board refuses. */
 export function steppedAxis(
   arithmetic: TickArithmetic,
   rate: number,
@@ -100,7 +100,8 @@ export function steppedAxis(
 ): AxisOrder | null {
   if (arithmetic !== "signed") {
     if (rate < 0) return null;
-    return { rate: steps < 0 ? 0 - rate || -0 : rate, accel, jerk: 0, steps: Math.abs(steps) };
+    // −0 keeps the direction.
+    return { rate: steps < 0 ? -rate : rate, accel, jerk: 0, steps: Math.abs(steps) };
   }
   if (steps >= 0) return { rate, accel, jerk, steps };
   if (rate < 0) return null;
