@@ -19,11 +19,12 @@ type ListParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange"
 const ON_PLOTTER: readonly (Job["state"] | undefined)[] = ["plotting", "paused"];
 const RETRY_MS = 5_000;
 
-/** The source of a new job, and its place in the queue. */
+/** The source of a new job, its place in the queue, and the number of jobs to add. */
 export interface Origin {
   readonly beforeId?: string | null;
   readonly watched?: WatchedFile | undefined;
   readonly sharedId?: string | undefined;
+  readonly copies?: number | undefined;
 }
 
 export class JobList {
@@ -58,16 +59,27 @@ export class JobList {
     return job;
   }
 
-  /** Adds a job before another job of the queue, or last. */
-  insert(job: Job, drawing: StoredDrawing, { beforeId = null, watched, sharedId }: Origin = {}): Job {
-    const { store } = this.#parts;
+  /**
+   * Adds a job and copies of it before another job of the queue, or last. All are stored in one transaction: many flushes
+   * to the disk would delay the plotters, and a fault between them would leave only some of the jobs.
+   */
+  insert(
+    job: Job,
+    drawing: StoredDrawing,
+    { beforeId = null, watched, sharedId, copies = 1 }: Origin = {},
+  ): Job {
+    const { store, announce } = this.#parts;
+    const jobs = [job];
+    while (jobs.length < copies) jobs.push({ ...job, id: crypto.randomUUID() });
     store.together(() => {
-      store.addJob(job, drawing, beforeId);
+      for (const each of jobs) store.addJob(each, drawing, beforeId);
       if (watched !== undefined) store.saveSeen(watched);
       if (sharedId !== undefined) store.saveShared(sharedId, job.id);
     });
-    this.#jobs.set(job.id, job);
-    this.#parts.announce({ type: "job", job });
+    for (const each of jobs) {
+      this.#jobs.set(each.id, each);
+      announce({ type: "job", job: each });
+    }
     this.announceOrder();
     return job;
   }

@@ -71,8 +71,8 @@ export class JobQueue {
   }
 
   /**
-   * Plans the drawing to check that it can be plotted, then appends it. If planning throws, the drawing is
-   * removed.
+   * Plans the drawing to check that it can be plotted, then appends it. Returns the first job if it adds several. If
+   * planning throws, the drawing is removed.
    */
   async add(wanted: NewQueueJob, requester: Requester = {}): Promise<Job> {
     try {
@@ -84,7 +84,7 @@ export class JobQueue {
   }
 
   async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
-    const { name, settings, drawing, watched, sharedId, from, plotterId = this.#firstPlotter() } = wanted;
+    const { name, settings, drawing, from, plotterId = this.#firstPlotter() } = wanted;
     plotterOf(this.#parts, plotterId);
     const firmware = this.#firmwareOf(plotterId, settings);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
@@ -97,12 +97,13 @@ export class JobQueue {
     // The plotter may have been removed meanwhile.
     plotterOf(this.#parts, plotterId);
     const job = this.#newJob({ plotterId, name, settings, stats, warnings: [...warnings] });
-    return this.#jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId });
+    const { watched, sharedId, copies } = wanted;
+    return this.#jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId, copies });
   }
 
   /**
    * The name can change at any time; settings and plotter only while queued. Throws if the settings can't be
-   * planned.
+   * planned, and `conflict` if settings or plotter were changed meanwhile.
    */
   async patch(id: string, patch: JobPatch, requester: Requester = {}): Promise<Job> {
     const { name, settings, plotterId } = patch;
@@ -137,7 +138,7 @@ export class JobQueue {
     if (settings === undefined && isPlannedAlike(machineOf(wanted), wanted.pen, firmware, before)) return {};
     const drawing = this.#parts.store.drawingOf(id);
     const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, requester);
-    this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings");
+    mustBeSame(job, this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings"));
     return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
   }
 
@@ -285,7 +286,13 @@ export class JobQueue {
   #done(job: Job): void {
     const { plotterId } = job;
     this.#jobs.updateExpected(plotterId, timeRatio(this.list(), plotterId));
-    if (this.settings(plotterId).runOn && !this.#runs.isClosing) void this.#startNext(plotterId);
+    if (!this.settings(plotterId).runOn || this.#runs.isClosing) return;
+    // A full disk stores neither the start nor the message why the job did not start. That must not end the server.
+    this.#startNext(plotterId).catch((error: unknown) => {
+      this.#parts.log?.(
+        `the next job can't be started: ${error instanceof Error ? error.message : String(error)}`,
+      );
+    });
   }
 
   /**
@@ -339,6 +346,18 @@ function mustKeepStrokes(job: Job, settings: PlotSettings): void {
   throw new PlotwrightError(
     "conflict",
     `"${job.name}" starts at stroke ${job.place.strokeIndex + 1}, so its layout can't be changed. Add a new job instead.`,
+  );
+}
+
+/**
+ * Throws `conflict` if settings or plotter changed while the job was measured. The figures would be wrong, and an older
+ * change would replace a newer one.
+ */
+function mustBeSame(before: Job, now: Job): void {
+  if (before.settings === now.settings && before.plotterId === now.plotterId) return;
+  throw new PlotwrightError(
+    "conflict",
+    `"${now.name}" was changed meanwhile, so this change was not made. Check the job, then try again.`,
   );
 }
 

@@ -45,6 +45,8 @@ export interface NewQueueJob {
   readonly plotterId?: string | undefined;
   /** Where it starts; left out: at the beginning. */
   readonly from?: JobPlace | undefined;
+  /** Number of jobs to add; left out: 1. */
+  readonly copies?: number | undefined;
   /** The watched file it comes from; marked as handled in the same transaction. */
   readonly watched?: WatchedFile | undefined;
   /** Its id in the shared queue; stored in the same transaction. */

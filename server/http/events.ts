@@ -13,7 +13,8 @@ const MAX_UNSENT_BYTES = 4_000_000;
 type ProgressEvent = Extract<ServerEvent, { type: "progress" }>;
 
 export class EventHub {
-  readonly #clients = new Set<Response>();
+  /** Each client's limit of unsent bytes. */
+  readonly #clients = new Map<Response, number>();
   readonly #progress = new Map<string, ProgressEvent>();
   readonly #heartbeat: NodeJS.Timeout;
   #progressTimer: NodeJS.Timeout | null = null;
@@ -43,13 +44,18 @@ export class EventHub {
       "X-Accel-Buffering": "no",
     });
     response.write(`retry: 1000\n\n${line({ type: "snapshot", snapshot: snapshot() })}`);
-    this.#clients.add(response);
+    // A long history takes a while to send. Until then it does not count: otherwise the client would be disconnected
+    // by the next event, again after each reconnect.
+    this.#clients.set(response, response.writableLength + MAX_UNSENT_BYTES);
+    response.once("drain", () => {
+      if (this.#clients.has(response)) this.#clients.set(response, MAX_UNSENT_BYTES);
+    });
     request.on("close", () => this.#clients.delete(response));
   }
 
   /** Ends every stream; clients that still have access reconnect at once. */
   dropAll(): void {
-    for (const client of this.#clients) client.end();
+    for (const client of this.#clients.keys()) client.end();
     this.#clients.clear();
   }
 
@@ -68,8 +74,8 @@ export class EventHub {
   }
 
   #write(text: string): void {
-    for (const client of this.#clients) {
-      if (client.writableLength > MAX_UNSENT_BYTES) {
+    for (const [client, limit] of this.#clients) {
+      if (client.writableLength > limit) {
         this.#clients.delete(client);
         client.destroy();
       } else {

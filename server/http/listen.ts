@@ -58,6 +58,8 @@ export function httpServer(
   // The server supports no other protocol: refuse all upgrades (such as WebSockets, perhaps from another
   // site).
   server.on("upgrade", (request, socket) => {
+    // Node has removed its own listener. Without one, a client that resets the connection would end the process.
+    socket.on("error", () => socket.destroy());
     log(`refused upgrade to ${request.headers.upgrade ?? "?"} from ${request.socket.remoteAddress ?? "?"}`);
     hangUp(socket, "403 Forbidden");
   });

@@ -37,15 +37,13 @@ async function addFromJson(
   request: Request,
   requester: Requester,
 ): Promise<Job> {
-  const { drawing, drawingId, copies = 1, ...rest } = parseWith(newJobSchema, request.body);
+  const { drawing, drawingId, ...rest } = parseWith(newJobSchema, request.body);
   const settings = machines.withMachine(rest.settings);
   const stored =
     drawingId === undefined
       ? await files.add([Buffer.from(drawing ?? "", "utf8")])
       : uploads.claim(drawingId);
-  const first = await queue.add({ ...rest, settings, drawing: stored }, requester);
-  for (let copy = 1; copy < copies; copy++) queue.duplicate(first.id);
-  return first;
+  return queue.add({ ...rest, settings, drawing: stored }, requester);
 }
 
 /** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. */

@@ -219,6 +219,25 @@ describe("while a plot runs", () => {
     }
   });
 
+  it("a connection that is reset during the refusal of an upgrade does not end the server", async () => {
+    const faults: Error[] = [];
+    const note = (error: Error): void => void faults.push(error);
+    process.on("uncaughtException", note);
+    const { hostname, port } = new URL(app.url);
+    const lines = "GET / HTTP/1.1\r\nHost: x\r\nConnection: Upgrade\r\nUpgrade: x\r\n\r\n";
+    const count = 20;
+    for (let index = 0; index < count; index++) {
+      const socket = connect(Number(port), hostname, () =>
+        socket.write(lines, () => socket.resetAndDestroy()),
+      );
+      await new Promise((resolve) => socket.on("close", resolve));
+    }
+    await expect.poll(() => app.logged.filter((line) => /refused upgrade/.test(line)).length).toBe(count);
+    await plotGoesOn();
+    process.off("uncaughtException", note);
+    expect(faults).toEqual([]);
+  });
+
   it("no path leads out of the server's folders", async () => {
     const climbs = [
       "/../../../../etc/passwd",

@@ -1,11 +1,17 @@
 /** A disk that fills up while a plot runs: the pen can still be stopped, and all reports are right. */
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Access } from "../../server/security/access.js";
+import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DISK_FULL, isDiskFault } from "../../host/disk-fault.js";
-import { apiErrorSchema, jobSchema, type Job } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, apiErrorSchema, jobSchema, type Job } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 import { EventStream } from "./support/event-stream.js";
 import type { LedRun } from "./support/fakes.js";
+import { drawingOf } from "./support/jobs.js";
+import { openQueueIn } from "./support/open-queue.js";
 
 const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
 const LIMIT_MS = 60_000;
@@ -31,10 +37,10 @@ const job = async (): Promise<Job> =>
   jobSchema.parse(await (await fetch(`${app.url}/api/v1/jobs/${id}`)).json());
 const stored = (): Job => app.store.jobs().find((one) => one.id === id)!;
 
-function fillDisk(): void {
+function fillDisk(store = app.store): void {
   const writes = ["saveJob", "addJob", "moveJob", "saveJournal", "clearJournal", "saveSetting"] as const;
   for (const name of writes) {
-    vi.spyOn(app.store, name).mockImplementation(() => {
+    vi.spyOn(store, name).mockImplementation(() => {
       throw Object.assign(new Error("database or disk is full"), { name: "SQLite3Error" });
     });
   }
@@ -87,6 +93,22 @@ describe("while the disk is full", () => {
     await expect.poll(async () => (await job()).state).toBe("done");
   });
 
+  it("several copies are added together, or none of them", async () => {
+    const addJob = app.store.addJob.bind(app.store);
+    let count = 0;
+    vi.spyOn(app.store, "addJob").mockImplementation((...added) => {
+      if (++count === 3) throw new Error("database or disk is full");
+      addJob(...added);
+    });
+    const body = JSON.stringify({ name: "a", drawing: SVG, settings: DEFAULT_PLOT_SETTINGS, copies: 5 });
+    const headers = { "Content-Type": "application/json" };
+    const response = await fetch(`${app.url}/api/v1/jobs`, { method: "POST", headers, body });
+    expect([response.status, count]).toEqual([507, 3]);
+    expect(app.store.jobs().map((one) => one.id)).toEqual([id]);
+    expect(app.queue.list().map((one) => one.id)).toEqual([id]);
+    expect(app.drawingsOnDisk()).toHaveLength(1);
+  });
+
   it("requests that need the disk are refused with an explanation, and nothing moves", async () => {
     run.end({ kind: "cancelled" });
     await expect.poll(async () => (await job()).state).toBe("cancelled");
@@ -115,6 +137,31 @@ describe("while the disk is full", () => {
       throw new Error("disk I/O error");
     };
     expect(access.roleOf(secret)).toBe("operate");
+  });
+});
+
+describe("a queue that continues automatically", () => {
+  it("survives a disk that fills up between the end of a plot and the next start", async () => {
+    const dir = mkdtempSync(join(tmpdir(), "plotwright-run-on-"));
+    prepareDataDir(dir);
+    const { queue, store, plotter, logged } = openQueueIn(dir);
+    const add = (name: string): Promise<Job> =>
+      queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name) });
+    const [first] = [await add("fern"), await add("moss")];
+    queue.saveSettings({ runOn: true });
+    await queue.start(first.id);
+    const plot = await plotter.nextRun();
+    const saveExpected = store.saveExpected.bind(store);
+    vi.spyOn(store, "saveExpected").mockImplementation((...changed) => {
+      fillDisk(store);
+      return saveExpected(...changed);
+    });
+    plot.end({ kind: "done" });
+    await expect.poll(() => logged).toEqual(["the next job can't be started: database or disk is full"]);
+    expect(queue.list().map(({ name, state }) => `${name} ${state}`)).toEqual(["moss queued", "fern done"]);
+    await queue.close();
+    store.close();
+    rmSync(dir, { recursive: true, force: true });
   });
 });
 

@@ -91,6 +91,21 @@ describe("the HTTP interface", () => {
     expect(app.drawingsOnDisk()).toHaveLength(1);
   });
 
+  it("adds several copies in one change, with one new order", async () => {
+    const events = await EventStream.open(app.url);
+    const before = await add("before");
+    const body = { name: "fern", drawing: SVG, settings: DEFAULT_PLOT_SETTINGS, copies: 100 };
+    const first = jobSchema.parse(await (await call("POST", "/jobs", body)).json());
+    const ids = app.queue.list().map((job) => job.id);
+    expect(ids.slice(0, 2)).toEqual([before.id, first.id]);
+    expect([ids.length, new Set(ids).size]).toEqual([101, 101]);
+    await events.find("order", (event) => event.ids.length === 101);
+    const seen = events.seen.map((event) => event.type);
+    expect(seen).toEqual(["snapshot", "job", "order", ...Array<string>(100).fill("job"), "order"]);
+    expect(app.drawingsOnDisk()).toHaveLength(2);
+    events.close();
+  });
+
   it("needs either the drawing or the id of an upload by the same client", async () => {
     const job = { name: "a", settings: DEFAULT_PLOT_SETTINGS };
     for (const [more, status, message] of [

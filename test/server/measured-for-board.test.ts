@@ -1,13 +1,13 @@
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
-import { createPlanning } from "../../server/planning/planning.js";
+import { createPlanning, type Planning } from "../../server/planning/planning.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { JobQueue } from "../../host/queue/job-queue.js";
 import { Store } from "../../server/storage/store.js";
-import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type Job, type JobPatch } from "../../src/schema/index.js";
 import { LedPlotter } from "./support/fakes.js";
 
 /** Travel across the page on which 1 000 mm/s² saves time. */
@@ -17,6 +17,7 @@ const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm
 let dir: string;
 let store: Store;
 let files: DrawingFiles;
+let planning: Planning;
 let queue: JobQueue;
 const recent = new LedPlotter("recent");
 const old = new LedPlotter("old");
@@ -29,9 +30,10 @@ beforeEach(() => {
   prepareDataDir(dir);
   store = Store.open(dir);
   files = new DrawingFiles(dir, 1_000_000);
+  planning = createPlanning(files);
   queue = new JobQueue({
     ...{ store, files, announce: () => undefined, nowIso: () => new Date().toISOString() },
-    planning: createPlanning(files),
+    planning,
     plotters: new Map([recent, old, unknown].map((plotter) => [plotter.id, plotter])),
   });
 });
@@ -63,5 +65,41 @@ describe("the estimated time of a job", () => {
     expect(moved.expectedS).toBe(durationS(forOld));
     expect(moved.remainingS).toBe(durationS(forOld));
     expect(durationS(await queue.patch(forRecent.id, { plotterId: "unknown" }))).toBe(durationS(forRecent));
+  });
+});
+
+describe("a change that is measured longer than a newer one", () => {
+  const withMachine = (machine: string): JobPatch => ({ settings: { ...DEFAULT_PLOT_SETTINGS, machine } });
+  const others: readonly [string, JobPatch, JobPatch][] = [
+    ["settings after settings", withMachine("nextdraw-2234"), withMachine("axidraw-se-a3")],
+    ["plotter after settings", { plotterId: "old" }, withMachine("axidraw-se-a3")],
+    ["settings after plotter", withMachine("nextdraw-2234"), { plotterId: "old" }],
+    ["settings after a plotter that moves alike", withMachine("nextdraw-2234"), { plotterId: "unknown" }],
+  ];
+  it.each(others)("is refused: %s", async (_name, older, newer) => {
+    const { id, name } = await add("recent");
+    const measure = planning.measure.bind(planning);
+    let finish = (): void => undefined;
+    const held = new Promise<void>((resolve) => (finish = resolve));
+    vi.spyOn(planning, "measure").mockImplementationOnce(async (...wanted) => {
+      await held;
+      return measure(...wanted);
+    });
+    const refused = expect(queue.patch(id, older)).rejects.toMatchObject({
+      code: "conflict",
+      message: `"${name}" was changed meanwhile, so this change was not made. Check the job, then try again.`,
+    });
+    const changed = await queue.patch(id, newer);
+    finish();
+    await refused;
+    expect(queue.get(id)).toEqual(changed);
+  });
+
+  it("is made if only the name changed", async () => {
+    const { id } = await add("recent");
+    const change = queue.patch(id, withMachine("axidraw-se-a3"));
+    await queue.patch(id, { name: "fern" });
+    await change;
+    expect(queue.get(id)).toMatchObject({ name: "fern", settings: { machine: "axidraw-se-a3" } });
   });
 });
