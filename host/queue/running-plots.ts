@@ -22,10 +22,10 @@ import { MotionTimer } from "./queued-job.js";
 import { Runner, type RunEnd } from "./runner.js";
 
 export const SERVER_STOPPED =
-  "The server stopped while this was plotting. Check pen and paper, then continue from where it was.";
+  "The server stopped while this was plotting. Check pen and paper, then resume where it stopped.";
 
 /**
- * Errors of the board or its connection, after which a plot can continue from where it was. Any other error
+ * Errors of the board or its connection, after which a plot can resume where it stopped. Any other error
  * would occur again.
  */
 const INTERRUPTIONS: readonly ErrorCode[] = [
@@ -297,7 +297,7 @@ export class RunningPlots {
     );
   }
 
-  /** The place stays with the job, so that it can continue from where it was cancelled. */
+  /** The place stays with the job, so that it can resume where it stopped cancelled. */
   #cancelled(id: string): Job {
     const entry = this.#journal(id);
     const { place } = this.#jobs.get(id);

@@ -102,6 +102,26 @@ describe("a browser's storage", { timeout: 200_000 }, () => {
     await plotsOnTheVirtualBoard();
   });
 
+  it("that is full stops neither a plot whose drawing is stored, nor opening it", async () => {
+    const workerScript = `
+      const put = IDBObjectStore.prototype.put;
+      IDBObjectStore.prototype.put = function (value, key) {
+        if (this.name === "jobs" && value.job.state !== "queued") throw new DOMException("", "QuotaExceededError");
+        return put.call(this, value, key);
+      };`;
+    await openOrigin(browser, { workerScript });
+    await openApp();
+    await plotsOnTheVirtualBoard();
+    await page
+      .getByText(/The last changes are only in this tab.* storage for this site is full/)
+      .first()
+      .waitFor();
+    await lay("other", LINE);
+    await historyPanel(page).getByRole("button", { name: "More for line" }).click();
+    await page.getByRole("button", { name: "Open line" }).click();
+    await page.getByText("other", { exact: true }).first().waitFor({ state: "detached" });
+  });
+
   it("that is full is reported, and nothing is lost until there is room", async () => {
     await openOrigin(browser);
     const session = await page.context().newCDPSession(page);

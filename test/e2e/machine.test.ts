@@ -135,7 +135,24 @@ describe("setting a plotter up", () => {
   const wizard = (): Locator => page.getByRole("dialog", { name: "Set up a plotter" });
   const press = (name: string): Promise<void> => button(name, wizard()).click();
 
+  it("no longer reports a stuck motor once the carriage went diagonally", async () => {
+    await button("Set up a plotter…", machinePanel()).click();
+    await press("Next");
+    await press("It is in the middle");
+    await press("Right");
+    await press("Right");
+    await wizard().getByRole("alert").getByText("one motor does not turn").waitFor();
+    await press("Diagonally, between two of these");
+    await wizard().getByRole("alert").waitFor({ state: "detached" });
+    await page.keyboard.press("Escape");
+  });
+
   it("makes a profile from the direction it moved, the measured square, and the pen's range", async () => {
+    const homedWith: string[] = [];
+    page.on("request", (request) => {
+      if (request.method() !== "POST" || !request.url().endsWith("/set-home")) return;
+      homedWith.push((request.postDataJSON() as { settings: { machine: string } }).settings.machine);
+    });
     await button("Set up a plotter…", machinePanel()).click();
     await wizard().getByLabel("Most like").selectOption("axidraw-v3");
     await press("Next");
@@ -146,6 +163,9 @@ describe("setting a plotter up", () => {
     await press("Left");
     close(await move(() => press("Right"), "/jog"), 20, 0);
     await press("Yes, both are right");
+    close(await move(() => press("Set home here"), "/set-home"), 0, 0);
+    // Home and moves use the same profile: another controller would connect again in between.
+    expect(homedWith).toEqual(Array.from({ length: 5 }, () => "my-plotter"));
     await move(() => press("Draw the square"));
     await wizard().getByLabel("Measured width").fill("80");
     await wizard().getByLabel("Measured height").fill("80");

@@ -58,10 +58,10 @@ describe("the ringing sheet", { timeout: PATIENCE_MS }, () => {
     await dialog().getByText("count again, near the corner", { exact: false }).waitFor();
     await dialog().getByLabel("Ripples in 10 mm, x").fill("5");
     await dialog().getByText("15.1 Hz", { exact: true }).waitFor();
-    const store = dialog().getByRole("button", { name: "Store with this plotter" });
+    const store = dialog().getByRole("button", { name: "Save for this plotter" });
     expect(await store.isDisabled()).toBe(true);
-    const swingOfY = dialog().getByRole("group", { name: "Swing to and fro (y)" });
-    await swingOfY.getByRole("radio", { name: "Length of a ripple" }).check();
+    const ringingOfY = dialog().getByRole("group", { name: "Front-to-back ringing (y)" });
+    await ringingOfY.getByRole("radio", { name: "Length of a ripple" }).check();
     await dialog().getByLabel("Length of one ripple, y").fill("1.2");
     await dialog().getByText("25.1 Hz", { exact: true }).waitFor();
     const row = dialog().getByRole("row", { name: /^Fast/ });
@@ -74,8 +74,8 @@ describe("the ringing sheet", { timeout: PATIENCE_MS }, () => {
   });
 
   it("stores it with the plotter's machine on the server", async () => {
-    await dialog().getByRole("button", { name: "Store with this plotter" }).click();
-    await dialog().getByText("Stored: 15.1 Hz along x, 25.1 Hz along y.").waitFor();
+    await dialog().getByRole("button", { name: "Save for this plotter" }).click();
+    await dialog().getByText("Saved: 15.1 Hz along x, 25.1 Hz along y.").waitFor();
     const { machines } = machineListSchema.parse(await api("/machines"));
     const mine = machines.find(({ builtIn }) => !builtIn);
     expect(mine).toMatchObject({
@@ -109,7 +109,7 @@ describe("the second sheet", { timeout: PATIENCE_MS }, () => {
 
   it("takes the line that is clicked", async () => {
     await dialog().getByRole("radio", { name: "16.6 / 27.6 Hz" }).check();
-    await dialog().getByText("Stored: 16.6 Hz along x, 27.6 Hz along y.").waitFor();
+    await dialog().getByText("Saved: 16.6 Hz along x, 27.6 Hz along y.").waitFor();
     expect(await dialog().getByRole("radio", { name: "16.6 / 27.6 Hz" }).isChecked()).toBe(true);
     // The lines stay those that were plotted.
     await dialog().getByRole("radio", { name: "15.1 / 25.1 Hz" }).waitFor();

@@ -1,6 +1,6 @@
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { noticeOfChange, watchJobs } from "../../web/queue/notify.js";
+import { noticeOfChange, showNotification, watchJobs } from "../../web/queue/notify.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
 import { makeJob } from "./fixtures.js";
@@ -35,5 +35,60 @@ describe("notices of jobs", () => {
     store.setState({ jobs: [makeJob("old", { state: "done" }), makeJob("a", { state: "done" })] });
     store.setState({ jobs: [makeJob("old", { state: "done" }), makeJob("a", { state: "done" })] });
     expect(said).toHaveLength(1);
+  });
+});
+
+describe("system notifications", () => {
+  afterEach(() => vi.unstubAllGlobals());
+
+  /** Collects what is shown, and by what. `isPhone`: as in Chrome on Android, pages can't show one themselves. */
+  function browserWith(options: {
+    isPhone?: boolean;
+    worker?: "active" | "installing";
+    permission?: string;
+  }) {
+    const { isPhone = false, worker, permission = "granted" } = options;
+    const shown: string[] = [];
+    class Shown {
+      static readonly permission = permission;
+      constructor(_title: string, { body }: { body: string }) {
+        if (isPhone) throw new TypeError("Illegal constructor");
+        shown.push(`page: ${body}`);
+      }
+    }
+    const registration = {
+      active: worker === "active" ? {} : null,
+      showNotification: (_title: string, { body }: { body: string }) => {
+        shown.push(`worker: ${body}`);
+        return Promise.resolve();
+      },
+    };
+    const getRegistration = () => Promise.resolve(worker && registration);
+    vi.stubGlobal("Notification", Shown);
+    vi.stubGlobal("window", { Notification: Shown });
+    vi.stubGlobal("navigator", { serviceWorker: { getRegistration } });
+    return shown;
+  }
+
+  it("are shown by the service worker, on phones too", async () => {
+    const shown = browserWith({ isPhone: true, worker: "active" });
+    await showNotification("Moon is done");
+    expect(shown).toEqual(["worker: Moon is done"]);
+  });
+
+  it("are shown by the page if no service worker is ready", async () => {
+    for (const worker of [undefined, "installing"] as const) {
+      const shown = browserWith(worker ? { worker } : {});
+      await showNotification("Moon is done");
+      expect(shown).toEqual(["page: Moon is done"]);
+    }
+  });
+
+  it("are left out, without an error, if the browser can't or may not show them", async () => {
+    const onPhone = browserWith({ isPhone: true });
+    await showNotification("Moon is done");
+    const denied = browserWith({ worker: "active", permission: "denied" });
+    await showNotification("Moon is done");
+    expect([...onPhone, ...denied]).toEqual([]);
   });
 });

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { cachesToDrop, ruleFor } from "../../web/pwa/shell-rules.js";
+import { cachedAnswer, cachesToDrop, ruleFor } from "../../web/pwa/shell-rules.js";
 
 const HERE = "http://127.0.0.1:9080/";
 const asked = (path: string, more: { method?: string; mode?: string } = {}, page = HERE) =>
@@ -46,5 +46,24 @@ describe("the service worker", () => {
     const names = ["plotwright-1", "other", "plotwright-2", "plotwright-3"];
     expect(cachesToDrop(names, "plotwright-", "plotwright-3")).toEqual(["plotwright-1"]);
     expect(cachesToDrop(["plotwright-3"], "plotwright-", "plotwright-3")).toEqual([]);
+  });
+
+  it("answers with the current version's file, or with one that only the previous version has", async () => {
+    const stored = (files: Readonly<Record<string, string>>) => ({
+      match: ({ url }: { readonly url: string }) => {
+        const text = files[new URL(url).pathname];
+        return Promise.resolve(text === undefined ? undefined : new Response(text));
+      },
+    });
+    // As in a browser, all caches together answer with the oldest file.
+    const caches = {
+      ...stored({ "/icon.svg": "old", "/assets/part-old.js": "old part" }),
+      open: () => Promise.resolve(stored({ "/icon.svg": "new" })),
+    };
+    const textOf = async (file: string): Promise<string | undefined> =>
+      (await cachedAnswer(caches, "plotwright-3", new Request(new URL(file, HERE))))?.text();
+    expect(await textOf("icon.svg")).toBe("new");
+    expect(await textOf("assets/part-old.js")).toBe("old part");
+    expect(await textOf("assets/none.js")).toBeUndefined();
   });
 });

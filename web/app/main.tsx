@@ -9,7 +9,7 @@ import { createActions } from "../state/actions.js";
 import { replanForBoard } from "../plotter/board-watch.js";
 import { browserDrawings, keepDrawing, readKeptDrawing } from "../drawing/kept-drawing.js";
 import { readRemembered, writeRemembered, type TextStore } from "../state/persist.js";
-import { watchJobs } from "../queue/notify.js";
+import { showNotification, watchJobs } from "../queue/notify.js";
 import { Player } from "../preview/player.js";
 import { noteTakenOver, readKeptHere } from "../state/kept-here.js";
 import { listenForShortcuts, shortcutsFor } from "./shortcuts.js";
@@ -73,7 +73,7 @@ listenForShortcuts(shortcuts);
 watchJobs(store, (sentence, { state }) => {
   // A waiting or interrupted job is shown on the page anyway, until the user answers.
   if (state === "done" || state === "failed") actions.notify(state === "done" ? "info" : "error", sentence);
-  if (window.Notification?.permission === "granted") new Notification(appName, { body: sentence });
+  void showNotification(sentence);
 });
 keepPage(() => store.setState({ isOutdated: true }));
 backend.listen({

@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "react";
 import type { Backend, DrawingSource } from "../backend/backend.js";
-import { useBackend, usePageState } from "../state/use-store.js";
+import { useBackend, useIsConnected } from "../state/use-store.js";
 import { croppedPicture } from "./crop-picture.js";
 import "./thumb.css";
 
@@ -19,7 +19,7 @@ const keyOf = ({ of, id }: DrawingSource): string => `${of} ${id}`;
 export const Thumb = ({ of, id }: DrawingSource) => {
   const backend = useBackend();
   const key = keyOf({ of, id });
-  const isLinked = usePageState((state) => state.link === "connected");
+  const isConnected = useIsConnected();
   const box = useRef<HTMLSpanElement>(null);
   const [url, setUrl] = useState(pictures.get(key) ?? null);
   useEffect(() => {
@@ -31,7 +31,7 @@ export const Thumb = ({ of, id }: DrawingSource) => {
     });
     watcher.observe(box.current);
     return () => watcher.disconnect();
-  }, [backend, of, id, url, isLinked]);
+  }, [backend, of, id, url, isConnected]);
   return (
     <span className="thumb" ref={box} aria-hidden="true">
       {url !== null && <img src={url} alt="" loading="lazy" decoding="async" />}

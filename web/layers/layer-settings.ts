@@ -1,4 +1,4 @@
-/** Changes of the settings by the controls of layers and pens. Pure functions, one undo step each. */
+/** Settings changes made by the layer and pen controls. Each is a pure function and one undo step. */
 import { parseLayerName, type LayerMotion, type LayerPen, type PlotPen } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 
@@ -30,11 +30,11 @@ export const isLayerShown = ({ prepare }: PlotSettings, { id, name }: LayerRow):
 /** A layer whose name begins with "%" is off unless it is in `shownLayers`. Others are on unless in `hiddenLayers`. */
 export const showLayer = (settings: PlotSettings, { id, name }: LayerRow, isOn: boolean): PlotSettings => {
   const { hiddenLayers, shownLayers } = settings.prepare;
-  const isCodedOff = parseLayerName(name).skip;
+  const isOffByName = parseLayerName(name).skip;
   const others = without(hiddenLayers, id);
   return withPrepare(settings, {
-    hiddenLayers: isOn || isCodedOff ? others : [...others, id],
-    shownLayers: isOn && isCodedOff ? [...without(shownLayers, id), id] : without(shownLayers, id),
+    hiddenLayers: isOn || isOffByName ? others : [...others, id],
+    shownLayers: isOn && isOffByName ? [...without(shownLayers, id), id] : without(shownLayers, id),
   });
 };
 
@@ -72,7 +72,7 @@ export const repeatLayer = (settings: PlotSettings, id: string, times: number | 
   return withPrepare(settings, { layerRepeats: isOnce ? others : { ...others, [id]: times } });
 };
 
-/** Sets the layer's own hatch; null: the common one. */
+/** Sets the layer's own hatch; null: use the drawing's hatch. */
 export const hatchLayer = (
   settings: PlotSettings,
   id: string,

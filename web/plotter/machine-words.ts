@@ -1,4 +1,5 @@
 /** What a plotter is doing, in words, from its connection and its job. */
+import type { MachineProfile } from "../../src/index.js";
 import type { Job, Plotter } from "../../src/schema/index.js";
 import { penWait } from "../state/store.js";
 import { plotterText as words } from "./text.js";
@@ -33,3 +34,7 @@ export const lampOf = ({ connection }: Plotter, job: Job | null): Lamp => {
   if (job?.state !== "paused") return job?.state === "plotting" ? "busy" : connection;
   return job.wait === null ? "held" : "waiting";
 };
+
+/** Where home is; null if the plotter finds it by its limit switches. */
+export const homeWords = (machine: MachineProfile | null): string | null =>
+  machine?.controller["homing"] ? null : words.homeHint;

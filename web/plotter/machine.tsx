@@ -1,8 +1,9 @@
 import type { ReactNode } from "react";
 import { MACHINES } from "../../src/index.js";
+import { findMachine } from "../../src/internal.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
-import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, useBackend, useIsConnected, usePageState, usePageStore } from "../state/use-store.js";
 import { plotterText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
@@ -10,7 +11,7 @@ import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand } from "./pen-at-hand.js";
-import { lampOf, penWords, plotterWords } from "./machine-words.js";
+import { homeWords, lampOf, penWords, plotterWords } from "./machine-words.js";
 import { saveFile } from "../ui/save-file.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
@@ -35,11 +36,12 @@ export const MachinePanel = () => {
   );
 };
 
-/** Controls that are needed less often. `children`: the settings for lifting the pen, which are in the folder pens. */
+/** Controls that are needed less often. `children`: the pen-lift settings, from `web/pens`. */
 export const MachineSetUp = ({ children }: { children: ReactNode }) => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
+  const home = usePageState(({ settings }) => homeWords(findMachine(settings)));
   const { attempt } = useActions();
   const saveLog = async (id: string): Promise<void> => {
     const log = await attempt("log", () => backend.log(id));
@@ -57,7 +59,7 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
         <SettingsGroup id="plotter" title={words.more}>
           {isMine && <ModelSelect />}
           {plotter && <PlotterFacts plotter={plotter} />}
-          <p className="note">{words.homeHint}</p>
+          {home !== null && <p className="note">{home}</p>}
         </SettingsGroup>
       </div>
       <p className="link-row">
@@ -86,15 +88,15 @@ const DialogLink = ({ name, children }: { name: DialogName; children: string }) 
 
 const PlotterName = ({ plotter }: { plotter: Plotter }) => {
   const job = usePageState(activeJob);
-  const isHeard = usePageState((state) => state.link === "connected");
+  const isConnected = useIsConnected();
   const { boardName } = plotter;
   return (
     <>
-      <p className="plotter-name" data-lamp={isHeard ? lampOf(plotter, job) : "fault"}>
+      <p className="plotter-name" data-lamp={isConnected ? lampOf(plotter, job) : "fault"}>
         <span className="lamp" aria-hidden="true" />
         <strong>{plotter.name}</strong>
         {boardName !== null && boardName !== plotter.name && <span className="note">({boardName})</span>}
-        <span className="plotter-doing">{isHeard ? plotterWords(plotter, job) : words.notHeard}</span>
+        <span className="plotter-doing">{isConnected ? plotterWords(plotter, job) : words.notHeard}</span>
       </p>
       <PlotterMessage plotter={plotter} />
     </>

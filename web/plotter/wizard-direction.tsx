@@ -8,9 +8,9 @@ import { Button } from "../ui/button.js";
 
 const MOVE_MM = 20;
 
-type Asked = "middle" | "x" | "y" | "check";
+type Asked = "middle" | "x" | "y" | "check" | "home";
 
-/** Two short moves. Their real directions show how the motors are wired. */
+/** Makes two short moves and asks which way the carriage went, to find out how the motors are wired. */
 export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [asked, setAsked] = useState<Asked>("middle");
   const [draft, setDraft] = useState(profile);
@@ -18,10 +18,13 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [fault, setFault] = useState<string | null>(null);
   const { motorsOff, moveByHand } = useActions();
   const [isMoving, setMoving] = useState(false);
+  // Uses the profile of the moves: with another controller, the next move would reconnect and lose this home.
+  const setHome = async (): Promise<boolean> =>
+    (await moveByHand({ kind: "set-home" }, settingsWith(draft))) !== null;
   // Sets home before each move: with a wrong profile, the carriage may be on the wrong side of the last home.
   const jog = async (x: number, y: number): Promise<void> => {
     setMoving(true);
-    if (await moveByHand({ kind: "set-home" })) {
+    if (await setHome()) {
       await moveByHand({ kind: "jog", dxMm: x, dyMm: y }, settingsWith(draft));
     }
     setMoving(false);
@@ -44,12 +47,13 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   };
   const slanted = (): void => {
     setDraft(withOtherMotors(draft));
+    setFault(null);
     setAsked("x");
   };
 
   if (asked === "middle") {
     const begin = async (): Promise<void> => {
-      if (await moveByHand({ kind: "set-home" })) setAsked("x");
+      if (await setHome()) setAsked("x");
     };
     return (
       <>
@@ -76,10 +80,27 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
           </Button>
         </div>
         <div className="button-row">
-          <Button kind="primary" onClick={() => onNext(draft)}>
+          <Button kind="primary" onClick={() => setAsked("home")}>
             {words.itDoes}
           </Button>
           <Button onClick={() => setAsked("x")}>{words.askAgain}</Button>
+        </div>
+      </>
+    );
+  }
+  if (asked === "home") {
+    // Home is still where the last move began. From there a plot could run into the end.
+    const finish = async (): Promise<void> => {
+      if (await setHome()) onNext(draft);
+    };
+    return (
+      <>
+        <p>{words.homeHint}</p>
+        <div className="button-row">
+          <Button onClick={() => void motorsOff()}>{words.motorsOff}</Button>
+          <Button kind="primary" onClick={() => void finish()}>
+            {words.setHome}
+          </Button>
         </div>
       </>
     );

@@ -26,6 +26,9 @@ export const wizardText = {
   moveNearer: "Nearer",
   itDoes: "Yes, both are right",
   askAgain: "No, ask me again",
+  homeHint:
+    "With the motors off, push the carriage by hand into its home corner, at the back left, and set home there. The reach of the plotter is counted from it.",
+  setHome: "Set home here",
   squareHint: (size: number) =>
     `Put in a pen and paper. A square of ${size} mm is drawn to the right of and below the pen. Measure it.`,
   drawSquare: "Draw the square",

@@ -31,7 +31,7 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
   );
 };
 
-/** Places the drawing by hand, with handles around it. Pressed again, the drawing fits the paper. */
+/** Places the drawing by hand, with handles around it. A second press fits the drawing to the paper again. */
 const PlaceTool = () => {
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);

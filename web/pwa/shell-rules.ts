@@ -1,4 +1,4 @@
-/** Which requests the service worker answers, and how. Pure functions, for tests. */
+/** Which requests the service worker answers, and how. Separate from it, for tests. */
 
 export interface Asked {
   readonly method: string;
@@ -34,4 +34,24 @@ export const cachesToDrop = (
 ): readonly string[] => {
   const before = names.filter((name) => name.startsWith(prefix) && name !== current);
   return before.slice(0, -1);
+};
+
+interface Searched {
+  match(request: Request): Promise<Response | undefined>;
+}
+interface Caches extends Searched {
+  open(name: string): Promise<Searched>;
+}
+
+/**
+ * A file from the cache `current`, or else from the previous one. `caches.match` alone searches the oldest cache first,
+ * which has old versions of the files without a hash.
+ */
+export const cachedAnswer = async (
+  caches: Caches,
+  current: string,
+  request: Request,
+): Promise<Response | undefined> => {
+  const cache = await caches.open(current);
+  return (await cache.match(request)) ?? caches.match(request);
 };

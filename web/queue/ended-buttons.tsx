@@ -1,6 +1,6 @@
 import type { Job } from "../../src/schema/index.js";
 import { activeJob, mayOperate } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 
@@ -8,7 +8,7 @@ import { Button } from "../ui/button.js";
 export const EndedButtons = ({ job }: { job: Job }) => {
   const { actOnJob } = useActions();
   const isMine = usePageState(mayOperate);
-  const isOff = usePageState((state) => state.link !== "connected");
+  const isOff = !useIsConnected();
   const isFree = usePageState((state) => activeJob(state) === null);
   if (!isMine) return null;
   if (job.state === "queued") {

@@ -1,7 +1,7 @@
 import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { mayOperate } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
@@ -38,7 +38,7 @@ export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
 const EndedJob = ({ job }: { job: Job }) => {
   const { actOnJob, openJob, removeJob } = useActions();
   const isMine = usePageState(mayOperate);
-  const isOff = usePageState((state) => state.link !== "connected");
+  const isOff = !useIsConnected();
   const { name } = job;
   return (
     <article className="job" data-state={job.state}>

@@ -1,7 +1,7 @@
 import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { mayOperate, penWait } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
 import { jobText as words, queueText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
@@ -15,7 +15,7 @@ export const JobButtons = ({ job }: { job: Job }) => {
   const [isAsking, setAsking] = useState(false);
   const isMine = usePageState(mayOperate);
   // Without a connection the server would not receive the request, so the buttons are disabled.
-  const isOff = usePageState((state) => state.link !== "connected");
+  const isOff = !useIsConnected();
   if (isAsking && !isOff) return <AskToCancel job={job} onKeep={() => setAsking(false)} />;
   return (
     <div className="button-row job-buttons">

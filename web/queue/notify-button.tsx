@@ -3,7 +3,7 @@ import { useActions } from "../state/use-store.js";
 import { notifyText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 
-/** Asks for permission to show notifications. Not shown if the browser has none. */
+/** Asks for permission to show notifications. Hidden if the browser does not support notifications. */
 export const NotifyButton = () => {
   const { notify } = useActions();
   const [permission, setPermission] = useState(() => window.Notification?.permission ?? "denied");

@@ -3,6 +3,7 @@ import type { Job } from "../../src/schema/index.js";
 import { notifyText as words } from "./text.js";
 import { waitWords } from "../plotter/machine-words.js";
 import type { PageStore } from "../state/store.js";
+import { appName } from "../ui/text.js";
 
 /** The message for a job that has changed; null if the user does not need to know. */
 export const noticeOfChange = (before: Job | null, now: Job): string | null => {
@@ -27,4 +28,19 @@ export const watchJobs = (store: PageStore, notify: (message: string, job: Job) 
       if (message !== null) notify(message, job);
     }
   });
+};
+
+/**
+ * Shows a system notification if the user has allowed them. Chrome on Android shows them only through the service
+ * worker; pages without one, as in development, show them directly. Never rejects.
+ */
+export const showNotification = async (message: string): Promise<void> => {
+  if (window.Notification?.permission !== "granted") return;
+  try {
+    const registration = await navigator.serviceWorker?.getRegistration();
+    if (registration?.active) await registration.showNotification(appName, { body: message });
+    else new Notification(appName, { body: message });
+  } catch {
+    // The page shows the change anyway.
+  }
 };

@@ -3,7 +3,7 @@ import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { rowsOf } from "./copies.js";
 import { queueTime } from "./queue-time.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
-import { useActions, usePageState, usePlotterJobs } from "../state/use-store.js";
+import { useActions, useIsConnected, usePageState, usePlotterJobs } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Segments } from "../ui/choice.js";
 import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
@@ -66,17 +66,17 @@ const Totals = ({ jobs }: { jobs: readonly Job[] }) => {
   const nowMs = useNow();
   const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
   const runsOn = usePageState((state) => state.queues[plotterId]?.runOn ?? false);
-  const isSeen = usePageState((state) => state.link === "connected");
+  const isConnected = useIsConnected();
   const { totalS, isRunning } = queueTime(jobs, runsOn);
   const total = words.total(jobs.length, formatDuration(totalS));
   return (
     <span className="note">
-      {isRunning && isSeen ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}
+      {isRunning && isConnected ? words.totalDoneAt(total, formatClockIn(nowMs, totalS)) : total}
     </span>
   );
 };
 
-/** Chooses whether the queue stops between jobs, for new paper. */
+/** Sets whether the queue waits for new paper between plots. */
 const BetweenJobs = () => {
   const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
   const queue = usePageState((state) => state.queues[plotterId]);

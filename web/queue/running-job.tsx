@@ -1,6 +1,6 @@
 import type { Job } from "../../src/schema/index.js";
 import { penWait, shownView } from "../state/store.js";
-import { usePageState } from "../state/use-store.js";
+import { useIsConnected, usePageState } from "../state/use-store.js";
 import { jobText, queueText } from "./text.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
@@ -29,9 +29,9 @@ export const RunningJob = ({ job }: { job: Job }) => {
 
 const TimeLeft = ({ job }: { job: Job }) => {
   const nowMs = useNow();
-  const isSeen = usePageState((state) => state.link === "connected");
+  const isConnected = useIsConnected();
   const share = formatPercent(job.progress);
-  if (!isSeen) return <p className="job-line">{queueText.lastSeen(share)}</p>;
+  if (!isConnected) return <p className="job-line">{queueText.lastSeen(share)}</p>;
   return (
     <p className="job-line">
       <span className="job-share">{share}</span>

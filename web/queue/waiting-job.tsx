@@ -1,6 +1,6 @@
 import type { RefObject } from "react";
 import { activeJob, mayOperate } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
 import { plotText, queueText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { formatCount, formatDuration } from "../ui/format.js";
@@ -54,7 +54,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
   const [job] = copies;
   const { actOnJob, duplicateJob, moveJob, openJob, removeJob } = useActions();
   const isFree = usePageState((state) => activeJob(state) === null);
-  const isOff = usePageState((state) => state.link !== "connected");
+  const isOff = !useIsConnected();
   const index = rowIds.indexOf(job.id);
   const moveTo = async (place: number): Promise<void> => {
     const beforeId = placeAfterMove(rowIds, job.id, place);

@@ -1,7 +1,6 @@
 import { useMemo, useState } from "react";
 import {
   findMachine,
-  isAllowed,
   NEXT_STAIRS_MM,
   RINGING_SPEEDS,
   SPRINGS_TABLE,
@@ -145,7 +144,5 @@ const springsOf = (x: Reading, y: Reading, speedMmPerS: number, damping: number)
       return null;
     }
   });
-  if (xHz === null || yHz === null || ![xHz, yHz].every((hz) => isAllowed(SPRINGS_TABLE.xHz, hz)))
-    return null;
-  return { xHz, yHz, damping };
+  return xHz === null || yHz === null ? null : { xHz, yHz, damping };
 };

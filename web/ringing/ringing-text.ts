@@ -2,15 +2,15 @@
 export const ringingText = {
   title: "Measure ringing",
   intro:
-    "After a hard corner the pen swings on for a moment: that is ringing. Once plotwright knows how fast your plotter swings, it moves so that the swings cancel, and can go faster.",
+    "After a sharp corner, the pen keeps vibrating for a moment. This is called ringing. Once plotwright knows the frequency, it shapes the moves to cancel the ringing, so it can plot faster.",
   virtualHint:
-    "No plotter is plugged in, so there is no paper with ripples to count. Under the preview, “Pen (simulated)” shows what a pen with these swings would draw.",
+    "No plotter is connected, so there is no sheet to read. Below the preview, “Pen (simulated)” shows the line a vibrating pen would draw.",
   parts: "Sheets",
   partNames: { count: "Count ripples", pick: "Pick by eye" },
   jobName: "Ringing sheet",
   plotTitle: "Plot the sheet",
   plotHint: (mm: number) =>
-    `Put in a fine pen, and paper with at least ${mm} × ${mm} mm free in the middle. Three lines of steps are drawn with fast, sharp corners, in under a minute. Your open drawing stays as it is.`,
+    `Put in a fine pen, and paper with at least ${mm} × ${mm} mm free in the middle. The plotter draws three staircases with fast, sharp corners. This takes less than a minute. Your open drawing stays as it is.`,
   plot: "Plot the ringing sheet",
   noRoom: (mm: number) => `The sheet needs ${mm} × ${mm} mm. Choose a larger paper first.`,
   plotting: "Plotting…",
@@ -20,9 +20,9 @@ export const ringingText = {
     "Choose the line with the clearest ripples. Look at its straight parts just after a corner, where the ripples are strongest.",
   line: "Line drawn at",
   axes: {
-    x: { legend: "Sideways swing (x)", hint: "On the vertical parts, after the corner at their top." },
+    x: { legend: "Side-to-side ringing (x)", hint: "On the vertical parts, after the corner at their top." },
     y: {
-      legend: "Swing to and fro (y)",
+      legend: "Front-to-back ringing (y)",
       hint: "On the horizontal parts, after the corner at their left.",
     },
   },
@@ -43,12 +43,12 @@ export const ringingText = {
   },
   gainHeads: { quality: "Quality", time: "Pen down", off: "Max. distance from the line" },
   seconds: (s: string, change: string) => (change === "" ? `${s} s` : `${s} s (${change})`),
-  save: "Store with this plotter",
-  saved: (x: string, y: string) => `Stored: ${x} Hz along x, ${y} Hz along y.`,
+  save: "Save for this plotter",
+  saved: (x: string, y: string) => `Saved: ${x} Hz along x, ${y} Hz along y.`,
   machineName: (name: string) => `${name}, measured`,
   pickTitle: "Plot the second sheet",
   pickHint:
-    "One line is drawn without shaping, and five are shaped for slightly different swings. Click the line that is straightest after its corners.",
+    "One line is drawn without shaping, and five are shaped for slightly different frequencies. Click the line that is straightest after its corners.",
   pickNeeds: "Count the ripples first. This sheet then finds the best value near that.",
   plotChecks: "Plot the six lines",
   plottingCheck: (number: number, count: number) => `Plotting line ${number} of ${count}…`,

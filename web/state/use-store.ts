@@ -26,6 +26,9 @@ export const useActions = (): Actions => usePage().actions;
 export const useBackend = (): Backend => usePage().backend;
 export const usePageStore = (): PageStore => usePage().store;
 
+/** Without a connection the page shows the last known state, and its requests do not arrive. */
+export const useIsConnected = (): boolean => usePageState((state) => state.link === "connected");
+
 /** The current plotter's jobs: the queue in its order, then the history, newest first. */
 export const usePlotterJobs = (): readonly Job[] => {
   const jobs = usePageState((state) => state.jobs);

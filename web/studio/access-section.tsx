@@ -5,12 +5,12 @@ import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
-import { useAsked, useStudio } from "./use-studio.js";
+import { useFetched, useStudio } from "./use-studio.js";
 
 /** Paired browsers, and keys for scripts. Each can be revoked. */
 export const AccessSection = () => {
   const studio = useStudio();
-  const [answer, askAgain] = useAsked(studio.access);
+  const [answer, askAgain] = useFetched(studio.access);
   const [secret, setSecret] = useState<string | null>(null);
   const revoke = async (id: string): Promise<void> => {
     if (await studio.revoke(id)) askAgain();

@@ -5,12 +5,12 @@ import { Button } from "../ui/button.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/text-field.js";
 import { Secret } from "./access-section.js";
-import { useAsked, useStudio } from "./use-studio.js";
+import { useFetched, useStudio } from "./use-studio.js";
 
 /** Addresses that are notified when a plot is done, waits, or has failed. */
 export const HooksSection = () => {
   const studio = useStudio();
-  const [answer, askAgain] = useAsked(studio.webhooks);
+  const [answer, askAgain] = useFetched(studio.webhooks);
   const [secret, setSecret] = useState<string | null>(null);
   const remove = async (id: string): Promise<void> => {
     if (await studio.removeWebhook(id)) askAgain();

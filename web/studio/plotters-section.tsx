@@ -6,7 +6,7 @@ import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { TextField } from "../ui/text-field.js";
 import { PortSelect, portChoices } from "./port-select.js";
-import { useAsked, useStudio } from "./use-studio.js";
+import { useFetched, useStudio } from "./use-studio.js";
 
 /** The server's plotters: their names and ports, adding and removing them. */
 export const PlottersSection = () => {
@@ -66,7 +66,7 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
 const NewPlotterForm = () => {
   const studio = useStudio();
   const machine = usePageState((state) => state.settings.machine);
-  const [answer, askAgain] = useAsked(studio.devices);
+  const [answer, askAgain] = useFetched(studio.devices);
   const [name, setName] = useState("");
   const [device, setDevice] = useState("auto");
   const add = async (): Promise<void> => {

@@ -1,12 +1,12 @@
 import type { Device, Plotter } from "../../src/schema/index.js";
 import { studioText as words } from "./text.js";
 import { Select } from "../ui/choice.js";
-import { useAsked, useStudio } from "./use-studio.js";
+import { useFetched, useStudio } from "./use-studio.js";
 
 /** Chooses a plotter's port: automatic, one of the connected boards, or the virtual board. */
 export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
   const studio = useStudio();
-  const [answer] = useAsked(studio.devices);
+  const [answer] = useFetched(studio.devices);
   const choices = portChoices(answer ?? [], plotter);
   const now = plotter.kind === "virtual" ? "virtual" : (plotter.device ?? "auto");
   return (

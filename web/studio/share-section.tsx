@@ -1,12 +1,12 @@
 import { useActions, usePageState } from "../state/use-store.js";
 import { studioText as words } from "./text.js";
-import { useAsked, useStudio } from "./use-studio.js";
+import { useFetched, useStudio } from "./use-studio.js";
 import { Button } from "../ui/button.js";
 
 /** Links and QR codes for pairing another device, to operate or to watch. */
 export const ShareSection = () => {
   const studio = useStudio();
-  const [pairing] = useAsked(studio.pairing);
+  const [pairing] = useFetched(studio.pairing);
   const localName = usePageState((state) => state.localName);
   if (!pairing) return <p className="note">{words.pairingWhere}</p>;
   return (

@@ -9,14 +9,14 @@ import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
 import { isServerGone, leftOut, machineWanted, possibleAction } from "./shared-jobs.js";
-import { useAsked, useStudio } from "./use-studio.js";
+import { useFetched, useStudio } from "./use-studio.js";
 
 const POLL_MS = 3_000;
 
 /** The shared queue: its jobs, which server took them, and adding the current drawing. */
 export const SharedSection = () => {
   const studio = useStudio();
-  const [answer, askAgain] = useAsked(studio.sharedJobs);
+  const [answer, askAgain] = useFetched(studio.sharedJobs);
   useEffect(() => {
     const timer = setInterval(askAgain, POLL_MS);
     return () => clearInterval(timer);

@@ -8,8 +8,8 @@ export const useStudio = (): StudioApi => {
   return useMemo(() => studioApi(backend, actions), [backend, actions]);
 };
 
-/** A list from the server, and how to request it again; null until it has arrived. */
-export const useAsked = <T>(ask: () => Promise<T | null>): readonly [T | null, () => void] => {
+/** The server's answer (null until it arrives) and a function that fetches it again. */
+export const useFetched = <T>(ask: () => Promise<T | null>): readonly [T | null, () => void] => {
   const [answer, setAnswer] = useState<T | null>(null);
   const [turn, setTurn] = useState(0);
   useEffect(() => {

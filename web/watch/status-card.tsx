@@ -6,7 +6,7 @@ import { PenWait } from "../queue/pen-wait.js";
 import { expectedSOf } from "../queue/queue-time.js";
 import { jobText, queueText } from "../queue/text.js";
 import { ACTIVE_STATES, penWait } from "../state/store.js";
-import { usePageState } from "../state/use-store.js";
+import { useIsConnected, usePageState } from "../state/use-store.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
 import { layerNow } from "./watch-look.js";
@@ -44,9 +44,9 @@ export const StatusCard = ({ job }: { job: Job }) => {
 
 const Figures = ({ job }: { job: Job }) => {
   const nowMs = useNow();
-  const isSeen = usePageState((state) => state.link === "connected");
+  const isConnected = useIsConnected();
   const share = formatPercent(job.progress);
-  if (!isSeen) {
+  if (!isConnected) {
     return (
       <p className="status-figures">
         <span className="status-large">{words.lastSeen(share)}</span>

@@ -1,6 +1,6 @@
 import { useEffect } from "react";
 import { watchedJob } from "../state/store.js";
-import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, useBackend, useIsConnected, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Notices } from "../ui/notices.js";
 import { StatusCard } from "./status-card.js";
@@ -30,11 +30,11 @@ const usePlan = (): void => {
   const backend = useBackend();
   const id = usePageState((state) => watchedJob(state)?.id ?? null);
   const startedAt = usePageState((state) => watchedJob(state)?.startedAt ?? null);
-  const isLinked = usePageState((state) => state.link === "connected");
+  const isConnected = useIsConnected();
   useEffect(() => {
     const job = watchedJob(store.getState());
-    if (job && isLinked) void planWatched(store, backend, job);
-  }, [store, backend, id, startedAt, isLinked]);
+    if (job && isConnected) void planWatched(store, backend, job);
+  }, [store, backend, id, startedAt, isConnected]);
 };
 
 const NothingCard = () => {

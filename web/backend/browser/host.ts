@@ -14,22 +14,23 @@ import { FIRST_PLOTTER, openNamedPlotter } from "../../../host/plotter/named-plo
 import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import { Notices } from "../../../host/queue/notices.js";
-import type { DrawingText } from "../../worker/drawing-text.js";
 import { browserClock } from "../../serial/web-serial.js";
-import { Database, type DatabaseEvents, type Records } from "./database.js";
+import { announcer } from "./announcer.js";
 import { hasLocks } from "./capabilities.js";
+import { Database, type DatabaseEvents, type Records } from "./database.js";
+import { drawingRecords } from "./drawing-records.js";
 import { hostApi, type HostApi } from "./host-api.js";
 import { MemoryRecords } from "./memory-records.js";
 import { DATABASE, type WorkerStart } from "./protocol.js";
 import { serialDevices } from "./serial-devices.js";
+import { storageReason } from "./storage-reason.js";
 import { StoredModel } from "./stored-model.js";
 import { browserText } from "./text.js";
 import { workerPlanning } from "./worker-planning.js";
 
 const STOPPED =
-  "The page was closed or reloaded while this was plotting. Check pen and paper, then continue from where it was.";
-const PROGRESS_MS = 100;
-/** The system gives the process of a hidden tab less time, so timers may be this late. */
+  "The page was closed or reloaded while this was plotting. Check pen and paper, then resume where it stopped.";
+/** Browsers throttle hidden tabs: timers may fire this late. */
 const HIDDEN_LATENESS_S = 0.7;
 
 export interface Host {
@@ -100,7 +101,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
   });
   const notices = new Notices({ store, announce, nowIso });
   let faultId: string | null = null;
-  onFault = (error) => (faultId ??= notices.add(browserText.onlyHere(reasonOf(error))));
+  onFault = (error) => (faultId ??= notices.add(browserText.onlyHere(storageReason(error))));
   onWritten = () => {
     const id = faultId;
     faultId = null;
@@ -128,7 +129,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     }),
     written: () =>
       db.written().catch((cause: unknown) => {
-        throw new PlotwrightError("disk-full", browserText.onlyHere(reasonOf(cause)), { cause });
+        throw new PlotwrightError("disk-full", browserText.onlyHere(storageReason(cause)), { cause });
       }),
     close: async () => {
       await queue.close();
@@ -143,52 +144,6 @@ const openRecords = async (events: DatabaseEvents): Promise<Records> => {
   if (!hasLocks()) return new MemoryRecords();
   return Database.open(DATABASE, events).catch(() => new MemoryRecords());
 };
-
-const reasonOf = (error: unknown): string => {
-  if (error instanceof DOMException && error.name === "QuotaExceededError") return browserText.full;
-  return error instanceof Error ? error.message : String(error);
-};
-
-/** Holds each event back until all changes before it are stored, and sends progress ten times a second. */
-function announcer(db: Records, send: (event: ServerEvent) => void): (event: ServerEvent) => void {
-  let last: Promise<void> = Promise.resolve();
-  let progressAtMs = -Infinity;
-  return (event) => {
-    if (event.type === "progress") {
-      if (performance.now() - progressAtMs < PROGRESS_MS) return;
-      progressAtMs = performance.now();
-    }
-    // A change that can't be stored is announced too: the page must always show a running plot. A notice reports the
-    // fault.
-    const stored = db.written().catch(() => undefined);
-    last = last.then(() => stored).then(() => send(event));
-  };
-}
-
-/** Drawings by id. */
-const drawingRecords = (db: Records) => ({
-  add: async (drawing: DrawingText): Promise<string> => {
-    const id = crypto.randomUUID();
-    db.put("drawings", id, drawing);
-    await db.written().catch((cause: unknown) => {
-      // A large drawing must not prevent later, smaller changes from being stored.
-      db.remove("drawings", id);
-      throw new PlotwrightError("disk-full", browserText.notAdded(reasonOf(cause)), { cause });
-    });
-    return id;
-  },
-  read: async (id: string): Promise<DrawingText> => {
-    // A plot begins by reading its drawing. Waiting here ensures that the plot's new state is stored first.
-    await db.written();
-    const drawing = await db.readDrawing(id);
-    if (typeof drawing === "string" || drawing instanceof ArrayBuffer) return drawing;
-    throw new PlotwrightError("bad-file", "The browser no longer has this drawing. Add it again.");
-  },
-  remove: (id: string): Promise<void> => {
-    db.remove("drawings", id);
-    return db.written();
-  },
-});
 
 /** Removes drawings whose job was never added because the page was closed first. */
 async function removeUnused(db: Records, store: StoredModel): Promise<void> {

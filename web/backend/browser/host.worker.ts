@@ -74,7 +74,8 @@ async function resultOf({ api, written }: Host, { tab, method, args }: Call): Pr
     }
     const run = api[method] as (...args: readonly unknown[]) => unknown;
     const value = await run(...args);
-    await written();
+    // Reading works while changes can't be stored. Handing over does not: they would be lost.
+    if (!READING.includes(method) || method === "handOver") await written();
     return { ok: true, value };
   } catch (error) {
     return { ok: false, ...faultOf(error) };

@@ -41,17 +41,16 @@ export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
       if (sizeOf(drawing) === 0) throw new PlotwrightError("bad-file", "The file is empty.");
       // The schema requires a drawing or its id. Here the drawing is a separate argument.
       const wanted = parseWith(newJobSchema, { ...job, drawingId: "sent" });
-      const { copies = 1, settings, name, plotterId, from } = wanted;
+      const { copies, settings, name, plotterId, from } = wanted;
       const id = await drawings.add(drawing);
-      const first = await queue.add({
+      return queue.add({
         name,
         plotterId,
         from,
+        copies,
         settings: machines.withMachine(settings),
         drawing: { id, bytes: sizeOf(drawing) },
       });
-      for (let copy = 1; copy < copies; copy++) queue.duplicate(first.id);
-      return first;
     },
     patchJob: (id: string, patch: JobPatch): Promise<Job> => {
       const { settings, ...others } = parseWith(jobPatchSchema, patch);

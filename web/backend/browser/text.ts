@@ -14,6 +14,7 @@ export const browserText = {
     `The last changes are only in this tab, so keep it open. The browser can’t store them: ${reason}`,
   notAdded: (reason: string) =>
     `The job was not added; the drawing is still on the page. The browser can’t store it: ${reason}`,
+  notRead: (reason: string) => `The browser can’t read this drawing: ${reason}`,
   nothingStored:
     "The browser stores nothing for this site, as in some private windows or where site data is blocked. You can plot, but queue, history and settings are lost when this tab is closed.",
   noneChosen: "No plotter was chosen. Plug it in, switch it on, and choose it in the list.",

@@ -19,7 +19,7 @@ import type { PlannerStart } from "./planner.worker.js";
 /** Drawings measured at the same time. The planner of a running plot does not wait for them. */
 const SLOTS = 2;
 
-/** `drawingOf` resolves only when all changes so far are stored, because a plot begins by opening its planner. */
+/** `drawingOf` first waits for all changes so far to be stored, because a plot begins by opening its planner. */
 export function workerPlanning(drawingOf: (id: string) => Promise<DrawingText>): Planning {
   const turn = lane(SLOTS);
   const open = async (id: string, settings: PlotSettings, signal?: AbortSignal): Promise<OpenPlanner> => {

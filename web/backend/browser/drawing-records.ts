@@ -1,0 +1,34 @@
+/** The drawings of a browser's host, by id. */
+import { PlotwrightError } from "../../../src/index.js";
+import type { DrawingText } from "../../worker/drawing-text.js";
+import type { Records } from "./database.js";
+import { storageReason } from "./storage-reason.js";
+import { browserText } from "./text.js";
+
+export const drawingRecords = (db: Pick<Records, "put" | "remove" | "readDrawing" | "written">) => ({
+  add: async (drawing: DrawingText): Promise<string> => {
+    const id = crypto.randomUUID();
+    db.put("drawings", id, drawing);
+    await db.written().catch((cause: unknown) => {
+      // A large drawing must not prevent later, smaller changes from being stored.
+      db.remove("drawings", id);
+      throw new PlotwrightError("disk-full", browserText.notAdded(storageReason(cause)), { cause });
+    });
+    return id;
+  },
+  read: async (id: string): Promise<DrawingText> => {
+    // A plot begins by reading its drawing. Waiting here ensures that the plot's new state is stored first. If it can't
+    // be stored, the plot begins anyway, and a notice asks the user to keep the tab open.
+    await db.written().catch(() => undefined);
+    const drawing = await db.readDrawing(id).catch((cause: unknown) => {
+      throw new PlotwrightError("bad-file", browserText.notRead(storageReason(cause)), { cause });
+    });
+    if (typeof drawing === "string" || drawing instanceof ArrayBuffer) return drawing;
+    throw new PlotwrightError("bad-file", "The browser no longer has this drawing. Add it again.");
+  },
+  /** Does not wait until this is stored: the answer to the page does (`Host.written`). */
+  remove: (id: string): Promise<void> => {
+    db.remove("drawings", id);
+    return Promise.resolve();
+  },
+});
