@@ -243,6 +243,8 @@ export class MachinePlot implements LivePlotRun {
         throw error;
       });
       if (!plot) return this.#goHome();
+      // Lift before the check: a request during the lift must be seen before anything moves.
+      if (this.#machine.penUp !== true) await this.#machine.movePen(true, this.#settings.current);
       if (this.#requested !== "run" || this.#settings.changeCount !== changeCount) continue;
       await this.#stream.play(plot, this.#afterPartS, () => this.#streamBegun());
       const next = this.#stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
@@ -338,6 +340,7 @@ export class MachinePlot implements LivePlotRun {
   async #hold(): Promise<void> {
     this.#setHeld(true, this.#stops.due(this.holdPlace));
     if (this.#wait) this.#writeJournal(this.holdPlace);
+    this.holdPlace ??= { stroke: 0, alongMm: 0 };
     while (this.#requested === "hold" && !this.#failure) {
       await new Promise<void>((resolve) => {
         this.#wakeHold = resolve;

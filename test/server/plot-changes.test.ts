@@ -1,11 +1,11 @@
 /** Changes of speeds and heights during a plot, and requests right after them. */
 import { describe, expect, it } from "vitest";
-import type { PenSettings, VirtualBoard } from "../../src/index.js";
+import type { PenSettings, StrokeSet, VirtualBoard } from "../../src/index.js";
 import { MOTION_MODES } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { cases } from "../support/full-run.js";
 import { DRAWING, expectDrawn, plotting, seamsMm, seeded } from "../support/live-plot.js";
-import { strokesOf } from "../support/local-planner.js";
+import { layeredStrokes, strokesOf } from "../support/local-planner.js";
 
 /** Short strokes, dots and travels: most instants are near an end of something. */
 const DASHES = [
@@ -150,5 +150,87 @@ describe("changes while it runs", () => {
       await world.advance(0.1);
       expect((board.state().xMm - from.xMm) / 0.1).toBeCloseTo(15, 0);
     }
+  });
+});
+
+/** A layer with the usual height, and one with its own. Each stroke has its own y. */
+const layersWith = (name: string): StrokeSet =>
+  layeredStrokes(
+    [
+      { id: "fine", name: "Fine", color: null },
+      { id: "bold", name, color: null },
+    ],
+    [
+      [0, [10, 10, 60, 10]],
+      [1, [60, 20, 10, 20]],
+      [1, [10, 30, 60, 30]],
+      [1, [60, 40, 10, 40]],
+      [0, [10, 50, 60, 50]],
+    ],
+  );
+
+describe("a change in the middle of a stroke whose layer has its own height", () => {
+  const PEN: PenSettings = { ...DEFAULT_PLOT_SETTINGS.pen, overlap: "off" };
+  const OWN: PenSettings = { ...PEN, layers: { bold: { downPct: 10 } } };
+
+  /** Plots with a change in the stroke at y = 20. By y of the stroke: the heights at which the pen drew it, percent. */
+  async function heightsDrawn(
+    change: { speedPct?: number; pen?: PenSettings },
+    pen: PenSettings,
+    name: string,
+  ): Promise<Record<number, number[]>> {
+    const { world, board, run } = await plotting("junction", layersWith(name), "2.8.1", pen);
+    const heights: Record<number, number[]> = {};
+    let before = board.state();
+    let changed: Promise<void> | null = null;
+    let isDone = false;
+    void run.finished.then(() => (isDone = true));
+    while (!isDone) {
+      await world.advance(0.02);
+      const now = board.state();
+      const isDrawing = !now.penUp && now.penPct === before.penPct && now.xMm !== before.xMm;
+      const y = Math.round(now.yMm);
+      const pct = Math.round(now.penPct);
+      if (isDrawing && !heights[y]?.includes(pct)) (heights[y] ??= []).push(pct);
+      if (isDrawing && y === 20 && now.xMm < 45) changed ??= run.change(change);
+      before = now;
+    }
+    await changed;
+    expect(board.statistics()).toMatchObject({ underrunCount: 0, movesBeforePenArrivedCount: 0 });
+    return heights;
+  }
+
+  it.each([
+    ["the settings", OWN, "Bold"],
+    ["the layer's name", PEN, "+h10 Bold"],
+  ])("of the speed leaves the height set by %s", async (_, pen, name) => {
+    expect(await heightsDrawn({ speedPct: 60 }, pen, name)).toEqual({
+      10: [30],
+      20: [10],
+      30: [10],
+      40: [10],
+      50: [30],
+    });
+  });
+
+  it("of the height of all layers changes the other layers only", async () => {
+    expect(await heightsDrawn({ pen: { ...OWN, downPct: 20 } }, OWN, "Bold")).toEqual({
+      10: [30],
+      20: [10],
+      30: [10],
+      40: [10],
+      50: [20],
+    });
+  });
+
+  it("of its own height applies at once", async () => {
+    const pen = { ...OWN, layers: { bold: { downPct: 0 } } };
+    expect(await heightsDrawn({ pen }, OWN, "Bold")).toEqual({
+      10: [30],
+      20: [10, 0],
+      30: [0],
+      40: [0],
+      50: [30],
+    });
   });
 });

@@ -190,6 +190,25 @@ describe("an emergency stop while the carriage would go home by itself", () => {
   });
 });
 
+describe("an emergency stop while the pen is lifted before the first move", () => {
+  it("holds the plot before anything moves", async () => {
+    const world = new ManualClock();
+    const driver = new PlotterDriver({ device: "virtual", clock: world });
+    await world.run(driver.start());
+    const board = virtualBoardOf(driver);
+    const run = await world.run(driver.plot(new LocalPlanner(DRAWING), settingsOf("junction")));
+    // The pen's height is unknown after connecting, so it is lifted first.
+    await world.advance(0.05);
+    await world.run(run.emergencyStop());
+    await world.advance(5);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, isBusy: false });
+    expect(driver.state.activity).toBe("held");
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expectDrawn(board, DRAWING, 0.05);
+  });
+});
+
 describe("a change while the rest is being planned", () => {
   it("is part of the plan that is drawn", async () => {
     const world = new ManualClock();

@@ -58,6 +58,8 @@ export class Carriage {
   underrunCount = 0;
 
   private playing: Streamer | null = null;
+  /** How many times `stopAtOnce` was called. */
+  private stopCount = 0;
   private hasRestarted = false;
   private origin: readonly [number, number] = [0, 0];
   /** The board's state from which the next stream is compiled. */
@@ -99,7 +101,11 @@ export class Carriage {
     const { session, features } = this.connection;
     this.left = null;
     await this.untilStill(stillS);
-    if (!features.hasStepQuery) throw placeUnknown();
+    if (!features.hasStepQuery) {
+      this.state = null;
+      this.events.changed();
+      throw placeUnknown();
+    }
     const [steps1, steps2] = parseSteps(await session.query("QS"), this.origin);
     if (features.hasClear) {
       // The accumulators cannot be read. This clears them and adds one tick at the lowest rate, so both are 1.
@@ -114,13 +120,18 @@ export class Carriage {
   }
 
   /**
-   * The same if the position was known and can be read; otherwise returns false. `stillS`: board seconds to wait for
-   * rest.
+   * The same if the position was known and can be read; otherwise forgets it and returns false. `stillS`: board seconds
+   * to wait for rest.
    */
   async findPlaceAgain(stillS: number): Promise<boolean> {
-    if (!this.state || !this.connection.features.hasStepQuery) return false;
-    await this.findPlace(stillS);
-    return true;
+    if (this.state && this.connection.features.hasStepQuery) {
+      await this.findPlace(stillS);
+      return true;
+    }
+    // The next move begins where the carriage comes to rest.
+    await this.untilStill(stillS);
+    await this.forgetPlace();
+    return false;
   }
 
   /**
@@ -284,8 +295,11 @@ export class Carriage {
   /** Lifts the pen and moves in a straight line to a position, at travel speed. */
   async walk(x: number, y: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
+    const { stopCount } = this;
     await this.ready(settings);
     if (this.penUp !== true) await this.movePen(true, settings);
+    // A stop before the carriage moves has no stream to stop.
+    if (this.stopCount !== stopCount) throw moveStopped();
     const from = this.place(machine)!;
     const { version } = this.connection.features;
     const job = planEbbWalk(from, { x, y }, settings, machine, version, this.state!);
@@ -306,7 +320,8 @@ export class Carriage {
 
   /** Clears the board's queue. The current move rejects with `conflict`, and the position is read back. */
   stopAtOnce(): void {
-    this.playing?.stopAtOnce(new PlotwrightError("conflict", "The move was stopped at once."));
+    this.stopCount++;
+    this.playing?.stopAtOnce(moveStopped());
   }
 
   /** Before the connection is closed during motion: stops and lifts the pen. */
@@ -414,6 +429,8 @@ export class Carriage {
  */
 const canFindPlace = (streamer: Streamer, error: unknown): boolean =>
   streamer.refused !== null || (error instanceof PlotwrightError && error.code === "conflict");
+
+const moveStopped = (): PlotwrightError => new PlotwrightError("conflict", "The move was stopped at once.");
 
 const placeUnknown = (): PlotwrightError =>
   new PlotwrightError(

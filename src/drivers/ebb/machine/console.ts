@@ -55,5 +55,5 @@ async function noteOn(carriage: Carriage, name: string): Promise<string | null> 
   if (!MOVES.has(name)) return null;
   return (await carriage.findPlaceAgain(LONGEST_S))
     ? "The motors may have moved. The position was read back from their counters."
-    : null;
+    : "The motors may have moved, so the position is unknown. The next move starts from here as home.";
 }

@@ -16,13 +16,12 @@ import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js"
 import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
 import { swungPlace } from "../../../plan/swung-place.js";
 import { drawnAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
-import type { PenSettings } from "../../../settings/pen.js";
 import type { MachineRun, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { RunProgress, type PlotProgress } from "../../run-progress.js";
-import { streamOf, type BoardState, type CommandStream } from "../compile/command-stream.js";
+import { streamOf, type BoardState } from "../compile/command-stream.js";
 import { compile } from "../compile/compile.js";
-import { penCommand, penMoveOf, penSetUpCommands } from "../protocol/commands.js";
+import { penCommand } from "../protocol/commands.js";
 import { boardStateBefore, commandAfter, restingStream, withoutDrop } from "../stream/cut-streams.js";
 import type { RefusedCommand } from "../stream/stream-types.js";
 import type { Streamer } from "../stream/streamer.js";
@@ -37,6 +36,9 @@ import { placeAfterRefusal } from "./refused-place.js";
 const SNAP_MM = 0.5;
 /** A place nearer than this to the end of a stroke counts as its end. */
 const EDGE_MM = 0.05;
+
+/** A command and the time it takes in the board's queue, s. */
+type TimedLine = readonly [line: string, durationS: number];
 
 /** A path to rest, and the state after it. */
 interface Rest {
@@ -54,13 +56,12 @@ export class EbbRun implements MachineRun {
   private streamer: Streamer | null = null;
   private readonly strokes: StrokeSet;
   private readonly events: RunEvents;
-  private emergency = false;
+  /** The error with which an emergency stop ends the current play. */
+  private emergency: PlotwrightError | null = null;
   /** The last place that the board certainly reached with its motors powered. */
   private certain: Place | null = null;
   /** Set by `fail`: nothing more may be streamed. */
   private failure: PlotwrightError | null = null;
-  /** The heights that the board moves the pen to. */
-  private boardPen: PenSettings;
 
   constructor(
     private readonly carriage: Carriage,
@@ -68,7 +69,6 @@ export class EbbRun implements MachineRun {
   ) {
     this.strokes = request.strokes;
     this.events = request.events;
-    this.boardPen = this.settings.pen;
   }
 
   private get settings(): MachineSettings {
@@ -97,14 +97,13 @@ export class EbbRun implements MachineRun {
     return placeAt(trajectory, commands.planS[streamer.nextIndex]) ?? next ?? undefined;
   }
 
-  /** Plays a plan to its end, or to a hold; `afterS`: time of the plot after the end of this plan. */
+  /** Plays a plan to its end, or to a hold, with the pen up at first; `afterS`: time of the plot after this plan. */
   async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
     const { carriage } = this;
     this.stopped = null;
-    if (carriage.penUp !== true) await carriage.movePen(true, this.settings);
+    this.emergency = null;
     // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
-    this.boardPen = this.settings.pen;
     const { trajectory: whole } = plot;
     const commands = streamOf(plot.commands);
     this.progress.add({ trajectory: whole, commands, start: carriage.state!, afterS });
@@ -130,7 +129,8 @@ export class EbbRun implements MachineRun {
       });
       left = this.whereStopped() ?? this.progress.place;
     } catch (error) {
-      if (this.emergency) left = await this.afterEmergency(streamer);
+      // The play may have failed for another reason before the stop was requested.
+      if (error === this.emergency) left = await this.afterEmergency(streamer);
       else {
         left = streamer.refused ? await this.afterRefusal(streamer, streamer.refused) : this.certain;
         throw error;
@@ -157,9 +157,9 @@ export class EbbRun implements MachineRun {
   /** Clears the board's queue: it stops at once, and `play` ends with the position read back. */
   stopAtOnce(): void {
     if (!this.streamer) return;
-    this.emergency = true;
+    this.emergency ??= new PlotwrightError("conflict", "The plot was stopped at once.");
     this.carriage.noteEmergencyStop(this.settings);
-    this.streamer.stopAtOnce(new PlotwrightError("conflict", "The plot was stopped at once."));
+    this.streamer.stopAtOnce(this.emergency);
   }
 
   /** Stops the motors for good: the current play, or the next one, fails with the error. */
@@ -201,10 +201,14 @@ export class EbbRun implements MachineRun {
     if (streamer?.nextStream !== part.commands) return false;
     const { trajectory } = rest.part;
     const planned = streamOf(plot.commands);
-    const commands = isDown ? withoutDrop(planned) : planned;
-    const heights = this.heightsChange(isDown, rest.state, trajectory.totalS);
+    const { setUp, afterDrop: commands } = isDown ? withoutDrop(planned) : { setUp: [], afterDrop: planned };
+    const lines = setUp.map((line): TimedLine => [line, 0]);
+    if (isDown) {
+      const fromPct = downPctAt(part.trajectory, part.commands.planS[index]);
+      lines.push(...this.reseat(rest.place, fromPct, downPctAt(plot.trajectory, 0)));
+    }
+    const heights = restingStream(lines, rest.state, trajectory.totalS);
     if (!streamer.cutAt(index, rest.part.commands, heights, commands)) return false;
-    this.boardPen = this.settings.pen;
     const afterS = plot.trajectory.totalS + afterSectionS;
     this.progress.add({ ...rest.part, afterS });
     this.progress.add({ commands: heights, trajectory, start: rest.state, afterS, next: rest.place });
@@ -253,19 +257,14 @@ export class EbbRun implements MachineRun {
       : snappedPlace(this.strokes, { stroke, alongMm }, pen, SNAP_MM);
   }
 
-  /** Commands that apply new heights in mid-plot. A pen that is down moves to the new down height. */
-  private heightsChange(isDown: boolean, state: BoardState, planS: number): CommandStream {
-    const { pen } = this.settings;
-    const machine = machineOf(this.settings);
-    const lines = penSetUpCommands(machine, pen).map((line) => [line, 0] as [string, number]);
-    const byPct = Math.abs(pen.downPct - this.boardPen.downPct);
-    if (isDown && byPct > 0) {
-      const { heightPct, ratePctPerS } = penMoveOf(pen, false);
-      const timeMs = 1_000 * reseatWaitS(pen, byPct);
-      const reseat = { up: false, heightPct, distancePct: byPct, timeMs, ratePctPerS };
-      lines.push([penCommand(machine, reseat), timeMs / 1000]);
-    }
-    return restingStream(lines, state, planS);
+  /** Moves a pen that is down to another down height. */
+  private reseat(place: Place | null, fromPct: number, heightPct: number): TimedLine[] {
+    const distancePct = Math.abs(heightPct - fromPct);
+    if (distancePct === 0) return [];
+    const { pen } = this.brakingAt(place);
+    const waitS = reseatWaitS(pen, distancePct);
+    const move = { up: false, heightPct, distancePct, timeMs: 1_000 * waitS, ratePctPerS: pen.dropPctPerS };
+    return [[penCommand(machineOf(this.settings), move), waitS]];
   }
 
   /** A position that the board reported during the play. */
@@ -277,7 +276,6 @@ export class EbbRun implements MachineRun {
 
   /** The board's queue is cleared: the counters show how far it drew. */
   private async afterEmergency(streamer: Streamer): Promise<Place | null> {
-    this.emergency = false;
     await this.carriage.findPlace();
     const { steps1, steps2 } = this.carriage.state!;
     const at = streamer.placeOfStop(this.carriage.connection.features, steps1, steps2) ?? streamer.place();
@@ -340,6 +338,14 @@ export class EbbRun implements MachineRun {
   private whereStopped(): Place | null {
     return this.stopped?.place ?? null;
   }
+}
+
+/** The height that the last drop before `tS` lowers the pen to; if there is none, that of the first drop. */
+function downPctAt({ penMoves }: Trajectory, tS: number): number {
+  const { count, up, startS, heightPct } = penMoves;
+  let drop = up.indexOf(0);
+  for (let i = drop + 1; i < count && startS[i] < tS; i++) if (up[i] === 0) drop = i;
+  return heightPct[drop];
 }
 
 const isWithinStroke = (strokes: StrokeSet, { stroke, alongMm }: Place): boolean =>

@@ -35,11 +35,18 @@ export function endOfLanding(stream: CommandStream, index: number): number {
   return end;
 }
 
-/** A stream without its initial drop, for a pen that is already down. */
-export function withoutDrop(commands: CommandStream): CommandStream {
+/**
+ * A stream without its initial drop, for a pen that is already down. `setUp`: the heights and speeds that the left out
+ * commands set. The board needs them, because the stream sets them again only where they change.
+ */
+export function withoutDrop(commands: CommandStream): { setUp: string[]; afterDrop: CommandStream } {
+  const setUp: string[] = [];
   let first = 0;
-  while (first < commands.count && commands.run[first] < 0) first++;
-  return streamFrom(commands, first);
+  for (; first < commands.count && commands.run[first] < 0; first++) {
+    const line = commandLine(commands, first);
+    if (line.startsWith("SC,")) setUp.push(line);
+  }
+  return { setUp, afterDrop: streamFrom(commands, first) };
 }
 
 /** A stream without its first commands. */
