@@ -172,7 +172,7 @@ export interface MachineRun {
   readonly stopped: { readonly place: Place | null } | null;
   /** The machine has received everything before this place and will draw it. */
   readonly sentPlace: Place | undefined;
-  /** Plays a plan to its end, or to a hold; `afterS`: time of the plot after the end of this plan. */
+  /** Plays a plan to its end, or to a hold; the pen must be up. `afterS`: time of the plot after the end of this plan. */
   play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void>;
   /** Current position of the pen; null at rest. */
   now(): PlotProgress | null;

@@ -14,6 +14,7 @@ import { grblCommandsOf, MODES, penLines, planGrblJob, SYNC, type GrblCommands }
 import { grblOf } from "../model/grbl-controller.js";
 import type { Axes } from "../model/planner.js";
 import type { Status } from "../protocol.js";
+import { whyRefused } from "./console-lines.js";
 import { GrblRun } from "./grbl-run.js";
 import { LineStream } from "./line-stream.js";
 import type { GrblSession } from "./session.js";
@@ -33,8 +34,8 @@ export class GrblMachine implements Machine {
   private at: Axes | null = null;
   private isAsleep = false;
   private byHand: LineStream | null = null;
-  /** The running stop of a manual move. */
-  private stopping: Promise<Status> | null = null;
+  /** How many times `stopAtOnce` was called. */
+  private stopCount = 0;
 
   constructor(
     readonly session: GrblSession,
@@ -63,12 +64,12 @@ export class GrblMachine implements Machine {
   async takeOver(): Promise<void> {
     const { state } = await this.session.status();
     if (state === "Idle") await this.session.send(MODES);
-    else await this.recovered(await this.session.reset(stopped()));
+    else await this.recovered(await this.session.reset());
   }
 
   async ready(settings: MachineSettings): Promise<MachineState> {
     grblOf(machineOf(settings));
-    if (this.isAsleep) await this.recovered(await this.session.reset(stopped()));
+    if (this.isAsleep) await this.recovered(await this.session.reset());
     this.isAsleep = false;
     if (!this.at) await this.homeIsHere();
     this.motorsOn = true;
@@ -108,24 +109,29 @@ export class GrblMachine implements Machine {
 
   async walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
+    const { stopCount } = this;
     await this.ready(settings);
     if (this.penUp !== true) await this.movePen(true, settings);
+    // A stop before the carriage moves has no stream to stop.
+    if (this.stopCount !== stopCount) throw moveStopped();
     const { x, y } = this.place(machine)!;
     const travel = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
     const job = planGrblJob(strokesOf([]), settings, machine, travel);
-    await this.perform({ trajectory: job.trajectory, commands: job.commands() });
+    await this.perform({ trajectory: job.trajectory, commands: job.commands() }, settings);
   }
 
-  async perform({ commands }: PlannedPlot): Promise<void> {
-    this.byHand = this.stream(grblCommandsOf(commands));
+  async perform({ commands }: PlannedPlot, settings: MachineSettings): Promise<void> {
+    const stream = this.stream(grblCommandsOf(commands));
+    this.byHand = stream;
     try {
-      await this.byHand.play();
+      await stream.play();
       await this.arrived();
     } catch (error) {
-      if (this.stopping) await this.recovered(await this.stopping);
+      await this.recover(stream);
+      await this.movePen(true, settings).catch(() => undefined);
       throw error;
     } finally {
-      this.byHand = this.stopping = null;
+      this.byHand = null;
     }
   }
 
@@ -164,15 +170,14 @@ export class GrblMachine implements Machine {
   }
 
   async stopAndLift(settings: MachineSettings): Promise<void> {
-    await this.recovered(await this.session.reset(stopped()));
+    this.stopAtOnce();
+    await this.recovered(await this.session.reset());
     await this.movePen(true, settings);
   }
 
   stopAtOnce(): void {
-    const stream = this.byHand;
-    if (!stream || this.stopping) return;
-    this.stopping = stream.stop(new PlotwrightError("conflict", "The move was stopped at once."));
-    this.stopping.catch(() => undefined);
+    this.stopCount++;
+    this.byHand?.stop(moveStopped());
   }
 
   /** Grbl does not report the motors' supply. The query detects a board that does not answer. */
@@ -186,12 +191,8 @@ export class GrblMachine implements Machine {
   }
 
   async command(line: string): Promise<ConsoleAnswer> {
-    if (!/^[\x20-\x7e]{1,79}$/.test(line) || /[?!~]/.test(line)) {
-      throw new PlotwrightError(
-        "bad-setting",
-        `${JSON.stringify(line)} was not sent: a line has at most 79 plain characters, and none of ? ! ~, which act at once.`,
-      );
-    }
+    const why = whyRefused(line);
+    if (why) throw new PlotwrightError("bad-setting", `${JSON.stringify(line)} was not sent: ${why}.`);
     const { log } = this.session;
     const entryCount = log.count;
     let refused = false;
@@ -230,8 +231,15 @@ export class GrblMachine implements Machine {
     return new LineStream(this.session, commands, this.clock);
   }
 
+  /** Call after a play that did not reach its end: Grbl then accepts moves again. */
+  async recover(stream: LineStream): Promise<void> {
+    const status = await stream.cleared();
+    if (stream.isBroken) this.at = null;
+    await this.recovered(status);
+  }
+
   /** Call after a reset: unlocks Grbl, restores the modes that the lines need, and takes over the reported position. */
-  async recovered({ state, at }: Status): Promise<void> {
+  private async recovered({ state, at }: Status): Promise<void> {
     if (state.startsWith("Alarm")) await this.session.send("$X");
     await this.session.send(MODES);
     this.penUp = null;
@@ -246,4 +254,4 @@ export class GrblMachine implements Machine {
   }
 }
 
-const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The machine was stopped.");
+const moveStopped = (): PlotwrightError => new PlotwrightError("conflict", "The move was stopped at once.");

@@ -12,7 +12,6 @@ import type { Machine, MachineRun, RunEvents, RunRequest } from "../../driver.js
 import type { PlannedPlot } from "../../machine-job.js";
 import { RunProgress, type PlotProgress } from "../../run-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
-import type { Status } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
 import { stopTime } from "./stop-place.js";
 
@@ -24,8 +23,8 @@ interface Carriage extends Pick<Machine, "penUp" | "movePen" | "place"> {
   stream(commands: GrblCommands): LineStream;
   /** Called after a job has been played to its end. */
   arrived(): Promise<void>;
-  /** Called after a reset. */
-  recovered(status: Status): Promise<void>;
+  /** Called after a play that did not reach its end. */
+  recover(stream: LineStream): Promise<void>;
 }
 
 interface Playing {
@@ -40,8 +39,8 @@ export class GrblRun implements MachineRun {
   readonly isSwitching = false;
 
   private current: Playing | null = null;
-  /** A stop on request, while it runs. */
-  private stopping: Promise<Status> | null = null;
+  /** The error with which a requested stop ends the current play. */
+  private requested: PlotwrightError | null = null;
   private isEmergency = false;
   private failure: PlotwrightError | null = null;
   private readonly strokes: StrokeSet;
@@ -60,7 +59,7 @@ export class GrblRun implements MachineRun {
   }
 
   get sentPlace(): Place | undefined {
-    if (!this.current || this.stopping) return undefined;
+    if (!this.current || this.current.stream.isOver) return undefined;
     return placeAt(this.current.plot.trajectory, this.current.stream.sentS) ?? undefined;
   }
 
@@ -73,9 +72,8 @@ export class GrblRun implements MachineRun {
   async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {
     const { machine, progress } = this;
     this.stopped = null;
-    this.stopping = null;
+    this.requested = null;
     this.isEmergency = false;
-    if (machine.penUp !== true) await machine.movePen(true, this.request.settings());
     // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
     const commands = grblCommandsOf(plot.commands);
@@ -92,8 +90,14 @@ export class GrblRun implements MachineRun {
       left = progress.place;
     } catch (error) {
       left = progress.place;
-      if (!this.stopping) throw error;
-      left = await this.whereStopped(this.current, await this.stopping);
+      // The caller of `fail` takes care of the machine.
+      if (this.failure) throw error;
+      left = await this.whereStopped(this.current);
+      // The Grbl may have failed before the stop was requested.
+      if (error !== this.requested) {
+        await machine.movePen(true, this.request.settings()).catch(() => undefined);
+        throw error;
+      }
       this.stopped = { place: left };
     } finally {
       this.current = null;
@@ -103,12 +107,12 @@ export class GrblRun implements MachineRun {
   }
 
   slowToRest(): void {
-    this.stop((stream) => stream.slowDown(stopped()));
+    this.current?.stream.slowDown((this.requested ??= stopped()));
   }
 
   stopAtOnce(): void {
     this.isEmergency = true;
-    this.stop((stream) => stream.stop(stopped()));
+    this.current?.stream.stop((this.requested ??= stopped()));
   }
 
   fail(error: PlotwrightError): void {
@@ -120,20 +124,12 @@ export class GrblRun implements MachineRun {
     return null;
   }
 
-  private stop(how: (stream: LineStream) => Promise<Status>): void {
-    if (!this.current || this.stopping) return;
-    this.stopping = how(this.current.stream);
-    // `play` reports its own errors.
-    this.stopping.catch((error: unknown) => {
-      if (error instanceof PlotwrightError) this.current?.stream.abandon(error);
-    });
-  }
-
-  /** Grbl's queue is cleared: its position shows how far it drew. */
-  private async whereStopped({ plot, commands, stream }: Playing, status: Status): Promise<Place | null> {
+  /** Clears Grbl's queue. Its position shows how far it drew. */
+  private async whereStopped({ plot, commands, stream }: Playing): Promise<Place | null> {
     const { machine, progress, strokes } = this;
-    await machine.recovered(status);
-    const at = machine.place(machineOf(this.request.settings()))!;
+    await machine.recover(stream);
+    const at = machine.place(machineOf(this.request.settings()));
+    if (!at) return progress.place;
     const { trajectory } = plot;
     const planS = stopTime(trajectory, at, stream.boundsS, stream.planS);
     this.events.progressed({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });

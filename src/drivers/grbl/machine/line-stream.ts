@@ -14,7 +14,12 @@ export class LineStream {
   /** Index of the next line to send. */
   private next = 0;
   private answeredCount = 0;
-  private isOver = false;
+  /** Nothing more is sent. */
+  isOver = false;
+  /** Grbl restarted or stopped by itself, so its position is lost. */
+  isBroken = false;
+  private isSettled = false;
+  private clearing: Promise<Status> | null = null;
   /** The last time at which the position on the plan was known exactly. */
   private known: { readonly planS: number; readonly clockS: number };
   private settle: (error: PlotwrightError | null) => void = () => undefined;
@@ -28,15 +33,23 @@ export class LineStream {
     this.known = { planS: commands.planS[0], clockS: clock.nowS() };
   }
 
-  /** Resolves when everything is done. Rejects with the error passed to `stop`, or with the Grbl's error. */
+  /**
+   * Resolves when everything is done. Rejects with the error passed to `slowDown`, `stop` or `abandon`, or with the
+   * Grbl's error.
+   */
   play(): Promise<void> {
     return new Promise((resolve, reject) => {
       this.settle = (error) => {
-        this.isOver = true;
+        if (this.isSettled) return;
+        this.isOver = this.isSettled = true;
+        this.session.onBreak = null;
         if (error) reject(error);
         else resolve();
       };
-      this.session.onBreak = (error) => this.end(error);
+      this.session.onBreak = (error) => {
+        this.isBroken = true;
+        this.settle(error);
+      };
       this.feed();
     });
   }
@@ -61,38 +74,47 @@ export class LineStream {
   }
 
   /** Slows down along the path, then clears Grbl's queue. `play` rejects with the error. */
-  async slowDown(error: PlotwrightError): Promise<Status> {
+  slowDown(error: PlotwrightError): void {
+    if (this.isOver) return;
     this.isOver = true;
     this.session.now(NOW.hold);
-    for (let i = 0; i < REST_TRIES; i++) {
-      const { state } = await this.session.status();
-      if (state === "Hold:0" || state === "Idle" || state.startsWith("Alarm")) break;
-      await delay(this.clock, POLL_S);
-    }
-    return this.stop(error);
+    // Without an answer, clearing the queue fails too.
+    void this.rest()
+      .catch(() => undefined)
+      .then(() => this.stop(error));
   }
 
-  /** Stops at once. `play` rejects with the error. */
-  async stop(error: PlotwrightError): Promise<Status> {
-    this.isOver = true;
-    const status = await this.session.reset(error);
-    this.settle(error);
-    return status;
+  /** Stops at once, also while it slows down. `play` rejects with the error. */
+  stop(error: PlotwrightError): void {
+    if (this.isSettled) return;
+    void this.cleared()
+      .catch(() => undefined)
+      .then(() => this.settle(error));
   }
 
-  /** Sends nothing more, and `play` rejects. */
+  /** Stops at once, and `play` rejects without waiting for an answer. */
   abandon(error: PlotwrightError): void {
-    this.session.now(NOW.reset);
-    this.end(error);
+    this.cleared().catch(() => undefined);
+    this.settle(error);
+  }
+
+  /** Clears Grbl's queue if that is not yet done. */
+  cleared(): Promise<Status> {
+    this.isOver = true;
+    this.clearing ??= this.session.reset();
+    return this.clearing;
   }
 
   private get takenS(): number {
     return this.commands.planS[this.answeredCount];
   }
 
-  private end(error: PlotwrightError): void {
-    if (!this.isOver) this.settle(error);
-    this.isOver = true;
+  private async rest(): Promise<void> {
+    for (let i = 0; i < REST_TRIES && !this.clearing; i++) {
+      const { state } = await this.session.status();
+      if (state === "Hold:0" || state === "Idle" || state.startsWith("Alarm")) return;
+      await delay(this.clock, POLL_S);
+    }
   }
 
   private feed(): void {
@@ -104,11 +126,8 @@ export class LineStream {
   }
 
   private answered(index: number, error: PlotwrightError | null): void {
-    if (error) {
-      // Otherwise Grbl would execute the lines after the refused one.
-      if (!this.isOver) this.session.now(NOW.hold);
-      return this.end(error);
-    }
+    // The line was refused, since all other errors come after `onBreak`. Grbl would execute the lines after it.
+    if (error) return this.slowDown(error);
     this.answeredCount = index + 1;
     // The reply to a wait comes when the wait and everything before it are done.
     if (this.commands.lines[index].startsWith("G4")) {

@@ -39,8 +39,11 @@ const IDENTIFY_S = 1;
 export class GrblSession {
   readonly log: SessionLog;
   version: string | null = null;
-  /** Called when the board restarts or stops by itself; all lines sent before are lost. */
-  onBreak: (error: PlotwrightError) => void = () => undefined;
+  /**
+   * Set while a job is played: called when the board restarts, stops by itself or is lost, before the unanswered lines
+   * are settled.
+   */
+  onBreak: ((error: PlotwrightError) => void) | null = null;
 
   private rxBytes = RX_BYTES;
   private sentBytes = 0;
@@ -51,6 +54,8 @@ export class GrblSession {
   private failures: ((error: PlotwrightError) => void)[] = [];
   private readonly lines = new LineSplitter();
   private failure: PlotwrightError | null = null;
+  private isIdentified = false;
+  private resetting: Promise<Status> | null = null;
   private closed = false;
   private readonly silence: SilenceWatch;
   private cancelPoll: (() => void) | null = null;
@@ -81,6 +86,7 @@ export class GrblSession {
     }
     if (this.failure) throw this.failure;
     if (this.version === null) throw notGrbl(this.received());
+    this.isIdentified = true;
     return this.version;
   }
 
@@ -119,13 +125,13 @@ export class GrblSession {
     });
   }
 
-  /** Resets Grbl, which clears its queue. Unanswered lines are settled with the error. */
-  async reset(error: PlotwrightError): Promise<Status> {
-    const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
-    this.now(NOW.reset);
-    await greeted;
-    this.dropSent(error);
-    return this.status();
+  /** Resets Grbl, which clears its queue. Unanswered lines are settled with `conflict`. */
+  reset(): Promise<Status> {
+    // One at a time: the greeting after a second reset would look like a restart.
+    this.resetting ??= this.resetOnce().finally(() => {
+      this.resetting = null;
+    });
+    return this.resetting;
   }
 
   async close(): Promise<void> {
@@ -135,10 +141,19 @@ export class GrblSession {
     await this.transport.close();
   }
 
+  private async resetOnce(): Promise<Status> {
+    const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
+    this.now(NOW.reset);
+    await greeted;
+    this.dropSent(stopped());
+    return this.status();
+  }
+
+  /** A board that does not answer counts as lost. */
   private within<T>(what: string, begin: (resolve: (value: T) => void) => void): Promise<T> {
     return new Promise((resolve, reject) => {
       if (this.failure) return reject(this.failure);
-      const silence = new SilenceWatch(this.clock, () => reject(silent(what)));
+      const silence = new SilenceWatch(this.clock, () => this.fail(silent(what)));
       silence.expect(PATIENCE_S);
       const failed = (error: PlotwrightError): void => {
         silence.stop();
@@ -190,8 +205,10 @@ export class GrblSession {
 
   private broken(error: PlotwrightError): void {
     if (this.version === null) return;
+    // Without a job, the machine would keep a position that is wrong now. Connecting again finds out the board's state.
+    if (this.isIdentified && !this.onBreak) return this.fail(error);
+    this.onBreak?.(error);
     this.dropSent(error);
-    this.onBreak(error);
   }
 
   private dropSent(error: PlotwrightError): void {
@@ -226,16 +243,19 @@ export class GrblSession {
     this.silence.stop();
     this.cancelPoll?.();
     this.log.add("note", error.message);
+    this.onBreak?.(error);
     this.dropSent(error);
     for (const failed of this.failures.splice(0)) failed(error);
     if (!this.closed) this.onLost(error);
   }
 }
 
+const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The machine was stopped.");
+
 const restarted = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "The Grbl restarted during its motion: its reset button was pressed, or its supply failed. Push the carriage to home before you resume.",
+    "The Grbl has restarted: its reset button was pressed, or its supply failed. Push the carriage to home before you resume.",
   );
 
 function notGrbl(received: readonly string[]): PlotwrightError {

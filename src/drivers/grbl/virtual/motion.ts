@@ -95,6 +95,11 @@ export class GrblMotion {
     this.arrived(this.start);
   }
 
+  /** At rest: counts from the current position from now on. */
+  zero(): void {
+    this.start = this.target = [0, 0, 0];
+  }
+
   /** Performs everything before a given time. */
   advance(toS: number): void {
     while (this.phases.length > 0) {

@@ -45,6 +45,8 @@ export class VirtualGrbl implements VirtualMachine {
   private isLocked = false;
   private isAsleep = false;
   private isHeld = false;
+  /** After some alarms it answers nothing until it is reset. */
+  private isDeaf = false;
   private feed = 0;
   private isRapid = true;
   /** Origin of the work coordinates, mm. */
@@ -81,6 +83,28 @@ export class VirtualGrbl implements VirtualMachine {
     this.link?.drop();
   }
 
+  /** As if its reset button was pressed: it counts from its current position as 0, and says that it has started. */
+  restart(): void {
+    this.catchUp();
+    this.motion.stop();
+    this.motion.zero();
+    this.newLine(this.isDown(this.workAt()[2]));
+    this.isLocked = false;
+    this.begin();
+    this.schedule();
+  }
+
+  /** As if it has hit a limit switch: it stops, and answers nothing until it is reset. */
+  hitSwitch(): void {
+    this.catchUp();
+    this.motion.stop();
+    this.waitUntilS = this.startDueS = null;
+    this.isLocked = this.isDeaf = true;
+    this.reply("ALARM:1");
+    this.reply("[MSG:Reset to continue]");
+    this.schedule();
+  }
+
   state(): VirtualGrblState {
     this.catchUp();
     const [x, y, z] = this.workAt();
@@ -113,7 +137,7 @@ export class VirtualGrbl implements VirtualMachine {
 
   /** Reads lines while it can, and sets a timer for the next event. */
   private work(): void {
-    while (!this.isHeld && !this.isAsleep && this.waitUntilS === null) {
+    while (!this.isHeld && !this.isAsleep && !this.isDeaf && this.waitUntilS === null) {
       const end = this.received.indexOf("\n");
       if (end < 0) break;
       const line = this.received.slice(0, end).replace(/\s|\(.*?\)|;.*/g, "");
@@ -250,21 +274,27 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private reset(): void {
-    const wasMoving = this.motion.isMoving;
+    if (this.motion.isMoving) {
+      this.reply("ALARM:3");
+      this.isLocked = true;
+    }
+    this.begin();
+  }
+
+  private begin(): void {
     this.motion.stop();
     this.received = "";
-    this.isHeld = this.isAsleep = false;
+    this.isHeld = this.isAsleep = this.isDeaf = false;
     this.waitUntilS = this.startDueS = null;
     this.feed = 0;
     this.isRapid = true;
     this.isOffsetReported = false;
-    if (wasMoving) this.reply("ALARM:3");
-    this.isLocked ||= wasMoving;
     this.reply(`Grbl ${VERSION} ['$' for help]`);
     if (this.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
   }
 
   private report(): void {
+    if (this.isDeaf) return;
     const mm = (at: Axes): string => at.map((value) => value.toFixed(3)).join(",");
     const offset = this.isOffsetReported ? "" : `|WCO:${mm(this.offset)}`;
     this.isOffsetReported = true;

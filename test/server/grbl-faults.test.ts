@@ -1,0 +1,377 @@
+/** A plotter with a Grbl that fails, or is stopped, at an awkward moment: nothing waits forever, and it works again. */
+import { describe, expect, it } from "vitest";
+import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/types.js";
+import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
+import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
+import { PlotwrightError, type Clock, type Place, type StrokeSet, type Transport } from "../../src/index.js";
+import { pointOfPlace } from "../../src/internal.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { GRBL } from "../support/grbl-machine.js";
+import { DRAWING, expectDrawn } from "../support/live-plot.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+
+const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
+const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
+/** Longer than any of these takes, s. */
+const LIMIT_S = 60;
+
+/** A connection that a test can cut, or keep from being heard. */
+class WeakLine implements Transport {
+  isMute = false;
+  /** Time until a reply is read, s. */
+  lateS = 0;
+  private lost: (error?: Error) => void = () => undefined;
+  private isLost = false;
+
+  constructor(
+    private readonly line: Transport,
+    private readonly clock: Clock,
+  ) {}
+
+  write(bytes: Uint8Array): Promise<void> {
+    if (!this.isLost) return this.line.write(bytes);
+    return Promise.reject(new PlotwrightError("disconnected", "The cable is unplugged."));
+  }
+
+  onData(listener: (bytes: Uint8Array) => void): void {
+    this.line.onData((bytes) => {
+      if (this.isMute || this.isLost) return;
+      if (this.lateS > 0) this.clock.after(this.lateS, () => listener(bytes));
+      else listener(bytes);
+    });
+  }
+
+  onClose(listener: (error?: Error) => void): void {
+    this.lost = listener;
+    this.line.onClose(listener);
+  }
+
+  close(): Promise<void> {
+    return this.line.close();
+  }
+
+  unplug(): void {
+    this.isLost = true;
+    this.lost(new Error("unplugged"));
+  }
+}
+
+async function newPlotter() {
+  const world = new ManualClock();
+  const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
+  const lines: WeakLine[] = [];
+  const open = (): Promise<Transport> => {
+    lines.push(new WeakLine(board.transport(), world));
+    return Promise.resolve(lines[lines.length - 1]);
+  };
+  const driver = new PlotterDriver({
+    device: "a port",
+    clock: world,
+    settings: SETTINGS,
+    devices: { find: () => Promise.resolve([]), open },
+  });
+  await world.run(driver.start());
+  const begin = async (planner = new LocalPlanner(DRAWING), start: PlotStart = {}) =>
+    world.run(driver.plot(planner, SETTINGS, start));
+  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
+  const line = (): WeakLine => lines[lines.length - 1];
+  /** It is connected again if necessary, and still works. */
+  const mustWork = async (): Promise<void> => {
+    await world.advance(5);
+    expect(driver.state).toMatchObject({ connection: "idle", activity: "none" });
+    expect(await within(driver.walkTo(12, 13))).toBeUndefined();
+    const { xMm, yMm, ...rest } = board.state();
+    expect(rest).toMatchObject({ state: "Idle", penUp: true, lostCount: 0 });
+    // A stop leaves it between two steps.
+    expect([xMm, yMm].map((mm) => Math.round(100 * mm))).toEqual([1_200, 1_300]);
+    expect(driver.state.penUp).toBe(true);
+  };
+  return { world, board, driver, begin, within, line, mustWork };
+}
+
+async function newMachine() {
+  const world = new ManualClock();
+  const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
+  const line = new WeakLine(board.transport(), world);
+  const lost: string[] = [];
+  const events = {
+    changed: () => undefined,
+    buttonPressed: () => undefined,
+    supplyRead: () => undefined,
+    lost: ({ code }: PlotwrightError) => void lost.push(code),
+  };
+  const machine = await world.run(
+    grblDriver.identify(line, { clock: world, machineClock: world, speed: 1, events }),
+  );
+  await world.run(machine.takeOver());
+  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
+  return { world, board, line, machine, lost, within };
+}
+
+const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: unknown) =>
+    error instanceof PlotwrightError ? `${error.code}: ${error.message}` : String(error),
+  );
+
+/** Its plans have one line that the Grbl refuses. */
+class RefusedPlanner extends LocalPlanner {
+  constructor(
+    strokes: StrokeSet,
+    private readonly index: number,
+  ) {
+    super(strokes);
+  }
+
+  override async plan(request: Parameters<LocalPlanner["plan"]>[0]) {
+    const plot = await super.plan(request);
+    const { lines } = plot.commands as unknown as { lines: string[] };
+    lines[this.index] = "G5X1";
+    return plot;
+  }
+}
+
+const STOPS: readonly [string, (run: LivePlotRun) => Promise<void>][] = [
+  ["pause", (run) => run.pause()],
+  ["cancel", (run) => run.cancel()],
+  ["emergency stop", (run) => run.emergencyStop()],
+];
+
+describe("a plot ends", { timeout: 60_000 }, () => {
+  it.each(STOPS)("if the cable is unplugged during a %s", async (_, stop) => {
+    const { world, begin, within, line, mustWork } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    const asked = stop(run).catch(() => undefined);
+    line().unplug();
+    expect(await within(run.finished)).toMatch(/^disconnected/);
+    await world.run(asked, LIMIT_S);
+    await mustWork();
+  });
+
+  it.each(STOPS)("if the board does not answer a %s", async (_, stop) => {
+    const { world, begin, within, line, mustWork } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    const asked = stop(run).catch(() => undefined);
+    line().isMute = true;
+    expect(await within(run.finished)).toMatch(/^board-timeout/);
+    await world.run(asked, LIMIT_S);
+    await mustWork();
+  });
+
+  it("if the plotter is closed during a pause's braking, with the pen up", async () => {
+    const { world, board, driver, begin, within } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    const asked = run.pause().catch(() => undefined);
+    await world.advance(0.02);
+    expect(board.state()).toMatchObject({ state: "Hold:1", penUp: false });
+    expect(await within(driver.close())).toBeUndefined();
+    expect(await within(run.finished)).toMatch(/^disconnected: The plotter was closed/);
+    await world.run(asked, LIMIT_S);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+  });
+
+  it("if a pause crosses its last reply", async () => {
+    const lines = strokesOf([10, 10, 20, 10]);
+    const whole = await newPlotter();
+    whole.line().lateS = 0.02;
+    const run = await whole.begin(new LocalPlanner(lines));
+    const startS = whole.world.nowS();
+    await whole.world.run(run.finished);
+    const tookS = whole.world.nowS() - startS;
+    for (let earlyS = 0; earlyS < 0.08; earlyS += 0.004) {
+      const { world, line, begin, within, mustWork } = await newPlotter();
+      line().lateS = 0.02;
+      const late = await begin(new LocalPlanner(lines));
+      await world.advance(tookS - earlyS);
+      const asked = late.pause().catch(() => undefined);
+      await world.advance(5);
+      await world.run(Promise.all([asked, late.resume()]), LIMIT_S);
+      expect(await within(late.finished)).toEqual({ kind: "done" });
+      await mustWork();
+    }
+  });
+
+  it("and a stopped move by hand, if the board does not answer", async () => {
+    const { world, machine, line, lost, within } = await newMachine();
+    const walk = machine.walk(100, 50, SETTINGS);
+    await world.advance(0.6);
+    line.isMute = true;
+    machine.stopAtOnce();
+    expect(await within(walk)).toMatch(/^board-timeout/);
+    expect(lost).toEqual(["board-timeout"]);
+  });
+});
+
+describe("after an error", { timeout: 60_000 }, () => {
+  it("a refused line leaves the pen up, the position known and the plotter free", async () => {
+    const { board, driver, begin, within, mustWork } = await newPlotter();
+    const places: Place[] = [];
+    const journal = { record: ({ place }: JournalEntry) => void places.push(place) };
+    const run = await begin(new RefusedPlanner(DRAWING, 60), { journal });
+    expect(await within(run.finished)).toMatch(/^board-error: The Grbl refused G5X1 with error:20/);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    const { xMm, yMm } = board.state();
+    expect(xMm + yMm).toBeGreaterThan(1);
+    const { state } = driver;
+    expect(state).toMatchObject({ connection: "idle", penUp: true });
+    expect(Math.hypot(state.xMm! - xMm, state.yMm! - yMm)).toBeLessThan(0.002);
+    const left = pointOfPlace(DRAWING, places[places.length - 1]);
+    expect(Math.hypot(left.x - xMm, left.y - yMm)).toBeLessThan(0.05);
+    // It slowed down along the path.
+    expect(driver.log()).not.toContain("ALARM");
+    await mustWork();
+  });
+
+  it("a hand move with a refused line leaves the pen up and the machine free", async () => {
+    const { board, machine, within } = await newMachine();
+    await within(machine.movePen(true, SETTINGS));
+    await within(machine.ready(SETTINGS));
+    const planner = new RefusedPlanner(TWO_LINES, 4);
+    const plot = await planner.plan({
+      from: null,
+      until: null,
+      startXMm: 0,
+      startYMm: 0,
+      settings: SETTINGS,
+      firmware: machine.firmware,
+    });
+    expect(await within(machine.perform(plot, SETTINGS))).toMatch(/^board-error: The Grbl refused G5X1/);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    expect(await within(machine.walk(3, 4, SETTINGS))).toBeUndefined();
+    expect(board.state()).toMatchObject({ xMm: 3, yMm: 4 });
+  });
+
+  it.each([
+    [
+      "an alarm",
+      (board: VirtualGrbl) => board.hitSwitch(),
+      /^board-error: The Grbl has stopped with ALARM:1/,
+    ],
+    ["a restart", (board: VirtualGrbl) => board.restart(), /^board-error: The Grbl has restarted/],
+  ])("%s in mid-plot lifts the pen and forgets the position", async (_, fault, message) => {
+    const { world, board, driver, begin, within, mustWork } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    fault(board);
+    expect(await within(run.finished)).toMatch(message);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: null, yMm: null });
+    await mustWork();
+  });
+
+  it("an alarm while it slows down for a pause ends the plot", async () => {
+    const { world, board, driver, begin, within } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    const asked = run.pause().catch(() => undefined);
+    await world.advance(0.02);
+    board.hitSwitch();
+    expect(await within(run.finished)).toMatch(/^board-error: The Grbl has stopped with ALARM:1/);
+    await world.run(asked, LIMIT_S);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
+  });
+
+  it("a plotter that is closed during a move by hand stops, lifts the pen and closes", async () => {
+    const { world, board, driver, within } = await newPlotter();
+    const patch = driver.drawTestPatch();
+    await world.advance(1.2);
+    expect(board.state()).toMatchObject({ state: "Run", penUp: false });
+    expect(await within(driver.close())).toBeUndefined();
+    expect(await within(patch)).toMatch(/^conflict/);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    expect(driver.log()).not.toContain("> !");
+  });
+});
+
+describe("a restart at rest", { timeout: 60_000 }, () => {
+  it("is reported, and the old position no longer counts", async () => {
+    const { world, board, driver, within } = await newPlotter();
+    expect(await within(driver.walkTo(100, 50))).toBeUndefined();
+    board.restart();
+    expect(driver.state).toMatchObject({ connection: "fault", xMm: null, penUp: null, motorsOn: null });
+    expect(driver.state.message).toMatch(/^The Grbl has restarted: .*Push the carriage to home/);
+    await world.advance(5);
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
+    expect(await within(driver.walkTo(5, 6))).toBeUndefined();
+    expect(board.state()).toMatchObject({ xMm: 5, yMm: 6 });
+  });
+
+  it("ends a plot that is held, since its home is lost", async () => {
+    const { world, board, begin, within } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    await world.run(run.pause());
+    board.restart();
+    expect(await within(run.finished)).toMatch(/^board-error: The Grbl has restarted/);
+  });
+});
+
+describe("an emergency stop", { timeout: 60_000 }, () => {
+  it("during a pause's braking stops at once, and the plot resumes from there", async () => {
+    const { world, board, driver, begin } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    const paused = run.pause();
+    await world.advance(0.005);
+    expect(board.state().state).toBe("Hold:1");
+    const stopped = run.emergencyStop();
+    await world.advance(0);
+    expect(board.state().state).not.toBe("Hold:1");
+    expect(driver.log()).toContain("ALARM:3");
+    await world.run(Promise.all([paused, stopped]), LIMIT_S);
+    expect(driver.log().match(/\(reset\)/g)).toHaveLength(1);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expectDrawn(board as never, DRAWING, 0.02);
+  });
+
+  it("while the pen lifts for a move by hand cancels the move", async () => {
+    const { world, board, machine, within } = await newMachine();
+    const walk = machine.walk(100, 50, SETTINGS);
+    await world.advance(0.05);
+    expect(machine.penMoving).toBe(true);
+    machine.stopAtOnce();
+    expect(await within(walk)).toBe("conflict: The move was stopped at once.");
+    expect(board.state()).toMatchObject({ state: "Idle", xMm: 0, yMm: 0, penUp: true });
+    expect(await within(machine.walk(3, 4, SETTINGS))).toBeUndefined();
+    expect(board.state()).toMatchObject({ xMm: 3, yMm: 4 });
+  });
+
+  it("while the pen lifts before a plot starts holds the plot", async () => {
+    const { world, board, driver, begin } = await newPlotter();
+    const run = await begin();
+    await world.advance(0.05);
+    expect(driver.state.penMoving).toBe(true);
+    await world.run(run.emergencyStop(), LIMIT_S);
+    expect(driver.state.activity).toBe("held");
+    await world.advance(1);
+    expect(board.state()).toMatchObject({ state: "Idle", xMm: 0, yMm: 0, penUp: true });
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+  });
+});
+
+describe("a Grbl that does not answer", { timeout: 60_000 }, () => {
+  it("is noticed at rest", async () => {
+    const { world, driver, line, mustWork } = await newPlotter();
+    line().isMute = true;
+    await world.advance(5.5);
+    expect(driver.state).toMatchObject({ connection: "fault" });
+    expect(driver.state.message).toMatch(/^The board has stopped answering/);
+    await mustWork();
+  });
+
+  it.each(["M0", "$SLP", "$H", "$C"])("is not made so by a typed %s", async (typed) => {
+    const { driver, within, mustWork } = await newPlotter();
+    expect(await within(driver.command(typed))).toMatch(
+      /^bad-setting: .* was not sent: the Grbl (would|does not)/,
+    );
+    await mustWork();
+  });
+});
