@@ -25,10 +25,12 @@ const PEN_COLORS = ["#000000", "#ff0000", "#008000", "#0000ff", "#ffa500", "#800
 const COMMAND = /([A-Za-z]{2})([^A-Za-z\u0003;]*)/y;
 const LABEL_END = "\u0003";
 const PAGE: Affine = { a: MM_PER_PLOTTER_UNIT, b: 0, c: 0, d: -MM_PER_PLOTTER_UNIT, e: 0, f: 0 };
+/** P1 and P2 until IP sets them, in plotter units. */
+const USUAL_CORNERS: readonly number[] = [0, 0, 10_000, 10_000];
 
 /** Commands that are ignored: they set what plotwright decides itself, or move nothing. */
 const SILENT = new Set(
-  "VS FS AS LT LA PW WU CO IW OW RO PS NR EC PG BP AC CV MC SM TR UL AP WG TD SD SA SS CA CS NP OA OC OE OI OS OF OP OH OD VA".split(
+  "VS FS AS LA PW WU CO OW RO PS NR EC BP AC CV MC SM TR UL AP TD SD SA SS CA CS NP OA OC OE OI OS OF OP OH OD VA".split(
     " ",
   ),
 );
@@ -54,12 +56,14 @@ class HpglImport {
   private scaleY = 1;
   private originX = 0;
   private originY = 0;
-  private corners: readonly number[] = [0, 0, 10_000, 10_000];
+  private corners = USUAL_CORNERS;
   private labels = new HpglLabels();
   private labelEnd = LABEL_END;
   /** Start of the last label: a new line begins there. */
   private labelStart = { x: 0, y: 0 };
   private at = 0;
+  /** "turned" after a PG: what follows is on another page of the file. */
+  private page: "empty" | "used" | "turned" = "empty";
   private commandCount = 0;
 
   constructor(
@@ -138,9 +142,25 @@ class HpglImport {
         if (args.length >= 2) this.rectangle(args, name === "ER" || name === "RR");
         return;
       case "IN":
+        this.flush();
+        this.isDown = false;
+        this.corners = USUAL_CORNERS;
+        this.setDefaults();
+        return;
       case "DF":
-        this.labels = new HpglLabels();
-        this.labelEnd = LABEL_END;
+        this.setDefaults();
+        return;
+      case "LT":
+        // Without numbers lines are solid; every type that has a number is a pattern.
+        if (args.length > 0) this.warnings.add("effect-ignored", undefined, `LT${args[0]}: drawn solid`);
+        return;
+      case "IW":
+        // Without numbers the window is the whole page again.
+        if (args.length > 0) this.warnings.add("clip-ignored", undefined, name);
+        return;
+      case "PG":
+        this.flush();
+        if (this.page === "used") this.page = "turned";
         return;
       case "CP":
         this.moveByCells(args);
@@ -149,6 +169,14 @@ class HpglImport {
         if (this.labels.set(name, args, this.corners)) return;
         if (!SILENT.has(name)) this.warnings.add("not-supported", undefined, name);
     }
+  }
+
+  /** DF keeps P1, P2 and the pen's state: only IN resets these. */
+  private setDefaults(): void {
+    this.isRelative = false;
+    this.scale([]);
+    this.labels = new HpglLabels();
+    this.labelEnd = LABEL_END;
   }
 
   private coordinates(args: readonly number[]): void {
@@ -290,7 +318,13 @@ class HpglImport {
       const look = isFilled ? { stroke: null, fill: color } : { stroke: color, fill: null };
       const where = (): string => `pen ${this.pen}`;
       const isDrawn = this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, where);
-      if (isDrawn) box = this.builder.boxOfLast();
+      if (isDrawn) {
+        box = this.builder.boxOfLast();
+        // Most files end with PG, which loses nothing. Only a page with something on it is reported.
+        if (this.page === "turned")
+          this.warnings.add("effect-ignored", undefined, "PG: drawn on top of the page before");
+        this.page = "used";
+      }
     }
     shape.clear();
     return box;

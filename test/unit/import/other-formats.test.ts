@@ -239,6 +239,57 @@ describe("HPGL", () => {
     expect(shapesOf(drawing)).toEqual(["M0 0.5L0.5 0.5L0.5 0"]);
   });
 
+  it("draws absolutely and in plotter units again after IN and DF", () => {
+    const afterReset = (reset: string): string =>
+      shapesOf(hpgl(`IN;SP1;PU0,0;PR;PD1000,0;PU;${reset};SP1;PU2000,2000;PD3000,2000;PU;`))[1];
+    expect(afterReset("IN")).toBe("M50 0L75 0");
+    expect(afterReset("DF")).toBe("M50 0L75 0");
+    const scaled = (reset: string): string[] =>
+      shapesOf(hpgl(`IN;IP0,0,4000,4000;SC0,10,0,10;SP1;PU0,0;PD10,0;${reset};SP2;PU0,0;PD4000,0;`));
+    expect(scaled("IN")).toEqual(["M0 0L100 0", "M0 0L100 0"]);
+    expect(scaled("DF")).toEqual(["M0 0L100 0", "M0 0L100 0"]);
+  });
+
+  it("resets P1 and P2 by IN, and keeps them by DF", () => {
+    const scaledAfter = (reset: string): string[] =>
+      shapesOf(hpgl(`IN;IP0,0,4000,4000;${reset};SC0,10,0,10;SP1;PU0,0;PD10,10;`));
+    expect(scaledAfter("IN")).toEqual(["M0 250L250 0"]);
+    expect(scaledAfter("DF")).toEqual(["M0 100L100 0"]);
+  });
+
+  it("lifts the pen by IN, and not by DF", () => {
+    const movedAfter = (reset: string): string[] =>
+      shapesOf(hpgl(`IN;SP1;PU0,0;PD400,0;${reset};PA800,0;PD1200,0;`));
+    expect(movedAfter("IN")).toEqual(["M0 0L10 0", "M20 0L30 0"]);
+    expect(movedAfter("DF")).toEqual(["M0 0L10 0L20 0L30 0"]);
+  });
+
+  it.each([
+    ["line types", "LT2,4;PD400,0;", "effect-ignored", "(LT2: drawn solid)"],
+    ["lines of dots", "LT0;PD400,0;", "effect-ignored", "(LT0: drawn solid)"],
+    ["filled wedges", "PD400,0;WG800,0,90;", "not-supported", "(WG)"],
+    ["windows", "IW0,0,200,200;PD400,0;", "clip-ignored", "(IW)"],
+    [
+      "pages on top of each other",
+      "PD400,0;PG;PU0,0;PD400,400;PU;PD0,0;",
+      "effect-ignored",
+      "(PG: drawn on top of the page before)",
+    ],
+  ])("reports %s", (_name, commands, code, detail) => {
+    const { warnings } = hpgl(`IN;SP1;PU0,0;${commands}`);
+    expect(warnings.map((warning) => [warning.code, warning.count])).toEqual([[code, 1]]);
+    expect(warnings[0].message).toContain(detail);
+  });
+
+  it.each([
+    ["solid lines", "LT;PD400,0;"],
+    ["a window that is the whole page", "IW;PD400,0;"],
+    ["a page that ends the file", "PD400,0;PU;PG;IN;SP0;"],
+    ["a page with nothing on it", "PG;PD400,0;"],
+  ])("does not report %s", (_name, commands) => {
+    expect(codes(hpgl(`IN;SP1;PU0,0;${commands}`))).toEqual([]);
+  });
+
   it("needs no separators", () => {
     expect(shapesOf(hpgl("INSP1PU0,0PD400,0PU"))).toEqual(["M0 0L10 0"]);
   });
