@@ -59,8 +59,10 @@ export class PlotterDriver {
     this.#supply = new SupplyWatch(options.clock, {
       mayAsk: () => !this.#movingByHand && (this.#run === null || this.#run.isHeld),
       lost: () => this.#powerLost(),
-      restored: () =>
-        this.#setState({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) }),
+      restored: () => {
+        if (this.#closed) return;
+        this.#setState({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) });
+      },
     });
     this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
     this.#current = initialState(options.device);
@@ -199,6 +201,8 @@ export class PlotterDriver {
     this.#closed = true;
     this.#cancelRetry?.();
     this.#supply.stop();
+    // Before the first await: from now on no job may start on this connection.
+    this.#setState({ connection: "absent", message: null });
     await this.#connecting;
     const run = this.#run;
     run?.fail(closedError());
@@ -286,6 +290,8 @@ export class PlotterDriver {
     this.#hadSerial ||= connection.kind === "serial";
     const { machine } = connection;
     await machine.takeOver();
+    // close() closes the connection.
+    if (this.#closed) return;
     this.#machine = machine;
     this.#trouble = null;
     this.#supply.watch(machine);
@@ -356,12 +362,13 @@ export class PlotterDriver {
   }
 
   #setIdle(): void {
-    const isReady = this.#machine && !this.#supply.isLow;
+    const isReady = this.#machine && !this.#closed && !this.#supply.isLow;
     this.#setState({ activity: "none", ...(isReady ? { connection: "idle" } : {}) });
   }
 
   /** The machine, for one request. Use it before the next await: another request could take it meanwhile. */
   #idleMachine(): Machine {
+    if (this.#closed) throw closedError();
     if (this.#run) {
       throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");
     }

@@ -4,7 +4,7 @@
  * The lock is a file that names the process that owns it. Node has no flock(), so a killed owner leaves the file
  * behind. It is stale when that process has ended.
  */
-import { linkSync, readFileSync, renameSync, rmSync, unlinkSync, writeFileSync } from "node:fs";
+import { linkSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { randomBytes } from "node:crypto";
 import { PlotwrightError } from "../../src/index.js";
@@ -30,17 +30,33 @@ export function lockDataDir(dir: string): () => void {
       if (tryLink(draft, path)) return () => release(path, mine);
       const owner = readOwner(path);
       if (owner !== null && isAlive(owner)) throw inUse(dir, owner.pid);
-      // Rename it first, so that only one of two servers that find it stale removes it.
-      try {
-        renameSync(path, `${draft}.stale`);
-        unlinkSync(`${draft}.stale`);
-      } catch {
-        continue;
-      }
+      const pid = removeStale(path, `${draft}.stale`);
+      if (pid !== null) throw inUse(dir, pid);
     }
     throw inUse(dir, 0);
   } finally {
     rmSync(draft, { force: true });
+  }
+}
+
+/**
+ * Removes a stale lock. Returns null, or the process that has replaced the lock since it was found stale: its lock is
+ * put back.
+ */
+function removeStale(path: string, aside: string): number | null {
+  try {
+    // Rename it first, so that only one of two servers that find it stale removes it.
+    renameSync(path, aside);
+  } catch {
+    return null;
+  }
+  try {
+    const owner = readOwner(aside);
+    if (owner === null || !isAlive(owner)) return null;
+    tryLink(aside, path);
+    return owner.pid;
+  } finally {
+    rmSync(aside, { force: true });
   }
 }
 

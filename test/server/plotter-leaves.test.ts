@@ -40,6 +40,33 @@ describe("a plotter that is closed", () => {
     expect(world.timerCount).toBe(0);
   });
 
+  it("starts nothing from the first instant on, and is not idle again when its move has ended", async () => {
+    const { world, driver } = await idle();
+    const moved = outcome(driver.walkTo(100, 100));
+    await world.advance(0.5);
+    const closing = driver.close();
+    expect(driver.state).toMatchObject({ connection: "absent", message: null });
+    expect(await outcome(world.run(driver.walkTo(10, 10)))).toMatch(/^disconnected/);
+    await world.run(closing);
+    await moved;
+    expect(driver.state.connection).toBe("absent");
+  });
+
+  it("while it connects does not become idle", async () => {
+    const world = new ManualClock();
+    const driver = new PlotterDriver({ device: "virtual", clock: world });
+    const states: string[] = [];
+    const started = driver.start();
+    // The board has answered, and is being taken over.
+    while (driver.log() === "") await world.advance(0.001);
+    driver.onChange(({ connection }) => states.push(connection));
+    const closing = driver.close();
+    await world.advance(1);
+    await Promise.all([started, closing]);
+    expect(states).toEqual(["absent"]);
+    expect(world.timerCount).toBe(0);
+  });
+
   it("during a hold ends the plot", async () => {
     const { world, driver, run } = await plotting("junction");
     await world.advance(2);

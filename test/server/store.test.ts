@@ -4,7 +4,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import sqlite from "node-sqlite3-wasm";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { Store } from "../../server/storage/store.js";
@@ -95,6 +95,23 @@ describe("a store", () => {
       Store.open(dir).close();
       expect(readdirSync(dir).filter((name) => name.startsWith("server.lock"))).toEqual([]);
     }
+  });
+
+  it("leaves the lock to a server that took over the stale one first", () => {
+    writeFileSync(join(dir, "server.lock"), '{"pid":999999999,"began":""}');
+    const isRunning = process.kill.bind(process);
+    let other: Store | null = null;
+    // The other server takes it over while this one asks whether the owner still runs.
+    const asked = vi.spyOn(process, "kill").mockImplementationOnce((...args) => {
+      asked.mockRestore();
+      other = Store.open(dir);
+      return isRunning(...args);
+    });
+    expect(() => Store.open(dir)).toThrow(/Another plotwright server \(process \d+\) uses the data folder/);
+    expect(() => Store.open(dir)).toThrow(/Another plotwright server/);
+    expect(readdirSync(dir).filter((name) => name.startsWith("server.lock"))).toEqual(["server.lock"]);
+    other!.close();
+    Store.open(dir).close();
   });
 
   it("refuses a database of a newer version without touching it", () => {

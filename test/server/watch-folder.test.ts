@@ -141,6 +141,27 @@ describe("the watched folder", () => {
     expect(notices.list()).toHaveLength(3);
   });
 
+  it("tries again after an error that may pass, with one notice, when the file is saved again or it restarts", async () => {
+    let failuresLeft = 2;
+    planning = {
+      ...LED_PLANNING,
+      measure: (...args) =>
+        failuresLeft-- > 0
+          ? Promise.reject(new PlotwrightError("too-large", "It needs more memory."))
+          : LED_PLANNING.measure(...args),
+    };
+    put("a.svg");
+    await open();
+    await expect.poll(() => notices.list().length).toBe(1);
+    await close();
+    await open();
+    await expect.poll(() => logged.length).toBe(2);
+    expect(notices.list()).toHaveLength(1);
+    expect(names()).toEqual([]);
+    put("a.svg");
+    await queued("a.svg");
+  });
+
   it("takes its settings from the last job; a settings file beside the drawing overrides them", async () => {
     put("a.settings.json", JSON.stringify({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 12 } }));
     put("a.svg");

@@ -18,6 +18,7 @@ import type { PlotterPort } from "../../../host/plotter/plotter-port.js";
 import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Store } from "../../storage/store.js";
+import { isDrawingFault } from "../drawing-fault.js";
 import type { SharedStore, TakenJob } from "./shared-store.js";
 
 export interface SharedParts {
@@ -61,8 +62,10 @@ export class SharedQueue {
   #isClosed = false;
   /** All jobs this server took before a restart or failure are in its queue. */
   #isCaughtUp = false;
-  /** Jobs taken but not yet started, by their ids in this server's queue. */
-  readonly #unstarted = new Set<string>();
+  /** Jobs taken but not yet started, also before a restart, by their ids in this server's queue. */
+  readonly #unstarted: Set<string>;
+  /** Jobs put back for other servers that were already reported. */
+  readonly #reportedBack = new Set<string>();
   /** Jobs on lost servers that were already reported. */
   readonly #reportedLost = new Set<string>();
   /** Plotters without a machine that were already reported. */
@@ -71,6 +74,7 @@ export class SharedQueue {
 
   constructor(parts: SharedParts) {
     this.#parts = parts;
+    this.#unstarted = new Set(parts.store.unreportedShared().map(({ jobId }) => jobId));
     this.#running = this.#round();
   }
 
@@ -264,11 +268,23 @@ export class SharedQueue {
       await this.#startTaken();
     } catch (error) {
       if (store.isShared(id) || !(error instanceof PlotwrightError)) throw error;
+      if (!isDrawingFault(error)) return this.#putBack(id, error);
       const message = `A job of the shared queue can't be plotted: ${error.message}`;
       log(message);
       notice(message);
       await shared.finish(id, "refused", error.message);
     }
+  }
+
+  /** Another server may have more memory, for example. Notifies once per job, since this server may get it again. */
+  async #putBack(id: string, { message: reason }: PlotwrightError): Promise<void> {
+    const { shared, serverId, log, notice } = this.#parts;
+    await shared.putBack(id, serverId);
+    if (this.#reportedBack.has(id)) return;
+    this.#reportedBack.add(id);
+    const message = `A job of the shared queue was put back, because it can't be plotted here now: ${reason}`;
+    log(message);
+    notice(message);
   }
 }
 

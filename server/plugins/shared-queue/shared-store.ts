@@ -44,6 +44,8 @@ CREATE TABLE IF NOT EXISTS plotwright_servers (
 /** Long enough that waiting jobs are practically never deleted. */
 const RETENTION_DAYS = 3_650;
 const MAX_LISTED = 500;
+/** How long no server takes a job that was put back, so that the server that failed does not try again at once. */
+const PUT_BACK_PAUSE_S = 60;
 /** Timeout of queries while a user waits for a plot to start. A broken network reports no error by itself. */
 const TIMEOUT_MS = 5_000;
 
@@ -210,23 +212,33 @@ export class SharedStore {
 
   /** Makes a job available again. Throws `conflict` if it has begun or its server is not lost. */
   async giveBack(id: string, lostAfterMs: number): Promise<void> {
-    const { rows } = await this.#pool.query<Row>("SELECT target FROM plotwright_jobs WHERE id = $1", [id]);
-    if (rows[0] === undefined) throw new PlotwrightError("conflict", whyNot(undefined));
-    // Before the transaction: within it, this would need a second connection from the pool and could block.
-    const queue = await this.#queueOf(String(rows[0]["target"]));
-    const isGiven = await this.#transaction(async (client) => {
-      const { rowCount } = await client.query(
-        `UPDATE plotwright_jobs job SET state = 'waiting', server_id = NULL, server = NULL, plotter_id = NULL
-         WHERE ${LOST} AND job.id = $2`,
-        [lostAfterMs, id],
-      );
-      if (rowCount === 0) return false;
-      await this.#boss.send(queue, { id }, { db: plainDb(client), retentionDays: RETENTION_DAYS });
-      return true;
-    });
-    if (isGiven) return;
+    if (await this.#makeWaiting(id, LOST, lostAfterMs)) return;
     const job = (await this.list()).find((one) => one.id === id);
     throw new PlotwrightError("conflict", whyNot(job));
+  }
+
+  /** Makes a job that this server took but can't add to its queue available again, after a pause. */
+  async putBack(id: string, serverId: string): Promise<void> {
+    await this.#makeWaiting(id, "state = 'taken' AND server_id = $1", serverId, PUT_BACK_PAUSE_S);
+  }
+
+  /** False: the job does not meet the SQL condition, in which $1 is `value`. */
+  async #makeWaiting(id: string, condition: string, value: unknown, startAfter = 0): Promise<boolean> {
+    const { rows } = await this.#pool.query<Row>("SELECT target FROM plotwright_jobs WHERE id = $1", [id]);
+    if (rows[0] === undefined) return false;
+    // Before the transaction: within it, this would need a second connection from the pool and could block.
+    const queue = await this.#queueOf(String(rows[0]["target"]));
+    return this.#transaction(async (client) => {
+      const { rowCount } = await client.query(
+        `UPDATE plotwright_jobs job SET state = 'waiting', server_id = NULL, server = NULL, plotter_id = NULL
+         WHERE ${condition} AND job.id = $2`,
+        [value, id],
+      );
+      if (rowCount === 0) return false;
+      const options = { db: plainDb(client), retentionDays: RETENTION_DAYS, startAfter };
+      await this.#boss.send(queue, { id }, options);
+      return true;
+    });
   }
 
   /** Jobs that lost servers took and did not begin. */

@@ -7,7 +7,8 @@
  * layers). `NAME.settings.json` beside the drawing, or `settings.json` for the whole folder, overrides them.
  * Either file may contain complete settings or only a part, such as { "pen": … }.
  *
- * A drawing that can't be plotted is reported in the log and in a notice, and not tried again.
+ * A drawing that can't be plotted is reported in the log and in a notice, and not tried again. After any other error,
+ * such as too little memory or too many open files, it is tried again when it is saved again or the server restarts.
  */
 import { createHash } from "node:crypto";
 import { createReadStream } from "node:fs";
@@ -28,12 +29,13 @@ import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Notices } from "../../../host/queue/notices.js";
 import type { Store } from "../../storage/store.js";
+import { isDrawingFault } from "../drawing-fault.js";
 
 export interface WatchParts {
   readonly queue: Pick<JobQueue, "add" | "list">;
   readonly files: DrawingFiles;
   readonly store: Pick<Store, "isSeen" | "saveSeen">;
-  readonly notices: Pick<Notices, "add">;
+  readonly notices: Pick<Notices, "add" | "list">;
   /** Adds the profile when the settings name a custom machine. */
   readonly withMachine: (settings: PlotSettings) => PlotSettings;
   readonly log: (line: string) => void;
@@ -103,9 +105,11 @@ export class WatchFolder {
       if (isGone || this.#abort.signal.aborted) return;
       const message = `"${cleanName(name)}" in the watched folder can't be plotted: ${words(error)}`;
       log(message);
+      const isFinal = isDrawingFault(error);
+      // What is tried again may fail again while its notice is still shown.
+      if (isFinal || !notices.list().some((shown) => shown.message === message)) notices.add(message);
       // The notice comes before saveSeen: after a crash between the two it is shown twice rather than never.
-      notices.add(message);
-      if (sha256 !== null) store.saveSeen({ name, sha256 });
+      if (isFinal && sha256 !== null) store.saveSeen({ name, sha256 });
     }
   }
 

@@ -1,0 +1,138 @@
+/** Jobs that a server has taken from the shared queue: what it does with one that it can't add, and after a restart. */
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import type { Planning } from "../../server/planning/planning.js";
+import { SharedQueue } from "../../server/plugins/shared-queue/shared-queue.js";
+import { SharedStore } from "../../server/plugins/shared-queue/shared-store.js";
+import { prepareDataDir } from "../../server/storage/data-dir.js";
+import { DrawingFiles } from "../../server/storage/drawing-files.js";
+import { PlotwrightError, type ErrorCode } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { temporaryFolder } from "../support/server-process.js";
+import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
+import { openQueueIn, type OpenQueue } from "./support/open-queue.js";
+import { SharedDatabase, linesSvg } from "./support/shared-servers.js";
+
+interface Server extends OpenQueue {
+  readonly shared: SharedQueue;
+  readonly notices: string[];
+  /** As "fern queued". */
+  jobs(): string[];
+  close(): Promise<void>;
+}
+
+let database: SharedDatabase;
+const undo: (() => unknown)[] = [];
+beforeEach(async () => {
+  database = await SharedDatabase.open();
+  undo.push(() => database.close());
+});
+afterEach(async () => {
+  for (const step of undo.splice(0).reverse()) await step();
+});
+
+function newFolder(): string {
+  const folder = temporaryFolder("shared-taken");
+  undo.push(folder.remove);
+  prepareDataDir(folder.path);
+  return folder.path;
+}
+
+async function open(
+  dir: string,
+  { planning, before }: { planning?: Planning; before?: (server: OpenQueue) => void } = {},
+): Promise<Server> {
+  const opened = openQueueIn(dir, planning);
+  const { queue, store, plotter, logged } = opened;
+  before?.(opened);
+  const notices: string[] = [];
+  const shared = new SharedQueue({
+    shared: await SharedStore.open(database.url, () => undefined),
+    serverId: dir,
+    serverName: dir,
+    store,
+    queue,
+    files: new DrawingFiles(dir, 1_000_000),
+    plotters: new Map([[plotter.id, plotter]]),
+    log: (line) => logged.push(line),
+    notice: (message) => notices.push(message),
+    pollMs: 50,
+  });
+  let isClosed = false;
+  const close = async (): Promise<void> => {
+    if (isClosed) return;
+    isClosed = true;
+    await shared.close();
+    await queue.close();
+    store.close();
+  };
+  undo.push(close);
+  const jobs = (): string[] => queue.list().map(({ name, state }) => `${name} ${state}`);
+  return { ...opened, shared, notices, jobs, close };
+}
+
+async function send({ shared }: Server, name: string): Promise<void> {
+  const target = { plotter: new LedPlotter().snapshot().name };
+  await shared.send({ name, drawing: linesSvg(1), settings: DEFAULT_PLOT_SETTINGS, target });
+}
+
+/** Fails for the first drawing. */
+function failingOnce(code: ErrorCode): { readonly planning: Planning; readonly measured: () => number } {
+  let count = 0;
+  const measure: Planning["measure"] = (...args) =>
+    count++ === 0 ? Promise.reject(new PlotwrightError(code, "No.")) : LED_PLANNING.measure(...args);
+  return { planning: { ...LED_PLANNING, measure }, measured: () => count };
+}
+
+describe("a taken job that the server can't add to its queue", () => {
+  it.each(["too-large", "internal"] as const)(
+    "is put back after %s: this server continues with the next one, and another server gets it",
+    async (code) => {
+      const { planning, measured } = failingOnce(code);
+      const small = await open(newFolder(), { planning });
+      await send(small, "fern");
+      await expect
+        .poll(() => small.notices)
+        .toEqual(["A job of the shared queue was put back, because it can't be plotted here now: No."]);
+      await send(small, "moss");
+      await expect.poll(() => small.jobs()).toEqual(["moss queued"]);
+      expect(measured()).toBe(2);
+      expect(await small.shared.list()).toMatchObject([
+        { name: "moss", state: "stored" },
+        { name: "fern", state: "waiting", server: null },
+      ]);
+      // The pause has passed.
+      await database.query("UPDATE pgboss.job SET start_after = now() WHERE state = 'created'");
+      const large = await open(newFolder());
+      await expect.poll(() => large.jobs()).toEqual(["fern queued"]);
+    },
+  );
+
+  it("is refused for good if the drawing is at fault", async () => {
+    const server = await open(newFolder(), failingOnce("bad-file"));
+    await send(server, "fern");
+    await expect
+      .poll(() => server.shared.list())
+      .toMatchObject([{ name: "fern", state: "refused", message: "No." }]);
+    expect(server.notices).toEqual(["A job of the shared queue can't be plotted: No."]);
+  });
+});
+
+describe("a taken job that has not started when the server restarts", () => {
+  it("starts as soon as the board is there, if the queue runs automatically", async () => {
+    const dir = newFolder();
+    const first = await open(dir);
+    await send(first, "fern");
+    await expect.poll(() => first.jobs()).toEqual(["fern queued"]);
+    await first.close();
+    const again = await open(dir, {
+      before: ({ queue, plotter }) => {
+        queue.saveSettings({ runOn: true });
+        plotter.connection = "absent";
+      },
+    });
+    await expect.poll(() => again.shared.list()).toMatchObject([{ state: "stored" }]);
+    expect(again.jobs()).toEqual(["fern queued"]);
+    again.plotter.connection = "idle";
+    await expect.poll(() => again.jobs()).toEqual(["fern plotting"]);
+  });
+});
