@@ -1,6 +1,6 @@
 /** The built-in machine profiles and the user's custom ones, which are stored by `store`. */
 import { MACHINES, PlotwrightError, type MachineProfile } from "../src/index.js";
-import type { ListedMachine, PlotSettings } from "../src/schema/index.js";
+import type { ListedMachine, PlotSettings, ServerEvent } from "../src/schema/index.js";
 
 /** Stores custom profiles. A method returns only after the change is stored. */
 export interface MachineStore {
@@ -11,10 +11,16 @@ export interface MachineStore {
 export class CustomMachines {
   readonly #store: MachineStore;
   readonly #custom: Map<string, MachineProfile>;
+  readonly #announce: (event: ServerEvent) => void;
 
-  constructor(custom: readonly MachineProfile[], store: MachineStore) {
+  constructor(
+    custom: readonly MachineProfile[],
+    store: MachineStore,
+    announce: (event: ServerEvent) => void = () => undefined,
+  ) {
     this.#custom = new Map(custom.map((machine) => [machine.id, machine]));
     this.#store = store;
+    this.#announce = announce;
   }
 
   /** Built-in machines first. */
@@ -31,6 +37,7 @@ export class CustomMachines {
     mustBeCustom(machine.id, "can't be changed. Save yours under another id.");
     this.#store.save(machine);
     this.#custom.set(machine.id, machine);
+    this.#announce({ type: "machines", machines: this.list() });
     return machine;
   }
 
@@ -41,6 +48,7 @@ export class CustomMachines {
     // Storage first: if it fails, the machine is still listed and can be removed later.
     this.#store.remove(id);
     this.#custom.delete(id);
+    this.#announce({ type: "machines", machines: this.list() });
   }
 
   /** Adds the profile to settings that name a custom machine without containing its profile. */

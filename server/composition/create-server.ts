@@ -121,7 +121,7 @@ async function openParts(
   const hub = new EventHub();
   const announce = (event: ServerEvent): void => hub.announce(event);
   const nowIso = (): string => new Date().toISOString();
-  const machines = new MachineFiles(dataDir);
+  const machines = new MachineFiles(dataDir, announce);
   machines.warnings.forEach(log);
   const withMachine = (settings: PlotSettings): PlotSettings => machines.withMachine(settings);
 

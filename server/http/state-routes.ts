@@ -7,6 +7,7 @@ import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { Notices } from "../../host/queue/notices.js";
 import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
+import type { MachineFiles } from "../storage/machine-files.js";
 import { route, type ApiRoute } from "./api-route.js";
 import { roleOf } from "./auth.js";
 import type { Browsers } from "./browser.js";
@@ -23,6 +24,7 @@ export interface StateParts {
   readonly access: Access;
   /** The server's mDNS name; null while it has none. */
   readonly localName: () => string | null;
+  readonly machines: MachineFiles;
 }
 
 export const STATE_ROUTES: readonly ApiRoute[] = [
@@ -49,6 +51,7 @@ export function stateRoutes(parts: StateParts, browsers: Browsers, openApi: () =
     operator: operatorLock.operator,
     serverNotices: parts.notices.list(),
     localName: parts.localName(),
+    machines: parts.machines.list(),
     jobs: queue.list(),
   });
   router.get("/openapi.json", async (_request, response) => {

@@ -5,7 +5,7 @@
 import { mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { MachineProfile } from "../../src/index.js";
-import { firstFault, machineProfileSchema } from "../../src/schema/index.js";
+import { firstFault, machineProfileSchema, type ServerEvent } from "../../src/schema/index.js";
 import { CustomMachines, isBuiltInMachine, type MachineStore } from "../../host/custom-machines.js";
 
 export class MachineFiles extends CustomMachines {
@@ -13,7 +13,7 @@ export class MachineFiles extends CustomMachines {
   readonly warnings: readonly string[];
 
   /** @param dataDir may be missing; then there are no custom machines yet */
-  constructor(dataDir: string) {
+  constructor(dataDir: string, announce?: (event: ServerEvent) => void) {
     const dir = join(dataDir, "machines");
     const own: MachineProfile[] = [];
     const warnings: string[] = [];
@@ -28,7 +28,7 @@ export class MachineFiles extends CustomMachines {
         warnings.push(`${join(dir, name)} is skipped: ${(error as Error).message}`);
       }
     }
-    super(own, storeIn(dir));
+    super(own, storeIn(dir), announce);
     this.warnings = warnings;
   }
 }

@@ -8,6 +8,7 @@ import { z } from "zod";
 import { ERROR_CODES } from "../errors.js";
 import { jobPlaceSchema, jobSchema } from "./job.js";
 import { hasOneDrawing, ONE_DRAWING } from "./job-drawing.js";
+import { listedMachineSchema } from "./machine.js";
 import { nameSchema } from "./name.js";
 import { plotterSettingsSchema } from "./plotter-settings.js";
 import { motionSettingsSchema, penSettingsSchema, plotSettingsSchema } from "./settings.js";
@@ -135,6 +136,8 @@ export const snapshotSchema = z.object({
   plotters: z.array(plotterSchema),
   /** By plotter id; a plotter without settings is left out. */
   plotterSettings: z.record(z.string(), plotterSettingsSchema).default({}),
+  /** Built-in and custom machines. */
+  machines: z.array(listedMachineSchema).default([]),
   jobs: z.array(jobSchema),
 });
 export type Snapshot = z.infer<typeof snapshotSchema>;
@@ -155,6 +158,8 @@ export const serverEventSchema = z.discriminatedUnion("type", [
     plotterId: z.string(),
     settings: plotterSettingsSchema,
   }),
+  /** A custom machine was stored or removed; contains all machines. */
+  z.object({ type: z.literal("machines"), machines: z.array(listedMachineSchema) }),
   /** Queue settings of the first plotter; a `queues` event with all of them follows. */
   z.object({ type: z.literal("queue"), queue: queueSettingsSchema }),
   z.object({ type: z.literal("queues"), queues: queuesSchema }),

@@ -10,6 +10,7 @@ import {
   chooseSample,
   dropFile,
   historyPanel,
+  openTab,
   openView,
   plotBar,
   queuePanel,
@@ -180,6 +181,24 @@ describe("two browsers and a watcher", () => {
     await queuePanel(anna).getByRole("button", { name: "Cancel" }).click();
     await queuePanel(anna).getByRole("alertdialog").getByRole("button", { name: "Cancel" }).click();
     for (const page of pages()) await historyPanel(page).getByText("Cancelled", { exact: true }).waitFor();
+  });
+
+  it("the question keeps what was typed into a dialog", async () => {
+    await openView(anna, "Prepare");
+    await openTab(anna, "Plotter");
+    await anna.getByRole("button", { name: "Machines…" }).click();
+    const sheet = anna.getByRole("dialog", { name: "Machines", exact: true });
+    const question = anna.getByRole("dialog", { name: "Another page is operating" });
+    await sheet.getByRole("button", { name: "Copy AxiDraw V3 to a new machine" }).click();
+    await sheet.getByLabel("Name", { exact: true }).fill("Old friend");
+    await sheet.getByRole("button", { name: "Save and use" }).click();
+    await question.getByRole("button", { name: "Not now" }).click();
+    expect(await sheet.getByLabel("Name", { exact: true }).inputValue()).toBe("Old friend");
+    await sheet.getByRole("button", { name: "Save and use" }).click();
+    await question.getByRole("button", { name: "Take over" }).click();
+    await sheet.getByRole("button", { name: "Edit Old friend" }).waitFor();
+    await anna.keyboard.press("Escape");
+    await sheet.waitFor({ state: "detached" });
   });
 
   it("a device that is not paired shows how to pair", async () => {

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { CustomMachines, type MachineStore } from "../../host/custom-machines.js";
 import { machineById } from "../../src/index.js";
+import type { ServerEvent } from "../../src/schema/index.js";
 
 const MINE = { ...machineById("axidraw-v3"), id: "mine" };
 
@@ -9,6 +10,22 @@ function customMachines(remove: MachineStore["remove"]): { machines: CustomMachi
   const custom = () => machines.list().filter(({ builtIn }) => !builtIn);
   return { machines, ids: () => custom().map(({ id }) => id) };
 }
+
+describe("storing a machine", () => {
+  it("tells every page at once, and removing it too", () => {
+    const told: ServerEvent[] = [];
+    const store: MachineStore = { save: () => undefined, remove: () => undefined };
+    const machines = new CustomMachines([], store, (event) => told.push(event));
+    machines.save(MINE);
+    const withMine = machines.list();
+    machines.remove("mine");
+    expect(withMine).toContainEqual({ ...MINE, builtIn: false });
+    expect(told).toEqual([
+      { type: "machines", machines: withMine },
+      { type: "machines", machines: machines.list() },
+    ]);
+  });
+});
 
 describe("removing a machine", () => {
   it("keeps it in the list if the storage fails", () => {

@@ -29,7 +29,7 @@ afterEach(async () => {
 async function open(snapshotBytes: number): Promise<void> {
   const snapshot: Snapshot = {
     ...{ version: "x".repeat(snapshotBytes), plotters: [], plotterSettings: {}, jobs: [], localName: null },
-    ...{ queue: { runOn: false }, queues: {}, operator: null, serverNotices: [] },
+    ...{ queue: { runOn: false }, queues: {}, operator: null, serverNotices: [], machines: [] },
   };
   const app = express();
   const opened = new Promise<void>((resolve) => {

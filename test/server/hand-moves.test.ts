@@ -12,6 +12,7 @@ import {
   jobSchema,
   machineListSchema,
   plotterSchema,
+  snapshotSchema,
   type Job,
   type Plotter,
 } from "../../src/schema/index.js";
@@ -198,6 +199,8 @@ describe("custom machines", () => {
     await start();
     expect(await listed()).toContainEqual({ ...MINE, builtIn: false });
     expect((await listed()).find(({ id }) => id === "axidraw-v3")?.builtIn).toBe(true);
+    // A page that connects gets them with the rest.
+    expect(snapshotSchema.parse(await (await call("GET", "/state")).json()).machines).toEqual(await listed());
     expect((await call("DELETE", "/machines/mine")).status).toBe(200);
     expect(await listed()).not.toContainEqual(expect.objectContaining({ id: "mine" }));
     expect(await fault(await call("DELETE", "/machines/mine"))).toMatchObject({ status: 404 });

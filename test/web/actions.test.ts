@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema } from "../../src/schema/index.js";
+import type { Backend } from "../../web/backend/backend.js";
 import { createServerBackend } from "../../web/backend/server/server-backend.js";
 import { createActions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
@@ -7,16 +8,17 @@ import { createPageStore } from "../../web/state/store.js";
 import type { Planned } from "../../web/worker/protocol.js";
 import { makeJob } from "./fixtures.js";
 
-function makePage() {
+function makePage(more: Partial<Backend> = {}) {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
   let isServerUp = false;
   const sent: (string | Blob)[] = [];
-  const backend = createServerBackend((_path, init) => {
+  const fromServer = createServerBackend((_path, init) => {
     if (typeof init?.body === "string" || init?.body instanceof Blob) sent.push(init.body);
     return isServerUp
       ? Promise.resolve(Response.json({ samples: [], id: "upload" }))
       : Promise.reject(new Error("refused"));
   });
+  const backend = { ...fromServer, ...more };
   const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
@@ -154,5 +156,112 @@ describe("a drawing that is opened", () => {
     actions.undo();
     actions.placeForPage(key, A4);
     expect(store.getState().settings.prepare.fit).toBe(true);
+  });
+
+  it("never gets the layers of the drawing before by Undo", () => {
+    const { store, actions } = makePage();
+    const openPlaced = (name: string): void => {
+      actions.openDrawing(name, "<svg width='9'/>");
+      actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    };
+    const prepare = () => store.getState().settings.prepare;
+    openPlaced("hills");
+    actions.changeSettings("layer1", (now) => ({
+      ...now,
+      prepare: { ...now.prepare, hiddenLayers: ["layer1"] },
+    }));
+    actions.changeSettings("margin", (now) => ({ ...now, prepare: { ...now.prepare, marginMm: 3 } }));
+    openPlaced("waves");
+    actions.undo();
+    expect(prepare()).toMatchObject({ fit: true, hiddenLayers: [], marginMm: 3 });
+    actions.undo();
+    expect(prepare()).toMatchObject({ fit: true, hiddenLayers: [], marginMm: 3 });
+  });
+
+  it("right after another one is still placed as an undo step", () => {
+    const { store, actions } = makePage();
+    for (const name of ["hills", "waves"]) {
+      actions.openDrawing(name, "<svg width='9'/>");
+      actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    }
+    expect(store.getState().settings.prepare.fit).toBe(false);
+    actions.undo();
+    expect(store.getState().settings.prepare.fit).toBe(true);
+  });
+
+  it("can't be read: the steps of the previous one can still be undone", () => {
+    const { store, actions } = makePage();
+    actions.openDrawing("hills", "<svg width='9'/>");
+    actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    store.setState({ planned: {} as Planned });
+    actions.openDrawing("torn", "<svg");
+    actions.wentBack(fault);
+    actions.undo();
+    expect(store.getState().settings.prepare.fit).toBe(true);
+  });
+});
+
+describe("a drawing that arrives late", () => {
+  const SVG = "<svg width='9'/>";
+  const makeSlowPage = () => {
+    const arrivals = new Map<string, (svg: string) => void>();
+    const arriving = (name: string): Promise<string> => new Promise((resolve) => arrivals.set(name, resolve));
+    const page = makePage({ sample: arriving, jobDrawing: arriving });
+    const slowFile = {
+      name: "late.svg",
+      arrayBuffer: async () => new TextEncoder().encode(await arriving("late")).buffer,
+    } as unknown as File;
+    const asks: Readonly<Record<string, () => Promise<void>>> = {
+      job: () => page.actions.openJob(makeJob("late")),
+      sample: () => page.actions.openSample("late", "Late"),
+      file: () => page.actions.openFile(slowFile),
+    };
+    return { ...page, asks, arrive: (name: string) => arrivals.get(name)?.(SVG) };
+  };
+  const newer: readonly (readonly [string, (page: ReturnType<typeof makeSlowPage>) => Promise<void>])[] = [
+    [
+      "job",
+      ({ actions, arrive }) => {
+        const opened = actions.openJob(makeJob("new", { name: "new" }));
+        arrive("new");
+        return opened;
+      },
+    ],
+    [
+      "sample",
+      ({ actions, arrive }) => {
+        const opened = actions.openSample("new", "new");
+        arrive("new");
+        return opened;
+      },
+    ],
+    ["file", ({ actions }) => actions.openFile(new File([SVG], "new.svg"))],
+    ["paste", ({ actions }) => Promise.resolve(actions.openPasted(SVG))],
+  ];
+  const pairs = ["job", "sample", "file"].flatMap((old) =>
+    newer.map(([name, open]) => [old, name, open] as const),
+  );
+
+  it.each(pairs)("%s: does not replace a newer %s", async (old, _newer, open) => {
+    const page = makeSlowPage();
+    const late = page.asks[old]();
+    await open(page);
+    const { drawing } = page.store.getState();
+    expect(drawing).not.toBeNull();
+    page.actions.changeSettings("margin", (now) => ({ ...now, penStops: "layers" }));
+    const { settings, undoStack } = page.store.getState();
+    page.arrive("late");
+    await late;
+    expect(page.store.getState().drawing?.key).toBe(drawing?.key);
+    expect(page.store.getState()).toMatchObject({ settings, undoStack });
+  });
+
+  it("is shown if nothing readable was pasted meanwhile", async () => {
+    const page = makeSlowPage();
+    const late = page.asks["job"]();
+    page.actions.openPasted("a note");
+    page.arrive("late");
+    await late;
+    expect(page.store.getState().drawing?.name).toBe("Job late");
   });
 });

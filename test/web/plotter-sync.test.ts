@@ -1,8 +1,10 @@
 /** Pages that share a plotter have the same heights, pens and presets, with undo. Also migrates those stored in browsers. */
 import { describe, expect, it } from "vitest";
+import { machineById } from "../../src/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   plotterSettingsSchema,
+  type ListedMachine,
   type PlotSettings,
   type PlotterSettings,
 } from "../../src/schema/index.js";
@@ -11,6 +13,7 @@ import { addPen } from "../../web/layers/layer-settings.js";
 import { createActions } from "../../web/state/actions.js";
 import { noteTakenOver, readKeptHere } from "../../web/state/kept-here.js";
 import { DEFAULT_VIEW, type TextStore } from "../../web/state/persist.js";
+import { applyServerEvent } from "../../web/state/server-events.js";
 import { createPageStore, type PageState, type PageStore } from "../../web/state/store.js";
 import { makeJob, makePlotter } from "./fixtures.js";
 
@@ -212,6 +215,26 @@ describe("another plotter", () => {
       ["left", 71],
       ["right", 55],
     ]);
+  });
+});
+
+describe("a custom machine that another page stores", () => {
+  const mine: ListedMachine = { ...machineById("axidraw-v3"), id: "mine", widthMm: 600, builtIn: false };
+  const springs = { xHz: 14, yHz: 17, damping: 0.05 };
+
+  it("is the plotter's model here too, also after its ringing was measured there", () => {
+    const plotters = new Plotters();
+    const { store, actions } = plotters.open();
+    const tell = (machine: ListedMachine): void => {
+      store.setState((state) => applyServerEvent(state, { type: "machines", machines: [machine] }));
+      actions.followPlotter();
+    };
+    tell(mine);
+    plotters.machine = "mine";
+    plotters.tell();
+    expect(store.getState().settings).toMatchObject({ machine: "mine", customMachine: { widthMm: 600 } });
+    tell({ ...mine, springs });
+    expect(store.getState().settings.customMachine?.springs).toEqual(springs);
   });
 });
 

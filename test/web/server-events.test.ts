@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { machineById } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type ServerEvent } from "../../src/schema/index.js";
 import { parseServerEvent } from "../../web/backend/server/events.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
@@ -19,6 +20,7 @@ const snapshot = (...ids: string[]): ServerEvent => ({
     operator: null,
     serverNotices: [],
     localName: null,
+    machines: [],
     plotters: [makePlotter("virtual")],
     plotterSettings: {},
     jobs: ids.map((id) => makeJob(id)),
@@ -43,6 +45,23 @@ describe("server events", () => {
     const state = after(start(), snapshot("old"), snapshot("a", "b"));
     expect(state.jobs.map(({ id }) => id)).toEqual(["a", "b"]);
     expect(currentPlotter(state)?.id).toBe("virtual");
+  });
+
+  it("the machines come with the snapshot, and again when one is stored", () => {
+    const listed = (widthMm: number) => ({
+      ...machineById("axidraw-v3"),
+      id: "mine",
+      widthMm,
+      builtIn: false,
+    });
+    const connected = snapshot() as Extract<ServerEvent, { type: "snapshot" }>;
+    const state = after(start(), {
+      type: "snapshot",
+      snapshot: { ...connected.snapshot, machines: [listed(300)] },
+    });
+    expect(state.machines).toEqual([listed(300)]);
+    const stored = parseServerEvent(JSON.stringify({ type: "machines", machines: [listed(600)] }));
+    expect(after(state, stored!).machines).toEqual([listed(600)]);
   });
 
   it("a job is replaced in its place, or added at the end", () => {

@@ -60,15 +60,15 @@ describe("Watch", () => {
 describe("keys for the laid-out drawing", () => {
   it("are ignored in Watch, which does not show it", () => {
     const store = makeStore();
-    const actions = { queueDrawing: vi.fn(), undo: vi.fn() } as unknown as Actions;
+    const actions = { undo: vi.fn() } as unknown as Actions;
     const shortcuts = shortcutsFor({ store, actions, player: { toggle: vi.fn() } });
     const press = (key: string): void => shortcuts.find(({ keys }) => keys === key)!.run();
     store.setState({ pageView: "watch" });
-    press("Q");
-    expect(actions.queueDrawing).not.toHaveBeenCalled();
+    press("Ctrl Z");
+    expect(actions.undo).not.toHaveBeenCalled();
     store.setState({ pageView: "prepare" });
-    press("Q");
-    expect(actions.queueDrawing).toHaveBeenCalledTimes(1);
+    press("Ctrl Z");
+    expect(actions.undo).toHaveBeenCalledTimes(1);
   });
 });
 

@@ -11,11 +11,23 @@ const Console = lazyPart(async () => (await import("../plotter/console.js")).Con
 const RingingDialog = lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog);
 const StudioDialog = lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog);
 
-/** The open dialog, if any. */
-export const Dialogs = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
-  const dialog = usePageState((state) => state.openDialog);
+interface DialogsProps {
+  readonly shortcuts: readonly Shortcut[];
+}
+
+/** The open dialog, if any. The question is shown over it, so that what was typed into the dialog is kept. */
+export const Dialogs = ({ shortcuts }: DialogsProps) => {
   const question = usePageState((state) => state.takeOverQuestion);
-  if (question) return <TakeOver question={question} />;
+  return (
+    <>
+      <OpenDialog shortcuts={shortcuts} />
+      {question && <TakeOver question={question} />}
+    </>
+  );
+};
+
+const OpenDialog = ({ shortcuts }: DialogsProps) => {
+  const dialog = usePageState((state) => state.openDialog);
   switch (dialog) {
     case "keys":
       return <HelpSheet shortcuts={shortcuts} />;

@@ -156,7 +156,7 @@ async function greet(): Promise<void> {
   if (kept && store.getState().drawing === null) actions.restoreDrawing(kept);
   store.setState({ isStarting: false });
   await connected();
-  await Promise.all([actions.loadSamples(), actions.loadMachines()]);
+  await actions.loadSamples();
   actions.takeJobSettings();
 }
 

@@ -11,7 +11,6 @@ import type {
   Job,
   JobChange,
   JobPatch,
-  ListedMachine,
   Me,
   MovePlace,
   NewJob,
@@ -111,7 +110,6 @@ export interface Backend {
   /** The log of commands and replies of the plotter's connection. */
   log(plotterId: string): Promise<string>;
 
-  machines(): Promise<readonly ListedMachine[]>;
   saveMachine(profile: MachineProfile): Promise<MachineProfile>;
   removeMachine(id: string): Promise<void>;
 

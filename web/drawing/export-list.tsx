@@ -18,6 +18,8 @@ const WORDS: Record<ExportFormat, { readonly title: string; readonly hint: strin
 
 export const ExportList = () => {
   const connected = usePageState(boardFirmware);
+  // The worker still has the strokes of the settings before.
+  const isPlanning = usePageState((state) => state.isPlanning);
   const [chosen, setChosen] = useState<string | null>(null);
   const { exportAs } = useActions();
   const firmwares = connected && !FIRMWARES.includes(connected) ? [connected, ...FIRMWARES] : FIRMWARES;
@@ -31,9 +33,10 @@ export const ExportList = () => {
             <Button
               kind="small"
               aria-label={words.save(WORDS[format].title)}
+              disabled={isPlanning}
               onClick={() => exportAs(format, firmware)}
             >
-              {words.saveShort}
+              {isPlanning ? words.planning : words.saveShort}
             </Button>
           </div>
           <p className="note">{WORDS[format].hint}</p>

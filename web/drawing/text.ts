@@ -64,6 +64,7 @@ export const saveText = {
   firmware: "Firmware of the board",
   save: (what: string) => `Save: ${what}`,
   saveShort: "Save",
+  planning: "Planning…",
 };
 
 export const fillText = {

@@ -1,4 +1,5 @@
 import type { Job, PlotSettings } from "../../src/schema/index.js";
+import { penOf } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { nudgeText as words } from "./hand-text.js";
 import { IconButton } from "../ui/button.js";
@@ -42,14 +43,9 @@ const Nudge = ({ heights, isOff = false, onChange }: NudgeProps) => (
 
 /** Changes the running plot's heights at once. */
 export const NudgeJob = ({ job }: { job: Job }) => {
-  const { changeJob } = useActions();
-  const { pen } = job.settings;
-  return (
-    <Nudge
-      heights={pen}
-      onChange={(which, pct) => void changeJob(job.id, { pen: { ...pen, [which]: pct } })}
-    />
-  );
+  const { changeJobPen } = useActions();
+  const pen = usePageState((state) => penOf(state, job));
+  return <Nudge heights={pen} onChange={(which, pct) => void changeJobPen(job, { [which]: pct })} />;
 };
 
 /** Changes the heights in the settings and moves the pen there to show it. */

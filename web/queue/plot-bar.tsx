@@ -1,9 +1,10 @@
 import { useState } from "react";
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
 import { plotterText } from "../plotter/text.js";
-import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
+import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
+import { canQueue, isSendingJob } from "./can-queue.js";
 import { CutOffNote } from "./cut-off-note.js";
 import { plotText as words } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -64,18 +65,12 @@ const Figures = () => {
 
 const Buttons = () => {
   const [copies, setCopies] = useState(1);
-  const canQueue = usePageState(
-    (state) => state.drawing !== null && (state.planned?.strokeCount ?? 0) > 0 && state.fault === null,
-  );
-  const isLinked = usePageState((state) => state.link === "connected" && state.plotters.length > 0);
-  const isMine = usePageState(mayOperate);
+  const isOff = !usePageState(canQueue);
+  const isSending = usePageState(isSendingJob);
   const isActive = usePageState((state) => activeJob(state) !== null);
   const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
-  const busy = usePageState((state) => state.busyAction);
   const { plotDrawing, queueDrawing } = useActions();
   const isUnreached = usePageState(isOutOfReach);
-  const isSending = busy === "add" || busy === "plot" || busy === "save";
-  const isOff = !canQueue || !isLinked || !isMine || isUnreached || isSending;
   return (
     <div className="plot-buttons">
       <Button

@@ -89,11 +89,6 @@ export const createActions = (deps: ActionDeps) => {
     if (profile) undo.changeSettings("machine", (settings) => withMachine(settings, profile));
   };
 
-  const loadMachines = async (): Promise<void> => {
-    const machines = await attempt("machines", () => backend.machines());
-    if (machines) store.setState({ machines });
-  };
-
   return {
     notify: notices.notify,
     dismiss: notices.dismiss,
@@ -134,18 +129,13 @@ export const createActions = (deps: ActionDeps) => {
     },
     followPlotter: (): void => sync.follow(),
     takeOverKept: sync.takeOver,
-    loadMachines,
     /** Saves a custom machine and chooses it. Null if it failed, and the user has seen why. */
     saveMachine: async (profile: MachineProfile): Promise<MachineProfile | null> => {
       const saved = await attempt("machine", () => backend.saveMachine(profile));
-      if (saved) await loadMachines();
       chooseMachine(saved);
       return saved;
     },
-    removeMachine: async ({ id }: MachineProfile): Promise<void> => {
-      await attempt("machine", () => backend.removeMachine(id));
-      await loadMachines();
-    },
+    removeMachine: ({ id }: MachineProfile) => attempt("machine", () => backend.removeMachine(id)),
     savePreset: (name: string): void =>
       undo.changePresets(`save ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
     takePreset: (preset: Preset): void =>

@@ -36,6 +36,16 @@ export const createDrawingActions = (parts: DrawingParts) => {
   let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
   /** A drawing that has just been opened, until its page size is known. */
   let unplacedKey: string | null = null;
+  let lastRequest = 0;
+
+  /**
+   * Called when the user asks for a drawing. The result tells whether that is still the last one asked for: a file that
+   * arrives late must not replace a newer one.
+   */
+  const startRequest = (): (() => boolean) => {
+    const request = ++lastRequest;
+    return () => request === lastRequest;
+  };
 
   const openDrawing = (name: string, text: DrawingText, jobId: string | null = null): void => {
     notices.clearErrors();
@@ -62,6 +72,8 @@ export const createDrawingActions = (parts: DrawingParts) => {
     lastGood = null;
     if (drawingKey !== unplacedKey) return;
     unplacedKey = null;
+    // Earlier steps hold the layers and the place of the drawing before. Cleared only now: the file could be read.
+    undo.clear();
     const { settings } = store.getState();
     const prepare = placedForPage(settings.prepare, page, findMachine(settings));
     if (prepare !== settings.prepare) undo.changeSettings("place for page", (now) => ({ ...now, prepare }));
@@ -110,22 +122,27 @@ export const createDrawingActions = (parts: DrawingParts) => {
       else if (JSON.stringify(job.settings) !== JSON.stringify(settings)) showJobSettings(job);
     },
     openFile: async (file: File): Promise<void> => {
+      const isLast = startRequest();
       const text = await file.arrayBuffer().then(contentOf, () => null);
+      if (!isLast()) return;
       if (text === null) notices.notify("error", stateText.unreadable(file.name));
       else if (headOf(text).includes("\0")) notices.notify("error", stateText.notText(file.name));
       else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, text);
     },
     openPasted: (text: string): void => {
-      if (/<svg[\s>]/i.test(text)) openDrawing(stateText.pastedName, text);
-      else notices.notify("error", stateText.pasteNothing);
+      if (!/<svg[\s>]/i.test(text)) return notices.notify("error", stateText.pasteNothing);
+      startRequest();
+      openDrawing(stateText.pastedName, text);
     },
     openSample: async (name: string, title: string): Promise<void> => {
+      const isLast = startRequest();
       const svg = await attempt("sample", () => backend.sample(name));
-      if (svg !== null) openDrawing(title, svg);
+      if (svg !== null && isLast()) openDrawing(title, svg);
     },
     openJob: async (job: Job): Promise<void> => {
+      const isLast = startRequest();
       const text = await attempt(`open ${job.id}`, () => backend.jobDrawing(job.id));
-      if (text === null) return;
+      if (text === null || !isLast()) return;
       undo.clear();
       openDrawing(job.name, text, job.id);
       showJobSettings(job);

@@ -7,11 +7,12 @@ import type {
   JobPlace,
   MovePlace,
   NewJob,
+  PlotSettings,
   Plotter,
   QueueSettings,
 } from "../../src/schema/index.js";
 import type { Backend, JobAction } from "../backend/backend.js";
-import { activeJob, currentPlotter, type Notice, type PageStore } from "./store.js";
+import { activeJob, currentPlotter, penOf, type Notice, type PageStore } from "./store.js";
 import { stateText } from "./text.js";
 
 interface JobActionDeps {
@@ -42,6 +43,19 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     return job;
   };
 
+  const changeJob = async (id: string, change: JobChange): Promise<void> => {
+    const wantedPen = change.pen ? { jobId: id, pen: change.pen } : null;
+    if (wantedPen) store.setState({ wantedPen });
+    const job = await attempt(`change ${id}`, () => backend.changeJob(id, change));
+    // A newer request has replaced this one, and its answer comes later.
+    if (wantedPen === null || store.getState().wantedPen !== wantedPen) return;
+    // The answer may come before the job's event.
+    store.setState(({ jobs }) => ({
+      wantedPen: null,
+      jobs: jobs.map((old) => (old.id === job?.id ? { ...old, settings: job.settings } : old)),
+    }));
+  };
+
   return {
     queueDrawing: async (copies = 1): Promise<void> => {
       const job = await addToQueue(copies, null);
@@ -63,8 +77,10 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     },
     actOnJob: (id: string, action: JobAction) =>
       attempt(`${action} ${id}`, () => backend.actOnJob(id, action)),
-    changeJob: (id: string, change: JobChange) =>
-      attempt(`change ${id}`, () => backend.changeJob(id, change)),
+    changeJob,
+    /** Changes a part of a running plot's pen settings. The rest is as last requested. */
+    changeJobPen: (job: Job, part: Partial<PlotSettings["pen"]>): Promise<void> =>
+      changeJob(job.id, { pen: { ...penOf(store.getState(), job), ...part } }),
     movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, move)),
     moveJob: (id: string, beforeId: string | null) =>
       attempt(`move ${id}`, () => backend.moveJob(id, beforeId)),

@@ -24,6 +24,8 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
       return withPlotters(state, event.plotters);
     case "plotter-settings":
       return { plotterSettings: { ...state.plotterSettings, [event.plotterId]: event.settings } };
+    case "machines":
+      return { machines: event.machines };
     case "queue":
       return {};
     case "queues":
@@ -43,7 +45,8 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
 
 /** The whole state, sent when the page has connected. The live report is dropped unless its job is still running. */
 const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
-  const { version, plotters, plotterSettings, jobs, queues, operator, serverNotices, localName } = snapshot;
+  const { version, plotters, plotterSettings, jobs, queues, operator, serverNotices, localName, machines } =
+    snapshot;
   const isRunning = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
   return {
     ...withPlotters(state, plotters),
@@ -56,6 +59,7 @@ const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
     operator,
     serverNotices,
     localName,
+    machines,
   };
 };
 

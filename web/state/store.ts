@@ -153,6 +153,8 @@ export interface PageState {
   /** The server's name on the network; null while it has none. */
   readonly localName: string | null;
   readonly live: LivePlot | null;
+  /** The newest pen settings sent for a running plot, until the server has answered: it plans the rest first. */
+  readonly wantedPen: { readonly jobId: string; readonly pen: PlotSettings["pen"] } | null;
   readonly samples: readonly SampleInfo[];
 
   /** The built-in machines, and the custom ones of this server. */
@@ -204,6 +206,7 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     serverNotices: [],
     localName: null,
     live: null,
+    wantedPen: null,
     samples: [],
     machines: [],
     presets: [],
@@ -254,6 +257,10 @@ export const unfinishedJob = (state: PageState): Job | null => {
   const isBroken = (job: Job): boolean => job.state === "interrupted" && job.plotterId === plotterId;
   return activeJob(state) ?? state.jobs.find(isBroken) ?? null;
 };
+
+/** A job's pen settings, with changes that the server has not answered yet. */
+export const penOf = ({ wantedPen }: PageState, { id, settings }: Job): PlotSettings["pen"] =>
+  wantedPen?.jobId === id ? wantedPen.pen : settings.pen;
 
 /** What Watch shows: the unfinished job, else the last one that had the plotter. */
 export const watchedJob = (state: PageState): Job | null =>

@@ -5,6 +5,7 @@ import type { PageStore, UndoStep } from "./store.js";
 const UNDO_DEPTH = 100;
 /** Changes of the same thing within this time are one undo step, so that dragging a slider is one step. */
 const COALESCE_MS = 800;
+const NOTHING_CHANGED = { what: "", atMs: -Infinity };
 
 interface UndoParts {
   readonly store: PageStore;
@@ -15,7 +16,7 @@ interface UndoParts {
 }
 
 export const createUndo = ({ store, nowMs, setSettings, changed }: UndoParts) => {
-  let lastChange = { what: "", atMs: -Infinity };
+  let lastChange = NOTHING_CHANGED;
 
   /** Stores the state for undo. `what` names the thing that is about to change. */
   const noteStep = (what: string): UndoStep => {
@@ -34,7 +35,7 @@ export const createUndo = ({ store, nowMs, setSettings, changed }: UndoParts) =>
     const state = store.getState();
     const target = state[from].at(-1);
     if (!target) return;
-    lastChange = { what: "", atMs: -Infinity };
+    lastChange = NOTHING_CHANGED;
     const { settings, presets } = state;
     store.setState({
       [from]: state[from].slice(0, -1),
@@ -47,7 +48,11 @@ export const createUndo = ({ store, nowMs, setSettings, changed }: UndoParts) =>
 
   return {
     noteStep,
-    clear: (): void => store.setState({ undoStack: [], redoStack: [] }),
+    clear: (): void => {
+      // Otherwise a change of the same thing right after would not become a step.
+      lastChange = NOTHING_CHANGED;
+      store.setState({ undoStack: [], redoStack: [] });
+    },
     changeSettings: (what: string, change: (settings: PlotSettings) => PlotSettings): void => {
       const before = noteStep(what);
       setSettings(change(before.settings));

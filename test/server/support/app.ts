@@ -126,7 +126,7 @@ export async function startApp(
     pairing: () =>
       pairingLinks("http://192.168.1.4:9080", true, { operatePath: "/pair?a", watchPath: "/pair?b" }),
     serverLog: () => logged.join("\n"),
-    machines: new MachineFiles(dir),
+    machines: new MachineFiles(dir, announce),
     allowedHosts: ["plotter.lan"],
     localName: () => "plotwright-2.local",
     webDir: join(dir, "web"),

@@ -52,7 +52,6 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
     },
     log: (id) => remote.log(id),
 
-    machines: () => remote.machines(),
     saveMachine: (profile) => remote.saveMachine(profile),
     removeMachine: (id) => remote.removeMachine(id),
 

@@ -21,7 +21,6 @@ export const hostApi = (parts: HostParts) => {
     ...plotterApi(parts),
     dismissNotice: (id: string): void => notices.remove(id),
 
-    machines: () => machines.list(),
     saveMachine: (profile: MachineProfile): MachineProfile =>
       machines.save(parseWith(machineProfileSchema, profile)),
     removeMachine: (id: string): void => machines.remove(id),
@@ -39,13 +38,6 @@ export const hostApi = (parts: HostParts) => {
 };
 
 /** Methods that change nothing: all pages may call them. */
-export const READING: readonly HostMethod[] = [
-  "jobDrawing",
-  "devices",
-  "usbIds",
-  "log",
-  "machines",
-  "handOver",
-];
+export const READING: readonly HostMethod[] = ["jobDrawing", "devices", "usbIds", "log", "handOver"];
 /** Actions that only stop a plot: all pages may call them. */
 export const STOPPING: readonly JobAction[] = ["pause", "cancel", "emergency-stop"];

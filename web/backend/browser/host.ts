@@ -68,6 +68,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
       save: (machine) => db.put("machines", machine.id, machine),
       remove: (id) => db.remove("machines", id),
     },
+    announce,
   );
   const withMachine = (wanted: PlotSettings): PlotSettings => machines.withMachine(wanted);
   const devices = serialDevices((navigator as { serial?: Serial }).serial);
@@ -125,6 +126,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
       operator: { id: start.tab, name: "Another tab" },
       serverNotices: notices.list(),
       localName: null,
+      machines: machines.list(),
       jobs: queue.list(),
     }),
     written: () =>

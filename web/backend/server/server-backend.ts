@@ -3,7 +3,6 @@ import { z } from "zod";
 import {
   commandAnswerSchema,
   jobSchema,
-  machineListSchema,
   machineProfileSchema,
   meSchema,
   operatorSchema,
@@ -57,7 +56,6 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
     log: async (id) => (await send("GET", `${pathOf("plotters", id)}/log`)).text(),
 
-    machines: async () => (await ask(machineListSchema, "GET", "/machines")).machines,
     saveMachine: (profile) => ask(machineProfileSchema, "PUT", pathOf("machines", profile.id), profile),
     removeMachine: (id) => command("DELETE", pathOf("machines", id)),
 

@@ -1,0 +1,185 @@
+/** Which keys run a shortcut, by what has the focus and what the page shows. */
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { listenForShortcuts, shortcutsFor } from "../../web/app/shortcuts.js";
+import type { Actions } from "../../web/state/actions.js";
+import { DEFAULT_VIEW } from "../../web/state/persist.js";
+import { createPageStore, type PageState } from "../../web/state/store.js";
+import type { Planned } from "../../web/worker/protocol.js";
+import { makeJob, makePlotter } from "./fixtures.js";
+
+/** The parts of the browser's elements that the page reads. */
+class FakeElement {
+  readonly isContentEditable: boolean = false;
+  constructor(readonly tagName: string) {}
+}
+class FakeInput extends FakeElement {
+  constructor(readonly type: string) {
+    super("INPUT");
+  }
+}
+class FakeEditable extends FakeElement {
+  override readonly isContentEditable = true;
+}
+
+const BODY = new FakeElement("BODY");
+const DRAWING = { key: "drawing-1", name: "waves", text: "<svg/>", jobId: null, sourceId: null };
+const planned = (strokeCount: number, x1: number): Planned =>
+  ({ strokeCount, drawnBox: { x0: 0, y0: 0, x1, y1: 10 } }) as Planned;
+
+let listener: (event: KeyboardEvent) => void;
+
+beforeEach(() => {
+  vi.stubGlobal("HTMLElement", FakeElement);
+  vi.stubGlobal("HTMLInputElement", FakeInput);
+  vi.stubGlobal("document", {
+    addEventListener: (_type: string, listen: typeof listener) => (listener = listen),
+  });
+});
+afterEach(() => vi.unstubAllGlobals());
+
+const makePage = () => {
+  const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
+  store.setState({
+    link: "connected",
+    plotters: [makePlotter("virtual")],
+    drawing: DRAWING,
+    planned: planned(1, 10),
+  });
+  const done = {
+    undo: vi.fn(),
+    redo: vi.fn(),
+    queueDrawing: vi.fn(() => Promise.resolve()),
+    actOnJob: vi.fn(() => Promise.resolve(null)),
+    toggle: vi.fn(),
+  };
+  listenForShortcuts(
+    shortcutsFor({ store, actions: done as unknown as Actions, player: { toggle: done.toggle } }),
+  );
+  /** True: the browser does nothing of its own with the key. */
+  const press = (key: string, more: Partial<KeyboardEvent> = {}, target = BODY): boolean => {
+    const preventDefault = vi.fn();
+    const event = { key, target, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
+    listener({ ...event, preventDefault, ...more } as unknown as KeyboardEvent);
+    return preventDefault.mock.calls.length > 0;
+  };
+  return { store, done, press };
+};
+
+describe("a key that is held", () => {
+  it("adds one job", () => {
+    const { done, press } = makePage();
+    press("q");
+    press("q", { repeat: true });
+    expect(done.queueDrawing).toHaveBeenCalledTimes(1);
+  });
+
+  it("pauses the plot and does not resume it", () => {
+    const { store, done, press } = makePage();
+    store.setState({ jobs: [makeJob("a", { state: "plotting" })] });
+    press("p");
+    store.setState({ jobs: [makeJob("a", { state: "paused" })] });
+    press("p", { repeat: true });
+    expect(done.actOnJob.mock.calls).toEqual([["a", "pause"]]);
+  });
+
+  it("undoes and redoes step by step", () => {
+    const { done, press } = makePage();
+    press("z", { ctrlKey: true });
+    press("z", { ctrlKey: true, repeat: true });
+    press("z", { ctrlKey: true, shiftKey: true, repeat: true });
+    expect(done.undo).toHaveBeenCalledTimes(2);
+    expect(done.redo).toHaveBeenCalledTimes(1);
+  });
+
+  it("does not scroll the page if it is Space", () => {
+    const { done, press } = makePage();
+    expect(press(" ", { repeat: true })).toBe(true);
+    expect(done.toggle).not.toHaveBeenCalled();
+  });
+});
+
+describe("Q, like the button", () => {
+  const OFF: Readonly<Record<string, Partial<PageState>>> = {
+    "while a drawing is being added": { busyAction: "add" },
+    "while a plot is being started": { busyAction: "plot" },
+    "while a job is being saved": { busyAction: "save" },
+    "without a drawing": { drawing: null },
+    "before the plan": { planned: null },
+    "without lines": { planned: planned(0, 10) },
+    "after a fault": { fault: { message: "torn", stage: "import" } },
+    "without a connection": { link: "lost" },
+    "without a plotter": { plotters: [] },
+    "for a watcher": { me: { role: "watch", id: null, name: null } },
+    "out of reach": { planned: planned(1, 5_000) },
+  };
+
+  it.each(Object.entries(OFF))("does nothing %s", (_when, state) => {
+    const { store, done, press } = makePage();
+    store.setState(state);
+    press("q");
+    expect(done.queueDrawing).not.toHaveBeenCalled();
+  });
+
+  it("adds the drawing while another request runs", () => {
+    const { store, done, press } = makePage();
+    store.setState({ busyAction: "samples" });
+    press("q");
+    expect(done.queueDrawing).toHaveBeenCalledTimes(1);
+  });
+});
+
+describe("the control that has the focus", () => {
+  const pressed = [
+    ...["checkbox", "radio", "range", "color", "file"].map((type) => new FakeInput(type)),
+    ...["BUTTON", "SUMMARY"].map((name) => new FakeElement(name)),
+  ];
+  const typed = [
+    ...["text", "url"].map((type) => new FakeInput(type)),
+    ...["TEXTAREA", "SELECT"].map((name) => new FakeElement(name)),
+    new FakeEditable("DIV"),
+  ];
+
+  it.each(pressed)("handles only Space if it is pressed: %o", (target) => {
+    const { done, press } = makePage();
+    expect(press("z", { ctrlKey: true }, target)).toBe(true);
+    expect(done.undo).toHaveBeenCalledTimes(1);
+    expect(press(" ", {}, target)).toBe(false);
+    expect(done.toggle).not.toHaveBeenCalled();
+  });
+
+  it.each(typed)("handles every key if it takes text or lists choices: %o", (target) => {
+    const { done, press } = makePage();
+    expect(press("z", { ctrlKey: true }, target)).toBe(false);
+    expect(press("q", {}, target)).toBe(false);
+    expect(done.undo).not.toHaveBeenCalled();
+    expect(done.queueDrawing).not.toHaveBeenCalled();
+  });
+});
+
+describe("under a dialog", () => {
+  const button = new FakeElement("BUTTON");
+
+  it.each<[string, Partial<PageState>]>([
+    ["a dialog", { openDialog: "machines" }],
+    ["the question", { takeOverQuestion: { operator: null, answer: () => undefined } }],
+  ])("the drawing stays as it is: %s", (_what, state) => {
+    const { store, done, press } = makePage();
+    store.setState(state);
+    press("z", { ctrlKey: true }, button);
+    press("q", {}, button);
+    expect(done.undo).not.toHaveBeenCalled();
+    expect(done.queueDrawing).not.toHaveBeenCalled();
+  });
+
+  it("? opens and closes the help, and leaves another dialog open", () => {
+    const { store, press } = makePage();
+    press("?", {}, button);
+    expect(store.getState().openDialog).toBe("keys");
+    press("?", {}, button);
+    expect(store.getState().openDialog).toBeNull();
+    store.setState({ openDialog: "machines" });
+    press("?", {}, button);
+    expect(store.getState().openDialog).toBe("machines");
+  });
+});
