@@ -88,14 +88,33 @@ export function cutLine(
     return;
   }
   const clipper = new Clipper64();
-  clipper.addOpenSubject([ringOf(lines, i)]);
+  clipper.addOpenSubject(withoutReversals(ringOf(lines, i)));
   clipper.addClip(region.rings);
   const open: Paths64 = [];
   clipper.execute(keepOutside ? ClipType.Difference : ClipType.Intersection, FillRule.NonZero, [], open);
   writePieces(open, tag, builder);
 }
 
-/** Writes the pieces of one line. Pieces that were only split at the line's own start are joined again. */
+/**
+ * The line, split where it goes back along a horizontal: Clipper2 cuts such a line wrongly, and sometimes never ends.
+ * Clipper2 treats horizontals apart, so that other lines may go back over themselves.
+ */
+function withoutReversals(line: Path64): Paths64 {
+  // Points that differ may be equal in Clipper units, and would hide a reversal.
+  const points = line.filter((p, k) => k === 0 || p.x !== line[k - 1].x || p.y !== line[k - 1].y);
+  const parts: Paths64 = [];
+  let first = 0;
+  for (let k = 1; k + 1 < points.length; k++) {
+    const [a, b, c] = [points[k - 1], points[k], points[k + 1]];
+    if (a.y !== b.y || b.y !== c.y || a.x < b.x === b.x < c.x) continue;
+    parts.push(points.slice(first, k + 1));
+    first = k;
+  }
+  parts.push(points.slice(first));
+  return parts;
+}
+
+/** Writes the pieces of one line. Pieces split only at the line's own start, or where it goes back, are joined again. */
 function writePieces(pieces: Paths64, tag: number, builder: LineBuilder): void {
   for (const piece of stitched(pieces)) {
     for (const p of piece) builder.point(p.x / SCALE, p.y / SCALE);

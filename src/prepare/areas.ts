@@ -7,7 +7,7 @@ import { SCALE, cleanRings, combine, regionOf, ringOf, type Region } from "../ge
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
- * The region of each filled shape, in paint order, by its fill rule, cut to its clip and to `limit`. With `hasOutlines`,
+ * The region of each filled shape, in paint order, by its fill rule, cut to its clip. With `hasOutlines`,
  * shapes without a fill also have a region: the inside of their closed lines. `lines` are the shapes' subpaths, tagged
  * with their shape. An open subpath of a filled shape is closed by a straight line, as in SVG.
  */
@@ -15,12 +15,10 @@ export function filledAreas(
   lines: Lines,
   drawing: Drawing,
   clipOf: (shape: number) => Region | null,
-  limit: Box,
   hasOutlines: boolean,
   work: Work,
 ): Map<number, Region> {
   const areas = new Map<number, Region>();
-  const frame = frameOf(limit);
   for (let i = 0, next = 0; i < lineCount(lines); i = next) {
     stopIfCancelled(work);
     const shape = lines.tag[i];
@@ -36,10 +34,22 @@ export function filledAreas(
     let area = cleanRings(rings, rule);
     const clip = clipOf(shape);
     if (clip !== null) area = combine(ClipType.Intersection, area, clip.rings);
-    if (!boxContains(limit, regionOf(area).box)) area = combine(ClipType.Intersection, area, [frame]);
     if (area.length > 0) areas.set(shape, regionOf(area));
   }
   return areas;
+}
+
+/** Cuts the areas to `limit`. Areas entirely outside are dropped. */
+export function cropAreas(areas: ReadonlyMap<number, Region>, limit: Box): Map<number, Region> {
+  const frame = frameOf(limit);
+  const kept = new Map<number, Region>();
+  for (const [shape, area] of areas) {
+    const inside = boxContains(limit, area.box)
+      ? area
+      : regionOf(combine(ClipType.Intersection, area.rings, [frame]));
+    if (inside.rings.length > 0) kept.set(shape, inside);
+  }
+  return kept;
 }
 
 /** The areas of filled shapes only, because an outline hides nothing. */

@@ -5,7 +5,6 @@
 import type { Drawing } from "../drawing/drawing.js";
 import { LineBuilder, lineCount, totalLength, type Lines } from "../geometry/polyline.js";
 import { SCALE, cutLine, type Region } from "../geometry/region.js";
-import { ANYWHERE } from "./shapes.js";
 import { filledAreas } from "./areas.js";
 import type { Work } from "./work.js";
 
@@ -59,7 +58,7 @@ function clipFill(
     return;
   }
   const shape = lines.tag[from];
-  const area = filledAreas(outline, drawing, () => clip, ANYWHERE, false, work).get(shape);
+  const area = filledAreas(outline, drawing, () => clip, false, work).get(shape);
   for (const ring of area?.rings ?? []) {
     for (const point of [...ring, ring[0]]) builder.point(point.x / SCALE, point.y / SCALE);
     builder.end(shape);

@@ -3,7 +3,7 @@ import type { DashPattern } from "../drawing/drawing.js";
 import type { Box } from "../geometry/box.js";
 import { insideRange } from "../geometry/clip.js";
 import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
-import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
+import { LineBuilder, SAME_POINT, lineCount, type Lines } from "../geometry/polyline.js";
 
 /** A pattern with a shorter period than this is drawn as a solid line, because no pen resolves it, mm. */
 const FINEST_PERIOD = 0.05;
@@ -17,16 +17,19 @@ export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern 
   for (let i = 0; i < lineCount(lines); i++) {
     const pattern = patternOf(lines.tag[i]);
     const isDot = lines.offsets[i + 1] - lines.offsets[i] < 2;
-    if (pattern === null || isDot || periodOf(pattern) < FINEST_PERIOD) builder.copy(lines, i, lines.tag[i]);
+    if (pattern === null || isDot) builder.copy(lines, i, lines.tag[i]);
     else new Dasher(pattern, lines.tag[i], builder).run(lines, i, box);
   }
   return builder.finish();
 }
 
-/** The pattern on the paper; `map` maps the file's page to the paper, without distortion. */
-export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: Affine): DashPattern {
+/**
+ * The pattern on the paper; null if it is too fine there. `map` maps the file's page to the paper, without distortion.
+ */
+export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: Affine): DashPattern | null {
   const scale = meanScale(map);
   const pattern = { lengths: lengths.map((length) => length * scale), offset: offset * scale };
+  if (periodOf(pattern) < FINEST_PERIOD) return null;
   if (measure === undefined) return pattern;
   // A vector on the paper is mapped back to the page and measured there.
   const det = determinant(map);
@@ -72,7 +75,8 @@ class Dasher {
       const x = (t: number): number => (t === 1 ? x1 : x0 + t * (x1 - x0));
       const y = (t: number): number => (t === 1 ? y1 : y0 + t * (y1 - y0));
       if (enter > 0) this.pass(enter * length);
-      this.dash(x(enter), y(enter), x(leave), y(leave), (leave - enter) * length);
+      const isEnd = p === offsets[i + 1] - 1 && leave === 1;
+      this.dash(x(enter), y(enter), x(leave), y(leave), (leave - enter) * length, isEnd);
       if (leave < 1) this.pass((1 - leave) * length);
     }
     this.endDash();
@@ -84,15 +88,17 @@ class Dasher {
     return Math.hypot(measure.a * dx + measure.c * dy, measure.b * dx + measure.d * dy);
   }
 
-  /** Draws the dashes of a segment. */
-  private dash(x0: number, y0: number, x1: number, y1: number, length: number): void {
+  /** Draws the dashes of a segment. `isEnd`: the line ends with it. */
+  private dash(x0: number, y0: number, x1: number, y1: number, length: number, isEnd: boolean): void {
     if (this.isDrawing) this.builder.point(x0, y0);
     let along = 0;
-    while (length - along > this.left) {
+    // If the pattern divides the line evenly, a rounding error must not begin another dash at the very end.
+    const last = isEnd ? length - SAME_POINT : length;
+    while (last - along > this.left) {
       along += this.left;
       // A dash ends or begins here. A dash of zero length becomes a dot.
       this.builder.point(x0 + ((x1 - x0) * along) / length, y0 + ((y1 - y0) * along) / length);
-      if (this.isDrawing) this.builder.end(this.tag);
+      if (this.isDrawing) this.endDash();
       this.index = (this.index + 1) % this.pattern.lengths.length;
       this.left = this.pattern.lengths[this.index];
     }
@@ -109,7 +115,9 @@ class Dasher {
   }
 
   private endDash(): void {
-    if (this.isDrawing) this.builder.end(this.tag);
+    // A dash of which only a rounding error is inside the box, or after the offset, is not a dot.
+    const isRemainder = this.builder.openPoints === 1 && this.pattern.lengths[this.index] > SAME_POINT;
+    if (this.isDrawing && !isRemainder) this.builder.end(this.tag);
     else this.builder.drop();
   }
 

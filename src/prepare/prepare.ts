@@ -8,7 +8,7 @@
 import type { Drawing } from "../drawing/drawing.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, totalLength, type Lines } from "../geometry/polyline.js";
-import { filledAreas, filledOnly } from "./areas.js";
+import { cropAreas, filledAreas, filledOnly } from "./areas.js";
 import {
   byLayer,
   countLayers,
@@ -22,6 +22,7 @@ import { checkObject } from "../check-arguments.js";
 import { clipRegions } from "./clip-regions.js";
 import { clipLines } from "./clipped-fills.js";
 import { completeSettings } from "./complete-settings.js";
+import { dashLines } from "./dash.js";
 import { flattenShapes } from "./flatten.js";
 import { hideCovered } from "./hidden-lines.js";
 import { joinLines } from "./join.js";
@@ -38,7 +39,9 @@ import {
   cropBox,
   cropLines,
   cropToPage,
-  dashShapes,
+  cutsAreas,
+  dashedAcross,
+  dashesOf,
   hatchesOf,
   shapesOnPaper,
   strokedOnly,
@@ -104,18 +107,30 @@ export function prepare(
   progress(0.05, "flattening");
   const subpaths = flattenShapes(drawing.paths, place.map, settings.flattenMm, wanted, options);
   const clipOf = clipRegions(drawing, place.map, settings.flattenMm);
-  let lines = dashShapes(subpaths, drawing, place, limit);
+  const dashOf = dashesOf(drawing, place);
+  let lines = drawing.dashes.length > 0 ? dashLines(subpaths, dashOf, limit ?? ANYWHERE) : subpaths;
   if (!settings.outlineFills) lines = strokedOnly(lines, drawing);
 
   progress(0.15, "cutting");
-  if (drawing.clips.length > 0) lines = clipLines(lines, drawing, clipOf, options);
-  lines = cropLines(lines, limit, warnings);
+  let dashed = dashedAcross(subpaths, dashOf, limit);
+  if (drawing.clips.length > 0) {
+    lines = clipLines(lines, drawing, clipOf, options);
+    dashed = clipLines(dashed, drawing, clipOf, options);
+  }
+  lines = cropLines(lines, dashed, limit, warnings);
   if (settings.cropToPage) lines = cropToPage(lines, drawing, place);
 
   progress(0.25, "filling");
   const hatches = hatchesOf(settings, table);
   if (hatches !== null || settings.hideCovered) {
-    const areas = filledAreas(subpaths, drawing, clipOf, limit ?? ANYWHERE, settings.hatchOutlines, options);
+    const whole = filledAreas(subpaths, drawing, clipOf, settings.hatchOutlines, options);
+    const areas = cropAreas(whole, limit ?? ANYWHERE);
+    // If the outline is drawn too, the warning about its lines is enough.
+    const isHatchOnly = (shape: number): boolean =>
+      !settings.outlineFills &&
+      drawing.paths.stroke[shape] < 0 &&
+      (hatches?.[table.ofShape[shape]].spacingMm ?? 0) > 0;
+    if (limit !== null && cutsAreas(whole, limit, isHatchOnly)) warnings.push(CUT_HATCH);
     if (hatches !== null && areas.size === 0) warnings.push(nothingToFill(settings.hatchOutlines));
     if (hatches !== null) lines = addHatch(lines, areas, (shape) => hatches[table.ofShape[shape]], options);
     if (settings.cropToPage && hatches !== null) lines = cropToPage(lines, drawing, place);
@@ -189,6 +204,9 @@ function inDrawingOrder(
   }
   return { lines: inOrder, travelMmUnordered, travelMm };
 }
+
+const CUT_HATCH =
+  "Areas filled with lines lie partly outside the margins and are cut off. Make the margins or the drawing smaller.";
 
 const nothingToFill = (withOutlines: boolean): string =>
   withOutlines

@@ -1,6 +1,7 @@
 /**
- * Drops repeated lines: every part of a segment that is within a tolerance of an earlier, parallel segment. So shared
- * borders and doubled shapes are drawn once.
+ * Drops repeated lines: every part of a segment that is within a tolerance of an earlier, parallel one. So shared
+ * borders and doubled shapes are drawn once. Only what is drawn counts as earlier: otherwise each of many close lines
+ * would be dropped because of the one before, and their whole area would stay empty.
  *
  *      earlier  ────────────────────
  *      this         ═══════════════════════     within tolerance from t0 to t1: dropped there,
@@ -23,21 +24,31 @@ export function dropRepeats(lines: Lines, tolerance: number, work: Work): Lines 
     const first = lines.offsets[i];
     const last = lines.offsets[i + 1] - 1;
     if (first === last) {
-      if (!isDotRepeated(lines, pieces, piece, tolerance)) builder.copy(lines, i, lines.tag[i]);
-      piece++;
+      const isRepeated = isDotRepeated(lines, pieces, piece, tolerance);
+      if (!isRepeated) builder.copy(lines, i, lines.tag[i]);
+      pieces.drawn[piece++] = isRepeated ? [] : WHOLE;
       continue;
     }
-    for (let p = first; p < last; p++, piece++) addNewParts(lines, pieces, piece, tolerance, builder);
+    for (let p = first; p < last; p++, piece++) {
+      pieces.drawn[piece] = addNewParts(lines, pieces, piece, tolerance, builder);
+    }
     builder.end(lines.tag[i]);
   }
   return builder.finish();
 }
+
+/** A part of a piece, from and to a share of its length, 0 … 1. */
+type Range = readonly [number, number];
+
+const WHOLE: readonly Range[] = [[0, 1]];
 
 interface Pieces {
   readonly tree: Flatbush;
   /** First point and line of each piece; a dot is a piece from a point to itself. */
   readonly point: Uint32Array;
   readonly line: Uint32Array;
+  /** The drawn parts of each piece so far. */
+  readonly drawn: (readonly Range[])[];
 }
 
 function piecesOf(lines: Lines): Pieces {
@@ -60,10 +71,13 @@ function piecesOf(lines: Lines): Pieces {
     }
   }
   tree.finish();
-  return { tree, point, line };
+  return { tree, point, line, drawn: [] };
 }
 
 const isDot = (lines: Lines, i: number): boolean => lines.offsets[i + 1] - lines.offsets[i] === 1;
+
+const isDrawnBefore = ({ drawn }: Pieces, k: number, piece: number): boolean =>
+  k < piece && drawn[k].length > 0;
 
 function isDotRepeated(lines: Lines, pieces: Pieces, piece: number, tolerance: number): boolean {
   const { xy } = lines;
@@ -74,7 +88,8 @@ function isDotRepeated(lines: Lines, pieces: Pieces, piece: number, tolerance: n
     xy[2 * p + 1] - tolerance,
     xy[2 * p] + tolerance,
     xy[2 * p + 1] + tolerance,
-    (k) => k < piece && isDot(lines, pieces.line[k]) && lines.tag[pieces.line[k]] === tag,
+    (k) =>
+      isDrawnBefore(pieces, k, piece) && isDot(lines, pieces.line[k]) && lines.tag[pieces.line[k]] === tag,
   );
   return near.some((k) => {
     const q = pieces.point[k];
@@ -82,31 +97,42 @@ function isDotRepeated(lines: Lines, pieces: Pieces, piece: number, tolerance: n
   });
 }
 
-/** Adds the new parts of the piece to the line under construction, ending the line before each gap. */
+/** Adds the new parts of the piece to the line under construction, ending the line before each gap. Returns the parts. */
 function addNewParts(
   lines: Lines,
   pieces: Pieces,
   piece: number,
   tolerance: number,
   builder: LineBuilder,
-): void {
+): readonly Range[] {
   const { xy } = lines;
   const p = pieces.point[piece];
   const tag = lines.tag[pieces.line[piece]];
   const [x0, y0, x1, y1] = [xy[2 * p], xy[2 * p + 1], xy[2 * p + 2], xy[2 * p + 3]];
   const covered = coveredRanges(lines, pieces, piece, tolerance);
+  if (covered.length === 0) {
+    addPart(builder, x0, y0, x1, y1);
+    return WHOLE;
+  }
+  const drawn: Range[] = [];
   const length = distance(x0, y0, x1, y1);
   const x = (t: number): number => (t === 1 ? x1 : x0 + t * (x1 - x0));
   const y = (t: number): number => (t === 1 ? y1 : y0 + t * (y1 - y0));
+  const addNew = (from: number, to: number): void => {
+    // A remainder shorter than the tolerance is dropped too, to save a pen lift.
+    if ((to - from) * length <= tolerance) return;
+    addPart(builder, x(from), y(from), x(to), y(to));
+    drawn.push([from, to]);
+  };
   let at = 0;
   for (const [from, to] of covered) {
-    // A remainder shorter than the tolerance is dropped too, to save a pen lift.
-    if ((from - at) * length > tolerance) addPart(builder, x(at), y(at), x(from), y(from));
+    addNew(at, from);
     if (builder.openPoints > 1) builder.end(tag);
     else builder.drop();
     at = Math.max(at, to);
   }
-  if (at === 0 || (1 - at) * length > tolerance) addPart(builder, x(at), y(at), x1, y1);
+  addNew(at, 1);
+  return drawn;
 }
 
 function addPart(builder: LineBuilder, x0: number, y0: number, x1: number, y1: number): void {
@@ -114,7 +140,7 @@ function addPart(builder: LineBuilder, x0: number, y0: number, x1: number, y1: n
   builder.point(x1, y1);
 }
 
-/** Sorted, merged ranges of t where the piece runs along earlier ones. */
+/** Sorted, merged ranges of t where the piece runs along drawn parts of earlier ones. */
 function coveredRanges(lines: Lines, pieces: Pieces, piece: number, tolerance: number): [number, number][] {
   const { xy } = lines;
   const p = pieces.point[piece];
@@ -125,12 +151,15 @@ function coveredRanges(lines: Lines, pieces: Pieces, piece: number, tolerance: n
     Math.min(y0, y1) - tolerance,
     Math.max(x0, x1) + tolerance,
     Math.max(y0, y1) + tolerance,
-    (k) => k < piece && lines.tag[pieces.line[k]] === tag && !isDot(lines, pieces.line[k]),
+    (k) =>
+      isDrawnBefore(pieces, k, piece) && lines.tag[pieces.line[k]] === tag && !isDot(lines, pieces.line[k]),
   );
   const ranges: [number, number][] = [];
   for (const k of near) {
-    const range = sharedRange(xy, p, pieces.point[k], tolerance);
-    if (range !== null) ranges.push(range);
+    for (const part of pieces.drawn[k]) {
+      const range = sharedRange(xy, p, pieces.point[k], part, tolerance);
+      if (range !== null) ranges.push(range);
+    }
   }
   ranges.sort((a, b) => a[0] - b[0]);
   const merged: [number, number][] = [];
@@ -142,8 +171,14 @@ function coveredRanges(lines: Lines, pieces: Pieces, piece: number, tolerance: n
   return merged;
 }
 
-/** The range of t on segment p where segment q is within the tolerance; null if there is none. */
-function sharedRange(xy: Float64Array, p: number, q: number, tolerance: number): [number, number] | null {
+/** The range of t on segment p where the part of segment q is within the tolerance; null if there is none. */
+function sharedRange(
+  xy: Float64Array,
+  p: number,
+  q: number,
+  part: Range,
+  tolerance: number,
+): [number, number] | null {
   const x0 = xy[2 * p];
   const y0 = xy[2 * p + 1];
   const dx = xy[2 * p + 2] - x0;
@@ -155,8 +190,10 @@ function sharedRange(xy: Float64Array, p: number, q: number, tolerance: number):
     ((xy[2 * k + 1] - y0) * dx - (xy[2 * k] - x0) * dy) / Math.sqrt(length2);
   const ta = along(q);
   const tb = along(q + 1);
-  const from = Math.max(Math.min(ta, tb), 0);
-  const to = Math.min(Math.max(ta, tb), 1);
+  const start = ta + part[0] * (tb - ta);
+  const end = ta + part[1] * (tb - ta);
+  const from = Math.max(Math.min(start, end), 0);
+  const to = Math.min(Math.max(start, end), 1);
   if ((to - from) * Math.sqrt(length2) <= tolerance * 1e-3) return null;
   // The distance of two straight lines is linear in t, so checking both ends of the range is enough.
   const slope = (across(q + 1) - across(q)) / (tb - ta);

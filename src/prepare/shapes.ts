@@ -1,5 +1,5 @@
 /** The steps of `prepare` while lines still belong to shapes: select, dash, crop, hatch. */
-import type { Drawing } from "../drawing/drawing.js";
+import type { DashPattern, Drawing } from "../drawing/drawing.js";
 import {
   EMPTY_BOX,
   boxContains,
@@ -12,7 +12,7 @@ import {
 import { clipLinesToBox } from "../geometry/clip.js";
 import { LineBuilder, lineCount, pickLines, totalLength, type Lines } from "../geometry/polyline.js";
 import { SCALE, cutLines, regionOf, type Region } from "../geometry/region.js";
-import { dashLines, patternOnPaper } from "./dash.js";
+import { patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
 import { isFarAway, pageCorners, type Placement } from "./place.js";
@@ -60,29 +60,60 @@ const shapes = (count: number): string => (count === 1 ? "1 shape is" : `${count
 /** The area for dashes and hatches when nothing is cropped: 100 m around home. */
 export const ANYWHERE: Box = { x0: -1e5, y0: -1e5, x1: 1e5, y1: 1e5 };
 
-export function dashShapes(lines: Lines, drawing: Drawing, place: Placement, limit: Box | null): Lines {
-  if (drawing.dashes.length === 0) return lines;
+/** The dash pattern of each shape on the paper; null for solid lines. */
+export function dashesOf(drawing: Drawing, place: Placement): (shape: number) => DashPattern | null {
   const patterns = drawing.dashes.map((pattern) => patternOnPaper(pattern, place.map));
-  const patternOf = (shape: number) => {
+  return (shape) => {
     const dash = drawing.paths.dash[shape];
     return dash >= 0 && drawing.paths.stroke[shape] >= 0 ? patterns[dash] : null;
   };
-  return dashLines(lines, patternOf, limit ?? ANYWHERE);
+}
+
+/** The lines that will be dashed and leave `limit`. No dashes are made outside, so only these lines tell the loss. */
+export function dashedAcross(
+  lines: Lines,
+  dashOf: (shape: number) => DashPattern | null,
+  limit: Box | null,
+): Lines {
+  const leaving: number[] = [];
+  for (let i = 0; limit !== null && i < lineCount(lines); i++) {
+    if (dashOf(lines.tag[i]) === null) continue;
+    const box = boxOfPoints(lines.xy, 2 * lines.offsets[i], 2 * lines.offsets[i + 1]);
+    if (!boxContains(limit, box)) leaving.push(i);
+  }
+  return pickLines(lines, leaving);
 }
 
 /** If the margins cut off no more than this, it is rounding and causes no warning, mm. */
 const UNNOTICED_CROP = 0.1;
 
-export function cropLines(lines: Lines, limit: Box | null, warnings: string[]): Lines {
-  if (limit === null || boxContains(limit, boxOfPoints(lines.xy))) return lines;
-  const kept = clipLinesToBox(lines, limit);
-  const lost = totalLength(lines) - totalLength(kept);
+/** `dashed`: the lines of `dashedAcross`, which count as cut off too. */
+export function cropLines(lines: Lines, dashed: Lines, limit: Box | null, warnings: string[]): Lines {
+  if (limit === null) return lines;
+  const kept = boxContains(limit, boxOfPoints(lines.xy)) ? lines : clipLinesToBox(lines, limit);
+  const lost =
+    totalLength(lines) - totalLength(kept) + totalLength(dashed) - totalLength(clipLinesToBox(dashed, limit));
   if (lost > UNNOTICED_CROP) {
     warnings.push(
       `${Math.ceil(lost)} mm of line lie outside the margins and are cut off. Make the margins or the drawing smaller.`,
     );
   }
   return kept;
+}
+
+/** Whether `limit` cuts off more than rounding of any of the areas for which `counts`. */
+export function cutsAreas(
+  areas: ReadonlyMap<number, Region>,
+  limit: Box,
+  counts: (shape: number) => boolean,
+): boolean {
+  const widened = {
+    x0: limit.x0 - UNNOTICED_CROP,
+    y0: limit.y0 - UNNOTICED_CROP,
+    x1: limit.x1 + UNNOTICED_CROP,
+    y1: limit.y1 + UNNOTICED_CROP,
+  };
+  return [...areas].some(([shape, { box }]) => counts(shape) && !boxContains(widened, box));
 }
 
 /** Crops to the file's own page, which may be rotated. */

@@ -131,6 +131,22 @@ describe("shaping", () => {
     ]);
   });
 
+  it("ends a dashed line without a dot, whatever the rounding", () => {
+    const scaled = (d: string, lengths: number[], offset: number, scale: number): number[][] => {
+      const path = d.replace(/\d+/g, (number) => String(Number(number) * scale));
+      const dashes = [{ lengths: lengths.map((length) => length * scale), offset: offset * scale }];
+      return draw(drawingOf([{ d: path, dash: 0 }], { dashes }), { joinMm: 0 });
+    };
+    const counts = (d: string, lengths: number[], offset = 0): Set<number> =>
+      new Set(Array.from({ length: 40 }, (_, k) => scaled(d, lengths, offset, 0.3 + k / 70).length));
+    expect(counts("M30 50L90 50", [5, 5])).toEqual(new Set([6]));
+    expect(counts("M30 20L90 20L90 80L30 80Z", [3, 2])).toEqual(new Set([48]));
+    // A dash that ends exactly at the beginning of the line.
+    expect(counts("M30 50L90 50", [5, 5], 25)).toEqual(new Set([6]));
+    // A dot at the very end would be drawn twice on a closed line.
+    expect(counts("M30 50L90 50", [0, 5])).toEqual(new Set([12]));
+  });
+
   it("draws a pattern too fine for any pen as a solid line", () => {
     const drawing = drawingOf([{ d: "M0 0L100 0", dash: 0 }], {
       dashes: [{ lengths: [1e-9, 1e-9], offset: 0 }],
@@ -146,6 +162,40 @@ describe("cutting", () => {
     expect(prepared.warnings.join()).toContain("310 mm of line lie outside the margins");
   });
 
+  it("says how much of a dashed line is lost, gaps included", () => {
+    const dashes = [{ lengths: [10, 5], offset: 0 }];
+    const warningsOf = (drawing: Parameters<typeof prepare>[0]): readonly string[] =>
+      prepare(drawing, { ...TRUE_SIZE, marginMm: 10 }).warnings;
+    const [warning, ...others] = warningsOf(
+      drawingOf([{ d: "M0 50L500 50", dash: 0 }, "M0 60L500 60"], { dashes }),
+    );
+    expect(warning).toContain("620 mm of line lie outside the margins");
+    expect(others).toEqual([]);
+    expect(warningsOf(drawingOf([{ d: "M10 50L200 50", dash: 0 }], { dashes }))).toEqual([]);
+    // The clip, and not the margins, cuts off this one.
+    const clips = [clipOf("M20 0L80 0L80 100L20 100Z")];
+    expect(warningsOf(drawingOf([{ d: "M0 50L500 50", dash: 0, clip: 0 }], { dashes, clips }))).toEqual([]);
+    // Too fine for dashes, so it is a solid line.
+    const fine = [{ lengths: [0.01, 0.01], offset: 0 }];
+    expect(warningsOf(drawingOf([{ d: "M0 50L500 50", dash: 0 }], { dashes: fine })).join()).toContain(
+      "310 mm of line",
+    );
+  });
+
+  it("says that the margins cut a hatch, unless its outline says so", () => {
+    const wide = { d: "M-20 50L280 50L280 70L-20 70Z", stroke: null, fill: "#000000" };
+    const warningsOf = (shape: typeof wide, outlineFills: boolean): string =>
+      prepare(drawingOf([shape]), {
+        ...TRUE_SIZE,
+        marginMm: 10,
+        outlineFills,
+        hatch: { spacingMm: 1, angleDeg: 0, cross: false },
+      }).warnings.join();
+    expect(warningsOf(wide, false)).toMatch(/^Areas filled with lines lie partly outside the margins/);
+    expect(warningsOf(wide, true)).toMatch(/^\d+ mm of line [^,]*$/);
+    expect(warningsOf({ ...wide, d: "M20 50L80 50L80 70Z" }, false)).toBe("");
+  });
+
   it("leaves the line whole if clipping is off", () => {
     expect(draw(drawingOf(["M-5 50L500 50"]), { marginMm: 10, clipToMargins: false })).toEqual([
       [-5, 50, 500, 50],
@@ -155,6 +205,24 @@ describe("cutting", () => {
   it("makes one stroke of the inner part of a closed line that begins inside", () => {
     const drawing = drawingOf(["M50 50L250 50L250 60L50 60Z"]);
     expect(draw(drawing, { joinMm: 0 })).toEqual([[210, 60, 50, 60, 50, 50, 210, 50]]);
+  });
+
+  it("cuts a horizontal line that goes back over itself", () => {
+    const clips = [clipOf("M60 60L140 60L130 140L60 140Z")];
+    const [line, ...others] = draw(drawingOf([{ d: "M100 60.5L180 60.5L20 60.5", clip: 0 }], { clips }));
+    expect(others).toEqual([]);
+    expect(line).toEqual([100, 60.5, 139.94, 60.5, 60, 60.5]);
+  });
+
+  it("hides the covered part of branches that go out and back", () => {
+    const tree = "M100 190L100 150L60 150L140 150L100 150L100 110L70 110L130 110L100 110L100 70";
+    const cover = { d: "M80 100L120 100L120 160L80 160Z", stroke: null, fill: "#ffffff" };
+    const { drawMm } = prepare(drawingOf([tree, cover]), {
+      ...TRUE_SIZE,
+      hideCovered: true,
+      outlineFills: false,
+    });
+    expect(drawMm).toBeCloseTo(180, 6);
   });
 
   it("cuts lines to a clip region and to its parent", () => {

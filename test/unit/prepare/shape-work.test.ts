@@ -168,6 +168,18 @@ describe("repeated lines", () => {
     ]);
   });
 
+  it("do not include lines close to a line that is itself left out", () => {
+    // Every second line stays, also if each is longer than the one before.
+    const rows = (grow: number): string[] =>
+      Array.from({ length: 20 }, (_, k) => `M${50 - k * grow} ${k / 4}L${90 + k * grow} ${k / 4}`);
+    const whole = (lines: string[]): number =>
+      draw(drawingOf(lines), { dropRepeatsMm: 0.3 }).filter(([x0, , x1]) => Math.abs(x1 - x0) >= 40).length;
+    expect(whole(rows(0))).toBe(10);
+    expect(whole(rows(1))).toBe(10);
+    const dots = Array.from({ length: 20 }, (_, k) => `M${k / 4} 5Z`);
+    expect(draw(drawingOf(dots), { dropRepeatsMm: 0.3 })).toHaveLength(10);
+  });
+
   it("include dots", () => {
     const dots = drawingOf(["M5 5Z", "M5.01 5Z", "M6 5Z"]);
     expect(draw(dots, { dropRepeatsMm: 0.05 })).toEqual([
