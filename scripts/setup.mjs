@@ -98,7 +98,7 @@ export function ensureDependencies() {
   if (installedIsCurrent()) return;
   mustBeWritable();
   console.log("plotwright: installing packages (npm ci) …");
-  if (runNpm(["ci", "--no-audit", "--no-fund"]) !== 0) {
+  if (runNpm(["ci", "--include=dev", "--no-audit", "--no-fund"]) !== 0) {
     giveUp(
       "npm ci failed; its message is above. Is there a network connection? Then run the same command again.",
     );

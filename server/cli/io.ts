@@ -57,6 +57,8 @@ export function processIo(): CliIo {
       if (!isatty(0)) return () => undefined;
       const take = (data: Buffer): void => listener(data.toString("utf8").trim());
       process.stdin.on("data", take);
+      // A listener alone does not start a stream again that the last one paused.
+      process.stdin.resume();
       return () => {
         process.stdin.off("data", take);
         process.stdin.pause();

@@ -143,6 +143,35 @@ describe("plot without a terminal", () => {
   );
 });
 
+describe("plot at a terminal", () => {
+  it(
+    "draws the next drawing after Enter, and resumes a pause in it",
+    async () => {
+      const { spawn: spawnAtTerminal } = await import("@lydell/node-pty");
+      const file = join(folder(), "a.svg");
+      writeFileSync(file, SVG.replace(/<path.*<\/svg>/, '<path d="M5 5h80v50"/></svg>'));
+      const args = ["--device", "virtual", "--virtual-speed", "2", "--data", folder()];
+      const plot = spawnAtTerminal(process.execPath, [MAIN, "plot", file, file, ...args], { cwd: ROOT });
+      let ended: number | null = null;
+      let said = "";
+      plot.onExit(({ exitCode }) => (ended = exitCode));
+      plot.onData((text) => (said += text));
+      undo.push(() => ended ?? plot.kill("SIGKILL"));
+      const saying = (words: RegExp) =>
+        expect.poll(() => said.match(words), { timeout: 60_000 }).not.toBeNull();
+      await saying(/press Enter/);
+      said = "";
+      plot.write("\r");
+      await saying(/[1-9] %/);
+      plot.write("\u0003");
+      await saying(/Paused/);
+      plot.write("\r");
+      await expect.poll(() => ended, { timeout: 60_000 }).toBe(0);
+    },
+    LIMIT_MS,
+  );
+});
+
 describe("npm start", () => {
   const args = (): string[] => ["--port", "0", "--device", "virtual", "--data", folder()];
   it.each([

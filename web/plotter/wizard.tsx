@@ -3,6 +3,7 @@ import { MACHINES, type MachineProfile } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
+import { plannable } from "../state/motion-of-machine.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { wizardText as words } from "./wizard-text.js";
 import { copyOf } from "./profile.js";
@@ -25,11 +26,16 @@ export const Wizard = () => {
     copyOf(startOf(store.getState().settings), words.firstName, taken),
   );
   const Step = STEPS[index];
-  const settingsWith = (machine: MachineProfile): PlotSettings => ({
-    ...store.getState().settings,
-    machine: machine.id,
-    customMachine: { ...copyOf(machine, machine.name, []), id: machine.id },
-  });
+  const settingsWith = (machine: MachineProfile): PlotSettings => {
+    const { settings } = store.getState();
+    return {
+      ...settings,
+      // The page's plotter may be measured, and this one is not: its motion can't be shaped.
+      motion: plannable(settings.motion, machine.springs ?? null),
+      machine: machine.id,
+      customMachine: { ...copyOf(machine, machine.name, []), id: machine.id },
+    };
+  };
   const onNext = (next: MachineProfile): void => {
     setProfile(next);
     if (index === STEPS.length - 1) store.setState({ openDialog: null });
