@@ -9,7 +9,17 @@ import { readStdin, type StdinUse } from "./stdin.js";
 
 /** Throws the system's error. */
 export const readText = (path: string, use: StdinUse): string =>
-  path === "-" ? Buffer.from(readStdin(use)).toString("utf8") : readFileSync(path, "utf8");
+  Buffer.from(path === "-" ? readStdin(use) : bytesOf(path)).toString("utf8");
+
+/** The bytes of named pipes, by path. Like stdin they can be read only once, but copies need them again. */
+const pipes = new Map<string, Uint8Array>();
+
+function bytesOf(file: string): Uint8Array {
+  if (!isPipe(file)) return readFileSync(file);
+  const bytes = pipes.get(file) ?? readFileSync(file);
+  pipes.set(file, bytes);
+  return bytes;
+}
 
 /** The name for messages. */
 export const nameOf = (file: string): string => (file === "-" ? "stdin" : file);
@@ -48,7 +58,7 @@ export async function withDrawingFile<T>(file: string, use: (path: string) => Pr
     const folder = mkdtempSync(join(tmpdir(), "plotwright-stdin-"));
     try {
       const path = join(folder, "stdin");
-      writeFileSync(path, file === "-" ? readStdin("the drawing") : readFileSync(file));
+      writeFileSync(path, file === "-" ? readStdin("the drawing") : bytesOf(file));
       return await use(path);
     } finally {
       rmSync(folder, { recursive: true, force: true });

@@ -1,6 +1,7 @@
 /** Declares the single commands to the machine: pen, manual moves, a raw line, info. */
 import { InvalidArgumentError, type Command } from "commander";
 import type { HandMove } from "../../src/schema/index.js";
+import type { CliIo } from "./io.js";
 import { length } from "./lengths.js";
 import {
   runAlign,
@@ -25,18 +26,18 @@ import { addSettingOptions, handSettingsFromOptions, type OptionValues } from ".
 
 type HandOptions = OptionValues & DeviceOptions;
 
-export const declarePen: Declare = (command) => {
+export const declarePen: Declare = (command, { io }) => {
   addHandOptions(command.argument("<where>", "up, down, or a height in percent", penPlace))
     .option("--pen-up <percent>", "height when up (default: 60)", percent)
     .option("--pen-down <percent>", "height when down (default: 30)", percent)
     .action((where: PenPlace, options: HandOptions) =>
-      runPen(where, handSettingsFromOptions(options), options),
+      runPen(where, handSettingsFromOptions(options), options, io),
     );
 };
 
-export const declareAlign: Declare = (command) => {
+export const declareAlign: Declare = (command, { io }) => {
   addHandOptions(command).action((options: HandOptions) =>
-    runAlign(handSettingsFromOptions(options), options),
+    runAlign(handSettingsFromOptions(options), options, io),
   );
 };
 
@@ -56,49 +57,49 @@ export const declareRaw: Declare = (command, { io }) => {
 const PEN = ["machine", "pen"];
 const PEN_AND_TRAVEL = [...PEN, "motion.travel"];
 
-export const declareHome: Declare = (command) => {
-  addMove(command, PEN_AND_TRAVEL).action((options: HandOptions) => move({ kind: "home" }, options));
+export const declareHome: Declare = (command, { io }) => {
+  addMove(command, PEN_AND_TRAVEL).action((options: HandOptions) => move({ kind: "home" }, options, io));
 };
 
-export const declareJog: Declare = (command) => {
+export const declareJog: Declare = (command, { io }) => {
   addMove(place(command, "dx", "dy"), PEN_AND_TRAVEL).action(
-    (dxMm: number, dyMm: number, options: HandOptions) => move({ kind: "jog", dxMm, dyMm }, options),
+    (dxMm: number, dyMm: number, options: HandOptions) => move({ kind: "jog", dxMm, dyMm }, options, io),
   );
 };
 
-export const declareWalk: Declare = (command) => {
+export const declareWalk: Declare = (command, { io }) => {
   addMove(place(command, "x", "y"), PEN_AND_TRAVEL).action((xMm: number, yMm: number, options: HandOptions) =>
-    move({ kind: "walk", xMm, yMm }, options),
+    move({ kind: "walk", xMm, yMm }, options, io),
   );
 };
 
-export const declareSetHome: Declare = (command) => {
-  addMove(command, ["machine"]).action((options: HandOptions) => move({ kind: "set-home" }, options));
+export const declareSetHome: Declare = (command, { io }) => {
+  addMove(command, ["machine"]).action((options: HandOptions) => move({ kind: "set-home" }, options, io));
 };
 
-export const declareCyclePen: Declare = (command) => {
-  addMove(command, PEN).action((options: HandOptions) => move({ kind: "cycle-pen" }, options));
+export const declareCyclePen: Declare = (command, { io }) => {
+  addMove(command, PEN).action((options: HandOptions) => move({ kind: "cycle-pen" }, options, io));
 };
 
-export const declareTestPatch: Declare = (command) => {
+export const declareTestPatch: Declare = (command, { io }) => {
   addMove(command, [...PEN, "motion"]).action((options: HandOptions) =>
-    move({ kind: "test-patch" }, options),
+    move({ kind: "test-patch" }, options, io),
   );
 };
 
-export const declareFrame: Declare = (command) => {
+export const declareFrame: Declare = (command, { io }) => {
   addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"])
     .option("--only <layer...>", "around these layers only, by name or id")
     .action((file: string, options: OptionValues & FrameOptions) =>
-      runFrame(file, handSettingsFromOptions(options), options),
+      runFrame(file, handSettingsFromOptions(options), options, io),
     );
 };
 
 const addMove = (command: Command, settings: readonly string[]): Command =>
   addData(addDevice(addSettingOptions(command, settings)));
 
-const move = (how: HandMove, options: HandOptions): Promise<void> =>
-  runMove(how, handSettingsFromOptions(options), options);
+const move = (how: HandMove, options: HandOptions, io: CliIo): Promise<void> =>
+  runMove(how, handSettingsFromOptions(options), options, io);
 
 function place(command: Command, ...names: readonly string[]): Command {
   for (const name of names) command.argument(`<${name}>`, "mm, or with a unit as in 2cm", length);

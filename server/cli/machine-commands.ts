@@ -16,11 +16,16 @@ export interface FrameOptions extends DeviceOptions {
   readonly only?: readonly string[];
 }
 
-export async function runPen(where: PenPlace, settings: PlotSettings, options: DeviceOptions): Promise<void> {
+export async function runPen(
+  where: PenPlace,
+  settings: PlotSettings,
+  options: DeviceOptions,
+  io: CliIo,
+): Promise<void> {
   const { upPct, downPct } = settings.pen;
   const heightPct = where === "up" ? upPct : where === "down" ? downPct : where;
   // A height in percent counts as down: the next move lifts the pen first.
-  await withPlotter(options, settings, (plotter) => plotter.pen(where === "up", heightPct));
+  await byHand(options, settings, io, (plotter) => plotter.pen(where === "up", heightPct));
 }
 
 /** Sends one line to the board and prints its answer. Rejects with `board-error` if the board refuses the line. */
@@ -30,7 +35,7 @@ export async function runRaw(
   options: DeviceOptions,
   io: CliIo,
 ): Promise<void> {
-  await withPlotter(options, settings, async (plotter) => {
+  await byHand(options, settings, io, async (plotter) => {
     const { replies, refused, note } = await plotter.command(line);
     if (refused) throw new PlotwrightError("board-error", `The board refused ${line}: ${replies.join(", ")}`);
     replies.forEach((reply) => io.out(`${reply}\n`));
@@ -39,19 +44,29 @@ export async function runRaw(
 }
 
 /** Makes one manual move, with the machine, speeds and heights of the settings. */
-export async function runMove(move: HandMove, settings: PlotSettings, options: DeviceOptions): Promise<void> {
-  await withPlotter(options, settings, (plotter) => plotter.move(move, settings));
+export async function runMove(
+  move: HandMove,
+  settings: PlotSettings,
+  options: DeviceOptions,
+  io: CliIo,
+): Promise<void> {
+  await byHand(options, settings, io, (plotter) => plotter.move(move, settings));
 }
 
 /** Moves around the edge of the drawing on the paper. */
-export async function runFrame(file: string, settings: PlotSettings, options: FrameOptions): Promise<void> {
+export async function runFrame(
+  file: string,
+  settings: PlotSettings,
+  options: FrameOptions,
+  io: CliIo,
+): Promise<void> {
   const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, settings, options.only));
-  await runMove({ kind: "frame", boxMm }, settings, options);
+  await runMove({ kind: "frame", boxMm }, settings, options, io);
 }
 
 /** Switches the motors off, so that the carriage can be pushed home by hand. */
-export async function runAlign(settings: PlotSettings, options: DeviceOptions): Promise<void> {
-  await withPlotter(options, settings, async (plotter) => {
+export async function runAlign(settings: PlotSettings, options: DeviceOptions, io: CliIo): Promise<void> {
+  await byHand(options, settings, io, async (plotter) => {
     await plotter.pen(true);
     await plotter.motorsOff();
   });
@@ -62,7 +77,7 @@ export async function runInfo(
   options: DeviceOptions & { readonly json?: boolean },
   io: CliIo,
 ): Promise<void> {
-  await withPlotter(options, settings, (plotter) => {
+  await byHand(options, settings, io, (plotter) => {
     const { name, kind, device, firmware, penUp, motorsOn, xMm, yMm } = plotter.snapshot();
     if (options.json === true) {
       io.out(`${JSON.stringify({ name, kind, device, firmware, penUp, motorsOn, xMm, yMm })}\n`);
@@ -81,6 +96,27 @@ export async function runInfo(
       ].join("\n"),
     );
   });
+}
+
+/** For a single command: an interrupt stops the move, and closing the plotter then lifts the pen. */
+async function byHand(
+  options: DeviceOptions,
+  settings: PlotSettings,
+  io: CliIo,
+  use: (plotter: PlotterPort) => Promise<void> | void,
+): Promise<void> {
+  let forget = (): void => undefined;
+  try {
+    await withPlotter(options, settings, (plotter) => {
+      const interrupted = new Promise<never>((_resolve, reject) => {
+        forget = io.onInterrupt(() => reject(new PlotwrightError("cancelled", "The command was stopped.")));
+      });
+      return Promise.race([use(plotter), interrupted]);
+    });
+  } finally {
+    // Only after closing: a second Ctrl-C must not end the process before the pen is up.
+    forget();
+  }
 }
 
 export async function withPlotter<T>(

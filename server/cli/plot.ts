@@ -116,6 +116,8 @@ async function plotOne(
     try {
       planner.warnings.forEach((warning) => say(`note: ${warning}\n`));
       return await withPlotter(options, settings, (plotter) => {
+        // Ctrl-C while the board was being connected.
+        if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
         forget();
         return onPlotter(plotter, planner, plot, keep, options, io);
       });

@@ -40,6 +40,8 @@ export interface ServiceHost {
 }
 
 const UNIT = "plotwright.service";
+/** The groups that serial ports belong to: uucp on Arch. Debian has both, and uses dialout. */
+const SERIAL_GROUPS = ["dialout", "uucp"];
 /** Options of `serve` whose value is a path. */
 const PATH_OPTIONS = ["--data", "--watch", "--cert", "--key"];
 
@@ -137,8 +139,10 @@ export function unitText(options: ServiceOptions, serveArgs: readonly string[], 
     ...(isSystem ? ["Wants=network-online.target", "After=network-online.target"] : []),
     "",
     "[Service]",
+    // With the default, simple, a restart succeeds even if the user or node does not exist.
+    "Type=exec",
     `ExecStart=${args.map(quoted).join(" ")}`,
-    ...(isSystem ? [`User=${userOf(options, host)}`, "SupplementaryGroups=dialout"] : []),
+    ...(isSystem ? [`User=${userOf(options, host)}`, ...serialGroupLine(host)] : []),
     "Restart=on-failure",
     "RestartSec=3",
     "# The pen is lifted and the carriage goes home before the server ends.",
@@ -150,6 +154,17 @@ export function unitText(options: ServiceOptions, serveArgs: readonly string[], 
     "",
   ].join("\n");
 }
+
+/** Left out if this computer has neither group: systemd would not start the server. */
+function serialGroupLine({ run }: ServiceHost): string[] {
+  // Not /etc/group: getent finds the groups that systemd finds, also those kept elsewhere, as Fedora Atomic does.
+  const group = serialGroup(run("getent", ["group", ...SERIAL_GROUPS]).text);
+  return group === undefined ? [] : [`SupplementaryGroups=${group}`];
+}
+
+/** `groups`: lines as in /etc/group. */
+export const serialGroup = (groups: string): string | undefined =>
+  SERIAL_GROUPS.find((name) => groups.split("\n").some((line) => line.startsWith(`${name}:`)));
 
 function unitPath({ system }: ServiceOptions, { systemDir, env, home }: ServiceHost): string {
   if (system === true) return join(systemDir, UNIT);

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { machineById } from "../../src/index.js";
 import { PtyBoard } from "../support/pty-board.js";
-import { cli } from "./support.js";
+import { CaughtIo, cli, cliWith } from "./support.js";
 
 const MINE = { ...machineById("axidraw-v3"), id: "mine", name: "Mine", widthMm: 600 };
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100" stroke="black"><path d="M10 20H90M10 40H90"/></svg>`;
@@ -65,6 +65,31 @@ describe("moves by hand from the command line", () => {
     });
     expect(await onBoard("walk", "x", "0")).toMatchObject({ code: 2 });
     expect(await onBoard("jog", "10")).toMatchObject({ code: 2 });
+  });
+});
+
+describe("Ctrl-C during a move by hand", () => {
+  it("stops it at once and lifts the pen, and is needed only once", async () => {
+    const slow = await PtyBoard.open();
+    try {
+      const io = new CaughtIo();
+      const where = ["--device", slow.path, "--virtual-speed", "1", "--data", folder];
+      const drawing = cliWith(io, "test-patch", "--speed", "5", ...where);
+      const drawnMm = async (): Promise<number> => (await slow.report()).statistics.drawnMm;
+      await expect.poll(drawnMm, { timeout: 10_000 }).toBeGreaterThan(1);
+      io.interrupt();
+      // While the pen is being lifted, the process still listens, so that a second Ctrl-C does not end it.
+      expect(io.listens).toBe(true);
+      io.interrupt();
+      expect(await drawing).toEqual({ code: 5, out: "", err: "plotwright: The command was stopped.\n" });
+      expect(io.listens).toBe(false);
+      const { state, statistics } = await slow.report();
+      expect(state.penUp).toBe(true);
+      // The first side of its square is 12 mm long.
+      expect(statistics.drawnMm).toBeLessThan(12);
+    } finally {
+      await slow.close();
+    }
   });
 });
 

@@ -175,12 +175,18 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "plots a drawing that comes through a pipe",
+    "plots all copies of a drawing that comes through a pipe",
     async () => {
       const pipe = join(dir, "pipe");
       execFileSync("mkfifo", [pipe]);
-      spawn("sh", ["-c", `cat ${file} > ${pipe}`]);
-      expect(await plot(withoutKeyboard(), pipe)).toMatchObject({ code: 0 });
+      // A second reader would get nothing; without a writer it would wait endlessly.
+      const writer = spawn("sh", ["-c", `cat ${file} > ${pipe}; sleep 0.1; : > ${pipe}`]);
+      try {
+        const { code, err } = await plot(withoutKeyboard(), pipe, "--copies", "2", "--paper-s", "0");
+        expect([code, err.match(/Done/g)?.length]).toEqual([0, 2]);
+      } finally {
+        writer.kill();
+      }
     },
     LIMIT_MS,
   );

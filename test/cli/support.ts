@@ -36,6 +36,11 @@ export class CaughtIo implements CliIo {
     return () => (this.#line = this.#line.filter((one) => one !== listener));
   }
 
+  /** Whether an interrupt is handled; otherwise it would end the process. */
+  get listens(): boolean {
+    return this.#interrupt.length > 0;
+  }
+
   interrupt(): void {
     [...this.#interrupt].forEach((listener) => listener(false));
   }

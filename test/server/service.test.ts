@@ -8,6 +8,7 @@ import { runCli } from "../../server/cli/program.js";
 import { runLogs } from "../../server/cli/logs.js";
 import {
   installService,
+  serialGroup,
   serviceStatus,
   uninstallService,
   unitText,
@@ -19,10 +20,11 @@ let home: string;
 let out: string;
 let asked: string[];
 let failing: string | null;
+let groups: string;
 
 beforeEach(() => {
   home = mkdtempSync(join(tmpdir(), "plotwright-service-"));
-  [out, asked, failing] = ["", [], null];
+  [out, asked, failing, groups] = ["", [], null, "dialout:x:20:\n"];
 });
 afterEach(() => rmSync(home, { recursive: true, force: true }));
 
@@ -45,6 +47,7 @@ const host = (more: Partial<ServiceHost> = {}): ServiceHost => ({
   script: "/usr/lib/node_modules/plotwright/dist/server/main.js",
   run: (command, args) => {
     asked.push(`${command} ${args.join(" ")}`);
+    if (command === "getent") return { code: 2, text: groups };
     return args.includes(failing ?? "")
       ? { code: 1, text: "no bus" }
       : { code: 0, text: "active (running)\n" };
@@ -61,6 +64,7 @@ describe("plotwright service", () => {
     expect(unit).toContain(
       `\nExecStart=/usr/bin/node ${script} serve --lan --data ${join(process.cwd(), "relative/plots")}\n`,
     );
+    expect(unit).toMatch(/\nType=exec\nExecStart=/);
     expect(unit).toMatch(/\nRestart=on-failure\n/);
     expect(unit).toMatch(/\nWantedBy=default\.target\n$/);
     expect(unit).not.toMatch(/User=/);
@@ -89,6 +93,16 @@ describe("plotwright service", () => {
     expect(unit).toMatch(/\nUser=ada\nSupplementaryGroups=dialout\n/);
     expect(unit).toMatch(/\nWantedBy=multi-user\.target\n$/);
     expect(asked).not.toContain("loginctl enable-linger");
+  });
+
+  it("gives the system's server the group of the serial ports, if there is one", () => {
+    const unit = (): string => unitText({ system: true, user: "ada" }, [], host());
+    groups = "uucp:x:986:\n";
+    expect(unit()).toContain("\nSupplementaryGroups=uucp\n");
+    groups = "";
+    expect(unit()).not.toContain("SupplementaryGroups");
+    expect(serialGroup("uucp:x:10:\ndialout:x:20:ada\n")).toBe("dialout");
+    expect(serialGroup("mydialout:x:1:\nusers:x:100:dialout,uucp\n")).toBeUndefined();
   });
 
   it("only shows the unit with --print", async () => {
