@@ -135,6 +135,30 @@ describe("layers on the page", () => {
   });
 });
 
+describe("a layer's own fill", () => {
+  const distance = () => test.field("Fill areas every");
+  const angle = () => test.field("Angle of the lines");
+  const reset = () => test.page.getByRole("button", { name: "Reset “Fill areas every” to the common value" });
+
+  it("keeps its angle while another distance is typed, and loses it when it is reset", async () => {
+    await details("sand").click();
+    await distance().fill("0.5");
+    await angle().fill("30");
+    await distance().focus();
+    for (let k = 0; k < 3; k++) await test.page.keyboard.press("Backspace");
+    await test.page.keyboard.type("0.8");
+    expect((await test.queue()).settings.prepare.layerHatches).toEqual([
+      { layer: "sand", spacingMm: 0.8, angleDeg: 30, cross: false },
+    ]);
+    await reset().click();
+    expect((await test.queue()).settings.prepare.layerHatches).toEqual([]);
+    await distance().fill("0.8");
+    expect(await angle().inputValue()).toBe("45");
+    await reset().click();
+    await details("sand").click();
+  });
+});
+
 describe("pens on the page", () => {
   it("are made of the drawing's colours with one click, and stop the plot between them", async () => {
     await test.page.getByRole("button", { name: "A pen for each colour" }).click();

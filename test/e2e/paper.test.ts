@@ -115,6 +115,52 @@ describe("the form", () => {
   });
 });
 
+describe("a custom paper", () => {
+  const typed = async (label: string, text: string): Promise<void> => {
+    await test.field(label).focus();
+    await test.page.keyboard.press("ControlOrMeta+A");
+    await test.page.keyboard.type(text);
+    await test.planned();
+  };
+  const size = async (): Promise<string[]> =>
+    Promise.all([test.field("Width").inputValue(), test.field("Height").inputValue()]);
+  const isLandscape = () => test.page.getByRole("radio", { name: "Landscape" }).isChecked();
+  const paper = () => test.page.getByLabel("Paper", { exact: true });
+  const queuedPaper = async () => {
+    const { paper, landscape } = (await test.queue()).settings.prepare;
+    return { ...paper, landscape };
+  };
+
+  it("starts with the size of the paper as it lies", async () => {
+    await test.drop("flag", FLAG);
+    await paper().selectOption("A4");
+    expect(await isLandscape()).toBe(true);
+    await paper().selectOption("custom");
+    expect(await size()).toEqual(["297", "210"]);
+  });
+
+  it("is as wide and as high as was typed", async () => {
+    await typed("Width", "250");
+    expect(await size()).toEqual(["250", "210"]);
+    expect(await queuedPaper()).toEqual({ widthMm: 210, heightMm: 250, landscape: true });
+    await typed("Height", "280");
+    expect(await size()).toEqual(["250", "280"]);
+    expect(await queuedPaper()).toEqual({ widthMm: 250, heightMm: 280, landscape: false });
+  });
+
+  it("keeps its fields while the typed size is that of a named paper", async () => {
+    await typed("Height", "297");
+    await typed("Width", "210");
+    expect(await paper().inputValue()).toBe("custom");
+    await test.page.keyboard.type("0");
+    expect(await test.field("Width").inputValue()).toBe("2100");
+    await paper().selectOption("A4");
+    await test.field("Width").waitFor({ state: "detached" });
+    await test.page.getByRole("radio", { name: "Landscape" }).check();
+    await test.planned();
+  });
+});
+
 describe("a length", () => {
   it("may be typed with its unit", async () => {
     await test.drop("flag", FLAG);

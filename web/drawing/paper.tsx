@@ -1,3 +1,4 @@
+import { useState } from "react";
 import { PAPER_SIZES } from "../../src/index.js";
 import {
   LENGTH_UNITS,
@@ -47,7 +48,10 @@ export const PaperPanel = () => {
         ? { place: { ...prepare.place, turnDeg: wholeTurn(deg - rotateDeg) } }
         : { rotateDeg: wholeTurn(deg) },
     );
+  // Its own state, because a size being typed may happen to be that of a named paper.
+  const [isCustomChosen, setCustomChosen] = useState(false);
   const name = nameOfPaper(paper);
+  const isCustom = isCustomChosen || name === CUSTOM;
   const { widthMm, heightMm } = orientedPaper(paper, landscape);
   const size = formatSize(widthMm, heightMm, lengthUnit);
 
@@ -55,18 +59,17 @@ export const PaperPanel = () => {
     <SettingsGroup id="paper" title={words.title} summary={`${name === CUSTOM ? "" : `${name}, `}${size}`}>
       <Select
         label={words.size}
-        value={name}
+        value={isCustom ? CUSTOM : name}
         options={[
           ...PAPER_NAMES.map((value) => ({ value, label: value.replace("in", " in").replace("x", " × ") })),
           { value: CUSTOM, label: words.custom },
         ]}
         onChange={(value) => {
-          // A custom size starts slightly larger than the named one, so that its fields appear.
+          setCustomChosen(value === CUSTOM);
           if (value !== CUSTOM) change("paper", { paper: PAPER_SIZES[value] });
-          else change("paper", { paper: { ...paper, widthMm: paper.widthMm + 1 } });
         }}
       />
-      {name === CUSTOM && <CustomSize paper={paper} />}
+      {isCustom && <CustomSize prepare={prepare} />}
       <Segments
         label={words.orientation}
         isInline
@@ -141,19 +144,26 @@ export const PaperPanel = () => {
   );
 };
 
-const CustomSize = ({ paper }: { paper: PrepareSettings["paper"] }) => {
+/** The size as the paper lies. It is stored in portrait, so the longer side decides the orientation. */
+const CustomSize = ({ prepare: { paper, landscape } }: { prepare: PrepareSettings }) => {
   const change = usePrepareChange();
+  const { widthMm, heightMm } = orientedPaper(paper, landscape);
+  const resize = (what: string, width: number, height: number): void =>
+    change(what, {
+      paper: { widthMm: Math.min(width, height), heightMm: Math.max(width, height) },
+      landscape: width === height ? landscape : width > height,
+    });
   return (
     <div className="field-pair">
       <SettingField
         setting={PAPER_TABLE.widthMm}
-        value={paper.widthMm}
-        onChange={(widthMm) => change("paper width", { paper: { ...paper, widthMm } })}
+        value={widthMm}
+        onChange={(width) => resize("paper width", width, heightMm)}
       />
       <SettingField
         setting={PAPER_TABLE.heightMm}
-        value={paper.heightMm}
-        onChange={(heightMm) => change("paper height", { paper: { ...paper, heightMm } })}
+        value={heightMm}
+        onChange={(height) => resize("paper height", widthMm, height)}
       />
     </div>
   );

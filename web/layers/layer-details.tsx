@@ -1,3 +1,4 @@
+import { useRef } from "react";
 import {
   DRAW_TABLE,
   HATCH_TABLE,
@@ -156,6 +157,8 @@ const PenFields = ({ row }: RowProps) => {
 const InkFields = ({ row }: RowProps) => {
   const { layerRepeats, layerHatches, hatch } = usePageState(({ settings }) => settings.prepare);
   const own = layerHatches.find(({ layer }) => layer === row.id) ?? null;
+  // An emptied distance deletes the layer's hatch; a distance typed next gets its angle and cross back.
+  const beforeTyping = useRef(own);
   const { changeSettings } = useActions();
   return (
     <>
@@ -170,18 +173,22 @@ const InkFields = ({ row }: RowProps) => {
           )
         }
       />
-      <OwnNumber
-        {...HATCH_TABLE.spacingMm}
-        label={words.hatch}
-        value={own?.spacingMm ?? null}
-        inherited={hatch.spacingMm}
-        resetLabel={words.reset(words.hatch)}
-        onChange={(spacingMm) =>
-          changeSettings(`hatch of ${row.id}`, (settings) =>
-            hatchLayer(settings, row.id, spacingMm === null ? null : { ...(own ?? hatch), spacingMm }),
-          )
-        }
-      />
+      {/* After the reset button the field has to be focused again, which forgets the deleted hatch. */}
+      <div onFocus={() => (beforeTyping.current = own)}>
+        <OwnNumber
+          {...HATCH_TABLE.spacingMm}
+          label={words.hatch}
+          value={own?.spacingMm ?? null}
+          inherited={hatch.spacingMm}
+          resetLabel={words.reset(words.hatch)}
+          onChange={(spacingMm) => {
+            const base = own ?? beforeTyping.current ?? hatch;
+            changeSettings(`hatch of ${row.id}`, (settings) =>
+              hatchLayer(settings, row.id, spacingMm === null ? null : { ...base, spacingMm }),
+            );
+          }}
+        />
+      </div>
       {own && own.spacingMm > 0 && (
         <OwnNumber
           {...HATCH_TABLE.angleDeg}
