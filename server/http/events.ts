@@ -3,21 +3,17 @@
  * events in the same order. One that does not read is disconnected; it reconnects and gets a new snapshot.
  */
 import type { Request, Response } from "express";
+import { LimitedProgress } from "../../host/limited-progress.js";
 import type { ServerEvent, Snapshot } from "../../src/schema/index.js";
 
 const HEARTBEAT_MS = 15_000;
-/** Interval for progress events; only the newest of each plotter is sent. */
-const PROGRESS_MS = 100;
 const MAX_UNSENT_BYTES = 4_000_000;
-
-type ProgressEvent = Extract<ServerEvent, { type: "progress" }>;
 
 export class EventHub {
   /** Each client's limit of unsent bytes. */
   readonly #clients = new Map<Response, number>();
-  readonly #progress = new Map<string, ProgressEvent>();
+  readonly #events = new LimitedProgress((event) => this.#write(line(event)));
   readonly #heartbeat: NodeJS.Timeout;
-  #progressTimer: NodeJS.Timeout | null = null;
   #isClosed = false;
 
   constructor() {
@@ -27,14 +23,7 @@ export class EventHub {
 
   announce(event: ServerEvent): void {
     if (this.#isClosed) return;
-    if (event.type === "progress") {
-      this.#progress.set(event.plotterId, event);
-      this.#progressTimer ??= setTimeout(() => this.#sendProgress(), PROGRESS_MS);
-      return;
-    }
-    // Pending progress goes first, so that a job's end is not followed by older progress.
-    if (event.type === "job") this.#sendProgress();
-    this.#write(line(event));
+    this.#events.announce(event);
   }
 
   open(request: Request, response: Response, snapshot: () => Snapshot): void {
@@ -62,15 +51,8 @@ export class EventHub {
   close(): void {
     this.#isClosed = true;
     clearInterval(this.#heartbeat);
-    if (this.#progressTimer !== null) clearTimeout(this.#progressTimer);
+    this.#events.close();
     this.dropAll();
-  }
-
-  #sendProgress(): void {
-    if (this.#progressTimer !== null) clearTimeout(this.#progressTimer);
-    this.#progressTimer = null;
-    for (const event of this.#progress.values()) this.#write(line(event));
-    this.#progress.clear();
   }
 
   #write(text: string): void {

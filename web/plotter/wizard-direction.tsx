@@ -16,7 +16,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const [draft, setDraft] = useState(profile);
   const [xWent, setXWent] = useState<Direction>("right");
   const [fault, setFault] = useState<string | null>(null);
-  const { motorsOff, moveByHand } = useActions();
+  const { moveByHand } = useActions();
   const [isMoving, setMoving] = useState(false);
   // Uses the profile of the moves: with another controller, the next move would reconnect and lose this home.
   const setHome = async (): Promise<boolean> =>
@@ -55,17 +55,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
     const begin = async (): Promise<void> => {
       if (await setHome()) setAsked("x");
     };
-    return (
-      <>
-        <p>{words.middleHint}</p>
-        <div className="button-row">
-          <Button onClick={() => void motorsOff()}>{words.motorsOff}</Button>
-          <Button kind="primary" onClick={() => void begin()}>
-            {words.inTheMiddle}
-          </Button>
-        </div>
-      </>
-    );
+    return <PushByHand hint={words.middleHint} done={words.inTheMiddle} onDone={() => void begin()} />;
   }
   if (asked === "check") {
     return (
@@ -93,17 +83,7 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
     const finish = async (): Promise<void> => {
       if (await setHome()) onNext(draft);
     };
-    return (
-      <>
-        <p>{words.homeHint}</p>
-        <div className="button-row">
-          <Button onClick={() => void motorsOff()}>{words.motorsOff}</Button>
-          <Button kind="primary" onClick={() => void finish()}>
-            {words.setHome}
-          </Button>
-        </div>
-      </>
-    );
+    return <PushByHand hint={words.homeHint} done={words.setHome} onDone={() => void finish()} />;
   }
   return (
     <>
@@ -120,6 +100,28 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
         {asked === "x" ? words.moveFirst : words.moveSecond}
       </Button>
       <Answers onAnswer={answer} onSlanted={slanted} />
+    </>
+  );
+};
+
+interface PushByHandProps {
+  readonly hint: string;
+  readonly done: string;
+  onDone(): void;
+}
+
+/** Asks the user to push the carriage, with the motors off. */
+const PushByHand = ({ hint, done, onDone }: PushByHandProps) => {
+  const { motorsOff } = useActions();
+  return (
+    <>
+      <p>{hint}</p>
+      <div className="button-row">
+        <Button onClick={() => void motorsOff()}>{words.motorsOff}</Button>
+        <Button kind="primary" onClick={onDone}>
+          {done}
+        </Button>
+      </div>
     </>
   );
 };
