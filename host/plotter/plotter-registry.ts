@@ -243,6 +243,10 @@ export class PlotterRegistry {
       .toLowerCase()
       .replace(/[^a-z0-9]+/g, "-")
       .replace(/^-|-$/g, "");
-    return `${word === "" ? "plotter" : word}-${Date.now().toString(36)}`;
+    let nowMs = Date.now();
+    const id = (): string => `${word === "" ? "plotter" : word}-${nowMs.toString(36)}`;
+    // Different names may have the same word: "左" and "右" have none.
+    while (this.#rows.has(id())) nowMs++;
+    return id();
   }
 }

@@ -24,8 +24,9 @@ export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, i
     elapsedS = progress.elapsedS;
     bar?.update(progress.progress * 100, timesOf(progress));
   });
-  run.onHeld((_held, wait = null) => {
+  run.onHeld((held, wait = null) => {
     if (wait !== null) control.waitsFor(wait);
+    else if (held) control.paused();
   });
   if (bar === null) say(`${resumed === null ? "Plotting" : "Resuming"} ${name}.\n`);
   if (isHeld) io.err(`${resumed.isLost ? LOST : KNOWN} Enter resumes, Ctrl-C cancels.\n`);
@@ -102,6 +103,13 @@ class Control {
       this.#io.err("\nPaused. Enter resumes, Ctrl-C again cancels.\n");
       this.#run.pause().catch(this.#fail);
     }
+  }
+
+  /** The plot is held: by the user's key, or by the button on the machine. */
+  paused(): void {
+    if (this.#held || this.#cancelling) return;
+    this.#held = true;
+    this.#io.err(`\nPaused. ${this.#io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
   }
 
   /** A planned stop, for another pen. */

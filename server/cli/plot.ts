@@ -9,6 +9,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
 import type { OpenPlanner } from "../../host/planning/open-planner.js";
+import { PenStops } from "../../host/plotter/pen-stops.js";
 import { openPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import type { JournalEntry, PlotStart } from "../../host/plotter/types.js";
@@ -114,6 +115,7 @@ async function plotOne(
       stop.signal,
     );
     try {
+      if (!io.hasKeyboard) mustNotWaitForPen(planner, plot);
       planner.warnings.forEach((warning) => say(`note: ${warning}\n`));
       return await withPlotter(options, settings, (plotter) => {
         // Ctrl-C while the board was being connected.
@@ -132,6 +134,22 @@ async function plotOne(
   } finally {
     forget();
   }
+}
+
+/** Refuses a plot that would wait for another pen. Without a keyboard it would wait endlessly. */
+function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): void {
+  const stops = new PenStops(strokes, settings, from);
+  const next = stops.nextAfter(from);
+  const wait = stops.due(from) ?? (next === null ? null : stops.due({ stroke: next, alongMm: 0 }));
+  if (wait === null) return;
+  const how =
+    from === null
+      ? 'plot its layers one by one with --only, or switch the stops off with "penStops": "never" in a file for --config'
+      : "the plot can't be resumed: run it in a terminal";
+  throw new PlotwrightError(
+    "bad-setting",
+    `Before "${wait.layerName}" the plot waits for Enter, so that the pen can be changed. Without a keyboard, ${how}.`,
+  );
 }
 
 async function onPlotter(

@@ -31,13 +31,14 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
     .argument("[serve-options...]")
     .option("--user <name>", "with --system: the user that runs the server")
     .option("--print", "print the unit without writing it")
-    .action((serveArgs: string[], options: ServiceOptions) => {
+    .action(async (serveArgs: string[], options: ServiceOptions) => {
       if (options.user !== undefined && options.system !== true) {
         throw new PlotwrightError("bad-setting", "--user: add --system; without it the service runs as you.");
       }
       // Check the options now: a service that fails on a mistyped option would fail unnoticed.
-      addServe(new Command("serve").copyInheritedSettings(service)).parse(serveArgs, { from: "user" });
-      installService(options, serveArgs, io);
+      const serve = addServe(new Command("serve").copyInheritedSettings(service));
+      const server = serve.parse(serveArgs, { from: "user" }).opts<ServeCommandOptions>();
+      await installService(options, { ...server, args: serveArgs }, io);
     });
   sub("uninstall", "stop it and remove the unit").action((options: ServiceOptions) =>
     uninstallService(options, io),

@@ -4,6 +4,7 @@
  */
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { connect } from "node:net";
 import { homedir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
@@ -18,6 +19,14 @@ export interface ServiceOptions {
   readonly user?: string;
   /** Only print what would be written. */
   readonly print?: boolean;
+}
+
+/** Options of the server that the service runs. */
+export interface ServiceServer {
+  /** As after `plotwright serve`; their paths are made absolute. */
+  readonly args: readonly string[];
+  readonly port: number;
+  readonly host?: string;
 }
 
 export interface CommandResult {
@@ -37,6 +46,9 @@ export interface ServiceHost {
   readonly node: string;
   readonly script: string;
   readonly run: (command: string, args: readonly string[]) => CommandResult;
+  /** Whether a program listens on the port. */
+  readonly isListening: (host: string, port: number) => Promise<boolean>;
+  readonly wait: (ms: number) => Promise<void>;
 }
 
 const UNIT = "plotwright.service";
@@ -44,6 +56,10 @@ const UNIT = "plotwright.service";
 const SERIAL_GROUPS = ["dialout", "uucp"];
 /** Options of `serve` whose value is a path. */
 const PATH_OPTIONS = ["--data", "--watch", "--cert", "--key"];
+
+/** How long a server may take to start, on a slow computer, and how often its port is tried meanwhile. */
+const START_MS = 20_000;
+const TRY_EVERY_MS = 500;
 
 function thisHost(): ServiceHost {
   return {
@@ -58,17 +74,32 @@ function thisHost(): ServiceHost {
       const { status, stdout, stderr, error } = spawnSync(command, args, { encoding: "utf8" });
       return { code: error === undefined ? (status ?? 1) : 127, text: `${stdout ?? ""}${stderr ?? ""}` };
     },
+    isListening,
+    wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
   };
 }
 
-/** `serveArgs`: as after `plotwright serve`; their paths are made absolute. */
-export function installService(
+export function isListening(host: string, port: number): Promise<boolean> {
+  return new Promise((resolve) => {
+    const socket = connect({ host, port, timeout: TRY_EVERY_MS });
+    const end = (isOpen: boolean): void => {
+      socket.destroy();
+      resolve(isOpen);
+    };
+    socket.on("connect", () => end(true));
+    socket.on("timeout", () => end(false));
+    socket.on("error", () => end(false));
+  });
+}
+
+/** Throws `conflict` if another program has the port, `disconnected` if the server does not answer in time. */
+export async function installService(
   options: ServiceOptions,
-  serveArgs: readonly string[],
+  server: ServiceServer,
   io: CliIo,
   host: ServiceHost = thisHost(),
-): void {
-  const unit = unitText(options, serveArgs, host);
+): Promise<void> {
+  const unit = unitText(options, server.args, host);
   const path = unitPath(options, host);
   if (options.print === true) {
     io.out(`# ${path}\n${unit}`);
@@ -81,6 +112,7 @@ export function installService(
       "npx keeps programs only for a while. Install plotwright first: npm install -g plotwright.",
     );
   }
+  await mustBeFree(options, server, host);
   try {
     mkdirSync(dirname(path), { recursive: true });
     writeFileSync(path, unit);
@@ -91,13 +123,46 @@ export function installService(
   systemctl(options, host, ["enable", UNIT]);
   // Restart, not start: a running server must use the new unit.
   systemctl(options, host, ["restart", UNIT]);
-  io.out(`${path} is written, and the server runs. It starts again by itself.\n`);
-  if (options.system === true) return;
-  const linger = host.run("loginctl", ["enable-linger"]);
-  if (linger.code !== 0) {
+  io.out(`${path} is written.\n`);
+  if (options.system !== true && host.run("loginctl", ["enable-linger"]).code !== 0) {
     io.err("It runs only while you are logged in. To change that: sudo loginctl enable-linger $USER\n");
   }
+  await mustRun(options, server, host);
+  const state = server.port === 0 ? "was started" : `runs on port ${server.port}`;
+  io.out(`The server ${state}. It starts again by itself.\n`);
 }
+
+/** Another program on the port would look like the server. */
+async function mustBeFree(options: ServiceOptions, server: ServiceServer, host: ServiceHost): Promise<void> {
+  const { port } = server;
+  // A service that runs already has the port itself, and is restarted.
+  if (port === 0 || isActive(options, host) || !(await host.isListening(hostOf(server), port))) return;
+  throw new PlotwrightError(
+    "conflict",
+    `Another program has port ${port}, perhaps a plotwright server in a terminal. Stop it, or choose another port: plotwright service install -- --port 9381.`,
+  );
+}
+
+/** Waits until the server listens. Port 0 is any free port, so then only systemd is asked. */
+async function mustRun(options: ServiceOptions, server: ServiceServer, host: ServiceHost): Promise<void> {
+  const { port } = server;
+  for (let ms = 0; ms < START_MS; ms += TRY_EVERY_MS) {
+    await host.wait(TRY_EVERY_MS);
+    if (!isActive(options, host)) break;
+    if (port === 0 || (await host.isListening(hostOf(server), port))) return;
+  }
+  const user = options.system === true ? "" : "--user ";
+  throw new PlotwrightError(
+    "disconnected",
+    `The service is installed, but its server ${isActive(options, host) ? `does not answer on port ${port} yet` : "has ended"}. Its log says why: journalctl ${user}-u ${UNIT}`,
+  );
+}
+
+const hostOf = ({ host }: ServiceServer): string => host ?? "127.0.0.1";
+
+/** Whether systemd has started the server, and it has not ended since. */
+const isActive = (options: ServiceOptions, host: ServiceHost): boolean =>
+  host.run("systemctl", [...scope(options), "is-active", "--quiet", UNIT]).code === 0;
 
 export function uninstallService(options: ServiceOptions, io: CliIo, host: ServiceHost = thisHost()): void {
   const path = unitPath(options, host);

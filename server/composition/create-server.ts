@@ -17,7 +17,7 @@ import { httpServer, listen, urlOf } from "../http/listen.js";
 import { LogBook, readLog } from "../storage/log-book.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { createPlanning } from "../planning/planning.js";
-import { DrawingFiles } from "../storage/drawing-files.js";
+import { DrawingFiles, UNCLAIMED_DAYS } from "../storage/drawing-files.js";
 import { JobQueue } from "../../host/queue/job-queue.js";
 import { Notices } from "../../host/queue/notices.js";
 import { packagePath, packageVersion } from "../storage/package-files.js";
@@ -115,7 +115,9 @@ async function openParts(
   const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
   const unclaimedCount = await files.sweep((drawing) => store.isUsed(drawing));
   if (unclaimedCount > 0)
-    log(`Drawings that belong to no job were moved to ${files.unclaimedDir}: ${unclaimedCount}`);
+    log(
+      `Drawings that belong to no job were moved to ${files.unclaimedDir}, where they are kept for ${UNCLAIMED_DAYS} days: ${unclaimedCount}`,
+    );
   const uploads = new UploadedDrawings(files, log);
   closing.add("the uploaded drawings", () => uploads.close());
   const hub = new EventHub();

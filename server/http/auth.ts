@@ -6,10 +6,9 @@ import { Router, type Request, type RequestHandler } from "express";
 import { rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
 import type { Role } from "../../src/schema/index.js";
-import type { Access } from "../security/access.js";
+import { SESSION_DAYS, type Access } from "../security/access.js";
 
 export const SESSION_COOKIE = "plotwright_session";
-const SESSION_DAYS = 90;
 const LOOPBACK = /^(::1|(::ffff:)?127(\.\d{1,3}){3})$/;
 const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 

@@ -3,7 +3,8 @@
  *
  *   loopback     this computer: may do everything, as its user could anyway
  *   pairing      a link with a secret, printed by the server (also as a QR code): opens a session in a browser
- *   session      a cookie that only this server's pages send (HttpOnly, SameSite=Strict); can be revoked
+ *   session      a cookie that only this server's pages send (HttpOnly, SameSite=Strict); can be revoked, and ends
+ *                SESSION_DAYS after the pairing
  *   key          "Authorization: Bearer …" for scripts; created by an operator, shown once, can be revoked
  *
  * Secrets are stored as SHA-256. They are 256 random bits, so a slow hash would add nothing.
@@ -16,6 +17,9 @@ import type { Store } from "../storage/store.js";
 
 const storedSchema = z.array(accessEntrySchema.extend({ secretSha256: z.string() }));
 type StoredEntry = z.infer<typeof storedSchema>[number];
+
+/** The browser forgets its cookie then, and the server the session: a copy of the cookie is worth no more. */
+export const SESSION_DAYS = 90;
 
 const SETTING = "access";
 /** The time of last use is stored at most once per minute: a write per request would wear out the disk. */
@@ -66,7 +70,7 @@ export class Access {
   }
 
   list(): AccessEntry[] {
-    return this.#entries.map(publicPart);
+    return this.#valid().map(publicPart);
   }
 
   /** Throws `not-found`. */
@@ -91,7 +95,7 @@ export class Access {
   /** The session or key with this secret; null if the secret is unknown. */
   entryOf(secret: string): AccessEntry | null {
     const sha256 = hashOf(secret);
-    const entry = this.#entries.find(({ secretSha256 }) => equal(secretSha256, sha256));
+    const entry = this.#valid().find(({ secretSha256 }) => equal(secretSha256, sha256));
     if (entry === undefined) return null;
     const now = this.#now();
     if (now.getTime() - Date.parse(entry.lastSeenAt) > SEEN_EVERY_MS) this.#saveSeen(entry, now);
@@ -119,8 +123,14 @@ export class Access {
       createdAt: at,
       lastSeenAt: at,
     };
-    this.#save([...this.#entries, { ...entry, secretSha256: hashOf(secret) }]);
+    this.#save([...this.#valid(), { ...entry, secretSha256: hashOf(secret) }]);
     return { entry, secret };
+  }
+
+  /** All entries but the sessions that have ended. They leave the store when the next session or key is added. */
+  #valid(): StoredEntry[] {
+    const oldest = this.#now().getTime() - SESSION_DAYS * 86_400_000;
+    return this.#entries.filter(({ kind, createdAt }) => kind === "key" || Date.parse(createdAt) > oldest);
   }
 
   #save(entries: StoredEntry[]): void {

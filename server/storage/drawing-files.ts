@@ -4,12 +4,15 @@
  */
 import { randomBytes } from "node:crypto";
 import { existsSync } from "node:fs";
-import { mkdir, open, readdir, rename, rm } from "node:fs/promises";
+import { mkdir, open, readdir, rename, rm, stat } from "node:fs/promises";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import type { DrawingStore, StoredDrawing } from "../../host/storage.js";
 
 export type { StoredDrawing } from "../../host/storage.js";
+
+/** How long a drawing that belongs to no job is kept: long enough to notice that its job is missing. */
+export const UNCLAIMED_DAYS = 30;
 
 export class DrawingFiles implements DrawingStore {
   readonly #dir: string;
@@ -71,10 +74,11 @@ export class DrawingFiles implements DrawingStore {
 
   /**
    * Removes incomplete uploads and moves complete drawings that belong to no job to `unclaimedDir`; returns
-   * how many were moved. They are not deleted, because the database that should refer to them may be damaged
-   * or an older copy. Moved drawings that a job refers to again are moved back.
+   * how many were moved. They are not deleted at once, because the database that should refer to them may be damaged
+   * or an older copy. Moved drawings that a job refers to again are moved back; the others are deleted after
+   * UNCLAIMED_DAYS.
    */
-  async sweep(isUsed: (id: string) => boolean): Promise<number> {
+  async sweep(isUsed: (id: string) => boolean, nowMs = Date.now()): Promise<number> {
     let movedCount = 0;
     for (const name of await readdir(this.#dir)) {
       const id = drawingId(name);
@@ -86,7 +90,11 @@ export class DrawingFiles implements DrawingStore {
     }
     for (const name of existsSync(this.unclaimedDir) ? await readdir(this.unclaimedDir) : []) {
       const id = drawingId(name);
-      if (id !== undefined && isUsed(id)) await rename(join(this.unclaimedDir, name), join(this.#dir, name));
+      if (id === undefined) continue;
+      const path = join(this.unclaimedDir, name);
+      if (isUsed(id)) await rename(path, join(this.#dir, name));
+      // Not mtimeMs: that is when it was uploaded, which moving it does not change.
+      else if (nowMs - (await stat(path)).ctimeMs > UNCLAIMED_DAYS * 86_400_000) await rm(path);
     }
     return movedCount;
   }

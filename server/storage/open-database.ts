@@ -19,6 +19,7 @@ import { join } from "node:path";
 import sqlite from "node-sqlite3-wasm";
 import type { Database } from "node-sqlite3-wasm";
 import { PlotwrightError } from "../../src/index.js";
+import { UNCLAIMED_DAYS } from "./drawing-files.js";
 import { migrate } from "./migrations.js";
 
 export interface OpenedDatabase {
@@ -64,7 +65,7 @@ function restored(dataDir: string, read: (db: Database) => void, damage: Error):
   try {
     copyWhole(copy, path);
     const db = openChecked(dataDir, read);
-    const repair = `The database ${path} could not be used: ${damage.message}. It was replaced with the copy from ${copiedAt}. Check the queue before you plot: anything added or plotted after that time is missing. The drawings of missing jobs are in ${join(dataDir, "unclaimed-drawings")}.`;
+    const repair = `The database ${path} could not be used: ${damage.message}. It was replaced with the copy from ${copiedAt}. Check the queue before you plot: anything added or plotted after that time is missing. The drawings of missing jobs are kept for ${UNCLAIMED_DAYS} days in ${join(dataDir, "unclaimed-drawings")}.`;
     return withCopy(dataDir, db, kept === null ? repair : `${repair} The damaged file is kept as ${kept}.`);
   } catch (error) {
     // Restore the original state: the user should find the damaged file where it was.

@@ -21,10 +21,18 @@ beforeEach(() => {
   data = mkdtempSync(join(tmpdir(), "plotwright-cli-hand-"));
   prepareDataDir(data);
   writeFileSync(join(data, "a.svg"), SVG);
+  // Without --data, plot would look into the user's own folder.
+  vi.stubEnv("XDG_DATA_HOME", data);
 });
-afterEach(() => rmSync(data, { recursive: true, force: true }));
+afterEach(() => {
+  vi.unstubAllEnvs();
+  rmSync(data, { recursive: true, force: true });
+});
 
 describe("without a plotter", () => {
+  // A server that runs on this computer would be named in the message (test in plot.test.ts).
+  beforeEach(() => void vi.stubGlobal("fetch", () => Promise.reject(new TypeError("fetch failed"))));
+  afterEach(() => void vi.unstubAllGlobals());
   const file = (): string => join(data, "a.svg");
   it.each([
     ["plot", () => ["plot", file()]],

@@ -6,6 +6,7 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "n
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { openPtyBoard } from "../../server/cli/board.js";
 import { PlotRecord } from "../../server/cli/plot-record.js";
 import { serverHint } from "../../server/cli/server-client.js";
 import { createServer } from "../../server/index.js";
@@ -66,6 +67,71 @@ describe("plotwright plot", () => {
       expect(refused).toMatchObject({ code: 2, err: expect.stringMatching(/--paper-s/) as string });
       const copies = await plot(withoutKeyboard(), file, "--copies", "3", "--paper-s", "0");
       expect([copies.code, copies.err.match(/Done/g)?.length]).toEqual([0, 3]);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "without a keyboard, refuses a plot that would wait for another pen, and draws nothing",
+    async () => {
+      const layers = join(dir, "layers.svg");
+      const layer = (label: string): string =>
+        `<g inkscape:groupmode="layer" inkscape:label="${label}"><path d="M1 2h9"/></g>`;
+      const head = SVG.replace(">", ' xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape">');
+      writeFileSync(layers, head.replace('<path d="M1 2h9"/>', `${layer("1 black")}${layer("!2 blue")}`));
+      const refused = await plot(withoutKeyboard(), layers);
+      expect([refused.code, refused.err]).toEqual([
+        2,
+        expect.stringMatching(
+          /^plotwright: Before "2 blue" the plot waits for Enter.*--only.*"penStops": "never"/,
+        ),
+      ]);
+      const record = new PlotRecord(dir, "virtual");
+      expect(record.find()).toBeNull();
+      expect((await plot(withoutKeyboard(), layers, "--only", "1 black")).code).toBe(0);
+      const settings = join(dir, "settings.json");
+      writeFileSync(settings, '{ "penStops": "never" }');
+      expect((await plot(withoutKeyboard(), layers, "--config", settings)).code).toBe(0);
+      record.begin(layers, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
+      const interruptAt = (stroke: number): void =>
+        record.save({ place: { stroke, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
+      interruptAt(0);
+      expect((await plot(withoutKeyboard(), "--resume")).err).toMatch(
+        /Before "2 blue" .* run it in a terminal/,
+      );
+      expect(record.find()).toMatchObject({ progress: 0.4 });
+      interruptAt(1);
+      expect((await plot(withoutKeyboard(), "--resume")).code).toBe(0);
+      const io = new CaughtIo();
+      const plotted = plot(io, layers);
+      await expect.poll(() => io.errText).toMatch(/Put in the pen for "2 blue"\. Enter resumes/);
+      io.line();
+      expect((await plotted).code).toBe(0);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "resumes at Enter when the button on the machine has paused it",
+    async () => {
+      const line = await openPtyBoard({ speed: 5 });
+      writeFileSync(file, SVG.replace("M1 2h9", "M1 2h18v16h-18z"));
+      const io = new CaughtIo();
+      const args = ["--device", line.path, "--virtual-speed", "5", "--data", dir];
+      const plotted = cliWith(io, "plot", file, ...args);
+      try {
+        await expect.poll(() => line.board.statistics().drawnMm).toBeGreaterThan(1);
+        line.board.pressButton();
+        await expect.poll(() => io.errText).toMatch(/\nPaused\. Enter resumes, Ctrl-C cancels\.\n$/);
+        io.line();
+        expect((await plotted).code).toBe(0);
+        expect(io.errText.match(/Paused/g)).toHaveLength(1);
+      } finally {
+        io.interrupt();
+        io.interrupt();
+        await plotted;
+        await line.close();
+      }
     },
     LIMIT_MS,
   );

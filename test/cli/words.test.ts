@@ -2,7 +2,7 @@
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { afterAll, describe, expect, it } from "vitest";
+import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { optionsTakenByNpm } from "../../scripts/setup.mjs";
 import { parseSize } from "../../src/internal.js";
 import { length } from "../../server/cli/lengths.js";
@@ -10,6 +10,14 @@ import { buildProgram } from "../../server/cli/program.js";
 import { settingsFromOptions } from "../../server/cli/settings-options.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
 import { CaughtIo, cli } from "./support.js";
+
+const folder = mkdtempSync(join(tmpdir(), "plotwright-words-"));
+// The user's own data folder may belong to a running server, or have an interrupted plot.
+beforeAll(() => void vi.stubEnv("XDG_DATA_HOME", folder));
+afterAll(() => {
+  vi.unstubAllEnvs();
+  rmSync(folder, { recursive: true, force: true });
+});
 
 describe("a word that is not a command", () => {
   it.each([
@@ -142,9 +150,6 @@ describe("npm start without --", () => {
 });
 
 describe("a file that cannot be used", () => {
-  const folder = mkdtempSync(join(tmpdir(), "plotwright-words-"));
-  afterAll(() => rmSync(folder, { recursive: true, force: true }));
-
   // Only Linux has a folder in which nothing can be made.
   const inProc = [
     [

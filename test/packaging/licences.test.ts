@@ -5,13 +5,16 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { afterAll, describe, expect, it } from "vitest";
 import { ROOT, nodeModule } from "../../scripts/setup.mjs";
+import { IS_FULL } from "../support/full-run.js";
 
 const LIMIT_MS = 120_000;
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-licences-"));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
-/** The page as the server has it (dist/web), and as the web site has it (dist/site/app). */
-describe.each(["server", "browser"])("the page with its backend in the %s", (backend) => {
+/** The page as the server has it (dist/web); in the full run also as the web site has it (dist/site/app). */
+const BACKENDS = IS_FULL ? ["server", "browser"] : ["server"];
+
+describe.each(BACKENDS)("the page with its backend in the %s", (backend) => {
   it(
     "has the licence of every package in it, and the test notices when one is missing",
     () => {

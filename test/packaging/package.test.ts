@@ -16,6 +16,8 @@ import { ROOT } from "../../scripts/setup.mjs";
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-package-"));
 const app = path.join(folder, "app");
+/** Without the user's own data folder, which may belong to a running server. */
+const env = { ...process.env, XDG_DATA_HOME: folder };
 
 function run(
   command: string,
@@ -23,7 +25,12 @@ function run(
   cwd: string,
 ): { status: number | null; stdout: string; stderr: string } {
   const isNpm = command === "npm" || command === "npx";
-  return spawnSync(command, args, { cwd, encoding: "utf8", shell: isNpm && process.platform === "win32" });
+  return spawnSync(command, args, {
+    cwd,
+    env,
+    encoding: "utf8",
+    shell: isNpm && process.platform === "win32",
+  });
 }
 
 function succeed(command: string, args: readonly string[], cwd: string): string {

@@ -10,7 +10,7 @@ import { ENDED_STATES, jobSchema, snapshotSchema, type Job } from "../../src/sch
 import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
 import { countFor } from "../support/full-run.js";
 
-const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 100, 5);
+const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 100, 3);
 const SEED = Number(process.env["PLOTWRIGHT_SEED"] ?? "20261121");
 
 const lines = (count: number): string =>

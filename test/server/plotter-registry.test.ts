@@ -2,7 +2,7 @@
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { createServer } from "../../server/index.js";
 import {
   DEFAULT_PLOT_SETTINGS,
@@ -65,6 +65,14 @@ describe("the plotters of a server", () => {
     await events.find("plotters", ({ plotters }) => plotters.length === 1);
     expect((await snapshotOf(app.url)).plotters).toHaveLength(1);
     events.close();
+  });
+
+  it("are all kept if several with names in other scripts are added in the same millisecond", async () => {
+    const now = vi.spyOn(Date, "now").mockReturnValue(Date.now());
+    const added = [await add("左"), await add("右")];
+    now.mockRestore();
+    expect(new Set(added.map(({ id }) => id)).size).toBe(2);
+    expect(app.store.plotters().map(({ name }) => name)).toEqual([null, "左", "右"]);
   });
 
   it("have unique names and devices, and at least one remains", async () => {

@@ -142,6 +142,23 @@ describe("a server on the network", () => {
     expect(again.pairingPath("operate")).not.toBe(app.access.pairingPath("operate"));
   });
 
+  it("ends a session 90 days after its pairing, also after a restart, and no key", async () => {
+    let at = Date.parse("2026-01-01T00:00:00Z");
+    const access = new Access(app.store, { now: () => new Date(at) });
+    const token = new URLSearchParams(access.pairingPath("operate").split("?")[1]).get("token") ?? "";
+    const session = access.pair(token, "phone");
+    const key = access.createKey("script", "operate").secret;
+    at += 89 * 86_400_000;
+    expect([access.roleOf(session), access.list().length]).toEqual(["operate", 2]);
+    at += 2 * 86_400_000;
+    for (const one of [access, new Access(app.store, { now: () => new Date(at) })]) {
+      expect([one.roleOf(session), one.roleOf(key)]).toEqual([null, "operate"]);
+      expect(one.list().map(({ kind }) => kind)).toEqual(["key"]);
+    }
+    access.createKey("other", "watch");
+    expect(JSON.stringify(app.store.setting("access"))).not.toContain("phone");
+  });
+
   it("refuses a foreign page even with the browser's cookie, and the plot continues", async () => {
     const operator = await pair("operate");
     const job = await plotting(operator);

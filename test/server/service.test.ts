@@ -1,5 +1,6 @@
 /** The systemd service and the logs, on a simulated computer that only records its commands. */
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createServer, type AddressInfo } from "node:net";
 import { homedir, tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
@@ -8,11 +9,13 @@ import { runCli } from "../../server/cli/program.js";
 import { runLogs } from "../../server/cli/logs.js";
 import {
   installService,
+  isListening,
   serialGroup,
   serviceStatus,
   uninstallService,
   unitText,
   type ServiceHost,
+  type ServiceServer,
 } from "../../server/cli/service.js";
 import { LogBook, readLog, withoutSecrets } from "../../server/storage/log-book.js";
 
@@ -21,10 +24,15 @@ let out: string;
 let asked: string[];
 let failing: string | null;
 let groups: string;
+/** Whether systemd counts the server as running, and whether its port answers, by the number of the question. */
+let active: (question: number) => boolean;
+let answering: (question: number) => boolean;
+let waitedMs: number;
 
 beforeEach(() => {
   home = mkdtempSync(join(tmpdir(), "plotwright-service-"));
   [out, asked, failing, groups] = ["", [], null, "dialout:x:20:\n"];
+  [active, answering, waitedMs] = [(question) => question > 0, (question) => question > 0, 0];
 });
 afterEach(() => rmSync(home, { recursive: true, force: true }));
 
@@ -48,17 +56,29 @@ const host = (more: Partial<ServiceHost> = {}): ServiceHost => ({
   run: (command, args) => {
     asked.push(`${command} ${args.join(" ")}`);
     if (command === "getent") return { code: 2, text: groups };
+    if (args.includes("is-active")) return { code: active(questionsBefore("is-active")) ? 0 : 3, text: "" };
     return args.includes(failing ?? "")
       ? { code: 1, text: "no bus" }
       : { code: 0, text: "active (running)\n" };
   },
+  isListening: (address, port) => {
+    asked.push(`connect ${address} ${port}`);
+    return Promise.resolve(answering(questionsBefore("connect")));
+  },
+  wait: (ms) => {
+    waitedMs += ms;
+    return Promise.resolve();
+  },
   ...more,
 });
+/** Not counting the one that is asked now. */
+const questionsBefore = (what: string): number => asked.filter((line) => line.includes(what)).length - 1;
+const serve = (...args: string[]): ServiceServer => ({ args, port: 9080 });
 const userUnit = (): string => join(home, ".config/systemd/user/plotwright.service");
 
 describe("plotwright service", () => {
-  it("installs a user's unit, starts it, reports its state, and removes it again", () => {
-    installService({}, ["--lan", "--data", "relative/plots"], io, host());
+  it("installs a user's unit, starts it, reports its state, and removes it again", async () => {
+    await installService({}, serve("--lan", "--data", "relative/plots"), io, host());
     const unit = readFileSync(userUnit(), "utf8");
     const script = "/usr/lib/node_modules/plotwright/dist/server/main.js";
     expect(unit).toContain(
@@ -68,12 +88,17 @@ describe("plotwright service", () => {
     expect(unit).toMatch(/\nRestart=on-failure\n/);
     expect(unit).toMatch(/\nWantedBy=default\.target\n$/);
     expect(unit).not.toMatch(/User=/);
+    const isActive = "systemctl --user is-active --quiet plotwright.service";
+    const connect = "connect 127.0.0.1 9080";
     expect(asked).toEqual([
+      ...[isActive, connect],
       "systemctl --user daemon-reload",
       "systemctl --user enable plotwright.service",
       "systemctl --user restart plotwright.service",
       "loginctl enable-linger",
+      ...[isActive, connect],
     ]);
+    expect(out).toBe(`${userUnit()} is written.\nThe server runs on port 9080. It starts again by itself.\n`);
     expect(serviceStatus({}, io, host())).toBe(0);
     uninstallService({}, io, host());
     expect(existsSync(userUnit())).toBe(false);
@@ -81,14 +106,16 @@ describe("plotwright service", () => {
     expect(() => uninstallService({}, io, host())).toThrow("no service is installed");
   });
 
-  it("installs the system's unit for root only, and runs it as another user", () => {
+  it("installs the system's unit for root only, and runs it as another user", async () => {
     const system = { system: true };
     const asRoot = host({ isRoot: true, env: { SUDO_USER: "ada" } });
-    expect(() => installService({ system: true, user: "ada" }, [], io, host())).toThrow("run it with sudo");
+    await expect(installService({ system: true, user: "ada" }, serve(), io, host())).rejects.toThrow(
+      "run it with sudo",
+    );
     expect(() => unitText(system, [], host({ isRoot: true }))).toThrow("--user NAME");
     expect(() => unitText({ system: true, user: "root" }, [], asRoot)).toThrow("must not run as root");
     expect(() => unitText({ system: true, user: "a\nExecStart=x" }, [], asRoot)).toThrow("--user NAME");
-    installService(system, [], io, asRoot);
+    await installService(system, serve(), io, asRoot);
     const unit = readFileSync(join(home, "etc/plotwright.service"), "utf8");
     expect(unit).toMatch(/\nUser=ada\nSupplementaryGroups=dialout\n/);
     expect(unit).toMatch(/\nWantedBy=multi-user\.target\n$/);
@@ -117,15 +144,61 @@ describe("plotwright service", () => {
     expect(unit).toContain(' --watch "/my \\"plots\\"/100%%/$$HOME"\n');
   });
 
-  it("explains if there is no systemd, or if it refuses", () => {
-    expect(() => installService({}, [], io, host({ platform: "darwin" }))).toThrow("only Linux has");
-    expect(() => installService({}, [], io, host({ script: "/home/a/.npm/_npx/1/main.js" }))).toThrow(
-      "npm install -g",
-    );
+  it("explains if there is no systemd, or if it refuses", async () => {
+    const install = (more: Partial<ServiceHost> = {}): Promise<void> =>
+      installService({}, serve(), io, host(more));
+    await expect(install({ platform: "darwin" })).rejects.toThrow("only Linux has");
+    await expect(install({ script: "/home/a/.npm/_npx/1/main.js" })).rejects.toThrow("npm install -g");
     failing = "enable";
-    expect(() => installService({}, [], io, host())).toThrow(
-      "systemctl enable plotwright.service failed: no bus",
+    await expect(install()).rejects.toThrow("systemctl enable plotwright.service failed: no bus");
+  });
+
+  it("waits until the server answers on its port, and says so only then", async () => {
+    answering = (question) => question > 4;
+    await installService({}, { args: [], port: 9381, host: "192.168.1.7" }, io, host());
+    expect([asked.at(-1), waitedMs]).toEqual(["connect 192.168.1.7 9381", 2_500]);
+    expect(out).toContain("The server runs on port 9381.");
+  });
+
+  it("names the log if the server has ended, or does not answer", async () => {
+    // It starts, and ends because another server has its data folder.
+    active = (question) => question === 1;
+    answering = () => false;
+    await expect(installService({}, serve(), io, host())).rejects.toThrow(
+      "its server has ended. Its log says why: journalctl --user -u plotwright.service",
     );
+    expect(waitedMs).toBeLessThan(2_000);
+    active = () => true;
+    const asRoot = host({ isRoot: true });
+    await expect(installService({ system: true, user: "ada" }, serve(), io, asRoot)).rejects.toThrow(
+      "does not answer on port 9080 yet. Its log says why: journalctl -u plotwright.service",
+    );
+    expect(out).not.toContain("The server");
+  });
+
+  it("installs nothing while another program has the port, unless the service itself has it", async () => {
+    answering = () => true;
+    await expect(installService({}, serve(), io, host())).rejects.toThrow("Another program has port 9080");
+    expect(existsSync(userUnit())).toBe(false);
+    active = () => true;
+    await installService({}, serve(), io, host());
+    expect(existsSync(userUnit())).toBe(true);
+  });
+
+  it("finds out whether a program listens on a port", async () => {
+    const other = createServer();
+    await new Promise<void>((resolve) => other.listen(0, "127.0.0.1", resolve));
+    const { port } = other.address() as AddressInfo;
+    expect(await isListening("127.0.0.1", port)).toBe(true);
+    await new Promise((resolve) => other.close(resolve));
+    expect(await isListening("127.0.0.1", port)).toBe(false);
+  });
+
+  it("asks only systemd about a server on any free port", async () => {
+    active = () => true;
+    await installService({}, { args: ["--port", "0"], port: 0 }, io, host());
+    expect(out).toContain("The server was started.");
+    expect(asked.filter((line) => line.startsWith("connect"))).toEqual([]);
   });
 });
 

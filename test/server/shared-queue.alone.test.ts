@@ -19,7 +19,7 @@ import {
   type AtUrl,
 } from "./support/shared-servers.js";
 
-const JOB_COUNT = countFor("PLOTWRIGHT_SHARED_JOBS", 40, 8);
+const JOB_COUNT = countFor("PLOTWRIGHT_SHARED_JOBS", 40, 6);
 /** For the whole test; each of its three waits has a third of it. */
 const LIMIT_MS = 30_000 * JOB_COUNT;
 const LINES = 8;

@@ -1,5 +1,5 @@
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, utimesSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
@@ -224,5 +224,22 @@ describe("drawing files", () => {
     expect(readdirSync(files.unclaimedDir)).toEqual([`${unused.id}.svg`]);
     expect(await files.sweep(() => true)).toBe(0);
     expect(readdirSync(files.unclaimedDir)).toEqual([]);
+  });
+
+  it("deletes what no job has needed for 30 days since it was moved away, and nothing else", async () => {
+    const files = new DrawingFiles(dir, 1_000);
+    const needed = await files.add([Buffer.from("needed again")]);
+    const unused = await files.add([Buffer.from("unused")]);
+    const uploadedAt = new Date("2020-01-01");
+    for (const { id } of [needed, unused]) utimesSync(files.path(id), uploadedAt, uploadedAt);
+    await files.sweep(() => false);
+    writeFileSync(join(files.unclaimedDir, "notes.txt"), "the user's own");
+    const inDays = (days: number): number => Date.now() + days * 86_400_000;
+    const [ofNeeded, ofUnused] = [`${needed.id}.svg`, `${unused.id}.svg`];
+    await files.sweep(() => false, inDays(29));
+    expect(readdirSync(files.unclaimedDir).sort()).toEqual([ofNeeded, ofUnused, "notes.txt"].sort());
+    await files.sweep((id) => id === needed.id, inDays(31));
+    expect(readdirSync(files.unclaimedDir)).toEqual(["notes.txt"]);
+    expect(readdirSync(join(dir, "drawings"))).toEqual([ofNeeded]);
   });
 });

@@ -179,6 +179,53 @@ describe("the watched folder", () => {
     await expect.poll(() => notices.list()[0]?.message).toMatch(/c\.settings\.json: pen\./);
   });
 
+  it.each([
+    ["a.settings.json", '{ "pen": { "downPct": 400 } }', "a.settings.json"],
+    ["settings.json", "{", "settings.json"],
+  ])("plots a drawing when its bad %s is mended", async (file, bad, named) => {
+    put(file, bad);
+    put("a.svg");
+    await open();
+    await expect.poll(() => notices.list()[0]?.message).toContain(`can't be plotted: ${named}`);
+    put(file, '{ "pen": { "downPct": 12 } }');
+    await queued("a.svg");
+    expect(queue.list()[0]?.settings.pen.downPct).toBe(12);
+    expect(notices.list()).toHaveLength(1);
+  });
+
+  it("plots a drawing when its bad settings are removed, or mended while the server is off", async () => {
+    put("settings.json", "{}}");
+    put("a.svg");
+    await open();
+    await expect.poll(() => notices.list().length).toBe(1);
+    rmSync(join(watched, "settings.json"));
+    await queued("a.svg");
+    put("settings.json", "{");
+    put("b.svg");
+    await expect.poll(() => notices.list().length).toBe(2);
+    await close();
+    put("settings.json", "{}");
+    await open();
+    await queued("a.svg", "b.svg");
+  });
+
+  it("tries a drawing that is larger than the paper again with other settings", async () => {
+    planning = {
+      ...LED_PLANNING,
+      measure: (drawing, settings, ...rest) =>
+        settings.prepare.paper.widthMm < 100
+          ? Promise.reject(new PlotwrightError("out-of-bounds", "It is larger than the paper."))
+          : LED_PLANNING.measure(drawing, settings, ...rest),
+    };
+    const paper = { widthMm: 50, heightMm: 50 };
+    put("settings.json", JSON.stringify({ prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, paper } }));
+    put("a.svg");
+    await open();
+    await expect.poll(() => notices.list()[0]?.message).toContain("larger than the paper");
+    put("settings.json", "{}");
+    await queued("a.svg");
+  });
+
   it("does not follow links out of the folder, and reports a missing folder", async () => {
     writeFileSync(join(dir, "secret.svg"), "<svg/>");
     symlinkSync(join(dir, "secret.svg"), join(watched, "link.svg"));

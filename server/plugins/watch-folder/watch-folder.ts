@@ -7,15 +7,16 @@
  * layers). `NAME.settings.json` beside the drawing, or `settings.json` for the whole folder, overrides them.
  * Either file may contain complete settings or only a part, such as { "pen": … }.
  *
- * A drawing that can't be plotted is reported in the log and in a notice, and not tried again. After any other error,
- * such as too little memory or too many open files, it is tried again when it is saved again or the server restarts.
+ * A drawing that can't be read is reported in the log and in a notice, and not tried again. After any other error, such
+ * as too little memory or too many open files, it is tried again when it is saved again or the server restarts. If its
+ * settings are at fault, it is also tried again when a settings file changes.
  */
 import { createHash } from "node:crypto";
 import { createReadStream } from "node:fs";
 import { lstat, readFile, stat } from "node:fs/promises";
 import { basename, dirname, extname, join } from "node:path";
 import { watch, type FSWatcher } from "chokidar";
-import { PlotwrightError } from "../../../src/index.js";
+import { PlotwrightError, type ErrorCode } from "../../../src/index.js";
 import { isDrawingName } from "../../../src/internal.js";
 import {
   firstFault,
@@ -29,7 +30,6 @@ import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Notices } from "../../../host/queue/notices.js";
 import type { Store } from "../../storage/store.js";
-import { isDrawingFault } from "../drawing-fault.js";
 
 export interface WatchParts {
   readonly queue: Pick<JobQueue, "add" | "list">;
@@ -44,11 +44,15 @@ export interface WatchParts {
 }
 
 const STABLE_MS = 2_000;
+/** Other settings may cure these: those of a settings file, or of the newest job. */
+const SETTINGS_FAULTS: readonly ErrorCode[] = ["bad-setting", "out-of-bounds"];
 
 export class WatchFolder {
   readonly #parts: WatchParts;
   readonly #watcher: FSWatcher;
   readonly #abort = new AbortController();
+  /** Paths of the drawings whose settings are at fault. */
+  readonly #refused = new Set<string>();
   /** Files are handled one after the other, in the order of their events. */
   #last: Promise<void> = Promise.resolve();
 
@@ -70,15 +74,22 @@ export class WatchFolder {
     this.#watcher = watch(dir, {
       depth: 0,
       followSymlinks: false,
-      ignored: (path, stats) => stats?.isFile() === true && !isDrawing(path),
+      ignored: (path, stats) => stats?.isFile() === true && !isDrawing(path) && !isSettings(path),
       awaitWriteFinish: { stabilityThreshold: stableMs, pollInterval: Math.min(200, stableMs / 2) },
     });
-    const later = (path: string): void => {
+    const later = (work: () => Promise<void>): void => {
       this.#last = this.#last
-        .then(() => this.#take(path))
+        .then(work)
         .catch((error: unknown) => parts.log(`watched folder: ${words(error)}`));
     };
-    this.#watcher.on("add", later).on("change", later);
+    const changed = (path: string): void => {
+      if (isSettings(path)) later(() => this.#takeRefused());
+      else later(() => this.#take(path));
+    };
+    this.#watcher.on("add", changed).on("change", changed);
+    this.#watcher.on("unlink", (path) => {
+      if (isSettings(path)) changed(path);
+    });
     this.#watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
   }
 
@@ -88,9 +99,14 @@ export class WatchFolder {
     await this.#last;
   }
 
+  async #takeRefused(): Promise<void> {
+    for (const path of [...this.#refused]) await this.#take(path);
+  }
+
   /** Rejects only if the error itself can't be stored. */
   async #take(path: string): Promise<void> {
     if (this.#abort.signal.aborted) return;
+    this.#refused.delete(path);
     const name = basename(path);
     const { store, log, notices } = this.#parts;
     let sha256: string | null = null;
@@ -105,7 +121,9 @@ export class WatchFolder {
       if (isGone || this.#abort.signal.aborted) return;
       const message = `"${cleanName(name)}" in the watched folder can't be plotted: ${words(error)}`;
       log(message);
-      const isFinal = isDrawingFault(error);
+      const code = error instanceof PlotwrightError ? error.code : null;
+      if (code !== null && SETTINGS_FAULTS.includes(code)) this.#refused.add(path);
+      const isFinal = code === "bad-file";
       // What is tried again may fail again while its notice is still shown.
       if (isFinal || !notices.list().some((shown) => shown.message === message)) notices.add(message);
       // The notice comes before saveSeen: after a crash between the two it is shown twice rather than never.
@@ -128,9 +146,11 @@ export class WatchFolder {
   }
 }
 
+const isSettings = (path: string): boolean => /(^|\.)settings\.json$/.test(basename(path));
+
 /** Settings files end in .json, which drawings may too, so they are excluded. */
 const isDrawing = (path: string): boolean =>
-  isDrawingName(path) && !basename(path).startsWith(".") && !/(^|\.)settings\.json$/.test(basename(path));
+  isDrawingName(path) && !basename(path).startsWith(".") && !isSettings(path);
 
 async function hashOf(path: string): Promise<string> {
   const hash = createHash("sha256");
