@@ -241,6 +241,8 @@ describe("machines as files", () => {
     const chooser = sheet.getByLabel("Load a machine from a file");
     await chooser.setInputFiles(file({ ...profile, stepsPerMm: -1 }));
     await sheet.getByText(/stepsPerMm/).waitFor();
+    // Empty again: the browser reports a file that is chosen again, after it was edited, only then.
+    expect(await chooser.inputValue()).toBe("");
     await chooser.setInputFiles(file(profile));
     await sheet.getByLabel("Steps per mm").fill("120");
     await button("Save and use", sheet).click();
@@ -252,5 +254,29 @@ describe("machines as files", () => {
     await button("Edit A1 clone", sheet).waitFor({ state: "detached" });
     await page.keyboard.press("Escape");
     await openTab(page, "Set up");
+  });
+});
+
+describe("the name of a plotter", () => {
+  it("that was changed elsewhere is shown in its field, which does not change it back", async () => {
+    await button("Sharing, plotters, camera").click();
+    const sheet = page.getByRole("dialog", { name: "Sharing" });
+    await sheet.getByRole("radio", { name: "Plotters" }).check();
+    const field = sheet.getByRole("textbox", { name: /^Name of (?!the plotter)/ });
+    const { id } = await plotter();
+    const rename = await page.request.patch(`${server.url}/api/v1/plotters/${id}`, {
+      data: { name: "Desk" },
+    });
+    expect(rename.status()).toBe(200);
+    await expect.poll(() => field.inputValue()).toBe("Desk");
+    await field.focus();
+    await field.blur();
+    await field.fill(" ");
+    await field.blur();
+    expect(await field.inputValue()).toBe("Desk");
+    await field.fill("Window");
+    await field.press("Enter");
+    await expect.poll(async () => (await plotter()).name).toBe("Window");
+    await page.keyboard.press("Escape");
   });
 });

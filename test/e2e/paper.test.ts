@@ -161,6 +161,41 @@ describe("a custom paper", () => {
   });
 });
 
+describe("the name of the paper after a custom size", () => {
+  const paper = () => test.page.getByLabel("Paper", { exact: true });
+  const useFilesPage = async (): Promise<void> => {
+    await test.page.getByRole("button", { name: "Use the file’s page" }).click();
+    await test.planned();
+  };
+
+  it.each([
+    ["A5", svgOf(210, 148, "M20 20H190V120")],
+    ["A4", svgOf(297, 210, "M20 20H250V180")],
+  ])("is that of the file's page: %s", async (name, svg) => {
+    await test.drop(`page ${name}`, svg);
+    await test.page.getByRole("radio", { name: "Fit paper" }).check();
+    await paper().selectOption("A4");
+    await paper().selectOption("custom");
+    expect(await paper().inputValue()).toBe("custom");
+    await useFilesPage();
+    expect(await paper().inputValue()).toBe(name);
+    await test.field("Width").waitFor({ state: "detached" });
+  });
+
+  it("is none if the file's page has no name", async () => {
+    await test.drop("flag", FLAG);
+    await useFilesPage();
+    expect(await paper().inputValue()).toBe("custom");
+    expect([await test.field("Width").inputValue(), await test.field("Height").inputValue()]).toEqual([
+      "60",
+      "40",
+    ]);
+    await test.page.getByRole("button", { name: "Undo" }).click();
+    await test.planned();
+    expect(await paper().inputValue()).toBe("A4");
+  });
+});
+
 describe("a length", () => {
   it("may be typed with its unit", async () => {
     await test.drop("flag", FLAG);

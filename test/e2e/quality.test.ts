@@ -1,6 +1,7 @@
 /** Quality: a choice of three sets speed, acceleration and corners together; the numbers can still be edited. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { motionOfQuality, type Quality } from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import { seriousFindings } from "../support/axe.js";
 import { chooseMeasuredPlotter, SPRINGS } from "../support/measured-plotter.js";
 import { PageTest } from "../support/page-test.js";
@@ -91,6 +92,22 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     await section().getByRole("button", { name: "Acceleration along y: no limit" }).click();
     expect(await motionOfJob()).toMatchObject({ speedXMmPerS: null, accelYMmPerS2: null });
     await expect.poll(time).toBe(before);
+  });
+
+  it("is not used by the set-up of another plotter, which moves without shaping", async () => {
+    const { page } = test;
+    expect((await motionOfJob()).shaper).toBe("zv");
+    const wizard = page.getByRole("dialog", { name: "Set up a plotter" });
+    const press = (name: string): Promise<void> => wizard.getByRole("button", { name, exact: true }).click();
+    await page.getByRole("button", { name: "Set up a plotter…" }).click();
+    await press("Next");
+    await press("It is in the middle");
+    const answered = page.waitForResponse((response) => response.url().endsWith("/jog"));
+    await press("Move 20 mm to the right");
+    const answer = await answered;
+    const { settings } = answer.request().postDataJSON() as { settings: PlotSettings };
+    expect([answer.status(), settings.machine, settings.motion.shaper]).toEqual([200, "my-plotter", "none"]);
+    await page.keyboard.press("Escape");
   });
 
   it("shapes a motion or softens it, not both", async () => {

@@ -60,16 +60,15 @@ const WHOLE: Frame = {
   ratio: 1,
   colorBy: "speed",
   showTravel: false,
-  lineMm: 0.35,
   layerColors: ["#c02020", "#1050b0"],
-  layerWidthsMm: null,
+  layerWidthsMm: [0.35, 0.35],
   untilS: null,
 };
 const FRAMES: readonly (readonly [string, Frame])[] = [
   ["coloured by speed", WHOLE],
   ["half drawn, with the pen-up moves", { ...WHOLE, colorBy: "order", showTravel: true, untilS: totalS / 2 }],
   ["in pens of different widths", { ...WHOLE, colorBy: "pen", layerWidthsMm: [0.3, 1.2] }],
-  ["in lines thin enough for a dense drawing", { ...WHOLE, lineMm: 0.1, lineGapMm: 0.3 }],
+  ["in lines thin enough for a dense drawing", { ...WHOLE, layerWidthsMm: [0.1, 0.1], lineGapMm: 0.3 }],
   [
     "close up, on a fine screen",
     {

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema } from "../../src/schema/index.js";
 import type { Backend } from "../../web/backend/backend.js";
 import { createServerBackend } from "../../web/backend/server/server-backend.js";
-import { createActions } from "../../web/state/actions.js";
+import { createActions, type Actions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
 import type { Planned } from "../../web/worker/protocol.js";
@@ -87,6 +87,29 @@ describe("a file that is dropped", () => {
   });
 });
 
+describe("the number of copies", () => {
+  it("is sent with the drawing to the queue, and is 1 again with the next drawing", async () => {
+    const { store, actions, sent, startServer } = makePage();
+    startServer();
+    actions.openDrawing("hills", "<svg width='9'/>");
+    store.setState({ copies: 3 });
+    await actions.queueDrawing();
+    expect(newJobSchema.parse(JSON.parse(String(sent.at(-1)))).copies).toBe(3);
+    actions.openDrawing("waves", "<svg width='8'/>");
+    await actions.queueDrawing();
+    expect(newJobSchema.parse(JSON.parse(String(sent.at(-1)))).copies).toBeUndefined();
+  });
+
+  it("does not count for Plot", async () => {
+    const { store, actions, sent, startServer } = makePage();
+    startServer();
+    actions.openDrawing("hills", "<svg width='9'/>");
+    store.setState({ copies: 3 });
+    await actions.plotDrawing();
+    expect(newJobSchema.parse(JSON.parse(String(sent.at(-1)))).copies).toBeUndefined();
+  });
+});
+
 describe("a drawing of the last visit", () => {
   const ofJob = { name: "waves", text: "<svg width='9'/>", jobId: "a", sourceId: "a" };
   const jobSettings = { ...DEFAULT_PLOT_SETTINGS, penStops: "layers" as const };
@@ -117,6 +140,12 @@ describe("a drawing of the last visit", () => {
     expect(store.getState().drawing?.jobId).toBe(null);
   });
 });
+
+const hideLayer1 = (actions: Actions): void =>
+  actions.changeSettings("layer1", (now) => ({
+    ...now,
+    prepare: { ...now.prepare, hiddenLayers: ["layer1"] },
+  }));
 
 describe("a drawing that is opened", () => {
   const fault = { message: "The file ends too soon.", stage: "import" as const };
@@ -166,16 +195,36 @@ describe("a drawing that is opened", () => {
     };
     const prepare = () => store.getState().settings.prepare;
     openPlaced("hills");
-    actions.changeSettings("layer1", (now) => ({
-      ...now,
-      prepare: { ...now.prepare, hiddenLayers: ["layer1"] },
-    }));
+    hideLayer1(actions);
     actions.changeSettings("margin", (now) => ({ ...now, prepare: { ...now.prepare, marginMm: 3 } }));
     openPlaced("waves");
     actions.undo();
     expect(prepare()).toMatchObject({ fit: true, hiddenLayers: [], marginMm: 3 });
     actions.undo();
     expect(prepare()).toMatchObject({ fit: true, hiddenLayers: [], marginMm: 3 });
+  });
+
+  it.each([
+    [
+      "pasted with another content does not keep the layer settings of the one before",
+      "<svg width='8'/>",
+      [],
+    ],
+    ["pasted again keeps its layer settings", "<svg width='9'/>", ["layer1"]],
+  ])("%s", (_what, next, hiddenLayers) => {
+    const { store, actions } = makePage();
+    actions.openPasted("<svg width='9'/>");
+    hideLayer1(actions);
+    actions.openPasted(next);
+    expect(store.getState().settings.prepare.hiddenLayers).toEqual(hiddenLayers);
+  });
+
+  it("from a file with the name of the one before keeps its layer settings, because it may have been edited", () => {
+    const { store, actions } = makePage();
+    actions.openDrawing("hills", "<svg width='9'/>");
+    hideLayer1(actions);
+    actions.openDrawing("hills", "<svg width='8'/>");
+    expect(store.getState().settings.prepare.hiddenLayers).toEqual(["layer1"]);
   });
 
   it("right after another one is still placed as an undo step", () => {

@@ -3,6 +3,7 @@ import { lineGapMm } from "../../web/scene/density.js";
 import { buildPickGrid } from "../../web/scene/pick.js";
 import { PIECE_BYTES, PIECE_FLOATS } from "../../web/scene/pieces.js";
 import { lineWidthPx, MIN_LINE_PX, type Frame } from "../../web/scene/renderer.js";
+import { makeFrame } from "./fixtures.js";
 
 /** Vertical lines of 100 mm, `gapMm` apart, in pieces of 1 mm. */
 const hatch = (gapMm: number): { gapMm: number; of: number } => {
@@ -18,17 +19,9 @@ const hatch = (gapMm: number): { gapMm: number; of: number } => {
 };
 
 const frame = (scale: number, gap: number | undefined): Frame => ({
+  ...makeFrame(0),
   view: { scale, offsetX: 0, offsetY: 0 },
-  width: 100,
-  height: 100,
-  ratio: 1,
-  colorBy: "speed",
-  showTravel: false,
-  lineMm: 0.1,
-  layerColors: [],
-  layerWidthsMm: null,
   lineGapMm: gap,
-  untilS: null,
 });
 
 describe("the gap between lines", () => {

@@ -1,4 +1,5 @@
 import { DEFAULT_PLOT_SETTINGS, type Job, type Plotter } from "../../src/schema/index.js";
+import type { Frame } from "../../web/scene/renderer.js";
 
 export const makeJob = (id: string, more: Partial<Job> = {}): Job => ({
   id,
@@ -41,4 +42,16 @@ export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter =>
   xMm: 0,
   yMm: 0,
   ...more,
+});
+
+export const makeFrame = (offsetX: number): Frame => ({
+  view: { scale: 1, offsetX, offsetY: 0 },
+  width: 100,
+  height: 100,
+  ratio: 1,
+  colorBy: "ink",
+  showTravel: false,
+  layerColors: [],
+  layerWidthsMm: [],
+  untilS: null,
 });

@@ -1,19 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { Painter, type PainterClock } from "../../web/scene/painter.js";
 import type { Detail, Frame, Picture, SceneRenderer } from "../../web/scene/renderer.js";
+import { makeFrame } from "./fixtures.js";
 
-const frame = (offsetX: number): Frame => ({
-  view: { scale: 1, offsetX, offsetY: 0 },
-  width: 100,
-  height: 100,
-  ratio: 1,
-  colorBy: "ink",
-  showTravel: false,
-  lineMm: 0.3,
-  layerColors: [],
-  layerWidthsMm: null,
-  untilS: null,
-});
 const COARSE = 40_000;
 const sceneOf = (count: number): Picture => ({
   draw: { count, bytes: new ArrayBuffer(0) },
@@ -104,7 +93,7 @@ describe("the painter", () => {
   it("draws a small drawing completely and at once", async () => {
     const card = new Card(50);
     const { painter, pictures } = start(card, 2_000);
-    painter.show(frame(1));
+    painter.show(makeFrame(1));
     await settle();
     expect(card.shown).toEqual([{ offsetX: 1, detail: "whole", pieces: 2_000 }]);
     expect(pictures).toEqual([[1, true]]);
@@ -113,7 +102,7 @@ describe("the painter", () => {
   it("shows a large drawing coarse first, and then all of it", async () => {
     const card = new Card(300);
     const { painter, pictures } = start(card, 1_000_000);
-    painter.show(frame(1));
+    painter.show(makeFrame(1));
     await settle();
     expect(card.shown).toEqual([
       { offsetX: 1, detail: "coarse", pieces: 40_000 },
@@ -128,10 +117,10 @@ describe("the painter", () => {
   it("soon draws everything at once on a fast card", async () => {
     const card = new Card(200_000);
     const { painter } = start(card, 1_000_000);
-    painter.show(frame(1));
+    painter.show(makeFrame(1));
     await settle();
     card.shown.length = card.parts.length = 0;
-    painter.show(frame(2));
+    painter.show(makeFrame(2));
     await settle();
     expect(card.shown).toEqual([{ offsetX: 2, detail: "whole", pieces: 1_000_000 }]);
     expect(card.parts).toEqual([1_000_000]);
@@ -140,7 +129,7 @@ describe("the painter", () => {
   it("keeps the parts short on a slow card, and sends one at a time", async () => {
     const card = new Card(20);
     const { painter } = start(card, 100_000);
-    painter.show(frame(1));
+    painter.show(makeFrame(1));
     await settle();
     expect(card.shown.at(-1)).toMatchObject({ detail: "whole", pieces: 100_000 });
     // The first part was a guess; after a few of them none takes longer than 50 ms.
@@ -152,9 +141,9 @@ describe("the painter", () => {
     const card = new Card(100);
     const { painter } = start(card, 1_000_000);
     card.clock.onTurn = (turn) => {
-      if (turn <= 3_000) painter.show(frame(turn));
+      if (turn <= 3_000) painter.show(makeFrame(turn));
     };
-    painter.show(frame(0));
+    painter.show(makeFrame(0));
     await settle();
     const moving = card.shown.filter(({ offsetX }) => offsetX < 3_000);
     expect(moving.length).toBeGreaterThan(4);
@@ -168,9 +157,9 @@ describe("the painter", () => {
     card.clock.onTurn = (turn) => {
       if (turn !== 3) return;
       painter.setScene(sceneOf(500));
-      painter.show(frame(2));
+      painter.show(makeFrame(2));
     };
-    painter.show(frame(1));
+    painter.show(makeFrame(1));
     await settle();
     expect(card.shown).toEqual([{ offsetX: 2, detail: "whole", pieces: 500 }]);
   });
@@ -181,10 +170,10 @@ describe("the painter", () => {
     card.clock.onTurn = (turn) => {
       if (turn === 3) painter.setRenderer(null);
     };
-    painter.show(frame(1));
+    painter.show(makeFrame(1));
     await settle();
     expect(pictures).toEqual([]);
-    painter.show(frame(2));
+    painter.show(makeFrame(2));
     await settle();
     expect(pictures).toEqual([]);
     const other = new Card(100, card.clock);

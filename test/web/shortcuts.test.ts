@@ -1,6 +1,6 @@
 /** Which keys run a shortcut, by what has the focus and what the page shows. */
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { listenForShortcuts, shortcutsFor } from "../../web/app/shortcuts.js";
 import type { Actions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
@@ -126,6 +126,26 @@ describe("Q, like the button", () => {
     store.setState({ busyAction: "samples" });
     press("q");
     expect(done.queueDrawing).toHaveBeenCalledTimes(1);
+  });
+});
+
+describe("P, like the job's main button", () => {
+  const WATCHER: Partial<PageState> = { me: { role: "watch", id: null, name: null } };
+  const cases: readonly (readonly [string, Partial<Job>, Partial<PageState>, readonly string[]])[] = [
+    ["pauses a plot", { state: "plotting" }, {}, ["pause"]],
+    ["resumes a paused plot", { state: "paused" }, {}, ["resume"]],
+    ["pauses a plot for a watcher", { state: "plotting" }, WATCHER, ["pause"]],
+    ["does not resume it for a watcher", { state: "paused" }, WATCHER, []],
+    ["does nothing without a connection", { state: "plotting" }, { link: "lost" }, []],
+    ["does nothing while its request runs", { state: "plotting" }, { busyAction: "pause a" }, []],
+    ["does nothing for an interrupted plot, which needs a look first", { state: "interrupted" }, {}, []],
+  ];
+
+  it.each(cases)("%s", (_what, job, state, expected) => {
+    const { store, done, press } = makePage();
+    store.setState({ ...state, jobs: [makeJob("a", job)] });
+    press("p");
+    expect(done.actOnJob.mock.calls).toEqual(expected.map((action) => ["a", action]));
   });
 });
 

@@ -4,6 +4,7 @@ import { PIECE_BYTES } from "../../web/scene/pieces.js";
 import type { Scene } from "../../web/scene/scene.js";
 import { StrokesInWorker, type DrawWorkerLike, type Strokes } from "../../web/preview/strokes.js";
 import type { DrawReply, DrawRequest } from "../../web/worker/draw-protocol.js";
+import { makeFrame } from "./fixtures.js";
 
 class WorkerByHand implements DrawWorkerLike {
   readonly asked: DrawRequest[] = [];
@@ -35,18 +36,6 @@ class Bitmap implements ImageBitmap {
   }
 }
 
-const frame = (offsetX: number): Frame => ({
-  view: { scale: 1, offsetX, offsetY: 0 },
-  width: 100,
-  height: 100,
-  ratio: 1,
-  colorBy: "ink",
-  showTravel: false,
-  lineMm: 0.3,
-  layerColors: [],
-  layerWidthsMm: null,
-  untilS: null,
-});
 const picture = (): Picture => ({
   draw: { count: 2, bytes: new ArrayBuffer(2 * PIECE_BYTES) },
   travel: { count: 0, bytes: new ArrayBuffer(0) },
@@ -96,7 +85,7 @@ describe("strokes drawn by a worker", () => {
 
   it("are shown with the frame that they were drawn for, and are done when that is the newest and complete", () => {
     const { worker, put, shown, strokes } = setUp();
-    const frames = [frame(1), frame(2), frame(3)];
+    const frames = [makeFrame(1), makeFrame(2), makeFrame(3)];
     for (const one of frames) strokes.show(one);
     worker.reply(2, true);
     worker.reply(3, false);
@@ -112,8 +101,8 @@ describe("strokes drawn by a worker", () => {
 
   it("never return to an older frame", () => {
     const { worker, put, strokes } = setUp();
-    strokes.show(frame(1));
-    strokes.show(frame(2));
+    strokes.show(makeFrame(1));
+    strokes.show(makeFrame(2));
     worker.reply(2, true);
     const late = worker.reply(1, true);
     expect(put).toHaveLength(1);
@@ -123,7 +112,7 @@ describe("strokes drawn by a worker", () => {
   it("are drawn on the page if the worker does not start", () => {
     const { worker, onPage, strokes } = setUp();
     const own = scene();
-    const [first, second] = [frame(1), frame(2)];
+    const [first, second] = [makeFrame(1), makeFrame(2)];
     strokes.setScene(own, picture());
     strokes.show(first);
     worker.onerror?.({} as ErrorEvent);

@@ -1,23 +1,22 @@
 import { useEffect, useState } from "react";
 import { fetchLicences } from "../pwa/licences.js";
-import { usePageState, usePageStore } from "../state/use-store.js";
+import { usePageState } from "../state/use-store.js";
 import { aboutText as words } from "./about-text.js";
-import { Dialog } from "../ui/dialog.js";
+import { Sheet } from "../ui/sheet.js";
 import "./sheets.css";
 
 /** Shows the version, and the licences of all software in the page. */
 export const AboutDialog = () => {
-  const store = usePageStore();
   const version = usePageState((state) => state.version);
   const licences = useLicences();
   return (
-    <Dialog title={words.title} onClose={() => store.setState({ openDialog: null })}>
+    <Sheet title={words.title}>
       <p>{version === null ? words.what : words.whatVersion(version)}</p>
       <p className="note">{words.licences}</p>
       <pre className="licences" tabIndex={0} aria-label={words.licencesLabel}>
         {licences}
       </pre>
-    </Dialog>
+    </Sheet>
   );
 };
 

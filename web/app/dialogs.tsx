@@ -4,12 +4,14 @@ import { lazyPart } from "../ui/lazy-part.js";
 
 const TakeOver = lazyPart(async () => (await import("./take-over.js")).TakeOver);
 const HelpSheet = lazyPart(async () => (await import("./help.js")).HelpSheet);
-const AboutDialog = lazyPart(async () => (await import("./about.js")).AboutDialog);
-const Wizard = lazyPart(async () => (await import("../plotter/wizard.js")).Wizard);
-const MachinesDialog = lazyPart(async () => (await import("../plotter/machines-dialog.js")).MachinesDialog);
-const Console = lazyPart(async () => (await import("../plotter/console.js")).Console);
-const RingingDialog = lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog);
-const StudioDialog = lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog);
+const DIALOGS = {
+  about: lazyPart(async () => (await import("./about.js")).AboutDialog),
+  wizard: lazyPart(async () => (await import("../plotter/wizard.js")).Wizard),
+  machines: lazyPart(async () => (await import("../plotter/machines-dialog.js")).MachinesDialog),
+  console: lazyPart(async () => (await import("../plotter/console.js")).Console),
+  ringing: lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog),
+  studio: lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog),
+} as const;
 
 interface DialogsProps {
   readonly shortcuts: readonly Shortcut[];
@@ -27,23 +29,9 @@ export const Dialogs = ({ shortcuts }: DialogsProps) => {
 };
 
 const OpenDialog = ({ shortcuts }: DialogsProps) => {
-  const dialog = usePageState((state) => state.openDialog);
-  switch (dialog) {
-    case "keys":
-      return <HelpSheet shortcuts={shortcuts} />;
-    case "about":
-      return <AboutDialog />;
-    case "wizard":
-      return <Wizard />;
-    case "machines":
-      return <MachinesDialog />;
-    case "console":
-      return <Console />;
-    case "studio":
-      return <StudioDialog />;
-    case "ringing":
-      return <RingingDialog />;
-    case null:
-      return null;
-  }
+  const name = usePageState((state) => state.openDialog);
+  if (name === null) return null;
+  if (name === "keys") return <HelpSheet shortcuts={shortcuts} />;
+  const Named = DIALOGS[name];
+  return <Named />;
 };

@@ -4,14 +4,14 @@ import { shortcutsText as words } from "./text.js";
 import { previewText } from "../preview/text.js";
 import { aboutText } from "./about-text.js";
 import { Button } from "../ui/button.js";
-import { Dialog } from "../ui/dialog.js";
+import { Sheet } from "../ui/sheet.js";
 import "./sheets.css";
 
 /** The dialog that lists all keyboard shortcuts. */
 export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => {
   const store = usePageStore();
   return (
-    <Dialog title={words.title} onClose={() => store.setState({ openDialog: null })}>
+    <Sheet title={words.title}>
       <dl className="key-list">
         {shortcuts.map(({ keys, label }) => (
           <div key={keys}>
@@ -29,6 +29,6 @@ export const HelpSheet = ({ shortcuts }: { shortcuts: readonly Shortcut[] }) => 
       <Button kind="link" onClick={() => store.setState({ openDialog: "about" })}>
         {aboutText.title}
       </Button>
-    </Dialog>
+    </Sheet>
   );
 };

@@ -2,6 +2,7 @@
 import type { Player } from "../preview/player.js";
 import { historyText, shortcutsText as words } from "./text.js";
 import { canQueue } from "../queue/can-queue.js";
+import { isMainActionOff, mainActionOf } from "../queue/main-action.js";
 import { plotText } from "../queue/text.js";
 import type { Actions } from "../state/actions.js";
 import { activeJob, shownView, type PageStore } from "../state/store.js";
@@ -90,8 +91,10 @@ const pageShortcuts = ({ store, actions }: ShortcutDeps): readonly Shortcut[] =>
     label: words.pause,
     matches: plain("p"),
     run: () => {
-      const job = activeJob(store.getState());
-      if (job) void actions.actOnJob(job.id, job.state === "paused" ? "resume" : "pause");
+      const state = store.getState();
+      const job = activeJob(state);
+      const action = job && mainActionOf(state, job);
+      if (action && !isMainActionOff(state, job, action)) void actions.actOnJob(job.id, action);
     },
   },
   {

@@ -1,9 +1,9 @@
-import { useId } from "react";
 import { DRAWING_EXTENSIONS } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { ExportPanel } from "./export.js";
 import { drawingText as words, reportText } from "./text.js";
 import { Button } from "../ui/button.js";
+import { ChooseFile } from "../ui/choose-file.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingsGroup } from "../ui/settings-group.js";
@@ -22,7 +22,7 @@ export const DrawingPanel = () => {
         </p>
       )}
       <div className="choose-row">
-        <ChooseFile label={words.choose} />
+        <ChooseDrawing label={words.choose} />
         <Samples />
       </div>
       <Report />
@@ -33,28 +33,9 @@ export const DrawingPanel = () => {
 
 const ACCEPTED = ["image/svg+xml", ...DRAWING_EXTENSIONS.map((extension) => `.${extension}`)].join();
 
-export const ChooseFile = ({ label }: { label: string }) => {
-  const id = useId();
+export const ChooseDrawing = ({ label }: { label: string }) => {
   const { openFile } = useActions();
-  return (
-    <div className="choose">
-      <input
-        id={id}
-        type="file"
-        accept={ACCEPTED}
-        className="visually-hidden"
-        onChange={(event) => {
-          const file = event.target.files?.[0];
-          if (file) void openFile(file);
-          event.target.value = "";
-        }}
-      />
-      <label htmlFor={id} className="button">
-        <Icon name="file" />
-        {label}
-      </label>
-    </div>
-  );
+  return <ChooseFile label={label} accept={ACCEPTED} icon="file" onFile={(file) => void openFile(file)} />;
 };
 
 const Samples = () => {

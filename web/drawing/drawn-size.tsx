@@ -1,5 +1,5 @@
 import { canBePaper, findMachine, isEmptyBox, isOnFilesPage, onFilesPage } from "../../src/internal.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { formatNumber, formatSize } from "../ui/format.js";
 import { drawnSizeText as words } from "./text.js";
@@ -28,6 +28,7 @@ const scaleInWords = ({ pageToPaper: { a, b, c, d } }: Planned): string => {
 };
 
 const UseFilesPage = ({ planned }: { planned: Planned }) => {
+  const store = usePageStore();
   const { changeSettings } = useActions();
   const page = { widthMm: planned.pageWidthMm, heightMm: planned.pageHeightMm };
   const isOnIt = usePageState((state) => isOnFilesPage(state.settings.prepare, page));
@@ -35,12 +36,13 @@ const UseFilesPage = ({ planned }: { planned: Planned }) => {
   return (
     <Button
       kind="link"
-      onClick={() =>
+      onClick={() => {
+        store.setState({ typedPaper: null });
         changeSettings("file's page", (settings) => ({
           ...settings,
           prepare: onFilesPage(settings.prepare, page, findMachine(settings)),
-        }))
-      }
+        }));
+      }}
     >
       {words.useFilesPage}
     </Button>

@@ -1,7 +1,7 @@
 import "./empty-paper.css";
 import { usePageState, useActions } from "../state/use-store.js";
 import { emptyPaperText as words } from "./text.js";
-import { ChooseFile } from "./drawing.js";
+import { ChooseDrawing } from "./drawing.js";
 import { Thumb } from "./thumb.js";
 
 /** Shown on the paper while there is no drawing: how to begin, and samples to try. */
@@ -9,7 +9,7 @@ export const EmptyPaper = () => (
   <div className="empty-paper">
     <strong>{words.title}</strong>
     <p>{words.hint}</p>
-    <ChooseFile label={words.choose} />
+    <ChooseDrawing label={words.choose} />
     <Samples />
   </div>
 );

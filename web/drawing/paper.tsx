@@ -1,4 +1,3 @@
-import { useState } from "react";
 import { PAPER_SIZES } from "../../src/index.js";
 import {
   LENGTH_UNITS,
@@ -8,7 +7,7 @@ import {
   type PaperName,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { paperText as words } from "./text.js";
 import { IconButton } from "../ui/button.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
@@ -48,10 +47,10 @@ export const PaperPanel = () => {
         ? { place: { ...prepare.place, turnDeg: wholeTurn(deg - rotateDeg) } }
         : { rotateDeg: wholeTurn(deg) },
     );
-  // Its own state, because a size being typed may happen to be that of a named paper.
-  const [isCustomChosen, setCustomChosen] = useState(false);
+  const store = usePageStore();
+  const typedPaper = usePageState((state) => state.typedPaper);
   const name = nameOfPaper(paper);
-  const isCustom = isCustomChosen || name === CUSTOM;
+  const isCustom = paper === typedPaper || name === CUSTOM;
   const { widthMm, heightMm } = orientedPaper(paper, landscape);
   const size = formatSize(widthMm, heightMm, lengthUnit);
 
@@ -65,7 +64,7 @@ export const PaperPanel = () => {
           { value: CUSTOM, label: words.custom },
         ]}
         onChange={(value) => {
-          setCustomChosen(value === CUSTOM);
+          store.setState({ typedPaper: value === CUSTOM ? paper : null });
           if (value !== CUSTOM) change("paper", { paper: PAPER_SIZES[value] });
         }}
       />
@@ -148,11 +147,12 @@ export const PaperPanel = () => {
 const CustomSize = ({ prepare: { paper, landscape } }: { prepare: PrepareSettings }) => {
   const change = usePrepareChange();
   const { widthMm, heightMm } = orientedPaper(paper, landscape);
-  const resize = (what: string, width: number, height: number): void =>
-    change(what, {
-      paper: { widthMm: Math.min(width, height), heightMm: Math.max(width, height) },
-      landscape: width === height ? landscape : width > height,
-    });
+  const store = usePageStore();
+  const resize = (what: string, width: number, height: number): void => {
+    const typedPaper = { widthMm: Math.min(width, height), heightMm: Math.max(width, height) };
+    store.setState({ typedPaper });
+    change(what, { paper: typedPaper, landscape: width === height ? landscape : width > height });
+  };
   return (
     <div className="field-pair">
       <SettingField

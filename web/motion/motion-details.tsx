@@ -20,6 +20,7 @@ import { detailsText as words } from "./details-text.js";
 import { Select, Switch } from "../ui/choice.js";
 import { OwnNumber } from "../ui/own-number.js";
 import { SettingField } from "../ui/setting-field.js";
+import { useMotionChange } from "../ui/use-change.js";
 import { CornerPicture } from "./corner-picture.js";
 import { useSprings } from "./use-springs.js";
 import "./motion-details.css";
@@ -28,15 +29,6 @@ type MotionSettings = PlotSettings["motion"];
 
 /** The first values when this is switched on. */
 const FIRST_EASE = { lengthMm: EASE_TABLE.lengthMm.default, speedMmPerS: EASE_TABLE.speedMmPerS.default };
-
-const useMotionChange = () => {
-  const { changeSettings } = useActions();
-  return (what: string, change: Partial<MotionSettings>): void =>
-    changeSettings(`motion ${what}`, (settings) => ({
-      ...settings,
-      motion: { ...settings.motion, ...change },
-    }));
-};
 
 /** The numbers that a quality sets, and those that it does not change. */
 export const MotionDetails = () => {
@@ -103,6 +95,11 @@ const ModeChoice = ({ mode }: { mode: MotionMode }) => {
   );
 };
 
+const LIMIT_HINTS: { readonly [K in keyof MotionLimits]?: string } = {
+  cornerMm: words.cornerHint,
+  jerkMmPerS3: words.jerkHint,
+};
+
 interface LimitFieldsProps {
   readonly which: "draw" | "travel";
   readonly title: string;
@@ -113,37 +110,24 @@ interface LimitFieldsProps {
 const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
   const changeMotion = useMotionChange();
   const table = which === "draw" ? DRAW_TABLE : TRAVEL_TABLE;
-  const change = (part: Partial<MotionLimits>): void =>
-    changeMotion(`${which} ${Object.keys(part).join()}`, { [which]: { ...limits, ...part } });
+  const keys: readonly (keyof MotionLimits)[] = [
+    "speedMmPerS",
+    "accelMmPerS2",
+    ...(which === "draw" ? (["cornerMm"] as const) : []),
+    ...(mode === "scurve" ? (["jerkMmPerS3"] as const) : []),
+  ];
   return (
     <fieldset className="subgroup">
       <legend>{title}</legend>
-      <SettingField
-        setting={table.speedMmPerS}
-        value={limits.speedMmPerS}
-        onChange={(speedMmPerS) => change({ speedMmPerS })}
-      />
-      <SettingField
-        setting={table.accelMmPerS2}
-        value={limits.accelMmPerS2}
-        onChange={(accelMmPerS2) => change({ accelMmPerS2 })}
-      />
-      {which === "draw" && (
+      {keys.map((key) => (
         <SettingField
-          setting={table.cornerMm}
-          value={limits.cornerMm}
-          hint={words.cornerHint}
-          onChange={(cornerMm) => change({ cornerMm })}
+          key={key}
+          setting={table[key]}
+          value={limits[key]}
+          hint={LIMIT_HINTS[key]}
+          onChange={(value) => changeMotion(`${which} ${key}`, { [which]: { ...limits, [key]: value } })}
         />
-      )}
-      {mode === "scurve" && (
-        <SettingField
-          setting={table.jerkMmPerS3}
-          value={limits.jerkMmPerS3}
-          hint={words.jerkHint}
-          onChange={(jerkMmPerS3) => change({ jerkMmPerS3 })}
-        />
-      )}
+      ))}
     </fieldset>
   );
 };

@@ -10,8 +10,6 @@ import { SettingsGroup } from "../ui/settings-group.js";
 import { useSprings } from "./use-springs.js";
 
 const MotionDetails = lazyPart(async () => (await import("./motion-details.js")).MotionDetails);
-/** Remembered like the groups' ids. */
-const DETAILS_ID = "motion-details";
 
 /** Speed, acceleration and corners as three qualities. The numbers behind them are folded. */
 export const MotionPanel = () => {
@@ -23,7 +21,9 @@ export const MotionPanel = () => {
     <SettingsGroup id="motion" title={words.title} summary={summary}>
       <QualityChoice chosen={chosen} />
       <Swing />
-      <Details />
+      <SettingsGroup id="motion-details" isPart isLazy title={words.details}>
+        <MotionDetails />
+      </SettingsGroup>
     </SettingsGroup>
   );
 };
@@ -87,25 +87,5 @@ const Swing = () => {
         {words.showSwing}
       </Button>
     </div>
-  );
-};
-
-const Details = () => {
-  const openGroups = usePageState((state) => state.view.openGroups);
-  const { changeView } = useActions();
-  const isOpen = openGroups.includes(DETAILS_ID);
-  return (
-    <details
-      open={isOpen}
-      onToggle={(event) => {
-        const isNow = event.currentTarget.open;
-        if (isNow === isOpen) return;
-        const others = openGroups.filter((id) => id !== DETAILS_ID);
-        changeView({ openGroups: isNow ? [...others, DETAILS_ID] : others });
-      }}
-    >
-      <summary>{words.details}</summary>
-      {isOpen && <MotionDetails />}
-    </details>
   );
 };

@@ -24,13 +24,13 @@ export const alignmentJob = (
   corner: Corner,
   name: string,
 ): NewJob & { readonly drawing: string } => {
-  const { widthMm, heightMm } = orientedPaper(settings.prepare.paper, settings.prepare.landscape);
+  const { paper, landscape } = settings.prepare;
+  const { widthMm, heightMm } = orientedPaper(paper, landscape);
   const { xMm: x, yMm: y } = markPlace(settings, corner);
   const drawing =
     `<svg xmlns="http://www.w3.org/2000/svg" width="${widthMm}mm" height="${heightMm}mm" ` +
     `viewBox="0 0 ${widthMm} ${heightMm}" fill="none" stroke="${pen.color ?? "#000000"}">` +
     `<path d="M${x - ARM_MM} ${y}H${x + ARM_MM}M${x} ${y - ARM_MM}V${y + ARM_MM}"/></svg>`;
-  const { paper, landscape } = settings.prepare;
   return {
     name,
     drawing,

@@ -4,6 +4,7 @@ import "./pens.css";
 import { useState } from "react";
 import { alignmentJob, CORNERS, type Corner } from "./alignment-mark.js";
 import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-settings.js";
+import { isSame } from "../state/is-same.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { pensText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -63,8 +64,7 @@ const FromColors = () => {
   const { changeSettings } = useActions();
   if (!rows) return null;
   const withPens = pensFromColors(settings, rows, nameOfColor);
-  const isDone = JSON.stringify(withPens.layerPens) === JSON.stringify(settings.layerPens);
-  if (isDone) return null;
+  if (isSame(withPens.layerPens, settings.layerPens)) return null;
   return (
     <Button
       onClick={() => changeSettings("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}
@@ -161,30 +161,27 @@ const ColorField = ({ pen }: { pen: PlotPen }) => {
   );
 };
 
+const PEN_FIELDS = [
+  ["widthMm", undefined],
+  ["offsetXMm", undefined],
+  ["offsetYMm", words.offsetHint],
+] as const;
+
 const PenDetails = ({ pen }: { pen: PlotPen }) => {
   const { changeSettings } = useActions();
-  const set = (part: Partial<PlotPen>): void =>
-    changeSettings(`${Object.keys(part).join()} of ${pen.id}`, (settings) =>
-      changePen(settings, pen.id, part),
-    );
   return (
     <div className="layer-details">
-      <SettingField
-        setting={PLOT_PEN_TABLE.widthMm}
-        value={pen.widthMm}
-        onChange={(widthMm) => set({ widthMm })}
-      />
-      <SettingField
-        setting={PLOT_PEN_TABLE.offsetXMm}
-        value={pen.offsetXMm}
-        onChange={(offsetXMm) => set({ offsetXMm })}
-      />
-      <SettingField
-        setting={PLOT_PEN_TABLE.offsetYMm}
-        value={pen.offsetYMm}
-        hint={words.offsetHint}
-        onChange={(offsetYMm) => set({ offsetYMm })}
-      />
+      {PEN_FIELDS.map(([key, hint]) => (
+        <SettingField
+          key={key}
+          setting={PLOT_PEN_TABLE[key]}
+          value={pen[key]}
+          hint={hint}
+          onChange={(value) =>
+            changeSettings(`${key} of ${pen.id}`, (settings) => changePen(settings, pen.id, { [key]: value }))
+          }
+        />
+      ))}
       <Mark pen={pen} />
       <Button
         kind="small"

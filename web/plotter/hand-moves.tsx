@@ -4,13 +4,11 @@ import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { movesText as words } from "./hand-text.js";
 import { Button } from "../ui/button.js";
-import { NumberField } from "../ui/number-field.js";
+import { MmPair } from "../ui/mm-pair.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
 import { boxOfDrawn } from "./drawn-box.js";
 import "./hand-moves.css";
-
-const MAX_MM = 5_000;
 
 /** Jog pad, moves to a position, and small moves that prepare a plot. Disabled during a plot. */
 export const HandMoves = () => {
@@ -31,8 +29,7 @@ export const HandMoves = () => {
 
 const Walk = ({ isOff }: { isOff: boolean }) => {
   const { moveByHand } = useActions();
-  const [xMm, setX] = useState(0);
-  const [yMm, setY] = useState(0);
+  const [[xMm, yMm], setPlace] = useState<readonly [number, number]>([0, 0]);
   return (
     <form
       className="walk"
@@ -41,26 +38,13 @@ const Walk = ({ isOff }: { isOff: boolean }) => {
         void moveByHand({ kind: "walk", xMm, yMm });
       }}
     >
-      <div className="field-pair">
-        <NumberField
-          label={words.walkX}
-          value={xMm}
-          unit="mm"
-          min={0}
-          max={MAX_MM}
-          step={1}
-          onChange={setX}
-        />
-        <NumberField
-          label={words.walkY}
-          value={yMm}
-          unit="mm"
-          min={0}
-          max={MAX_MM}
-          step={1}
-          onChange={setY}
-        />
-      </div>
+      <MmPair
+        labels={[words.walkX, words.walkY]}
+        values={[xMm, yMm]}
+        min={0}
+        step={1}
+        onChange={(x, y) => setPlace([x, y])}
+      />
       <Button type="submit" disabled={isOff}>
         {words.walk}
       </Button>

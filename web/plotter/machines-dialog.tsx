@@ -2,6 +2,7 @@ import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
+import { ChooseFile } from "../ui/choose-file.js";
 import { Sheet } from "../ui/sheet.js";
 import { machinesText as words } from "./machines-text.js";
 import { saveFile } from "../ui/save-file.js";
@@ -27,7 +28,6 @@ const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
   const chosen = usePageState((state) => state.settings.machine);
   const made = usePageState((state) => state.machines).filter(({ builtIn }) => !builtIn);
   const { chooseMachine, removeMachine } = useActions();
-  const taken = [...MACHINES, ...made].map(({ id }) => id);
   return (
     <>
       <ul className="machine-list">
@@ -46,20 +46,20 @@ const MachineList = ({ onEdit }: { onEdit(profile: MachineProfile): void }) => {
               machine={machine}
               isOwn={made.some(({ id }) => id === machine.id)}
               onEdit={() => onEdit(machine)}
-              onCopy={() => onEdit(copyOf(machine, words.copyName(machine.name), taken))}
+              onCopy={() => onEdit(copyOf(machine, words.copyName(machine.name), made))}
               onRemove={() => void removeMachine(machine)}
             />
           </li>
         ))}
       </ul>
-      <ImportButton onRead={(profile) => onEdit({ ...profile, id: idOf(profile, taken) })} />
+      <ImportButton onRead={(profile) => onEdit({ ...profile, id: idOf(profile, made) })} />
     </>
   );
 };
 
 /** A file's own id if it is free, or if it belongs to a custom machine, which the file then replaces. */
-const idOf = ({ id, name }: MachineProfile, taken: readonly string[]): string =>
-  MACHINES.some((machine) => machine.id === id) ? freeId(name, taken) : id;
+const idOf = ({ id, name }: MachineProfile, made: readonly MachineProfile[]): string =>
+  MACHINES.some((machine) => machine.id === id) ? freeId(name, made) : id;
 
 interface RowButtonsProps {
   readonly machine: MachineProfile;
@@ -96,8 +96,7 @@ const RowButtons = ({ machine, isOwn, onEdit, onCopy, onRemove }: RowButtonsProp
 
 const ImportButton = ({ onRead }: { onRead(profile: MachineProfile): void }) => {
   const { notify } = useActions();
-  const read = async (file: File | undefined): Promise<void> => {
-    if (!file) return;
+  const read = async (file: File): Promise<void> => {
     try {
       onRead(parseMachineFile(await file.text()));
     } catch (error) {
@@ -105,18 +104,7 @@ const ImportButton = ({ onRead }: { onRead(profile: MachineProfile): void }) => 
     }
   };
   return (
-    <label className="choose">
-      <input
-        className="visually-hidden"
-        type="file"
-        accept=".json,application/json"
-        aria-label={words.import}
-        onChange={(event) => void read(event.target.files?.[0])}
-      />
-      <span className="button" aria-hidden="true">
-        {words.import}
-      </span>
-    </label>
+    <ChooseFile label={words.import} accept=".json,application/json" onFile={(file) => void read(file)} />
   );
 };
 

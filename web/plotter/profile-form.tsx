@@ -2,6 +2,7 @@ import type { MachineProfile } from "../../src/index.js";
 import type { EbbController } from "../../src/internal.js";
 import { profileText as words } from "./machines-text.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
+import { MmPair } from "../ui/mm-pair.js";
 import { NumberField } from "../ui/number-field.js";
 import { TextField } from "../ui/text-field.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
@@ -38,26 +39,13 @@ export const ProfileForm = ({ profile, onChange }: ProfileFormProps) => {
 export const ReachFields = ({ profile, onChange }: ProfileFormProps) => (
   <fieldset className="subgroup">
     <legend>{words.reach}</legend>
-    <div className="field-pair">
-      <NumberField
-        label={words.width}
-        value={profile.widthMm}
-        unit="mm"
-        min={1}
-        max={5_000}
-        step={1}
-        onChange={(widthMm) => onChange({ ...profile, widthMm })}
-      />
-      <NumberField
-        label={words.height}
-        value={profile.heightMm}
-        unit="mm"
-        min={1}
-        max={5_000}
-        step={1}
-        onChange={(heightMm) => onChange({ ...profile, heightMm })}
-      />
-    </div>
+    <MmPair
+      labels={[words.width, words.height]}
+      values={[profile.widthMm, profile.heightMm]}
+      min={1}
+      step={1}
+      onChange={(widthMm, heightMm) => onChange({ ...profile, widthMm, heightMm })}
+    />
   </fieldset>
 );
 
@@ -112,36 +100,32 @@ const MicrostepField = ({ profile, onChange }: EbbFieldsProps) => (
   />
 );
 
-const ServoFields = ({ profile, onChange }: EbbFieldsProps) => {
-  const change = (part: Partial<EbbController>): void => onChange(withController(profile, part));
-  return (
-    <fieldset className="subgroup">
-      <legend>{words.servo}</legend>
-      <ServoPin profile={profile} onChange={onChange} />
-      <div className="field-pair">
+const SERVO_ENDS = [
+  ["servoPosAt0Pct", words.lowest],
+  ["servoPosAt100Pct", words.highest],
+] as const;
+
+const ServoFields = ({ profile, onChange }: EbbFieldsProps) => (
+  <fieldset className="subgroup">
+    <legend>{words.servo}</legend>
+    <ServoPin profile={profile} onChange={onChange} />
+    <div className="field-pair">
+      {SERVO_ENDS.map(([key, label]) => (
         <NumberField
-          label={words.lowest}
-          value={profile.controller.servoPosAt0Pct}
+          key={key}
+          label={label}
+          value={profile.controller[key]}
           unit=""
           min={1}
           max={65_535}
           step={100}
-          onChange={(pos) => change({ servoPosAt0Pct: Math.round(pos) })}
+          onChange={(pos) => onChange(withController(profile, { [key]: Math.round(pos) }))}
         />
-        <NumberField
-          label={words.highest}
-          value={profile.controller.servoPosAt100Pct}
-          unit=""
-          min={1}
-          max={65_535}
-          step={100}
-          onChange={(pos) => change({ servoPosAt100Pct: Math.round(pos) })}
-        />
-      </div>
-      <p className="note">{words.servoHint}</p>
-    </fieldset>
-  );
-};
+      ))}
+    </div>
+    <p className="note">{words.servoHint}</p>
+  </fieldset>
+);
 
 export const ServoPin = ({ profile, onChange }: EbbFieldsProps) => (
   <Segments

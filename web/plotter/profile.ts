@@ -1,12 +1,15 @@
 /** Custom machines: new ones, their ids, and checking them by the schema. */
-import type { MachineProfile } from "../../src/index.js";
+import { MACHINES, type MachineProfile } from "../../src/index.js";
 import type { EbbController } from "../../src/internal.js";
 import { faultInWords, machineProfileSchema } from "../../src/schema/index.js";
 
 const MAX_ID = 60;
 
-/** A free id that is valid as a file name: "My Plotter" -> "my-plotter", "my-plotter-2" … */
-export const freeId = (name: string, taken: readonly string[]): string => {
+/**
+ * A free id that is valid as a file name: "My Plotter" -> "my-plotter", "my-plotter-2" … `made`: the custom machines,
+ * whose ids are taken like those of the built-in ones.
+ */
+export const freeId = (name: string, made: readonly MachineProfile[]): string => {
   const plain = name
     .normalize("NFD")
     .replace(/[\u0300-\u036f]/g, "")
@@ -16,13 +19,18 @@ export const freeId = (name: string, taken: readonly string[]): string => {
     .slice(0, MAX_ID - 3);
   const base = plain === "" ? "plotter" : plain;
   let id = base;
-  for (let n = 2; taken.includes(id); n++) id = `${base}-${n}`;
+  const isTaken = (wanted: string): boolean => [...MACHINES, ...made].some((one) => one.id === wanted);
+  for (let n = 2; isTaken(id); n++) id = `${base}-${n}`;
   return id;
 };
 
-export const copyOf = (profile: MachineProfile, name: string, taken: readonly string[]): MachineProfile => ({
+export const copyOf = (
+  profile: MachineProfile,
+  name: string,
+  made: readonly MachineProfile[],
+): MachineProfile => ({
   ...machineProfileSchema.parse(profile),
-  id: freeId(name, taken),
+  id: freeId(name, made),
   name,
 });
 

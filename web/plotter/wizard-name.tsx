@@ -1,5 +1,5 @@
 import { useState } from "react";
-import { MACHINES, type MachineProfile } from "../../src/index.js";
+import type { MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { wizardText as words } from "./wizard-text.js";
 import { Button } from "../ui/button.js";
@@ -14,13 +14,7 @@ export const NameStep = ({ profile, onNext }: StepProps) => {
   const made = usePageState((state) => state.machines);
   const { saveMachine } = useActions();
   const [draft, setDraft] = useState(profile);
-  const named: MachineProfile = {
-    ...draft,
-    id: freeId(
-      draft.name,
-      [...MACHINES, ...made].map(({ id }) => id),
-    ),
-  };
+  const named: MachineProfile = { ...draft, id: freeId(draft.name, made) };
   const problems = problemsOf(named);
   const save = async (): Promise<void> => {
     const saved = await saveMachine(named);

@@ -5,7 +5,7 @@ import { useActions } from "../state/use-store.js";
 import { wizardText as words } from "./wizard-text.js";
 import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
-import { NumberField } from "../ui/number-field.js";
+import { MmPair } from "../ui/mm-pair.js";
 import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
 const SQUARE_MM = 100;
@@ -14,8 +14,7 @@ const SQUARE_MM = 100;
 export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const { moveByHand } = useActions();
   const sizeMm = Math.min(SQUARE_MM, Math.floor(Math.min(profile.widthMm, profile.heightMm) / 2));
-  const [xMm, setX] = useState(sizeMm);
-  const [yMm, setY] = useState(sizeMm);
+  const [[xMm, yMm], setSides] = useState<readonly [number, number]>([sizeMm, sizeMm]);
   const measured = measuredOr(profile, sizeMm, xMm, yMm);
   return (
     <>
@@ -26,26 +25,13 @@ export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
       >
         {words.drawSquare}
       </Button>
-      <div className="field-pair">
-        <NumberField
-          label={words.measuredX}
-          value={xMm}
-          unit="mm"
-          min={1}
-          max={5_000}
-          step={0.5}
-          onChange={setX}
-        />
-        <NumberField
-          label={words.measuredY}
-          value={yMm}
-          unit="mm"
-          min={1}
-          max={5_000}
-          step={0.5}
-          onChange={setY}
-        />
-      </div>
+      <MmPair
+        labels={[words.measuredX, words.measuredY]}
+        values={[xMm, yMm]}
+        min={1}
+        step={0.5}
+        onChange={(x, y) => setSides([x, y])}
+      />
       {typeof measured === "string" ? (
         <p className="note note-error" role="alert">
           {measured}

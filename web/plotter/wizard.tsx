@@ -1,9 +1,10 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
+import { findMachine } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
-import { plannable } from "../state/motion-of-machine.js";
+import { withMachine } from "../state/plotter-sync.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { wizardText as words } from "./wizard-text.js";
 import { copyOf } from "./profile.js";
@@ -20,22 +21,14 @@ const STEPS = [PlotterStep, DirectionStep, SquareStep, ServoStep, NameStep] as c
 export const Wizard = () => {
   const store = usePageStore();
   const made = usePageState((state) => state.machines);
-  const taken = [...MACHINES, ...made].map(({ id }) => id);
   const [index, setIndex] = useState(0);
   const [profile, setProfile] = useState<MachineProfile>(() =>
-    copyOf(startOf(store.getState().settings), words.firstName, taken),
+    copyOf(findMachine(store.getState().settings) ?? MACHINES[0], words.firstName, made),
   );
   const Step = STEPS[index];
-  const settingsWith = (machine: MachineProfile): PlotSettings => {
-    const { settings } = store.getState();
-    return {
-      ...settings,
-      // The page's plotter may be measured, and this one is not: its motion can't be shaped.
-      motion: plannable(settings.motion, machine.springs ?? null),
-      machine: machine.id,
-      customMachine: { ...copyOf(machine, machine.name, []), id: machine.id },
-    };
-  };
+  // The page's plotter may be measured, and this one is not: its motion can't be shaped.
+  const settingsWith = (machine: MachineProfile): PlotSettings =>
+    withMachine(store.getState().settings, machine);
   const onNext = (next: MachineProfile): void => {
     setProfile(next);
     if (index === STEPS.length - 1) store.setState({ openDialog: null });
@@ -61,6 +54,3 @@ export const Wizard = () => {
     </Sheet>
   );
 };
-
-const startOf = ({ machine, customMachine }: PlotSettings): MachineProfile =>
-  (customMachine?.id === machine ? customMachine : MACHINES.find(({ id }) => id === machine)) ?? MACHINES[0];

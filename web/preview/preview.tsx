@@ -1,6 +1,6 @@
 import { stateAt } from "../../src/index.js";
 import { drawnUntilS } from "./drawn-until.js";
-import { activeJob, currentPlotter, type PageState, type PageStore } from "../state/store.js";
+import { activeJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
 import { deskOf } from "./desk.js";
@@ -12,6 +12,7 @@ import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { Looks } from "./legend.js";
 import { isTrueToWidth, layerLooks } from "./looks.js";
+import { plotterMarker } from "./marker.js";
 import type { Marker } from "./overlay.js";
 import { boxAround } from "../scene/placing.js";
 import { PreviewTools } from "./preview-tools.js";
@@ -100,7 +101,6 @@ const lookOf = (state: PageState): FrameLook => {
     // Until the simulation is complete, the planned strokes are drawn in one colour.
     colorBy: colorBy === "swing" && shownSwing(state) === null ? "layer" : colorBy,
     showTravel,
-    lineMm: Math.max(0, ...looks.map(({ widthMm }) => widthMm)),
     layerColors: looks.map(({ color }) => color),
     layerWidthsMm: looks.map(({ widthMm }) => widthMm),
     lineGapMm: planned && !isTrueToWidth(colorBy) ? planned.lineGapMm : undefined,
@@ -117,9 +117,7 @@ const markerOf = (state: PageState): Marker | null => {
   // The pen of a plot is shown only on that plot's drawing.
   const job = activeJob(state);
   if (job && job.id !== state.drawing?.jobId) return null;
-  const plotter = currentPlotter(state);
-  if (state.link !== "connected" || !plotter || plotter.xMm === null || plotter.yMm === null) return null;
-  return { xMm: plotter.xMm, yMm: plotter.yMm, penDown: plotter.penUp === false && !plotter.penMoving };
+  return plotterMarker(state);
 };
 
 /** The laid-out drawing: its strokes can be pointed at and selected, and it can be placed by hand. */

@@ -10,6 +10,7 @@ import { markMoment } from "../worker/moments.js";
 import { drawMarker, drawRulers, RULER_PX, type Marker } from "./overlay.js";
 import type { Frame, Picture } from "../scene/renderer.js";
 import { openStrokes, type Strokes } from "./strokes.js";
+import { isSame } from "../state/is-same.js";
 import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
 
 interface StageCanvases {
@@ -225,8 +226,6 @@ export class Stage {
     style.transform = drawn === this.#view ? "" : transformBetween(drawn, this.#view);
   }
 }
-
-const isSame = (one: FrameLook, other: FrameLook): boolean => JSON.stringify(one) === JSON.stringify(other);
 
 /** The CSS transform that shows a picture drawn for `from` in the view `to`. */
 const transformBetween = (from: View, to: View): string => {

@@ -5,7 +5,7 @@ import { useActions, useIsConnected, usePageState } from "../state/use-store.js"
 import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
-import { MenuItem, RowMenu } from "../ui/row-menu.js";
+import { RowMenu } from "../ui/row-menu.js";
 import { canGoOn, EndedButtons } from "./ended-buttons.js";
 import { JobName, StateBadge } from "./job-head.js";
 import { expectedSOf } from "./queue-time.js";
@@ -40,6 +40,9 @@ const EndedJob = ({ job }: { job: Job }) => {
   const isMine = usePageState(mayOperate);
   const isOff = !useIsConnected();
   const { name } = job;
+  const again = [words.again, words.againNamed(name), isOff, () => void actOnJob(job.id, "requeue")] as const;
+  const open = [words.open, words.openNamed(name), false, () => void openJob(job)] as const;
+  const remove = [words.remove, words.removeNamed(name), isOff, () => void removeJob(job.id)] as const;
   return (
     <article className="job" data-state={job.state}>
       <div className="job-row">
@@ -50,23 +53,7 @@ const EndedJob = ({ job }: { job: Job }) => {
         </div>
         <StateBadge job={job} />
         {isMine && (
-          <RowMenu label={words.more(name)}>
-            {!canGoOn(job) && (
-              <MenuItem
-                words={words.again}
-                label={words.againNamed(name)}
-                isOff={isOff}
-                onClick={() => void actOnJob(job.id, "requeue")}
-              />
-            )}
-            <MenuItem words={words.open} label={words.openNamed(name)} onClick={() => void openJob(job)} />
-            <MenuItem
-              words={words.remove}
-              label={words.removeNamed(name)}
-              isOff={isOff}
-              onClick={() => void removeJob(job.id)}
-            />
-          </RowMenu>
+          <RowMenu label={words.more(name)} items={canGoOn(job) ? [open, remove] : [again, open, remove]} />
         )}
       </div>
       {isMine && canGoOn(job) && <EndedButtons job={job} />}

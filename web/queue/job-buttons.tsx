@@ -1,7 +1,8 @@
 import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
-import { mayOperate, penWait } from "../state/store.js";
+import { penWait } from "../state/store.js";
 import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
+import { isMainActionOff, mainActionOf } from "./main-action.js";
 import { jobText as words, queueText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
@@ -13,13 +14,12 @@ import "./jobs.css";
  */
 export const JobButtons = ({ job }: { job: Job }) => {
   const [isAsking, setAsking] = useState(false);
-  const isMine = usePageState(mayOperate);
   // Without a connection the server would not receive the request, so the buttons are disabled.
   const isOff = !useIsConnected();
   if (isAsking && !isOff) return <AskToCancel job={job} onKeep={() => setAsking(false)} />;
   return (
     <div className="button-row job-buttons">
-      {(isMine || job.state === "plotting") && <MainButton job={job} isOff={isOff} />}
+      <MainButton job={job} />
       <Button disabled={isOff} onClick={() => setAsking(true)}>
         {queueText.cancel}
       </Button>
@@ -28,38 +28,24 @@ export const JobButtons = ({ job }: { job: Job }) => {
   );
 };
 
-const MAIN_ACTION = {
-  plotting: ["pause", words.pause],
-  paused: ["resume", words.resume],
-  interrupted: ["recover", words.recover],
-  queued: null,
-  done: null,
-  failed: null,
-  cancelled: null,
-} as const;
-
-interface ButtonProps {
-  readonly job: Job;
-  readonly isOff: boolean;
-}
-
-const MainButton = ({ job, isOff }: ButtonProps) => {
+const MainButton = ({ job }: { job: Job }) => {
   const { actOnJob } = useActions();
-  const busy = usePageState((state) => state.busyAction);
-  const [action, label] = MAIN_ACTION[job.state] ?? MAIN_ACTION.plotting;
+  const action = usePageState((state) => mainActionOf(state, job));
+  const isOff = usePageState((state) => action !== null && isMainActionOff(state, job, action));
+  if (action === null) return null;
   return (
     <Button
       kind={job.state === "plotting" ? "plain" : "primary"}
-      disabled={isOff || busy === `${action} ${job.id}`}
+      disabled={isOff}
       onClick={() => void actOnJob(job.id, action)}
     >
       <Icon name={action === "pause" ? "pause" : "play"} />
-      {penWait(job) !== null ? words.continue : label}
+      {penWait(job) !== null ? words.continue : words[action]}
     </Button>
   );
 };
 
-const StopButton = ({ job, isOff }: ButtonProps) => {
+const StopButton = ({ job, isOff }: { job: Job; isOff: boolean }) => {
   const { actOnJob } = useActions();
   const takesMs = usePageState(
     ({ plotters }) => plotters.find(({ id }) => id === job.plotterId)?.emergencyStopMs ?? null,

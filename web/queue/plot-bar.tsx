@@ -1,8 +1,7 @@
-import { useState } from "react";
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
 import { plotterText } from "../plotter/text.js";
 import { activeJob, currentPlotter } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { canQueue, isSendingJob } from "./can-queue.js";
 import { CutOffNote } from "./cut-off-note.js";
@@ -39,7 +38,7 @@ export const PlotBar = () => {
         </span>
       </div>
       <Figures />
-      {/* Another drawing begins with one copy again. */}
+      {/* What is being typed into a field belongs to the drawing before. */}
       <Buttons key={drawingKey} />
       <RunningJob />
     </section>
@@ -64,7 +63,8 @@ const Figures = () => {
 };
 
 const Buttons = () => {
-  const [copies, setCopies] = useState(1);
+  const store = usePageStore();
+  const copies = usePageState((state) => state.copies);
   const isOff = !usePageState(canQueue);
   const isSending = usePageState(isSendingJob);
   const isActive = usePageState((state) => activeJob(state) !== null);
@@ -81,7 +81,7 @@ const Buttons = () => {
       >
         {words.plot}
       </Button>
-      <Button disabled={isOff} onClick={() => void queueDrawing(copies)}>
+      <Button disabled={isOff} onClick={() => void queueDrawing()}>
         {copies === 1 ? words.addToQueue : words.addCopies(copies)}
       </Button>
       <SaveToJob isOff={isOff} />
@@ -95,7 +95,7 @@ const Buttons = () => {
           step={1}
           digits={0}
           disabled={isOff}
-          onChange={(count) => setCopies(Math.round(count))}
+          onChange={(count) => store.setState({ copies: Math.round(count) })}
         />
       </div>
       <CutOffNote />

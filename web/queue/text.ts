@@ -105,7 +105,6 @@ export const jobText = {
     `Stops where it is${ms === null ? "" : `, with this plotter’s firmware after at most ${(ms / 1_000).toFixed(2)} s`}. Only switching off the motors’ power is faster. The pen may leave a small mark: Pause leaves none.`,
   speedPct: "Speed now",
   speedPctHint: "Percent of the plot’s speed settings. Takes effect within a second.",
-  applyHeights: "Apply the current pen and speed settings",
   place: (stroke: string, mm: string) => `At stroke ${stroke}, ${mm} mm along it`,
   placeMoves: "Change where it resumes",
   strokeBack: "One stroke back",

@@ -5,7 +5,7 @@ import { plotText, queueText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { MenuItem, RowMenu } from "../ui/row-menu.js";
+import { RowMenu } from "../ui/row-menu.js";
 import type { Copies } from "./copies.js";
 import { expectedSOf } from "./queue-time.js";
 import { JobName } from "./job-head.js";
@@ -69,6 +69,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
   const { name } = job;
   // Of several copies the last is removed, because the first may be about to start.
   const last = copies.at(-1) ?? job;
+  const all = words.removeAll(copies.length);
   return (
     <>
       <IconButton
@@ -77,41 +78,22 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
         disabled={isOff || !isFree}
         onClick={() => void actOnJob(job.id, "start")}
       />
-      <RowMenu label={words.more(name)}>
-        <MenuItem words={words.open} label={words.openNamed(name)} onClick={() => void openJob(job)} />
-        <MenuItem
-          words={words.duplicate}
-          label={words.duplicateNamed(name)}
-          isOff={isOff}
-          onClick={() => void duplicateJob(job.id)}
-        />
-        <MenuItem
-          words={words.earlier}
-          label={words.earlierNamed(name)}
-          isOff={isOff || index <= 0}
-          onClick={() => void moveTo(index - 1)}
-        />
-        <MenuItem
-          words={words.later}
-          label={words.laterNamed(name)}
-          isOff={isOff || index >= rowIds.length - 1}
-          onClick={() => void moveTo(index + 1)}
-        />
-        <MenuItem
-          words={words.remove}
-          label={words.removeNamed(name)}
-          isOff={isOff}
-          onClick={() => void removeJob(last.id)}
-        />
-        {copies.length > 1 && (
-          <MenuItem
-            words={words.removeAll(copies.length)}
-            label={words.removeAll(copies.length)}
-            isOff={isOff}
-            onClick={() => void removeAll()}
-          />
-        )}
-      </RowMenu>
+      <RowMenu
+        label={words.more(name)}
+        items={[
+          [words.open, words.openNamed(name), false, () => void openJob(job)],
+          [words.duplicate, words.duplicateNamed(name), isOff, () => void duplicateJob(job.id)],
+          [words.earlier, words.earlierNamed(name), isOff || index <= 0, () => void moveTo(index - 1)],
+          [
+            words.later,
+            words.laterNamed(name),
+            isOff || index >= rowIds.length - 1,
+            () => void moveTo(index + 1),
+          ],
+          [words.remove, words.removeNamed(name), isOff, () => void removeJob(last.id)],
+          ...(copies.length > 1 ? [[all, all, isOff, () => void removeAll()] as const] : []),
+        ]}
+      />
       {rowIds.length > 1 && (
         <Button
           kind="smallIcon"

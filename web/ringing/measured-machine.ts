@@ -13,8 +13,7 @@ export const measuredMachine = (
   const rounded = { ...springs, xHz: tenth(springs.xHz), yHz: tenth(springs.yHz) };
   const isBuiltIn = MACHINES.some(({ id }) => id === machine.id);
   if (!isBuiltIn) return { ...machine, springs: rounded };
-  const taken = [...MACHINES, ...made].map(({ id }) => id);
-  return { ...copyOf(machine, nameOf(machine.name), taken), springs: rounded };
+  return { ...copyOf(machine, nameOf(machine.name), made), springs: rounded };
 };
 
 /** The precision of counting ripples. */

@@ -221,14 +221,14 @@ class GlRenderer implements SceneRenderer {
   }
 
   #setPalette({ layerColors: colors, layerWidthsMm }: Frame): void {
-    const key = `${colors.join()} ${layerWidthsMm?.join() ?? ""}`;
+    const key = `${colors.join()} ${layerWidthsMm.join()}`;
     if (key === this.#paletteKey) return;
     this.#paletteKey = key;
     const gl = this.#gl;
     const count = Math.min(MAX_LAYERS, Math.max(1, colors.length));
     const bytes = new Uint8Array(count * 4);
     colors.slice(0, count).forEach((color, i) => {
-      const share = Math.min(1, (layerWidthsMm?.[i] ?? 0) / WIDEST_MM);
+      const share = Math.min(1, (layerWidthsMm[i] ?? 0) / WIDEST_MM);
       bytes.set([...bytesFromHex(color), Math.round(255 * share)], i * 4);
     });
     gl.activeTexture(gl.TEXTURE1);
@@ -240,10 +240,10 @@ class GlRenderer implements SceneRenderer {
     const gl = this.#gl;
     this.#style = style;
     const isThin = style === "travel" || style === "asked";
-    const widthPx = isThin ? TRAVEL_PX : lineWidthPx(frame, frame.layerWidthsMm ? 0 : frame.lineMm);
+    const narrowestPx = isThin ? TRAVEL_PX : lineWidthPx(frame, 0);
     gl.uniform1f(this.#uniforms.cutOffS, Math.min(NEVER_S, cutOffS(frame, style)));
-    gl.uniform1f(this.#uniforms.radius, (widthPx * frame.ratio) / 2);
-    gl.uniform1f(this.#uniforms.widthMm, frame.layerWidthsMm && !isThin ? WIDEST_MM : 0);
+    gl.uniform1f(this.#uniforms.radius, (narrowestPx * frame.ratio) / 2);
+    gl.uniform1f(this.#uniforms.widthMm, isThin ? 0 : WIDEST_MM);
     if (style === "ghost") this.#setPlain(GHOST_COLOR, 1);
     else if (style === "asked") this.#setPlain(ASKED_COLOR, 1);
     else if (style === "travel") this.#setPlain(TRAVEL_COLOR, TRAVEL_ALPHA);

@@ -13,11 +13,10 @@ export interface Frame {
   readonly ratio: number;
   readonly colorBy: ColorMode;
   readonly showTravel: boolean;
-  readonly lineMm: number;
   /** "#rrggbb" by layer index. */
   readonly layerColors: readonly string[];
-  /** Line width of each layer, mm, by layer index; null: all lines are `lineMm` wide. */
-  readonly layerWidthsMm: readonly number[] | null;
+  /** Line width of each layer, mm, by layer index. */
+  readonly layerWidthsMm: readonly number[];
   /**
    * The mean distance between neighbouring lines, mm. If given, lines that would merge when zoomed out are drawn
    * thinner than usual.

@@ -165,7 +165,7 @@ const lookOf = (frame: Frame, style: Style): Look => {
   if (style === "asked") {
     return { by: null, colors: [bytesFromHex(ASKED_COLOR)], alpha: 1, reaches: [reachOf(TRAVEL_PX)] };
   }
-  const widthsMm = frame.layerWidthsMm?.length ? frame.layerWidthsMm : [frame.lineMm];
+  const widthsMm = frame.layerWidthsMm.length > 0 ? frame.layerWidthsMm : [0];
   const reaches = widthsMm.map((mm) => reachOf(lineWidthPx(frame, mm)));
   if (style === "ghost") return { by: null, colors: [bytesFromHex(GHOST_COLOR)], alpha: 1, reaches };
   const layers = frame.layerColors.length > 0 ? frame.layerColors : [INK_COLOR];

@@ -51,7 +51,7 @@ export const sheetsOf = <B extends Boxed>(
 export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: Sheet<B>): Task<B>[] => {
   const until = ({ pieces }: Boxed): number =>
     frame.untilS === null ? pieces.count : piecesBefore(pieces, frame.untilS);
-  const widestMm = Math.max(frame.lineMm, ...(frame.layerWidthsMm ?? []));
+  const widestMm = Math.max(0, ...frame.layerWidthsMm);
   const reachPx = lineWidthPx(frame, widestMm) / 2 + EDGE_PX;
   const done = until(draw);
   // The piece under the pen is drawn up to the pen's position, and pale from there.

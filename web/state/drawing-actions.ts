@@ -4,6 +4,7 @@ import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { PlanFault } from "../worker/protocol.js";
+import { isSame } from "./is-same.js";
 import type { createNotices } from "./notices.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { openedSettings } from "./plotter-sync.js";
@@ -17,6 +18,13 @@ const headOf = (content: DrawingText): string => {
   const head = content.slice(0, HEAD_LENGTH);
   return typeof head === "string" ? head : new TextDecoder().decode(head);
 };
+
+/**
+ * Whether the drawing is opened again, perhaps after it was edited. Files are known by their name. Pasted drawings all
+ * have the same one, so only their text tells them apart.
+ */
+const isAgain = (before: OpenDrawing, name: string, text: DrawingText): boolean =>
+  name === before.name && (name !== stateText.pastedName || text === before.text);
 
 interface DrawingParts {
   readonly store: PageStore;
@@ -50,12 +58,13 @@ export const createDrawingActions = (parts: DrawingParts) => {
   const openDrawing = (name: string, text: DrawingText, jobId: string | null = null): void => {
     notices.clearErrors();
     const { drawing, planned, settings } = store.getState();
-    const isOther = jobId === null && name !== drawing?.name;
+    const isOther = jobId === null && (drawing === null || !isAgain(drawing, name, text));
     const key = `drawing-${nextDrawing++}`;
     if (drawing && planned) lastGood = { drawing, settings };
     unplacedKey = isOther ? key : null;
     store.setState({
       drawing: { key, name, text, jobId, sourceId: jobId },
+      copies: 1,
       // A file that was edited and opened again keeps its layer settings and its place.
       settings: isOther ? forOtherDrawing(settings) : settings,
       planned: null,
@@ -98,11 +107,8 @@ export const createDrawingActions = (parts: DrawingParts) => {
 
   const showJobSettings = (job: Job): void => {
     const settings = openedSettings(store.getState(), job);
-    const isJobs = JSON.stringify(settings) === JSON.stringify(job.settings);
-    store.setState(({ drawing }) => ({
-      settings,
-      drawing: drawing && { ...drawing, jobId: isJobs ? job.id : null },
-    }));
+    const jobId = isSame(settings, job.settings) ? job.id : null;
+    store.setState(({ drawing }) => ({ settings, drawing: drawing && { ...drawing, jobId } }));
     replan();
   };
 
@@ -119,7 +125,7 @@ export const createDrawingActions = (parts: DrawingParts) => {
       if (!drawing || drawing.jobId === null) return;
       const job = jobs.find(({ id }) => id === drawing.jobId);
       if (!job) store.setState({ drawing: { ...drawing, jobId: null } });
-      else if (JSON.stringify(job.settings) !== JSON.stringify(settings)) showJobSettings(job);
+      else if (!isSame(job.settings, settings)) showJobSettings(job);
     },
     openFile: async (file: File): Promise<void> => {
       const isLast = startRequest();

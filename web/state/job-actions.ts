@@ -37,8 +37,12 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
       ...(from ? { from } : {}),
     };
     const job = await attempt("add", () => backend.addJob(newJob, drawing.text));
-    if (job && store.getState().drawing?.key === drawing.key && store.getState().settings === settings) {
-      store.setState({ drawing: { ...drawing, jobId: job.id } });
+    const now = store.getState();
+    if (job && now.drawing?.key === drawing.key) {
+      const jobId = now.settings === settings ? job.id : null;
+      // Later changes concern a single job, not the first of several copies.
+      const sourceId = copies === 1 ? job.id : drawing.sourceId;
+      store.setState({ drawing: { ...drawing, jobId, sourceId } });
     }
     return job;
   };
@@ -57,8 +61,8 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
   };
 
   return {
-    queueDrawing: async (copies = 1): Promise<void> => {
-      const job = await addToQueue(copies, null);
+    queueDrawing: async (): Promise<void> => {
+      const job = await addToQueue(store.getState().copies, null);
       if (job) notify("info", stateText.added(job.name));
     },
     /** With `from`, the plot waits at that place with the pen up until it is resumed. */

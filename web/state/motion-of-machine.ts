@@ -1,6 +1,7 @@
 /** Motion settings that depend on how the machine swings: the qualities, and what changes with another machine. */
 import { motionOfQuality, qualityOf, type Quality, type Springs } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { isSame } from "./is-same.js";
 
 type Motion = PlotSettings["motion"];
 
@@ -23,5 +24,3 @@ export const motionForSprings = (motion: Motion, before: Springs | null, now: Sp
 /** Shaping needs a measured machine. */
 export const plannable = (motion: Motion, springs: Springs | null): Motion =>
   springs === null && (motion.shaper ?? "none") !== "none" ? { ...motion, shaper: "none" } : motion;
-
-const isSame = (a: Springs | null, b: Springs | null): boolean => JSON.stringify(a) === JSON.stringify(b);

@@ -14,6 +14,7 @@ import {
   type PlotSettings,
   type PlotterSettings,
 } from "../../src/schema/index.js";
+import { isSame } from "./is-same.js";
 import { motionForSprings } from "./motion-of-machine.js";
 import { createPlotterSaver, type Shown, type SyncParts } from "./plotter-saver.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate, otherOperator, type PageState } from "./store.js";
@@ -125,17 +126,8 @@ const partOf = ({ settings, presets }: Shown): PlotterSettings => ({
   presets: [...presets],
 });
 
-/** Equal as JSON. The order of keys does not count, because the server's answer may have another one. */
-const isSame = (a: unknown, b: unknown): boolean => sortedJson(a) === sortedJson(b);
-
-const sortedJson = (value: unknown): string =>
-  JSON.stringify(value, (_key, part: unknown) =>
-    typeof part === "object" && part !== null && !Array.isArray(part)
-      ? Object.fromEntries(Object.entries(part).sort(([one], [other]) => (one < other ? -1 : 1)))
-      : part,
-  );
-
-const profileOf = ({ machines }: PageState, id: string | null): MachineProfile | null =>
+/** The machine with this id; null: this server does not know it. */
+export const profileOf = ({ machines }: PageState, id: string | null): MachineProfile | null =>
   [...MACHINES, ...machines].find((machine) => machine.id === id) ?? null;
 
 const showsActiveJob = ({ drawing, jobs }: PageState): boolean => {

@@ -1,6 +1,6 @@
 /** The page's whole state, without React: the drawing, the server's state, the view. */
 import { createStore } from "zustand/vanilla";
-import { findMachine, firmwareFor, type Springs } from "../../src/internal.js";
+import { findMachine, firmwareFor, type PaperSize, type Springs } from "../../src/internal.js";
 import type {
   Job,
   ListedMachine,
@@ -29,7 +29,7 @@ export interface OpenDrawing {
   readonly text: DrawingText;
   /** The job that it was opened from or sent as, as long as the settings are that job's. */
   readonly jobId: string | null;
-  /** The job that it was opened from, even after the settings were changed. */
+  /** The single job that it was opened from or sent as, even after the settings were changed. */
   readonly sourceId: string | null;
 }
 
@@ -112,6 +112,10 @@ export interface PageState {
   /** True until the browser has returned the drawing of the last visit. */
   readonly isStarting: boolean;
   readonly drawing: OpenDrawing | null;
+  /** How many times "Add to queue" adds the drawing. */
+  readonly copies: number;
+  /** A paper whose size is typed into fields, also while that happens to be the size of a paper with a name. */
+  readonly typedPaper: PaperSize | null;
   readonly planned: Planned | null;
   readonly isPlanning: boolean;
   readonly fault: PlanFault | null;
@@ -180,6 +184,8 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     sideJobIds: [],
     isStarting: true,
     drawing: null,
+    copies: 1,
+    typedPaper: null,
     planned: null,
     isPlanning: false,
     fault: null,

@@ -25,13 +25,14 @@ export const PlottersSection = () => {
 
 const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) => {
   const studio = useStudio();
-  const [name, setName] = useState(plotter.name);
+  /** The name while it is being typed. */
+  const [typed, setTyped] = useState<string | null>(null);
   const jobs = usePageState((state) => state.jobs);
   const isInUse = jobs.some((job) => job.plotterId === plotter.id && !ENDED_STATES.includes(job.state));
   const rename = (): void => {
-    const wanted = name.trim();
-    if (wanted === "") setName(plotter.name);
-    else if (wanted !== plotter.name) void studio.patchPlotter(plotter.id, { name: wanted });
+    const wanted = typed?.trim() ?? "";
+    setTyped(null);
+    if (wanted !== "" && wanted !== plotter.name) void studio.patchPlotter(plotter.id, { name: wanted });
   };
   return (
     <li className="plotter-row">
@@ -40,8 +41,8 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
         type="text"
         maxLength={100}
         aria-label={words.plotterName(plotter.name)}
-        value={name}
-        onChange={(event) => setName(event.target.value)}
+        value={typed ?? plotter.name}
+        onChange={(event) => setTyped(event.target.value)}
         onBlur={rename}
         onKeyDown={(event) => {
           // Leaving the field renames the plotter.

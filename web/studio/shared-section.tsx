@@ -1,7 +1,8 @@
 import { useEffect, useState } from "react";
-import { MACHINES } from "../../src/index.js";
+import type { MachineProfile } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
 import type { Plotter, SharedJob, SharedTarget } from "../../src/schema/index.js";
+import { profileOf } from "../state/plotter-sync.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { studioText as words } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -47,7 +48,7 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
   const nowMs = useNow();
   const action = possibleAction(job, nowMs);
   const plotters = usePageState((state) => state.plotters);
-  const machine = useMachine(machineWanted(job));
+  const machine = usePageState((state) => profileOf(state, machineWanted(job)));
   const parts = [
     words.sharedStates[job.state],
     machine === null ? words.sharedFor(job.target) : words.sharedForAny(machine.name),
@@ -84,15 +85,9 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
   );
 };
 
-/** The machine with this id, if this server knows it. */
-const useMachine = (id: string | null): { readonly id: string; readonly name: string } | null => {
-  const made = usePageState((state) => state.machines);
-  return [...MACHINES, ...made].find((machine) => machine.id === id) ?? null;
-};
-
 interface LeftOutProps {
   readonly plotter: Plotter;
-  readonly machine: { readonly id: string; readonly name: string } | null;
+  readonly machine: MachineProfile | null;
 }
 
 /** A plotter without a model, and a button that sets the one that the job needs. */

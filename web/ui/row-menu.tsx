@@ -1,9 +1,17 @@
-import { useEffect, useRef, useState, type ReactNode } from "react";
+import { useEffect, useRef, useState } from "react";
 import { IconButton } from "./button.js";
 import "./row-menu.css";
 
+/** `label` includes the row's name, for screen readers. */
+type MenuItem = readonly [words: string, label: string, isOff: boolean, run: () => void];
+
+interface RowMenuProps {
+  readonly label: string;
+  readonly items: readonly MenuItem[];
+}
+
 /** A menu with a row's further buttons. Escape, a press outside or a press on a button closes it. */
-export const RowMenu = ({ label, children }: { label: string; children: ReactNode }) => {
+export const RowMenu = ({ label, items }: RowMenuProps) => {
   const [isOpen, setOpen] = useState(false);
   const box = useRef<HTMLDivElement>(null);
   const opener = useRef<HTMLButtonElement>(null);
@@ -45,23 +53,20 @@ export const RowMenu = ({ label, children }: { label: string; children: ReactNod
             if (event.target instanceof Element && event.target.closest("button")) setOpen(false);
           }}
         >
-          {children}
+          {items.map(([words, itemLabel, isOff, run]) => (
+            <button
+              key={itemLabel}
+              type="button"
+              className="row-menu-item"
+              aria-label={itemLabel}
+              disabled={isOff}
+              onClick={run}
+            >
+              {words}
+            </button>
+          ))}
         </div>
       )}
     </div>
   );
 };
-
-interface MenuItemProps {
-  readonly words: string;
-  /** Includes the row's name, for screen readers. */
-  readonly label: string;
-  readonly isOff?: boolean;
-  onClick(): void;
-}
-
-export const MenuItem = ({ words, label, isOff = false, onClick }: MenuItemProps) => (
-  <button type="button" className="row-menu-item" aria-label={label} disabled={isOff} onClick={onClick}>
-    {words}
-  </button>
-);

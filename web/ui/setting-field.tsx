@@ -4,7 +4,7 @@ import { NumberField } from "./number-field.js";
 interface SettingFieldProps {
   readonly setting: NumberSetting;
   readonly value: number;
-  readonly hint?: string;
+  readonly hint?: string | undefined;
   /** For a range that depends on other settings. */
   readonly max?: number;
   onChange(value: number): void;

@@ -1,19 +1,23 @@
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions } from "../state/use-store.js";
 
-/** Changes the prepare settings as an undo step called `what`. */
-export const usePrepareChange = () => {
+type Part = "prepare" | "motion" | "pen";
+
+/** Changes one part of the settings, as an undo step for each thing that is changed: `what`. */
+const useChange = <P extends Part>(part: P) => {
   const { changeSettings } = useActions();
-  return (what: string, change: Partial<PlotSettings["prepare"]>): void =>
-    changeSettings(what, (settings) => ({ ...settings, prepare: { ...settings.prepare, ...change } }));
+  return (what: string, change: Partial<PlotSettings[P]>): void =>
+    changeSettings(`${part} ${what}`, (settings) => ({
+      ...settings,
+      [part]: { ...settings[part], ...change },
+    }));
 };
 
-/** Changes settings of the pen's motion, as an undo step for each of them. */
+export const usePrepareChange = () => useChange("prepare");
+export const useMotionChange = () => useChange("motion");
+
+/** As an undo step for each setting. */
 export const usePenChange = () => {
-  const { changeSettings } = useActions();
-  return (part: Partial<PlotSettings["pen"]>): void =>
-    changeSettings(`pen ${Object.keys(part).join()}`, (settings) => ({
-      ...settings,
-      pen: { ...settings.pen, ...part },
-    }));
+  const change = useChange("pen");
+  return (part: Partial<PlotSettings["pen"]>): void => change(Object.keys(part).join(), part);
 };

@@ -1,11 +1,12 @@
 import type { Job } from "../../src/schema/index.js";
 import { NudgeJob } from "../plotter/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
-import { activeJob, mayOperate, penWait } from "../state/store.js";
+import { activeJob, mayOperate, penOf, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatCount, formatNumber } from "../ui/format.js";
+import { changedSettings } from "./changed-settings.js";
 import { watchText } from "./text.js";
 
 const STEP_MM = 10;
@@ -59,7 +60,6 @@ const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place
 const LiveChanges = ({ job }: { job: Job }) => {
   const percents = SPEED_PERCENTS.includes(job.speedPct) ? SPEED_PERCENTS : [job.speedPct, ...SPEED_PERCENTS];
   const { changeJob } = useActions();
-  const settings = usePageState((state) => state.settings);
   return (
     <div className="place">
       <Select
@@ -69,12 +69,31 @@ const LiveChanges = ({ job }: { job: Job }) => {
         options={percents.map((pct) => ({ value: String(pct), label: `${pct} %` }))}
         onChange={(pct) => void changeJob(job.id, { speedPct: Number(pct) })}
       />
+      <ApplyChanges job={job} />
+    </div>
+  );
+};
+
+/**
+ * Applies the page's pen and speed settings to the plot. Only offered where the user changed them after this page opened
+ * or sent the job: on another page, such as a phone that only watches, they are those of another drawing.
+ */
+const ApplyChanges = ({ job }: { job: Job }) => {
+  const { changeJob } = useActions();
+  const settings = usePageState((state) => state.settings);
+  const pen = usePageState((state) => penOf(state, job));
+  const isChangedHere = usePageState(({ drawing }) => drawing?.jobId === null && drawing.sourceId === job.id);
+  const changes = changedSettings({ pen, motion: job.settings.motion }, settings);
+  if (!isChangedHere || changes.length === 0) return null;
+  return (
+    <>
       <Button
         kind="small"
         onClick={() => void changeJob(job.id, { pen: settings.pen, motion: settings.motion })}
       >
-        {words.applyHeights}
+        {watchText.apply}
       </Button>
-    </div>
+      <p className="note">{changes.join(", ")}</p>
+    </>
   );
 };

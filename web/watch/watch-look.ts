@@ -1,13 +1,12 @@
-/** The look of the running plot: the pens' colours and widths, how far it is drawn, and the pen's position. */
+/** The look of the running plot: the pens' colours and widths, and how far it is drawn. */
 import { penOf, shownLayerName, type StrokeLayer } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import { jobUntilS } from "../preview/drawn-until.js";
-import type { Marker } from "../preview/overlay.js";
 import type { FrameLook } from "../preview/stage.js";
 import { layerColor } from "../scene/color-map.js";
 import { LAYER_SHORT, PIECE_SHORTS } from "../scene/pieces.js";
 import { piecesBefore } from "../scene/scene.js";
-import { currentPlotter, type PageState } from "../state/store.js";
+import type { PageState } from "../state/store.js";
 import type { Planned } from "../worker/protocol.js";
 
 const DEFAULT_LINE_MM = 0.35;
@@ -17,7 +16,6 @@ export const lookOfJob = (job: Job | null, planned: Planned | null, live: PageSt
   return {
     colorBy: "pen",
     showTravel: false,
-    lineMm: DEFAULT_LINE_MM,
     layerColors: layers.map(
       (layer, index) => penOfJob(job, layer)?.color ?? layer.color ?? layerColor(index),
     ),
@@ -27,14 +25,6 @@ export const lookOfJob = (job: Job | null, planned: Planned | null, live: PageSt
 };
 
 const penOfJob = (job: Job | null, layer: StrokeLayer) => (job ? penOf(job.settings, layer) : null);
-
-/** The pen's position; null: unknown. */
-export const markerOfJob = (state: PageState, job: Job | null): Marker | null => {
-  const plotter = currentPlotter(state);
-  if (!job || state.link !== "connected" || !plotter) return null;
-  const { xMm, yMm, penUp, penMoving } = plotter;
-  return xMm === null || yMm === null ? null : { xMm, yMm, penDown: penUp === false && !penMoving };
-};
 
 interface LayerNow {
   readonly number: number;

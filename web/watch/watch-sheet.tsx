@@ -6,7 +6,8 @@ import { previewText } from "../preview/text.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { deskOf } from "../preview/desk.js";
-import { lookOfJob, markerOfJob } from "./watch-look.js";
+import { plotterMarker } from "../preview/marker.js";
+import { lookOfJob } from "./watch-look.js";
 import { FullScreenButton } from "./full-screen.js";
 import { watchText as words } from "./text.js";
 
@@ -51,7 +52,7 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
       stage.setLook(lookOf(state));
     }
     if (state.view.theme !== before?.view.theme) stage.recolor();
-    stage.setMarker(markerOfJob(state, watchedJob(state)));
+    stage.setMarker(watchedJob(state) && plotterMarker(state));
   };
   show(store.getState(), null);
   return store.subscribe(show);

@@ -88,7 +88,6 @@ export const DRAWING_STATES: readonly PageState[] = [
       const folded = page.locator(".column-setup button[aria-expanded=false]:visible");
       // On a phone the sheet may cover the button.
       while ((await folded.count()) > 0) await folded.first().dispatchEvent("click");
-      await page.locator("#group-motion summary").dispatchEvent("click");
       await page.getByLabel("Speed along x", { exact: true }).waitFor();
     },
   },
