@@ -137,7 +137,7 @@ export { controllerOf, driverOf, firmwareFor, isPlannedAlike, usbIds } from "./d
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
 export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";
 export type { Driver, Machine, MachineEvents, MachineRun, UsbId, VirtualMachine } from "./drivers/driver.js";
-export { powerLost, powerLow } from "./drivers/faults.js";
+export { moveStopped, powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
 

@@ -1,6 +1,6 @@
 /** Messages between the planner and its worker thread. Large arrays are transferred, not copied. */
 import { PlotwrightError, type ErrorCode, type StrokeSet } from "../../src/index.js";
-import type { JobStats } from "../../src/schema/index.js";
+import type { Measured } from "./planning.js";
 import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
 
 export type ToWorker =
@@ -13,12 +13,7 @@ export type FromWorker =
   | { readonly type: "imported" }
   | { readonly type: "ready"; readonly strokes: StrokeSet; readonly warnings: readonly string[] }
   | { readonly type: "planned"; readonly id: number; readonly plot: PlannedPlot }
-  | {
-      readonly type: "measured";
-      readonly id: number;
-      readonly stats: JobStats;
-      readonly warnings: readonly string[];
-    }
+  | ({ readonly type: "measured"; readonly id: number } & Measured)
   /** `id` null: the drawing itself could not be prepared. */
   | ({ readonly type: "failed"; readonly id: number | null } & Fault);
 

@@ -54,16 +54,9 @@ function measurePrepared(
   firmware: string | null,
 ): Measured {
   const job = planJob(prepared, settings, machine, { firmware });
-  const { trajectory } = job;
-  const figures = trajectoryStats(trajectory);
-  const stats: JobStats = {
-    strokeCount: strokeCount(prepared.strokes),
-    pointCount: pointCount(prepared.strokes),
-    drawMm: figures.drawMm,
-    travelMm: figures.travelMm,
-    penLiftCount: figures.penLiftCount,
-    durationS: figures.durationS,
-  };
+  const { drawMm, travelMm, penLiftCount, durationS } = trajectoryStats(job.trajectory);
+  const counts = { strokeCount: strokeCount(prepared.strokes), pointCount: pointCount(prepared.strokes) };
+  const stats: JobStats = { ...counts, drawMm, travelMm, penLiftCount, durationS };
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
 }
 

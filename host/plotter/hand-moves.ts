@@ -4,7 +4,7 @@
  */
 import { planJob, PlotwrightError, strokesOf } from "../../src/index.js";
 import type { Line, MachineProfile, StrokeSet } from "../../src/index.js";
-import { type Machine, machineOf } from "../../src/internal.js";
+import { type Machine, machineOf, moveStopped } from "../../src/internal.js";
 import type { BoxMm, HandMove, PlotSettings } from "../../src/schema/index.js";
 
 /** Rejects with `out-of-bounds` before anything moves, or with the board's error. */
@@ -70,10 +70,12 @@ async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings):
 /** Draws strokes in mm from the carriage's position, and returns there. */
 async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
+  const { stopCount } = plotter;
   const { x, y } = await standing(plotter, settings);
   const { xy } = strokes;
   for (let i = 0; i < xy.length; i += 2) mustReach(machine, x + xy[i], y + xy[i + 1]);
   if (plotter.penUp !== true) await plotter.movePen(true, settings);
+  if (plotter.stopCount !== stopCount) throw moveStopped();
   const here = { ...strokes, xy: xy.map((value, i) => value + (i % 2 === 0 ? x : y)) };
   const job = planJob({ strokes: here }, settings, machine, {
     startXMm: x,
@@ -87,7 +89,9 @@ async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSett
 }
 
 async function standing(plotter: Machine, settings: PlotSettings): Promise<{ x: number; y: number }> {
+  const { stopCount } = plotter;
   await plotter.ready(settings);
+  if (plotter.stopCount !== stopCount) throw moveStopped();
   return plotter.place(machineOf(settings))!;
 }
 

@@ -15,6 +15,7 @@ import {
   movedPlace,
   landingMm,
   leavesLineMm,
+  moveStopped,
   placeBehindSent,
   pointOfPlace,
   stoppedPlace,
@@ -181,8 +182,15 @@ export class MachinePlot implements LivePlotRun {
 
   async checkHoldPlace(): Promise<void> {
     const { x, y } = pointOfPlace(this.#strokes, this.#heldPlace());
-    const walk = this.#walking.then(() => this.#machine.walk(x, y, this.#settings.current));
-    this.#walking = walk.catch(() => undefined);
+    const { stopCount } = this.#machine;
+    const walk = this.#walking.then(() => {
+      if (this.#machine.stopCount !== stopCount) throw moveStopped();
+      return this.#machine.walk(x, y, this.#settings.current);
+    });
+    this.#walking = walk.catch((error: unknown) => {
+      // The plot cannot resume from a lost position.
+      if (!this.#machine.state && error instanceof PlotwrightError) this.fail(error);
+    });
     await walk;
   }
 
@@ -368,6 +376,7 @@ export class MachinePlot implements LivePlotRun {
   }
 
   async #goHome(): Promise<PlotOutcome> {
+    if (this.#failure) throw this.#failure;
     if (this.#staysPut) return { kind: "cancelled" };
     try {
       await this.#machine.walk(0, 0, this.#settings.current);

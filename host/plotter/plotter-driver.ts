@@ -45,6 +45,8 @@ export class PlotterDriver {
   #cancelRetry: (() => void) | null = null;
   #run: MachinePlot | null = null;
   #movingByHand = false;
+  /** Settings with another controller, to be used when nothing moves. */
+  #chosen: PlotSettings | null = null;
   #closed = false;
   /** After a real board was connected, the virtual board is never used in its place. */
   #hadSerial = false;
@@ -119,10 +121,12 @@ export class PlotterDriver {
 
   /** Sets machine, speeds and heights for manual moves. Home stays the same, since it is a motor position. */
   use(settings: PlotSettings): void {
-    if (this.#isConnectedFor(settings)) {
+    this.#chosen = this.#isConnectedFor(settings) ? null : settings;
+    if (this.#chosen) void this.#useChosen();
+    else {
       this.#settings = settings;
       this.#machineChanged();
-    } else void this.#connectFor(settings).catch(() => undefined);
+    }
   }
 
   async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
@@ -221,6 +225,22 @@ export class PlotterDriver {
     await this.#connecting;
     if (this.#run || this.#movingByHand) return;
     const before = this.#settings;
+    await this.#reconnectFor(settings);
+    if (this.#machine) return;
+    this.#settings = before;
+    throw this.#trouble ?? notStarted();
+  }
+
+  async #useChosen(): Promise<void> {
+    await this.#connecting;
+    const settings = this.#chosen;
+    if (!settings || this.#closed || this.#run || this.#movingByHand) return;
+    this.#chosen = null;
+    await this.#reconnectFor(settings);
+  }
+
+  /** Reconnects with the driver of these settings. If that fails, the automatic attempts use it too. */
+  async #reconnectFor(settings: PlotSettings): Promise<void> {
     this.#settings = settings;
     const connection = this.#connection;
     const virtual = this.#virtual;
@@ -230,9 +250,6 @@ export class PlotterDriver {
     await connection?.machine.close().catch(() => undefined);
     virtual?.close();
     await this.#startConnecting();
-    if (this.#machine) return;
-    this.#settings = before;
-    throw this.#trouble ?? notStarted();
   }
 
   #startConnecting(): Promise<void> {
@@ -340,6 +357,8 @@ export class PlotterDriver {
     this.#setState({ connection: "fault", message: powerLow().message });
     const settings = this.#settings;
     const machine = this.#machine;
+    // A manual move, or the way home of a cancelled plot.
+    machine?.stopAtOnce();
     try {
       await machine?.forgetPlace();
       await machine?.release(settings);
@@ -364,6 +383,7 @@ export class PlotterDriver {
   #setIdle(): void {
     const isReady = this.#machine && !this.#closed && !this.#supply.isLow;
     this.#setState({ activity: "none", ...(isReady ? { connection: "idle" } : {}) });
+    void this.#useChosen();
   }
 
   /** The machine, for one request. Use it before the next await: another request could take it meanwhile. */

@@ -1,7 +1,6 @@
 /** Finds the plotter of a request. */
 import { PlotwrightError } from "../../src/index.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
-import type { JobQueue } from "./job-queue.js";
 
 type Plotters = ReadonlyMap<string, PlotterPort>;
 
@@ -13,7 +12,11 @@ export function findPlotter(plotters: Plotters, id: string): PlotterPort {
 }
 
 /** Throws `not-found`, or `busy` while it is plotting a job. */
-export function findFreePlotter(plotters: Plotters, queue: JobQueue, id: string): PlotterPort {
+export function findFreePlotter(
+  plotters: Plotters,
+  queue: { isPlotterBusy(id: string): boolean },
+  id: string,
+): PlotterPort {
   const plotter = findPlotter(plotters, id);
   if (queue.isPlotterBusy(id)) {
     throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");

@@ -10,21 +10,17 @@
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { DISK_FULL, isDiskFault } from "../disk-fault.js";
-import { applyJobEvent, type JobEvent } from "./job-machine.js";
-import type { QueueParts } from "./queue-parts.js";
-import type { StoredDrawing, WatchedFile } from "../storage.js";
+import { applyJobEvent, isOnPlotter, type JobEvent } from "./job-machine.js";
+import type { NewQueueJob, QueueParts } from "./queue-parts.js";
+import type { StoredDrawing } from "../storage.js";
 
 type ListParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
 
-const ON_PLOTTER: readonly (Job["state"] | undefined)[] = ["plotting", "paused"];
 const RETRY_MS = 5_000;
 
 /** The source of a new job, its place in the queue, and the number of jobs to add. */
-export interface Origin {
+export interface Origin extends Pick<NewQueueJob, "watched" | "sharedId" | "copies"> {
   readonly beforeId?: string | null;
-  readonly watched?: WatchedFile | undefined;
-  readonly sharedId?: string | undefined;
-  readonly copies?: number | undefined;
 }
 
 export class JobList {
@@ -102,11 +98,11 @@ export class JobList {
   }
 
   save(job: Job): Job {
-    const isOnPlotter = ON_PLOTTER.includes(this.#jobs.get(job.id)?.state);
+    const before = this.#jobs.get(job.id);
     try {
       return this.#write(job);
     } catch (error) {
-      if (isOnPlotter && isDiskFault(error)) return this.#saveLater(job);
+      if (before && isOnPlotter(before) && isDiskFault(error)) return this.#saveLater(job);
       throw error;
     }
   }

@@ -1,14 +1,5 @@
 /**
- * The state machine of a job, as one pure function: (job, event) -> job; throws `conflict`.
- *
- *   queued ──start──> plotting ──finish──> done
- *                       │  ^ └──fail──> failed ──requeue──> queued (also from done, cancelled, interrupted)
- *                  hold v  │ release
- *                      paused ──cancel──> cancelled      (also from queued, plotting, interrupted)
- *
- *   plotting, paused ──interrupt──> interrupted ──recover──> paused: nothing moves until it is resumed
- *                                 cancelled ──recover──> paused: only if part of it is drawn; continues there
- *
+ * The state machine of a job (diagram: src/schema/job.ts), as one pure function: (job, event) -> job; throws `conflict`.
  * The queue applies, stores and announces the result.
  */
 import { PlotwrightError } from "../../src/index.js";
@@ -26,28 +17,38 @@ export type JobEvent =
   | { readonly type: "cancel"; readonly place: JobPlace | null }
   | { readonly type: "requeue" };
 
+interface Transition {
+  readonly from: readonly JobState[];
+  readonly to: JobState;
+  /** For the message that it is not allowed now. */
+  readonly verb: string;
+}
+
 /** The states in which each event is allowed, and the state it leads to. */
-export const TRANSITIONS: Readonly<
-  Record<JobEvent["type"], { readonly from: readonly JobState[]; readonly to: JobState }>
-> = {
-  start: { from: ["queued"], to: "plotting" },
-  hold: { from: ["plotting"], to: "paused" },
-  release: { from: ["paused"], to: "plotting" },
-  finish: { from: ["plotting"], to: "done" },
-  fail: { from: ["plotting", "paused"], to: "failed" },
-  interrupt: { from: ["plotting", "paused"], to: "interrupted" },
-  recover: { from: ["interrupted", "cancelled"], to: "paused" },
-  cancel: { from: ["queued", "plotting", "paused", "interrupted"], to: "cancelled" },
-  requeue: { from: ["done", "failed", "cancelled", "interrupted"], to: "queued" },
+export const TRANSITIONS: Readonly<Record<JobEvent["type"], Transition>> = {
+  start: { from: ["queued"], to: "plotting", verb: "started" },
+  hold: { from: ["plotting"], to: "paused", verb: "paused" },
+  release: { from: ["paused"], to: "plotting", verb: "resumed" },
+  finish: { from: ["plotting"], to: "done", verb: "finished" },
+  fail: { from: ["plotting", "paused"], to: "failed", verb: "failed" },
+  interrupt: { from: ["plotting", "paused"], to: "interrupted", verb: "interrupted" },
+  recover: { from: ["interrupted", "cancelled"], to: "paused", verb: "continued" },
+  cancel: { from: ["queued", "plotting", "paused", "interrupted"], to: "cancelled", verb: "cancelled" },
+  requeue: { from: ["done", "failed", "cancelled", "interrupted"], to: "queued", verb: "queued again" },
 };
+
+/** Whether the job is being plotted, or held on the plotter. */
+export const isOnPlotter = ({ state }: Job): boolean => state === "plotting" || state === "paused";
 
 /**
  * The job after the event, at the given time (ISO 8601); throws `conflict` if the event is not allowed now.
  */
 export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
-  const { from, to } = TRANSITIONS[event.type];
+  const { from, to, verb } = TRANSITIONS[event.type];
   const isUndrawn = event.type === "recover" && job.state === "cancelled" && job.place === null;
-  if (!from.includes(job.state) || isUndrawn) throw cannot(job, event.type);
+  if (!from.includes(job.state) || isUndrawn) {
+    throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
+  }
   const next: Job = { ...job, state: to, message: null };
   switch (event.type) {
     case "start":
@@ -90,22 +91,3 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
 /** The planned remaining time; null if the job was never planned. */
 const remainingS = ({ stats, progress }: Job): number | null =>
   stats === null ? null : stats.durationS * (1 - progress);
-
-const VERBS: Readonly<Record<JobEvent["type"], string>> = {
-  start: "started",
-  hold: "paused",
-  release: "resumed",
-  finish: "finished",
-  fail: "failed",
-  interrupt: "interrupted",
-  recover: "continued",
-  cancel: "cancelled",
-  requeue: "queued again",
-};
-
-function cannot(job: Job, event: JobEvent["type"]): PlotwrightError {
-  return new PlotwrightError(
-    "conflict",
-    `"${job.name}" is ${job.state}, so it can't be ${VERBS[event]} now.`,
-  );
-}

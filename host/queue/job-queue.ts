@@ -13,9 +13,10 @@ import {
 } from "../../src/schema/index.js";
 import type { Requester } from "../planning/lane.js";
 import { expectedS, timeRatio } from "./expected-time.js";
+import { findPlotter } from "./find-plotter.js";
 import { JobList } from "./job-list.js";
-import { applyJobEvent } from "./job-machine.js";
-import { RunningPlots, plotterOf } from "./running-plots.js";
+import { applyJobEvent, isOnPlotter } from "./job-machine.js";
+import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
 import { queuedJob } from "./queued-job.js";
 
@@ -54,7 +55,7 @@ export class JobQueue {
   }
 
   saveSettings(settings: QueueSettings, plotterId = this.#firstPlotter()): QueueSettings {
-    plotterOf(this.#parts, plotterId);
+    findPlotter(this.#parts.plotters, plotterId);
     this.#parts.store.saveSetting(settingOf(plotterId), settings);
     if (plotterId === this.#firstPlotter()) this.#parts.announce({ type: "queue", queue: settings });
     this.#parts.announce({ type: "queues", queues: this.allSettings() });
@@ -85,7 +86,7 @@ export class JobQueue {
 
   async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
     const { name, settings, drawing, from, plotterId = this.#firstPlotter() } = wanted;
-    plotterOf(this.#parts, plotterId);
+    findPlotter(this.#parts.plotters, plotterId);
     const firmware = this.#firmwareOf(plotterId, settings);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
     if (from && from.strokeIndex >= stats.strokeCount) {
@@ -95,7 +96,7 @@ export class JobQueue {
       );
     }
     // The plotter may have been removed meanwhile.
-    plotterOf(this.#parts, plotterId);
+    findPlotter(this.#parts.plotters, plotterId);
     const job = this.#newJob({ plotterId, name, settings, stats, warnings: [...warnings] });
     const { watched, sharedId, copies } = wanted;
     return this.#jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId, copies });
@@ -112,10 +113,10 @@ export class JobQueue {
       this.#jobs.mustBeQueued(id, "Its settings");
       mustKeepStrokes(this.get(id), settings);
     }
-    if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
+    if (plotterId !== undefined) findPlotter(this.#parts.plotters, plotterId);
     const planned = await this.#remeasured(id, patch, requester);
     // The plotter may have been removed meanwhile.
-    if (plotterId !== undefined) plotterOf(this.#parts, plotterId);
+    if (plotterId !== undefined) findPlotter(this.#parts.plotters, plotterId);
     const job = {
       ...this.get(id),
       ...planned,
@@ -174,7 +175,7 @@ export class JobQueue {
 
   async remove(id: string): Promise<void> {
     const job = this.get(id);
-    if (job.state === "plotting" || job.state === "paused") {
+    if (isOnPlotter(job)) {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}. Cancel it before removing it.`);
     }
     const unused = this.#jobs.remove(id);
@@ -188,9 +189,7 @@ export class JobQueue {
 
   /** Whether the job is on a plotter now; false for an unknown id. */
   isRunning(id: string): boolean {
-    if (!this.#jobs.has(id)) return false;
-    const { state } = this.get(id);
-    return state === "plotting" || state === "paused";
+    return this.#jobs.has(id) && isOnPlotter(this.get(id));
   }
 
   /** Number of a plotter's jobs that have not ended. */
@@ -223,7 +222,7 @@ export class JobQueue {
    * starts.
    */
   async plotterSettled(id: string): Promise<void> {
-    await plotterOf(this.#parts, this.get(id).plotterId).settled();
+    await findPlotter(this.#parts.plotters, this.get(id).plotterId).settled();
   }
 
   change(id: string, change: JobChange): Promise<Job> {

@@ -5,10 +5,8 @@
 import { PlotwrightError, type Place } from "../../src/index.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
-import type { JournalEntry, LivePlotRun, PlotChange, PlotOutcome, PlotProgress } from "../plotter/types.js";
+import type { JournalEntry, LivePlotRun, PlotOutcome, PlotProgress } from "../plotter/types.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
-
-export type OpenPlanner = (signal: AbortSignal) => Promise<PlotPlanner>;
 
 export type RunEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
 
@@ -25,7 +23,7 @@ export interface RunReports {
 export interface RunPlan {
   readonly plotter: PlotterPort;
   readonly settings: PlotSettings;
-  readonly open: OpenPlanner;
+  readonly open: (signal: AbortSignal) => Promise<PlotPlanner>;
   /**
    * Where to start; null: at the beginning of the drawing. A run that starts in the middle is held at first.
    */
@@ -78,10 +76,6 @@ export class Runner {
   get live(): LivePlotRun {
     if (this.#run !== null) return this.#run;
     throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
-  }
-
-  async change(change: PlotChange): Promise<void> {
-    await this.live.change(change);
   }
 
   get isCancelling(): boolean {

@@ -15,8 +15,9 @@ import {
 import type { JournalEntry, PlotProgress } from "../plotter/types.js";
 import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
-import { applyJobEvent } from "./job-machine.js";
+import { applyJobEvent, isOnPlotter } from "./job-machine.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
+import { findPlotter } from "./find-plotter.js";
 import type { QueueParts } from "./queue-parts.js";
 import { MotionTimer } from "./queued-job.js";
 import { Runner, type RunEnd } from "./runner.js";
@@ -60,9 +61,7 @@ export class RunningPlots {
     this.#parts = parts;
     this.#jobs = jobs;
     this.#done = done;
-    for (const { id, state } of jobs.list()) {
-      if (state === "plotting" || state === "paused") this.#interrupt(id, this.#stopped);
-    }
+    for (const job of jobs.list()) if (isOnPlotter(job)) this.#interrupt(job.id, this.#stopped);
   }
 
   get #stopped(): string {
@@ -109,7 +108,7 @@ export class RunningPlots {
 
   /** Changes pen heights and speeds of a job that is plotting or held. */
   async change(id: string, change: JobChange): Promise<Job> {
-    await this.#runnerOf(id, ["plotting", "paused"], "changed").change(change);
+    await this.#runnerOf(id, ["plotting", "paused"], "changed").live.change(change);
     const job = this.#jobs.get(id);
     const { pen = job.settings.pen, motion = job.settings.motion, speedPct = job.speedPct } = change;
     return this.#jobs.save({ ...job, settings: { ...job.settings, pen, motion }, speedPct });
@@ -163,6 +162,7 @@ export class RunningPlots {
     const drawing = this.#parts.store.drawingOf(job.id);
     const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
     const entry = this.#journal(job.id);
+    // `sent` belongs to the journal's place. The user may have moved the job's place since.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     const runner = new Runner(
       {
@@ -208,24 +208,12 @@ export class RunningPlots {
   }
 
   #progress(jobId: string, plotterId: string, progress: PlotProgress): void {
-    const { progress: part, elapsedS, remainingS, planS, xMm, yMm, penUp, penMoving } = progress;
     // The travel home of a cancelled plot is not progress of the drawing.
     if (this.#running.get(plotterId)?.runner.isCancelling !== true) {
-      this.#jobs.progressed(jobId, { progress: part, elapsedS, remainingS });
+      const { progress: share, elapsedS, remainingS } = progress;
+      this.#jobs.progressed(jobId, { progress: share, elapsedS, remainingS });
     }
-    this.#parts.announce({
-      type: "progress",
-      jobId,
-      plotterId,
-      progress: part,
-      elapsedS,
-      remainingS,
-      planS,
-      xMm,
-      yMm,
-      penUp,
-      penMoving,
-    });
+    this.#parts.announce({ type: "progress", jobId, plotterId, ...progress });
   }
 
   /** If an interrupted job waited for a pen, it still waits for that pen until it is resumed. */
@@ -282,26 +270,20 @@ export class RunningPlots {
     if (job.state === "done") this.#done(job);
   }
 
-  /**
-   * The place comes from the journal. Without a journal nothing was drawn, and the job starts at the
-   * beginning.
-   */
   #interrupt(id: string, message: string): void {
-    const entry = this.#journal(id);
-    const { place } = this.#jobs.get(id);
-    const progress = journalProgressSchema.safeParse(this.#parts.store.journal(id));
-    this.#jobs.apply(
-      id,
-      { type: "interrupt", message, place: entry ? jobPlace(entry.place) : place },
-      progress.success ? progress.data : {},
-    );
+    const progress = journalProgressSchema.safeParse(this.#parts.store.journal(id)).data ?? {};
+    this.#jobs.apply(id, { type: "interrupt", message, place: this.#reachedPlace(id) }, progress);
   }
 
-  /** The place stays with the job, so that it can resume where it stopped cancelled. */
+  /** The place stays with the job, so that the user can continue it there. */
   #cancelled(id: string): Job {
+    return this.#jobs.apply(id, { type: "cancel", place: this.#reachedPlace(id) });
+  }
+
+  /** The place in the journal. Without a journal nothing has been drawn since the job's own place. */
+  #reachedPlace(id: string): JobPlace | null {
     const entry = this.#journal(id);
-    const { place } = this.#jobs.get(id);
-    return this.#jobs.apply(id, { type: "cancel", place: entry ? jobPlace(entry.place) : place });
+    return entry ? jobPlace(entry.place) : this.#jobs.get(id).place;
   }
 
   #journal(id: string): z.infer<typeof journalSchema> | null {
@@ -325,7 +307,7 @@ export class RunningPlots {
   /** The job's plotter; throws unless it is connected and has no other job. */
   #freePlotter(id: string): PlotterPort {
     if (this.#closing) throw new PlotwrightError("conflict", "plotwright is stopping.");
-    const plotter = plotterOf(this.#parts, this.#jobs.get(id).plotterId);
+    const plotter = findPlotter(this.#parts.plotters, this.#jobs.get(id).plotterId);
     const other = this.#running.get(plotter.id);
     if (other !== undefined && other.jobId !== id) {
       throw new PlotwrightError(
@@ -336,13 +318,6 @@ export class RunningPlots {
     mustBeIdle(plotter);
     return plotter;
   }
-}
-
-/** Throws `not-found`. */
-export function plotterOf({ plotters }: Pick<QueueParts, "plotters">, id: string): PlotterPort {
-  const plotter = plotters.get(id);
-  if (plotter === undefined) throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
-  return plotter;
 }
 
 function penWords({ penName, layerName }: PlotWait): string {

@@ -129,6 +129,11 @@ export interface Machine {
   stopAndLift(settings: MachineSettings): Promise<void>;
   /** Stops a manual move, which then rejects with `conflict`, and reads the position back. */
   stopAtOnce(): void;
+  /**
+   * How many times `stopAtOnce` was called. A move of several steps compares it before each: a stop between two of them
+   * finds no motion to stop, but must end the move.
+   */
+  readonly stopCount: number;
 
   /** Queries the machine; false if it cannot measure its supply. */
   isSupplyLow(): Promise<boolean>;

@@ -18,6 +18,9 @@ export const lineLost = (cause?: unknown): PlotwrightError =>
 export const lineClosed = (): PlotwrightError =>
   new PlotwrightError("disconnected", "The connection to the board was closed.");
 
+export const moveStopped = (): PlotwrightError =>
+  new PlotwrightError("conflict", "The move was stopped at once.");
+
 /** `waitingFor`: the line, or the name of the reply, that was not answered. */
 export const silent = (waitingFor: string): PlotwrightError =>
   new PlotwrightError(
@@ -36,7 +39,7 @@ export const powerLost = (): PlotwrightError =>
 export const boardRestarted = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "The board restarted during its motion and has lost its position: its reset button was pressed, or its " +
-      "supply failed for a moment. Its motors are off: push the carriage to home before you resume. " +
+    "The board restarted and has lost its position: its reset button was pressed, or its supply failed for a " +
+      "moment. Its motors are off: push the carriage to home before you resume. " +
       MAY_OVERLAP,
   );

@@ -48,7 +48,7 @@ export class SilenceWatch {
   }
 
   private checkAfter(delayS: number): void {
-    if (delayS === Infinity || this.limitS === Infinity) return;
+    if (this.limitS === Infinity) return;
     this.dueS = this.clock.nowS() + delayS;
     this.cancel = this.clock.after(delayS, () => this.check());
   }

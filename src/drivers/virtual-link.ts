@@ -11,8 +11,8 @@ interface LinkTarget {
 }
 
 interface OutboxEntry {
-  readonly bytes: Uint8Array;
-  taken: number;
+  /** Those that the board has not taken yet. */
+  bytes: Uint8Array;
   /** When the host wrote it. */
   readonly tick: number;
   readonly resolve: () => void;
@@ -40,7 +40,7 @@ export class VirtualLink implements Transport {
       );
     }
     return new Promise((resolve, reject) => {
-      this.outbox.push({ bytes: bytes.slice(), taken: 0, tick: this.target.nowTick(), resolve, reject });
+      this.outbox.push({ bytes: bytes.slice(), tick: this.target.nowTick(), resolve, reject });
       this.pump();
     });
   }
@@ -80,15 +80,15 @@ export class VirtualLink implements Transport {
     this.isPumping = true;
     while (!this.closed && this.outbox.length > 0 && this.target.accepting()) {
       const entry = this.outbox[0];
-      const packet = entry.bytes.subarray(entry.taken, entry.taken + PACKET_BYTES);
-      entry.taken += packet.length;
-      if (entry.taken >= entry.bytes.length) this.outbox.shift()!.resolve();
+      const packet = entry.bytes.subarray(0, PACKET_BYTES);
+      entry.bytes = entry.bytes.subarray(packet.length);
+      if (entry.bytes.length === 0) this.outbox.shift()!.resolve();
       this.target.take(packet, entry.tick);
     }
     this.isPumping = false;
     let waitingBytes = 0;
     for (const entry of this.outbox) {
-      waitingBytes += entry.bytes.length - entry.taken;
+      waitingBytes += entry.bytes.length;
       if (waitingBytes > this.systemLimit) break;
       entry.resolve();
     }

@@ -30,14 +30,12 @@ export function prepareJob(
   work: Work = {},
 ): PreparedJob {
   const prepared = prepare(drawing, prepareSettingsOf(settings), work);
-  const warnings = [...drawing.warnings.map((warning) => warning.message), ...prepared.warnings];
+  const fileWarnings = drawing.warnings.map(({ message }) => message);
+  const warnings = [...fileWarnings, ...prepared.warnings];
   if (strokeCount(prepared.strokes) === 0) {
-    // For an empty drawing its own warning is enough.
+    // For an empty drawing the file's warnings are enough. Otherwise the last of all warnings says that nothing is left.
     const isEmpty = drawing.warnings.some(({ code }) => code === "empty-drawing");
-    const reasons = drawing.warnings.map(({ message }) => message);
-    // Otherwise the last of the warnings says that nothing is left.
-    const why = isEmpty ? reasons : warnings;
-    throw new PlotwrightError("bad-file", why.join(" "));
+    throw new PlotwrightError("bad-file", (isEmpty ? fileWarnings : warnings).join(" "));
   }
   checkBounds(prepared.strokes, machine);
   return { prepared, warnings: [...warnings, ...unusedSettings(settings, machine)] };

@@ -12,39 +12,41 @@ import type { MachineProfile } from "./profile.js";
 const wiredX = (machine: MachineProfile, x: number): number => (machine.flipX ? -x : x);
 const wiredY = (machine: MachineProfile, y: number): number => (machine.flipY ? -y : y);
 
+/** u of a position or move, mm. */
+export const uFromXy = (machine: MachineProfile, x: number, y: number): number =>
+  machine.swapAxes ? wiredY(machine, y) : wiredX(machine, x);
+
+/** v of a position or move, mm. */
+export const vFromXy = (machine: MachineProfile, x: number, y: number): number =>
+  machine.swapAxes ? wiredX(machine, x) : wiredY(machine, y);
+
 export function motor1FromXy(machine: MachineProfile, x: number, y: number): number {
-  const sx = wiredX(machine, x);
-  const sy = wiredY(machine, y);
-  // The sum does not depend on swapAxes.
-  if (machine.motors === "mixed") return (sx + sy) * machine.stepsPerMm;
-  return (machine.swapAxes ? sy : sx) * machine.stepsPerMm;
+  const u = uFromXy(machine, x, y);
+  return (machine.motors === "mixed" ? u + vFromXy(machine, x, y) : u) * machine.stepsPerMm;
 }
 
 export function motor2FromXy(machine: MachineProfile, x: number, y: number): number {
-  const sx = wiredX(machine, x);
-  const sy = wiredY(machine, y);
-  const u = machine.swapAxes ? sy : sx;
-  const v = machine.swapAxes ? sx : sy;
-  return (machine.motors === "mixed" ? u - v : v) * machine.stepsPerMm;
+  const v = vFromXy(machine, x, y);
+  return (machine.motors === "mixed" ? uFromXy(machine, x, y) - v : v) * machine.stepsPerMm;
 }
 
 /** mm from home; the motor steps may be fractional. */
 export const xFromMotors = (machine: MachineProfile, steps1: number, steps2: number): number =>
   wiredX(
     machine,
-    machine.swapAxes ? secondAxis(machine, steps1, steps2) : firstAxis(machine, steps1, steps2),
+    machine.swapAxes ? vFromMotors(machine, steps1, steps2) : uFromMotors(machine, steps1, steps2),
   );
 
 export const yFromMotors = (machine: MachineProfile, steps1: number, steps2: number): number =>
   wiredY(
     machine,
-    machine.swapAxes ? firstAxis(machine, steps1, steps2) : secondAxis(machine, steps1, steps2),
+    machine.swapAxes ? uFromMotors(machine, steps1, steps2) : vFromMotors(machine, steps1, steps2),
   );
 
-const firstAxis = (machine: MachineProfile, steps1: number, steps2: number): number =>
+const uFromMotors = (machine: MachineProfile, steps1: number, steps2: number): number =>
   (machine.motors === "mixed" ? (steps1 + steps2) / 2 : steps1) / machine.stepsPerMm;
 
-const secondAxis = (machine: MachineProfile, steps1: number, steps2: number): number =>
+const vFromMotors = (machine: MachineProfile, steps1: number, steps2: number): number =>
   (machine.motors === "mixed" ? (steps1 - steps2) / 2 : steps2) / machine.stepsPerMm;
 
 /** Position in mm from home; the motor steps may be fractional. */

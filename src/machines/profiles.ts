@@ -16,29 +16,19 @@ const STANDARD_SERVO = {
   servoPosAt100Pct: 28_000,
   servoPin: 4,
 };
-const BRUSHLESS_SERVO = {
-  kind: "ebb",
-  microstepMode: 1,
-  servoPosAt0Pct: 5_400,
-  servoPosAt100Pct: 12_600,
-  servoPin: 5,
-};
-const BELT_DRIVE = { stepsPerMm: 80, motors: "mixed" } as const;
+const BRUSHLESS_SERVO = { ...STANDARD_SERVO, servoPosAt0Pct: 5_400, servoPosAt100Pct: 12_600, servoPin: 5 };
 
 const axidraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
   id,
   name,
   widthMm,
   heightMm,
-  ...BELT_DRIVE,
+  stepsPerMm: 80,
+  motors: "mixed",
   controller: STANDARD_SERVO,
 });
 const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
-  id,
-  name,
-  widthMm,
-  heightMm,
-  ...BELT_DRIVE,
+  ...axidraw(id, name, widthMm, heightMm),
   controller: BRUSHLESS_SERVO,
 });
 
@@ -112,8 +102,8 @@ export interface MachineChoice {
  * The machine of a job's settings: their custom profile if its id matches, otherwise the built-in one.
  * Throws `bad-setting` for an unknown id.
  */
-export const machineOf = ({ machine, customMachine }: MachineChoice): MachineProfile =>
-  customMachine?.id === machine ? customMachine : machineById(machine);
+export const machineOf = (choice: MachineChoice): MachineProfile =>
+  findMachine(choice) ?? machineById(choice.machine);
 
 /** As `machineOf`, but null for an unknown id. */
 export const findMachine = ({ machine, customMachine }: MachineChoice): MachineProfile | null =>

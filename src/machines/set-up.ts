@@ -7,6 +7,7 @@
  * permutation too, so its inverse is its transpose.
  */
 import { PlotwrightError } from "../errors.js";
+import { uFromXy, vFromXy } from "./motors.js";
 import type { MachineProfile } from "./profile.js";
 
 export const DIRECTIONS = ["right", "left", "down", "up"] as const;
@@ -36,18 +37,10 @@ export function machineTurned(machine: MachineProfile, xWent: Direction, yWent: 
       `The carriage went ${xWent} and then ${yWent}, along one line: one motor does not turn. Check that both motor cables are plugged in.`,
     );
   }
-  const turned = (x: number, y: number): readonly [number, number] =>
-    wired(machine, xx * x + xy * y, yx * x + yy * y);
-  const [xu, xv] = turned(1, 0);
-  const [yu, yv] = turned(0, 1);
+  // The corrected map T M⁻¹ takes (1, 0) to T (xx, yx), and (0, 1) to T (xy, yy).
+  const [xu, xv] = [uFromXy(machine, xx, yx), vFromXy(machine, xx, yx)];
+  const [yu, yv] = [uFromXy(machine, xy, yy), vFromXy(machine, xy, yy)];
   return { ...machine, swapAxes: xu === 0, flipX: xu + xv < 0, flipY: yu + yv < 0 };
-}
-
-/** (u, v) of a move, see motors.ts. */
-function wired(machine: MachineProfile, x: number, y: number): readonly [number, number] {
-  const u = machine.flipX ? -x : x;
-  const v = machine.flipY ? -y : y;
-  return machine.swapAxes ? [v, u] : [u, v];
 }
 
 /** A measurement that is wrong by more than this factor is a mistake or a wrong microstep mode, not a scale error. */

@@ -16,7 +16,7 @@ import { RunPath } from "./run-path.js";
 
 export class AxisFrame {
   private readonly stretched = new RunPath();
-  private path: RunPath | null = null;
+  private path = new RunPath();
   private stretchX = 1;
   private stretchY = 1;
 
@@ -39,7 +39,6 @@ export class AxisFrame {
   /** Converts the blocks from `first` on, planned on the path of the last `of`, to the machine's frame. */
   restore(blocks: BlockColumns, first: number): void {
     const { path, stretched, stretchX, stretchY } = this;
-    if (path === null) return;
     const { x, y, vx, vy, ax, ay, jx, jy, alongMm } = blocks;
     let i = 0;
     let frameMm = 0;

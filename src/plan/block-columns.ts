@@ -92,15 +92,8 @@ export class BlockColumns {
   }
 
   /** Appends block i of `from`, without its jerk. */
-  pushFrom(from: BlockColumns, i: number): void {
-    const k = this.add(from.durationS[i]);
-    this.x[k] = from.x[i];
-    this.y[k] = from.y[i];
-    this.vx[k] = from.vx[i];
-    this.vy[k] = from.vy[i];
-    this.ax[k] = from.ax[i];
-    this.ay[k] = from.ay[i];
-    this.alongMm[k] = from.alongMm[i];
+  pushFrom({ durationS, x, y, vx, vy, ax, ay, alongMm }: BlockColumns, i: number): void {
+    this.push(durationS[i], x[i], y[i], vx[i], vy[i], ax[i], ay[i], alongMm[i]);
   }
 
   /** Moves the blocks from `first` on in time. */

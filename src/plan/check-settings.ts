@@ -40,26 +40,24 @@ export function checkSettings(
   machine: MachineProfile | undefined,
 ): void {
   checkSettingNames(motion, pen);
-  if (!MOTION_MODES.includes(motion.mode)) {
-    throw bad(`motion mode is "${String(motion.mode)}": choose one of ${MOTION_MODES.join(", ")}`);
-  }
+  checkChoice("motion mode", MOTION_MODES, motion.mode);
   checkShaper(motion, machine);
   checkNumbers("draw", DRAW_TABLE, motion.draw);
   checkNumbers("travel", TRAVEL_TABLE, motion.travel);
   for (const [layer, own] of Object.entries(motion.layers ?? {})) {
-    checkNumber(`layer "${layer}" draw`, SPEED_FACTOR, own.speedFactor);
+    checkOptional(`layer "${layer}" draw`, SPEED_FACTOR, own.speedFactor);
     checkNumbers(`layer "${layer}" draw`, DRAW_TABLE, drawLimitsOf(motion, layer));
   }
   if (motion.fit) checkNumbers("fit", FIT_TABLE, motion.fit);
   if (motion.ease) checkNumbers("slow-in", EASE_TABLE, motion.ease);
-  checkNumber("the", MOTOR_ACCEL, motion.motorAccelStepsPerS2);
+  checkOptional("the", MOTOR_ACCEL, motion.motorAccelStepsPerS2);
   for (const key of Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[]) {
-    checkNumber("the", AXIS_TABLE[key], motion[key]);
+    checkOptional("the", AXIS_TABLE[key], motion[key]);
   }
   checkPen("pen", pen);
   for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
     checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
-    checkNumber(`layer "${layer}" pen`, LAYER_WAIT, beforeMs);
+    checkOptional(`layer "${layer}" pen`, LAYER_WAIT, beforeMs);
   }
 }
 
@@ -85,9 +83,7 @@ export function checkSettingNames(motion: MotionSettings, pen: PenSettings): voi
 }
 
 function checkShaper({ shaper = "none", mode }: MotionSettings, machine: MachineProfile | undefined): void {
-  if (!SHAPERS.includes(shaper)) {
-    throw bad(`shaper is "${String(shaper)}": choose one of ${SHAPERS.join(", ")}`);
-  }
+  checkChoice("shaper", SHAPERS, shaper);
   if (shaper === "none") return;
   if (!machine?.springs) {
     throw bad(
@@ -114,13 +110,16 @@ export function checkPen(name: string, pen: PenSettings): void {
         "the pen would never leave the paper; raise the up height or lower the down height",
     );
   }
-  checkNumber(name, LIFT_RATE, pen.liftPctPerS);
-  checkNumber(name, DROP_RATE, pen.dropPctPerS);
+  checkOptional(name, LIFT_RATE, pen.liftPctPerS);
+  checkOptional(name, DROP_RATE, pen.dropPctPerS);
   checkNumber(name, OVERLAP_TABLE.contactPct, pen.contactPct);
   checkNumber(name, OVERLAP_TABLE.fullHeightMm, pen.fullHeightMm);
-  if (!PEN_OVERLAPS.includes(pen.overlap)) {
-    throw bad(`${name} overlap is "${String(pen.overlap)}": choose one of ${PEN_OVERLAPS.join(", ")}`);
-  }
+  checkChoice(`${name} overlap`, PEN_OVERLAPS, pen.overlap);
+}
+
+function checkChoice<T extends string>(name: string, choices: readonly T[], value: T): void {
+  if (choices.includes(value)) return;
+  throw bad(`${name} is "${String(value)}": choose one of ${choices.join(", ")}`);
 }
 
 function checkNumbers<Table extends Readonly<Record<string, NumberSetting>>>(
@@ -128,19 +127,19 @@ function checkNumbers<Table extends Readonly<Record<string, NumberSetting>>>(
   table: Table,
   values: Readonly<Record<keyof Table, number>>,
 ): void {
-  for (const [key, row] of Object.entries(table)) check(name, row, values[key]);
+  for (const [key, row] of Object.entries(table)) checkNumber(name, row, values[key]);
 }
 
-/** For an optional setting. */
-function checkNumber(name: string, row: NumberSetting, value: number | null | undefined): void {
-  if (value !== null && value !== undefined) check(name, row, value);
+function checkOptional(name: string, row: NumberSetting, value: number | null | undefined): void {
+  if (value !== null && value !== undefined) checkNumber(name, row, value);
 }
 
-function check(name: string, row: NumberSetting, value: number): void {
+function checkNumber(name: string, row: NumberSetting, value: number): void {
   // The planner has no upper limit for speeds and lengths; percentages and waits have one.
   const range = row.minExcluded ? { ...row, max: Infinity } : row;
   if (isAllowed(range, value)) return;
-  const shown = typeof value === "number" ? `${value} ${row.unit}` : (JSON.stringify(value) ?? "missing");
+  const shown =
+    typeof value === "number" ? `${value} ${row.unit}`.trim() : (JSON.stringify(value) ?? "missing");
   throw bad(`${name} ${row.label.toLowerCase()} is ${shown}: it must be ${rangeInWords(range)}`);
 }
 

@@ -17,8 +17,8 @@
  */
 import { BlockColumns } from "./block-columns.js";
 import type { Kernel } from "./impulse-filter.js";
-import { isPenUpBefore, liftedTo, penMoveColumns } from "./pen-moves.js";
-import { liftTiming } from "./pen-times.js";
+import { penMoveBefore, penMoveColumns } from "./pen-moves.js";
+import { liftTime } from "./pen-times.js";
 import type { PenSettings } from "../settings/pen.js";
 import { fillAlong } from "./shaped-along.js";
 import { shapeRest } from "./shaped-rest.js";
@@ -78,8 +78,9 @@ export function comeToRest(
   const isLowering = !state.penUp && state.stroke < 0;
   const accel = isLowering ? NO_BRAKING : state.penUp ? limits.travelAccel : limits.drawAccel;
   // Drops planned for after the stop are not sent. A pen that was lifted only for a short travel goes to full height.
-  const isUp = isPenUpBefore(trajectory, tS) && !(pen && (liftedTo(trajectory, tS) ?? 100) < pen.upPct);
-  const lift: Lift | null = isUp || !pen ? null : { pen, atOnce: isLowering };
+  const last = penMoveBefore(trajectory, tS);
+  const needsLift = pen !== null && last !== null && (!last.up || last.heightPct < pen.upPct);
+  const lift: Lift | null = needsLift ? { pen, atOnce: isLowering } : null;
   if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, lift);
   const pieces = new BlockColumns(0, false);
   const speed = Math.hypot(state.vx, state.vy);
@@ -253,7 +254,8 @@ function finish(
   lift: Lift | null,
   planned?: { readonly rest: BlockColumns; readonly kernel: Kernel },
 ): RestPlan {
-  const { waitS, heightPct } = lift ? liftTiming(lift.pen, lift.pen.upPct) : { waitS: 0, heightPct: 0 };
+  const heightPct = lift ? lift.pen.upPct : 0;
+  const waitS = lift ? liftTime(lift.pen, heightPct) : 0;
   const runs = pieces.count > 0 ? 1 : 0;
   const atEnd = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS: waitS, heightPct };
   const lifts = lift?.atOnce && runs ? [{ ...atEnd, beforeRun: 0, startS: 0, waitS: 0 }, atEnd] : [atEnd];

@@ -43,7 +43,7 @@ export function impulseKernel(x: readonly Impulse[], y: readonly Impulse[]): Ker
   return { x: delayedX, y: delayedY, meanDelayS, lengthS };
 }
 
-const meanDelayOf = (impulses: readonly Impulse[]): number =>
+export const meanDelayOf = (impulses: readonly Impulse[]): number =>
   impulses.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
 
 const delayed = (impulses: readonly Impulse[], byS: number): readonly Impulse[] =>

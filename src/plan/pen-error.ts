@@ -69,9 +69,10 @@ class NearLine {
     }
     // Skip to the segment in which the search begins.
     while (this.point + 1 < last) {
-      const length = this.lengthOf(this.point);
-      if (this.startMm + length >= alongMm - NEAR_MM) break;
-      this.startMm += length;
+      const i = 2 * this.point;
+      const lengthMm = distance(xy[i], xy[i + 1], xy[i + 2], xy[i + 3]);
+      if (this.startMm + lengthMm >= alongMm - NEAR_MM) break;
+      this.startMm += lengthMm;
       this.point++;
     }
     let nearestMm = Infinity;
@@ -84,10 +85,5 @@ class NearLine {
       fromMm += distance(x0, y0, x1, y1);
     }
     return nearestMm;
-  }
-
-  private lengthOf(i: number): number {
-    const { xy } = this.strokes;
-    return Math.hypot(xy[2 * i + 2] - xy[2 * i], xy[2 * i + 3] - xy[2 * i + 1]);
   }
 }

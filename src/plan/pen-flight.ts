@@ -23,7 +23,7 @@
  * above, but begins the drop only within `NEAR_MM`.
  */
 import type { PenSettings } from "../settings/pen.js";
-import { liftTiming, penOfLayer } from "./pen-times.js";
+import { liftTime, penOfLayer } from "./pen-times.js";
 
 /** Interval of the servo's pulses. */
 const FRAME_S = 0.024;
@@ -65,18 +65,20 @@ export const dropsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off
 
 /** The lift before a travel of `travelMm`. */
 export function liftBefore(pen: PenSettings, travelMm: number): Lift {
-  const isHop = liftsInFlight(pen) && travelMm < pen.fullHeightMm;
-  const heightPct = isHop ? hopHeight(pen) : pen.upPct;
-  const { waitS: moveS } = liftTiming(pen, heightPct);
-  if (!liftsInFlight(pen)) return { heightPct, waitS: moveS, moveS };
+  if (!liftsInFlight(pen)) {
+    const waitS = liftTime(pen, pen.upPct);
+    return { heightPct: pen.upPct, waitS, moveS: waitS };
+  }
+  const heightPct = travelMm < pen.fullHeightMm ? hopHeight(pen) : pen.upPct;
   const clearS = FRAME_S + (clearHeight(pen) - pen.downPct) / liftRate(pen);
-  return { heightPct, waitS: wholeMs(Math.min(clearS, pen.liftMs / 1_000)), moveS };
+  const waitS = wholeMs(Math.min(clearS, pen.liftMs / 1_000));
+  return { heightPct, waitS, moveS: liftTime(pen, heightPct) };
 }
 
 /** The time of a lift to the hop height. */
 export function hopLift(pen: PenSettings): Lift {
   const heightPct = hopHeight(pen);
-  return { heightPct, waitS: 0, moveS: liftTiming(pen, heightPct).waitS };
+  return { heightPct, waitS: 0, moveS: liftTime(pen, heightPct) };
 }
 
 /** How the pen comes down during a travel, after a lift to `heightPct` that began at `liftS`. */
@@ -92,6 +94,7 @@ export function lowerDuring(
   const clearPct = dropsAtStroke ? hopPct : clearHeight(pen);
   const topPct = Math.min(heightPct, hopPct);
   const firstFrameS = liftS + FRAME_S;
+  // The height at which the drop begins.
   let fromPct = topPct;
   let dropS = nearS - Math.max(0, topPct - clearPct) / down;
   if (clearPct < hopPct && dropS < firstFrameS + (topPct - pen.downPct) / up) {
@@ -102,7 +105,8 @@ export function lowerDuring(
   dropS = Math.max(startS, dropS);
   let hoverS: number | null = null;
   if (heightPct > hopPct) {
-    const hoverTimeS = FRAME_S + liftTiming(pen, heightPct).waitS - liftTiming(pen, hopPct).waitS;
+    const hoverTimeS = FRAME_S + liftTime(pen, heightPct) - liftTime(pen, hopPct);
+    // If there is no time to lower it to the hop height first, it drops from where it is.
     if (dropS - hoverTimeS > startS) hoverS = dropS - hoverTimeS;
     else fromPct = heightPct;
   }

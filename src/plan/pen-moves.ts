@@ -60,18 +60,11 @@ export function penMoveColumns(moves: readonly PenMove[]): PenMoveColumns {
   return writer.finish();
 }
 
-/** The height to which the last pen move before `tS` lifts the pen; null if that move lowers the pen, or if there is none. */
-export function liftedTo({ penMoves }: WithPenMoves, tS: number): number | null {
-  const last = lastBefore(penMoves, tS);
-  return last >= 0 && penMoves.up[last] === 1 ? penMoves.heightPct[last] : null;
+/** The last pen move that begins before `tS`; null if there is none. */
+export function penMoveBefore({ penMoves }: WithPenMoves, tS: number): PenMove | null {
+  const next = firstWhere(0, penMoves.count, (i) => penMoves.startS[i] >= tS - SAME_TIME_S);
+  return next > 0 ? penMoveAt(penMoves, next - 1) : null;
 }
 
 /** True if the last pen move before `tS` lifts the pen, or there is none. */
-export function isPenUpBefore({ penMoves }: WithPenMoves, tS: number): boolean {
-  const last = lastBefore(penMoves, tS);
-  return last < 0 || penMoves.up[last] === 1;
-}
-
-/** The last pen move that begins before `tS`; −1 if there is none. */
-const lastBefore = ({ count, startS }: PenMoveColumns, tS: number): number =>
-  firstWhere(0, count, (i) => startS[i] >= tS - SAME_TIME_S) - 1;
+export const isPenUpBefore = (plan: WithPenMoves, tS: number): boolean => penMoveBefore(plan, tS)?.up ?? true;

@@ -5,11 +5,6 @@
  */
 import type { PenSettings } from "../settings/pen.js";
 
-export interface PenTiming {
-  readonly heightPct: number;
-  readonly waitS: number;
-}
-
 /** The pen settings of one layer. */
 export function penOfLayer(pen: PenSettings, layerId: string): PenSettings {
   const own = pen.layers?.[layerId];
@@ -23,14 +18,13 @@ export function penOfLayer(pen: PenSettings, layerId: string): PenSettings {
   };
 }
 
-export function liftTiming(pen: PenSettings, heightPct: number): PenTiming {
-  return { heightPct, waitS: moveTime(pen, heightPct, pen.liftMs, pen.liftPctPerS) };
-}
+/** Time of a lift to `heightPct`, s. */
+export const liftTime = (pen: PenSettings, heightPct: number): number =>
+  moveTime(pen, heightPct, pen.liftMs, pen.liftPctPerS);
 
-/** @param fromPct the height before the drop */
-export function dropTiming(pen: PenSettings, fromPct: number): PenTiming {
-  return { heightPct: pen.downPct, waitS: moveTime(pen, fromPct, pen.dropMs, pen.dropPctPerS) };
-}
+/** Time of a drop from `fromPct`, s. */
+export const dropTime = (pen: PenSettings, fromPct: number): number =>
+  moveTime(pen, fromPct, pen.dropMs, pen.dropPctPerS);
 
 /** The servo's last pulse interval, plus settling. */
 const RESEAT_S = 0.06;

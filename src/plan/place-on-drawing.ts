@@ -25,11 +25,16 @@ export function movedPlace(
   return { stroke, alongMm: Math.min(Math.max(0, alongMm), strokeLengthMm(strokes, stroke)) };
 }
 
+/** The segment from point `i` of a stroke to the next one. */
+function segmentAt(xy: Float64Array, i: number) {
+  const [x, y] = [xy[2 * i], xy[2 * i + 1]];
+  const [dx, dy] = [xy[2 * i + 2] - x, xy[2 * i + 3] - y];
+  return { x, y, dx, dy, lengthMm: Math.hypot(dx, dy) };
+}
+
 export function strokeLengthMm({ xy, offsets }: StrokeSet, stroke: number): number {
   let lengthMm = 0;
-  for (let i = offsets[stroke] + 1; i < offsets[stroke + 1]; i++) {
-    lengthMm += Math.hypot(xy[2 * i] - xy[2 * i - 2], xy[2 * i + 1] - xy[2 * i - 1]);
-  }
+  for (let i = offsets[stroke]; i + 1 < offsets[stroke + 1]; i++) lengthMm += segmentAt(xy, i).lengthMm;
   return lengthMm;
 }
 
@@ -38,11 +43,7 @@ export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: num
   let leftMm = place.alongMm;
   const end = offsets[place.stroke + 1] - 1;
   for (let i = offsets[place.stroke]; i < end; i++) {
-    const x = xy[2 * i];
-    const y = xy[2 * i + 1];
-    const dx = xy[2 * i + 2] - x;
-    const dy = xy[2 * i + 3] - y;
-    const lengthMm = Math.hypot(dx, dy);
+    const { x, y, dx, dy, lengthMm } = segmentAt(xy, i);
     if (leftMm <= lengthMm && lengthMm > 0) {
       return { x: x + (dx * leftMm) / lengthMm, y: y + (dy * leftMm) / lengthMm };
     }
@@ -75,16 +76,14 @@ export function snappedPlace(
 ): Place {
   const { stroke, alongMm } = place;
   const [first, end] = [offsets[stroke], offsets[stroke + 1] - 1];
-  const lengthOf = (i: number): number =>
-    Math.hypot(xy[2 * i + 2] - xy[2 * i], xy[2 * i + 3] - xy[2 * i + 1]);
   if (first >= end) return place;
   let i = first;
   let fromMm = 0;
-  while (i + 1 < end && fromMm + lengthOf(i) < alongMm) fromMm += lengthOf(i++);
+  while (i + 1 < end && fromMm + segmentAt(xy, i).lengthMm < alongMm) fromMm += segmentAt(xy, i++).lengthMm;
+  // `step`: the direction of the search, +1 or −1; 0 at first.
   for (let step = 0; ;) {
-    const lengthMm = lengthOf(i);
-    const [dx, dy] = [xy[2 * i + 2] - xy[2 * i], xy[2 * i + 3] - xy[2 * i + 1]];
-    const dot = (x - xy[2 * i]) * dx + (y - xy[2 * i + 1]) * dy;
+    const { x: fromX, y: fromY, dx, dy, lengthMm } = segmentAt(xy, i);
+    const dot = (x - fromX) * dx + (y - fromY) * dy;
     const footMm = lengthMm > 0 ? dot / lengthMm : step;
     const next = footMm > lengthMm ? 1 : footMm < 0 ? -1 : 0;
     const nearestMm = fromMm + Math.min(lengthMm, Math.max(0, footMm));
@@ -95,7 +94,7 @@ export function snappedPlace(
       return { stroke, alongMm: alongMm + byMm };
     }
     step = next;
-    fromMm += step > 0 ? lengthMm : -lengthOf(i - 1);
+    fromMm += step > 0 ? lengthMm : -segmentAt(xy, i - 1).lengthMm;
     i += step;
   }
 }
@@ -113,9 +112,7 @@ export function nearestPlace(
   let [nearestMm, awayMm] = [alongMm, Infinity];
   let fromMm = 0;
   for (let i = offsets[stroke]; i + 1 < offsets[stroke + 1] && fromMm <= alongMm + withinMm; i++) {
-    const [fromX, fromY] = [xy[2 * i], xy[2 * i + 1]];
-    const [dx, dy] = [xy[2 * i + 2] - fromX, xy[2 * i + 3] - fromY];
-    const lengthMm = Math.hypot(dx, dy);
+    const { x: fromX, y: fromY, dx, dy, lengthMm } = segmentAt(xy, i);
     const share = nearestShare(fromX, fromY, fromX + dx, fromY + dy, x, y);
     const pieceMm = Math.hypot(fromX + share * dx - x, fromY + share * dy - y);
     const onMm = fromMm + share * lengthMm;

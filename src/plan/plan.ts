@@ -22,7 +22,7 @@ import type { Kernel } from "./impulse-filter.js";
 import { drawLimitsOf, runLimits, slower, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
 import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";
-import { dropTiming, liftTiming, penOfLayer } from "./pen-times.js";
+import { dropTime, liftTime, penOfLayer } from "./pen-times.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter, type WritesRuns } from "./run-writer.js";
 import { fillAlong } from "./shaped-along.js";
@@ -89,41 +89,15 @@ export function plan(
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, startX = 0, startY = 0, penBesideMm = 0 } = options;
   const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, options);
-  if (options.liftFirst ?? false) builder.liftFirst();
+  if (options.liftFirst) builder.liftFirst();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
-    if (stroke === from.stroke) builder.draw(stroke, from.alongMm, penBesideMm);
-    else builder.draw(stroke, 0, 0);
+    builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0, penBesideMm);
   }
   builder.lift(Infinity);
   if (options.returnHome ?? true) builder.travel(options.endX ?? 0, options.endY ?? 0);
   return builder.finish();
 }
-
-/**
- * A straight move with the pen up, from rest to rest.
- *
- * @throws PlotwrightError "bad-setting" for settings that contradict each other
- */
-export function planTravel(
-  from: readonly [x: number, y: number],
-  to: readonly [x: number, y: number],
-  motion: MotionSettings,
-  pen: PenSettings,
-  machine?: MachineProfile,
-): Trajectory {
-  checkSettings(motion, pen, machine);
-  const builder = new PlanBuilder(NO_STROKES, motion, pen, machine, from[0], from[1]);
-  builder.travel(to[0], to[1]);
-  return builder.finish();
-}
-
-const NO_STROKES: StrokeSet = {
-  xy: new Float64Array(0),
-  offsets: new Uint32Array(1),
-  layer: new Uint16Array(0),
-  layers: [],
-};
 
 class PlanBuilder {
   private readonly blocks: BlockColumns;
@@ -243,8 +217,7 @@ class PlanBuilder {
   }
 
   liftFirst(): void {
-    const { heightPct, waitS } = liftTiming(this.pen, this.heightPct);
-    this.movePen(true, { heightPct, waitS, moveS: waitS });
+    this.moveInPlace(true, this.heightPct, liftTime(this.pen, this.heightPct));
   }
 
   private beginsLayer(stroke: number): boolean {
@@ -254,7 +227,7 @@ class PlanBuilder {
 
   /** Waits with the pen up, by repeating the move to its current height. */
   private wait(waitS: number): void {
-    if (waitS > 0) this.movePen(true, { heightPct: this.heightPct, waitS, moveS: waitS });
+    if (waitS > 0) this.moveInPlace(true, this.heightPct, waitS);
   }
 
   /** @param travelS start of the travel that has just ended; null if the carriage has waited since */
@@ -263,15 +236,19 @@ class PlanBuilder {
     const { blocks, pen, heightPct, liftS, dropsAtStroke } = this;
     const endS = blocks.clockS;
     if (travelS === null || travelS === endS || liftS === null || !dropsInFlight(pen)) {
-      const { waitS } = dropTiming(pen, heightPct);
-      this.movePen(false, { heightPct: pen.downPct, waitS, moveS: waitS });
+      this.moveInPlace(false, pen.downPct, dropTime(pen, heightPct));
       return;
     }
     const travel = { startS: travelS, endS, accel: this.motion.travel.accelMmPerS2, dropsAtStroke };
     const { hoverS, dropS, downS } = lowerDuring(pen, { heightPct, liftS }, travel);
     if (hoverS !== null) this.movePen(true, hopLift(pen), hoverS);
-    const { waitS: moveS } = dropTiming(pen, this.heightPct);
+    const moveS = dropTime(pen, this.heightPct);
     this.movePen(false, { heightPct: pen.downPct, waitS: downS - endS, moveS }, dropS);
+  }
+
+  /** A pen move for which the carriage waits. */
+  private moveInPlace(up: boolean, heightPct: number, waitS: number): void {
+    this.movePen(up, { heightPct, waitS, moveS: waitS });
   }
 
   private movePen(up: boolean, { heightPct, waitS, moveS }: Lift, startS = this.blocks.clockS): void {

@@ -14,12 +14,11 @@
  */
 export const SHORTEST_MM = 5e-7;
 
-/** Where a run ends, mm, and how many segments of the drawing it covers. */
+/** Where a run ends, mm. */
 export interface RunEnd {
   readonly x: number;
   readonly y: number;
   readonly alongMm: number;
-  readonly segmentCount: number;
 }
 
 export class RunPath {
@@ -166,7 +165,7 @@ export class RunPath {
 
   end(): RunEnd {
     const { segmentCount: n } = this;
-    return { x: this.x[n], y: this.y[n], alongMm: this.endAlong(), segmentCount: n };
+    return { x: this.x[n], y: this.y[n], alongMm: this.endAlong() };
   }
 
   /** mm along the whole stroke at the last point. */

@@ -62,7 +62,6 @@ export class RunWriter implements WritesRuns {
     };
   }
 
-  /** @param planned gets the motion before the shaper, if there is one */
   write(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void {
     if (path.segmentCount === 0) return;
     if (!isStretched(limits)) this.writeRun(path, limits, out, planned);

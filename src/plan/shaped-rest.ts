@@ -9,6 +9,7 @@ import { BlockColumns } from "./block-columns.js";
 import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
 import { NO_LIMITS, type RunLimits } from "./limits.js";
 import { mergeBlocks, SHAPED_RULES } from "./merge.js";
+import type { RunEnd } from "./run-path.js";
 import { blockState, newMotionState, type MotionState, type Trajectory } from "./trajectory.js";
 
 /** Shorter pieces are rounding errors, s. */
@@ -36,7 +37,7 @@ export function shapeRest(
   tS: number,
   carriage: MotionState,
   braking: BlockColumns,
-  end: { readonly x: number; readonly y: number; readonly alongMm: number },
+  end: RunEnd,
 ): ShapedRest {
   const recent = new BlockColumns(0, false);
   addWindow(planned, run, tS - kernel.lengthS, tS, recent);
@@ -48,8 +49,7 @@ export function shapeRest(
   const exact = new BlockColumns(0, false);
   addAfter(filtered, -beginS, exact);
   joinFrom(carriage, exact, end, shaped);
-  const at = { x: end.x, y: end.y, alongMm: end.alongMm, segmentCount: 0 };
-  if (shaped.count > 0) mergeBlocks(shaped, 0, at, limitsOf(shaped), SHAPED_RULES);
+  mergeBlocks(shaped, 0, end, limitsOf(shaped), SHAPED_RULES);
   return { planned: recent, shaped };
 }
 

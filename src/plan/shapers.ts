@@ -16,7 +16,7 @@
  */
 import type { MotionSettings, Shaper } from "../settings/motion.js";
 import type { Springs } from "../machines/profile.js";
-import { impulseKernel, type Impulse, type Kernel } from "./impulse-filter.js";
+import { impulseKernel, meanDelayOf, type Impulse, type Kernel } from "./impulse-filter.js";
 
 /** Share of the swing that ei leaves at f. */
 const EI_REST = 0.05;
@@ -60,6 +60,6 @@ export function leavesLineMm({ shaper, draw, layers }: MotionSettings, springs: 
 }
 
 function varianceOf(impulses: readonly Impulse[]): number {
-  const mean = impulses.reduce((sum, { delayS, weight }) => sum + weight * delayS, 0);
+  const mean = meanDelayOf(impulses);
   return impulses.reduce((sum, { delayS, weight }) => sum + weight * (delayS - mean) ** 2, 0);
 }

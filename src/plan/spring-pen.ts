@@ -64,18 +64,18 @@ export function swingPen(
   const { runs, startS, durationS, ax, ay, jx, jy } = trajectory;
   let [lastVx, lastVy] = [0, 0];
   let tS = 0;
-  const wait = (untilS: number, stroke: number, alongMm: number): void => {
+  const waitUntil = (untilS: number): void => {
     axisX.rate += lastVx;
     axisY.rate += lastVy;
     lastVx = lastVy = 0;
     axisX.advance(untilS - tS, 0);
     axisY.advance(untilS - tS, 0);
     tS = untilS;
-    onPoint({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke, alongMm });
+    onPoint({ tS, x: state.x + axisX.d, y: state.y + axisY.d, stroke: -1, alongMm: 0 });
   };
   for (let run = 0; run < runs.count; run++) {
     for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k++) {
-      if (startS[k] > tS) wait(startS[k], -1, 0);
+      if (startS[k] > tS) waitUntil(startS[k]);
       const steps = Math.max(1, Math.ceil(durationS[k] / stepS));
       const dt = durationS[k] / steps;
       blockState(trajectory, k, 0, state);

@@ -26,9 +26,12 @@ const STEP_MM = 0.01;
 /** Max distance of the carriage from the drawing: `leavesMm` by shaping (shapers.ts), plus NEAR_MM for all else. */
 const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
 
-export interface PenPlace {
+interface Point {
   readonly x: number;
   readonly y: number;
+}
+
+export interface PenPlace extends Point {
   readonly up: boolean;
 }
 
@@ -45,12 +48,16 @@ export interface SinceThen {
 }
 
 /** If nothing matches, the journal's place; if everything is drawn, the end of the last stroke. */
-export function stoppedPlace(
+export const stoppedPlace = (strokes: StrokeSet, journal: Place, pen: PenPlace, since: SinceThen): Place =>
+  firstMatch(strokes, journal, pen, since) ?? journal;
+
+/** The first place after `journal` that fits the pen; null if there is none. */
+function firstMatch(
   strokes: StrokeSet,
   journal: Place,
   pen: PenPlace,
   { aheadMm, stops = [], leavesMm = 0, landingMm = 0 }: SinceThen,
-): Place {
+): Place | null {
   const nearMm = nearMmOf(leavesMm);
   const { xy, offsets } = strokes;
   const count = offsets.length - 1;
@@ -60,27 +67,28 @@ export function stoppedPlace(
   for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
     const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
     if (!pen.up) {
-      const alongMm = alongOf(strokes, stroke, fromMm, pen.x, pen.y, nearMm);
+      const alongMm = alongOf(strokes, stroke, fromMm, pen, nearMm);
       const isBefore = fromMm === 0 && isLanding(strokes, stroke, pen, { landingMm, nearMm, alongMm });
       if (isBefore) return { stroke, alongMm: 0 };
       if (alongMm !== null) return { stroke, alongMm };
     }
     const lengthMm = strokeLengthMm(strokes, stroke);
     leftMm -= lengthMm;
-    const [end, next] = [2 * offsets[stroke + 1] - 2, 2 * offsets[stroke + 1]];
+    const next = 2 * offsets[stroke + 1];
+    const [endX, endY] = [xy[next - 2], xy[next - 1]];
+    const isTravellingTo = (x: number, y: number): boolean =>
+      pen.up && nearest(endX, endY, x, y, pen).awayMm <= nearMm;
     const isLast = stroke + 1 === count;
-    if (pen.up && hasSetOut && (isLast || stops.includes(stroke + 1))) {
-      const { awayMm } = nearest(xy[end], xy[end + 1], 0, 0, pen.x, pen.y);
-      if (awayMm <= nearMm)
-        return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
+    const goesHome = isLast || stops.includes(stroke + 1);
+    if (hasSetOut && goesHome && isTravellingTo(0, 0)) {
+      return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
     }
     if (isLast) break;
-    const travel = [xy[end], xy[end + 1], xy[next], xy[next + 1]] as const;
-    if (pen.up && nearest(...travel, pen.x, pen.y).awayMm <= nearMm)
-      return { stroke: stroke + 1, alongMm: 0 };
-    leftMm -= Math.hypot(travel[2] - travel[0], travel[3] - travel[1]);
+    const [nextX, nextY] = [xy[next], xy[next + 1]];
+    if (isTravellingTo(nextX, nextY)) return { stroke: stroke + 1, alongMm: 0 };
+    leftMm -= Math.hypot(nextX - endX, nextY - endY);
   }
-  return journal;
+  return null;
 }
 
 /**
@@ -99,7 +107,7 @@ function isLanding(
   const start = 2 * offsets[stroke];
   const awayMm = Math.hypot(xy[start] - pen.x, xy[start + 1] - pen.y);
   const travel = [xy[start - 2], xy[start - 1], xy[start], xy[start + 1]] as const;
-  const travelMm = stroke === 0 ? Infinity : nearest(...travel, pen.x, pen.y).awayMm;
+  const travelMm = stroke === 0 ? Infinity : nearest(...travel, pen).awayMm;
   if (awayMm > LANDING_MM) return awayMm <= landingMm && travelMm <= nearMm;
   if (alongMm === null) return true;
   const { x, y } = pointOfPlace(strokes, { stroke, alongMm });
@@ -120,17 +128,15 @@ export function placeBehindSent(
 ): Place | null {
   if (pen.up) return null;
   const fromHere = { ...sent, alongMm: Math.max(0, sent.alongMm - nearMmOf(since.leavesMm ?? 0)) };
-  const found = stoppedPlace(strokes, fromHere, pen, since);
-  return found === fromHere ? null : found;
+  return firstMatch(strokes, fromHere, pen, since);
 }
 
-/** Where a stroke first passes a point after `fromMm`, mm along the stroke; null if it does not. */
+/** Where a stroke first passes within `nearMm` of a point after `fromMm`, mm along the stroke; null if it does not. */
 function alongOf(
   { xy, offsets }: StrokeSet,
   stroke: number,
   fromMm: number,
-  x: number,
-  y: number,
+  point: Point,
   nearMm: number,
 ): number | null {
   let startMm = 0;
@@ -142,7 +148,7 @@ function alongOf(
     const j = Math.min(i + 1, last);
     const piece = [xy[2 * i], xy[2 * i + 1], xy[2 * j], xy[2 * j + 1]] as const;
     const lengthMm = Math.hypot(piece[2] - piece[0], piece[3] - piece[1]);
-    const { share, awayMm } = nearest(...piece, x, y);
+    const { share, awayMm } = nearest(...piece, point);
     const isAfter = startMm + share * lengthMm >= fromMm - nearMm;
     if (isAfter && awayMm <= gapMm) {
       passMm = startMm + share * lengthMm;
@@ -159,8 +165,7 @@ function nearest(
   y0: number,
   x1: number,
   y1: number,
-  x: number,
-  y: number,
+  { x, y }: Point,
 ): { share: number; awayMm: number } {
   const share = nearestShare(x0, y0, x1, y1, x, y);
   return { share, awayMm: Math.hypot(x0 + share * (x1 - x0) - x, y0 + share * (y1 - y0) - y) };

@@ -146,15 +146,13 @@ export function stateAt(
   if (k < 0) return rest(out, startOf(trajectory));
   const t = tS - trajectory.startS[k];
   const run = runOfBlock(trajectory, k);
+  blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
+  if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
   // The end of a block belongs to that block, unless another block or a wait follows immediately.
   if (t >= trajectory.durationS[k] && (tS >= trajectory.totalS || endsRun(trajectory, k))) {
-    blockState(trajectory, k, trajectory.durationS[k], out);
-    if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
     return rest(out, k + 1 === trajectory.blockCount ? endOf(trajectory) : [out.x, out.y]);
   }
   out.stroke = runs.stroke[run];
-  blockState(trajectory, k, Math.min(t, trajectory.durationS[k]), out);
-  if (trajectory.planned) out.alongMm = plannedAlong(trajectory.planned, run, tS);
   return out;
 }
 
@@ -210,14 +208,9 @@ function blockAlong(trajectory: Trajectory, k: number, t: number): number {
   const duration = trajectory.durationS[k];
   if (!(t > 0)) return along;
   const wholeMm = blockLength(trajectory, k, duration);
-  const span = blockAlongSpan(trajectory, k, wholeMm);
+  // No block says where the last one of a run ends along the polyline: it counts with its own length.
+  const span = endsRun(trajectory, k) ? wholeMm : trajectory.alongMm[k + 1] - along;
   return wholeMm > 0 ? along + span * Math.min(1, blockLength(trajectory, k, t) / wholeMm) : along;
-}
-
-/** Length along the source polyline that block `k` covers; for the last block of a run, its own length. */
-function blockAlongSpan(trajectory: Trajectory, k: number, ownLength: number): number {
-  if (k + 1 >= trajectory.blockCount || endsRun(trajectory, k)) return ownLength;
-  return trajectory.alongMm[k + 1] - trajectory.alongMm[k];
 }
 
 /**

@@ -4,15 +4,15 @@ import { plotSettingsSchema } from "./settings.js";
 
 /** Speeds, heights and machine of the move; default: those of the last job or move. */
 const settings = plotSettingsSchema.optional();
-const distanceMm = z.number().min(-5_000).max(5_000);
-const placeMm = z.number().min(-5_000).max(5_000);
+/** A position, or a distance to either side. */
+const mm = z.number().min(-5_000).max(5_000);
 
 /** …/walk: pen up, to a position in mm from home. */
-export const walkRequestSchema = z.object({ xMm: placeMm, yMm: placeMm, settings });
+export const walkRequestSchema = z.object({ xMm: mm, yMm: mm, settings });
 export type WalkRequest = z.infer<typeof walkRequestSchema>;
 
 /** …/jog: pen up, by a distance in mm. */
-export const jogRequestSchema = z.object({ dxMm: distanceMm, dyMm: distanceMm, settings });
+export const jogRequestSchema = z.object({ dxMm: mm, dyMm: mm, settings });
 export type JogRequest = z.infer<typeof jogRequestSchema>;
 
 /** …/set-home, …/cycle-pen, …/test-line, …/test-patch. */
@@ -21,8 +21,8 @@ export type HandMoveRequest = z.infer<typeof handMoveRequestSchema>;
 
 /** mm from home. */
 export const boxMmSchema = z.object({
-  xMm: placeMm,
-  yMm: placeMm,
+  xMm: mm,
+  yMm: mm,
   widthMm: z.number().min(0).max(5_000),
   heightMm: z.number().min(0).max(5_000),
 });

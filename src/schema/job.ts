@@ -3,11 +3,13 @@ import { z } from "zod";
 import { plotSettingsSchema } from "./settings.js";
 
 /**
- *   queued ──start──> plotting ──> done
- *     ^                │  ^  └──> failed           board or server lost during the plot:
- *     │        pause   v  │ resume                 plotting, paused ──> interrupted ──recover──> paused
- *     └─(requeue)─── paused ──cancel──> cancelled                          at the place it had reached
- *                       ^──recover (if part of it is drawn)──┘
+ *   queued ──start──> plotting ──finish──> done
+ *                       │  ^ └──fail──> failed ──requeue──> queued (also from done, cancelled, interrupted)
+ *                 pause v  │ resume
+ *                      paused ──cancel──> cancelled      (also from queued, plotting, interrupted)
+ *
+ *   plotting, paused ──board or server lost──> interrupted ──recover──> paused at the place it had reached
+ *                                              cancelled ──recover──> paused there, if part of it is drawn
  */
 export const JOB_STATES = [
   "queued",

@@ -31,7 +31,6 @@ import {
   PREPARE_TABLE,
   type PrepareSettings,
 } from "../settings/prepare.js";
-import { defaultsOf } from "../settings/setting.js";
 import { STREAM_TABLE } from "../settings/stream.js";
 import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/pens.js";
 import { machineProfileSchema } from "./machine.js";
@@ -177,22 +176,10 @@ export const plotSettingsSchema = z.object({
 });
 export type PlotSettings = z.infer<typeof plotSettingsSchema>;
 
-export const DEFAULT_PLOT_SETTINGS: PlotSettings = {
+/** Every setting that is left out here has its default. */
+export const DEFAULT_PLOT_SETTINGS: PlotSettings = plotSettingsSchema.parse({
   machine: "axidraw-v3",
-  prepare: {
-    ...DEFAULT_PREPARE,
-    hiddenLayers: [],
-    shownLayers: [],
-    layerOrder: [],
-    layerRepeats: {},
-    layerHatches: [],
-  },
+  prepare: {},
   motion: DEFAULT_MOTION,
   pen: DEFAULT_PEN,
-  pens: [],
-  layerPens: {},
-  penStops: NO_PENS.penStops,
-  layerStops: {},
-  ...defaultsOf(STREAM_TABLE),
-  customMachine: null,
-};
+});

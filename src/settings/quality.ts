@@ -2,7 +2,7 @@
  * Quality is not stored as a setting: choosing one sets several other settings (src/plan/quality.ts), and each of
  * those can still be changed.
  */
-import type { ChoiceSetting, SettingsTable } from "./setting.js";
+import type { SettingsTable } from "./setting.js";
 
 export const QUALITIES = ["fine", "normal", "fast"] as const;
 export type Quality = (typeof QUALITIES)[number];
@@ -15,5 +15,5 @@ export const QUALITY_TABLE = {
     flag: "--quality",
     default: "normal",
     choices: QUALITIES,
-  } satisfies ChoiceSetting<Quality>,
+  },
 } as const satisfies SettingsTable;

@@ -38,10 +38,10 @@ interface SwitchSetting extends Described {
   readonly aboutOff?: string;
 }
 
-export interface ChoiceSetting<T extends string = string> extends Described {
+interface ChoiceSetting extends Described {
   readonly kind: "choice";
-  readonly default: T;
-  readonly choices: readonly T[];
+  readonly default: string;
+  readonly choices: readonly string[];
 }
 
 export type Setting = NumberSetting | SwitchSetting | ChoiceSetting;

@@ -20,6 +20,8 @@ const LIMIT_S = 60;
 /** A connection that a test can cut, or keep from being heard. */
 class WeakLine implements Transport {
   isMute = false;
+  /** Nothing reaches the board. */
+  isDeaf = false;
   /** Time until a reply is read, s. */
   lateS = 0;
   private lost: (error?: Error) => void = () => undefined;
@@ -31,6 +33,7 @@ class WeakLine implements Transport {
   ) {}
 
   write(bytes: Uint8Array): Promise<void> {
+    if (this.isDeaf) return Promise.resolve();
     if (!this.isLost) return this.line.write(bytes);
     return Promise.reject(new PlotwrightError("disconnected", "The cable is unplugged."));
   }
@@ -288,6 +291,45 @@ describe("after an error", { timeout: 60_000 }, () => {
   });
 });
 
+describe("a restart of a board whose boot loader waits before the Grbl starts", { timeout: 60_000 }, () => {
+  const BOOT_S = 1.5;
+  const CIRCLE_MM = 30;
+
+  /** Plots until the board restarts on the circle of the drawing. Its greeting comes after BOOT_S. */
+  async function restarted(meanwhile: (run: LivePlotRun) => Promise<void>) {
+    const { world, board, driver, begin, within, line } = await newPlotter();
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    const run = await begin(new LocalPlanner(DRAWING), { journal: { record } });
+    await world.advance(2.1);
+    const { xMm, yMm } = board.state();
+    const drawnMm = CIRCLE_MM * Math.atan2(yMm - 50, xMm - 60);
+    expect(Math.hypot(yMm - 50, xMm - 60)).toBeCloseTo(CIRCLE_MM, 1);
+    const weak = line();
+    weak.isMute = weak.isDeaf = true;
+    board.restart();
+    const asked = meanwhile(run).catch(() => undefined);
+    await world.advance(BOOT_S);
+    weak.isMute = weak.isDeaf = false;
+    board.restart();
+    expect(await within(run.finished)).toMatch(/^board-error: The Grbl has restarted/);
+    await asked;
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    expect(driver.state).toMatchObject({ xMm: null, yMm: null });
+    return { drawnMm, left: journal.at(-1)?.place };
+  }
+
+  it.each([
+    ["without a stop", () => Promise.resolve()],
+    ["during an emergency stop", (run: LivePlotRun) => run.emergencyStop()],
+  ])("leaves nothing out, %s", async (_, meanwhile) => {
+    const { drawnMm, left } = await restarted(meanwhile);
+    expect(left?.stroke).toBe(0);
+    expect(left?.alongMm).toBeLessThan(drawnMm + 0.05);
+    expect(left?.alongMm).toBeGreaterThan(drawnMm - 30);
+  });
+});
+
 describe("a restart at rest", { timeout: 60_000 }, () => {
   it("is reported, and the old position no longer counts", async () => {
     const { world, board, driver, within } = await newPlotter();
@@ -329,6 +371,26 @@ describe("an emergency stop", { timeout: 60_000 }, () => {
     await world.run(run.resume());
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expectDrawn(board as never, DRAWING, 0.02);
+  });
+
+  it.each([
+    [
+      "a hit switch",
+      (board: VirtualGrbl) => board.hitSwitch(),
+      /^board-error: The Grbl has stopped with ALARM:1/,
+    ],
+    ["a restart", (board: VirtualGrbl) => board.restart(), /^board-error: The Grbl has restarted/],
+  ])("just after %s does not hide that the position is lost", async (_, fault, message) => {
+    const { world, board, driver, begin, within, line } = await newPlotter();
+    const run = await begin();
+    await world.advance(2.1);
+    line().lateS = 0.02;
+    fault(board);
+    const stopped = run.emergencyStop().catch(() => undefined);
+    expect(await within(run.finished)).toMatch(message);
+    await world.run(stopped, LIMIT_S);
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+    expect(driver.state).toMatchObject({ xMm: null, yMm: null });
   });
 
   it("while the pen lifts for a move by hand cancels the move", async () => {

@@ -107,6 +107,31 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expectDrawn(board as never, DRAWING, 0.02);
   });
 
+  it.each(["pause", "emergencyStop"] as const)(
+    "resumes on the right side of a narrow tip: %s",
+    async (stop) => {
+      const tip = strokesOf([90, 45, 25, 45.02, 90, 45.04]);
+      const tipMm = Math.hypot(65, 0.02);
+      let stopCount = 0;
+      for (let afterS = 1.7; afterS < 2.2; afterS += 0.01) {
+        const { world, board, begin } = await newPlotter();
+        const run = await begin(tip);
+        await world.run(run.change({ speedPct: 200 }));
+        await world.advance(afterS);
+        await world.run(run[stop]());
+        const placeMm = run.holdPlace!.alongMm;
+        const restMm = board.state().xMm - 25;
+        const hasPassed = board.drawn().some(({ penDown, xy }) => penDown && xy.some((mm) => mm < 25.001));
+        expect([afterS, placeMm]).toEqual([
+          afterS,
+          expect.closeTo(tipMm + (hasPassed ? restMm : -restMm), 1),
+        ]);
+        if (restMm < 3) stopCount++;
+      }
+      expect(stopCount).toBeGreaterThan(15);
+    },
+  );
+
   it("is cancelled: lifts the pen and goes home", async () => {
     const { world, board, begin } = await newPlotter();
     const run = await begin(DRAWING);

@@ -33,6 +33,15 @@ function expectMorse(board: VirtualBoard): void {
   }
 }
 
+/** The pen was down nowhere else. */
+function expectOnLine(board: VirtualBoard, { xy }: StrokeSet): void {
+  for (const drawn of board.drawn().filter(({ penDown }) => penDown)) {
+    expect(Math.max(...drawn.xy.filter((_, i) => i % 2 === 1).map((y) => Math.abs(y - xy[1])))).toBeLessThan(
+      0.1,
+    );
+  }
+}
+
 describe("changes while it runs", () => {
   it("slows down within a second to the requested percentage, without leaving the line", async () => {
     const { world, board, run } = await plotting("junction");
@@ -135,6 +144,20 @@ describe("changes while it runs", () => {
       }
     },
   );
+
+  it.each(MOTION_MODES)("lifts the pen whenever a pause follows one, in %s mode", async (mode) => {
+    const line = strokesOf([10, 10, 250, 10]);
+    for (let afterS = 0.1; afterS < 0.6; afterS += 0.02) {
+      const { world, board, run } = await plotting(mode, line);
+      await world.advance(2);
+      const changed = run.change({ speedPct: 60 });
+      await world.advance(afterS);
+      await world.run(run.pause());
+      expect([afterS, board.state().penUp]).toEqual([afterS, true]);
+      await world.run(Promise.all([run.cancel(), run.finished, changed]));
+      expectOnLine(board, line);
+    }
+  });
 
   it("ends with the last of two percentages, however soon it followed the first", async () => {
     const line = strokesOf([10, 10, 250, 10]);

@@ -67,6 +67,20 @@ describe("a plotter that is closed", () => {
     expect(world.timerCount).toBe(0);
   });
 
+  it("does not go home any more, even if that was requested while the pen is lifted", async () => {
+    const { world, driver, board, run } = await plotting("junction", DRAWING, "3.0.3");
+    await world.advance(3);
+    const stopped = outcome(run.emergencyStop());
+    await world.advance(0.1);
+    expect(driver.state.activity).toBe("plotting");
+    const requested = [outcome(run.cancel()), outcome(run.finished), stopped];
+    const { xMm, yMm } = board.state();
+    await world.run(driver.close());
+    await world.advance(2);
+    expect(board.state()).toMatchObject({ xMm, yMm, penUp: true });
+    await Promise.all(requested);
+  });
+
   it("during a hold ends the plot", async () => {
     const { world, driver, run } = await plotting("junction");
     await world.advance(2);
@@ -118,6 +132,29 @@ describe("two requests at once", () => {
     await looked;
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
+    expectDrawn(board, DRAWING, 0.05);
+  });
+
+  it("an emergency stop during a view of the hold point also ends the views that wait for it", async () => {
+    const { world, driver, board, run } = await plotting("junction", DRAWING, "3.0.3");
+    await world.advance(5);
+    await world.run(run.pause());
+    run.moveHoldPlace({ mm: -20 });
+    const looked = [outcome(run.checkHoldPlace()), outcome(run.checkHoldPlace())];
+    await world.advance(0.2);
+    await world.run(run.emergencyStop());
+    expect(await world.run(Promise.all(looked))).toEqual([
+      "conflict: The move was stopped at once.",
+      "conflict: The move was stopped at once.",
+    ]);
+    const { steps1, steps2 } = board.state();
+    await world.advance(5);
+    expect(board.state()).toMatchObject({ steps1, steps2, isBusy: false });
+    expect(driver.state.activity).toBe("held");
+    await world.run(run.checkHoldPlace());
+    expect(board.state()).not.toMatchObject({ steps1, steps2 });
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expectDrawn(board, DRAWING, 0.05);
   });
 

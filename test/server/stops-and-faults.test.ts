@@ -1,12 +1,20 @@
 /** Emergency stops at awkward instants: pressed twice, together with a fault, before a move has begun, on old firmware. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { LivePlotRun } from "../../host/plotter/types.js";
-import { machineById, VirtualBoard, type PlotwrightError } from "../../src/index.js";
+import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/types.js";
+import { moveByHand } from "../../host/plotter/hand-moves.js";
+import {
+  machineById,
+  VirtualBoard,
+  type PlotwrightError,
+  type VirtualBoardOptions,
+} from "../../src/index.js";
 import { driverOf } from "../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { DRAWING, plotting } from "../support/live-plot.js";
-import { LocalPlanner } from "../support/local-planner.js";
+import { DEFAULT_PLOT_SETTINGS, type HandMove } from "../../src/schema/index.js";
+import { compareDrawn } from "../support/drawn-truth.js";
+import { FAULT_DRAWING } from "../support/faulty-plots.js";
+import { DRAWING, plotting, type LivePlot } from "../support/live-plot.js";
+import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
@@ -61,21 +69,191 @@ describe("an emergency stop after the board has restarted", () => {
   });
 });
 
+async function newPlotter(firmware: string) {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  await world.run(driver.start());
+  return { world, driver, board: virtualBoardOf(driver) };
+}
+
+/** A machine on a virtual board, without a plotter. */
+async function newMachine(options: Partial<VirtualBoardOptions> = {}) {
+  const clock = new ManualClock();
+  const board = new VirtualBoard({ clock, ...options });
+  const events = {
+    changed: () => undefined,
+    buttonPressed: () => undefined,
+    supplyRead: () => undefined,
+    lost: () => undefined,
+  };
+  const driver = driverOf(machineById("axidraw-v3"));
+  const machine = await clock.run(
+    driver.identify(board.transport(), { clock, machineClock: clock, speed: 1, events }),
+  );
+  await clock.run(machine.takeOver());
+  return { clock, board, machine };
+}
+
+describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
+  "a stop just after a restart, on firmware %s",
+  (firmware) => {
+    it.each([0, 0.1])("of a plot leaves no known position, after %s s", async (afterS) => {
+      const { world, driver, board } = await newPlotter(firmware);
+      const journal: JournalEntry[] = [];
+      const record = (entry: JournalEntry): void => void journal.push(entry);
+      const plot = (start: PlotStart): Promise<LivePlotRun> =>
+        world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), SETTINGS, { ...start, journal: { record } }));
+      const run = await plot({});
+      await world.advance(3);
+      board.restart();
+      await world.advance(afterS);
+      const stopped = outcome(run.emergencyStop());
+      expect(await outcome(world.run(run.finished, 5))).toMatch(/^board-error: The board restarted/);
+      await stopped;
+      expect(board.state()).toMatchObject({ penUp: true, motorsOn: false });
+      expect(driver.state).toMatchObject({ connection: "idle", xMm: null, yMm: null, motorsOn: false });
+      const again = await plot({ from: journal.at(-1)?.place });
+      await world.run(again.resume());
+      expect(await world.run(again.finished)).toEqual({ kind: "done" });
+      expect(compareDrawn(FAULT_DRAWING, board.drawn()).gapMm).toBeLessThan(0.05);
+    });
+
+    it("of a manual move leaves no known position", async () => {
+      const { clock, board, machine } = await newMachine({ firmware });
+      const walk = outcome(machine.walk(100, 50, SETTINGS));
+      await clock.advance(0.8);
+      board.restart();
+      machine.stopAtOnce();
+      expect(await clock.run(walk)).toMatch(/^board-error: The board restarted/);
+      expect(machine).toMatchObject({ state: null, motorsOn: false });
+    });
+
+    it("by a typed line leaves no known position", async () => {
+      const { clock, board, machine } = await newMachine({ firmware });
+      await clock.run(machine.walk(10, 5, SETTINGS));
+      board.restart();
+      expect(await clock.run(machine.command("ES"))).toMatchObject({
+        note: expect.stringContaining("position is unknown") as string,
+      });
+      expect(machine.state).toBeNull();
+    });
+  },
+);
+
+describe.each(["2.8.1", "3.0.3"])("a held plot on firmware %s whose board restarts", (firmware) => {
+  async function restarted() {
+    const plot = await plotting("junction", FAULT_DRAWING, firmware);
+    await plot.world.advance(3);
+    await plot.world.run(plot.run.pause());
+    plot.board.restart();
+    const { moveCount } = plot.board.statistics();
+    return { ...plot, moveCount };
+  }
+
+  it("does not move when it is resumed", async () => {
+    const { world, driver, board, run, moveCount } = await restarted();
+    const resumed = outcome(run.resume());
+    expect(await outcome(world.run(run.finished, 5))).toMatch(/^board-error: The board restarted/);
+    await resumed;
+    expect(board.statistics().moveCount).toBe(moveCount);
+    expect(driver.state).toMatchObject({ xMm: null, motorsOn: false });
+  });
+
+  it("ends when its hold point is viewed", async () => {
+    const { world, board, run, moveCount } = await restarted();
+    run.moveHoldPlace({ mm: -20 });
+    const viewed = outcome(run.checkHoldPlace());
+    expect(await outcome(world.run(run.finished, 5))).toMatch(/^board-error: The board restarted/);
+    expect(await viewed).toMatch(/^board-error: The board restarted/);
+    expect(board.statistics().moveCount).toBe(moveCount);
+  });
+});
+
+describe.each(["2.8.1", "3.0.3"])("an emergency stop on firmware %s leaves nothing out", (firmware) => {
+  /** Resumes the plot from its journal when the plotter is ready again, and looks for what is missing on the paper. */
+  async function resumedGapMm(happen: (plot: LivePlot) => Promise<void>): Promise<number> {
+    const { world, driver, board } = await newPlotter(firmware);
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    const plot = (start: PlotStart): Promise<LivePlotRun> =>
+      world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), SETTINGS, { ...start, journal: { record } }));
+    const run = await plot({});
+    await world.advance(3);
+    const ended = outcome(run.finished);
+    await happen({ world, driver, board, run });
+    expect(await world.run(ended, 20)).toMatch(/^board-/);
+    while (driver.state.connection !== "idle") await world.advance(0.1);
+    const again = await plot({ from: journal.at(-1)?.place });
+    await world.run(again.resume());
+    expect(await world.run(again.finished)).toEqual({ kind: "done" });
+    return compareDrawn(FAULT_DRAWING, board.drawn()).gapMm;
+  }
+
+  it("if the supply fails just after it", async () => {
+    const gapMm = await resumedGapMm(async ({ world, board, run }) => {
+      const stopped = run.emergencyStop();
+      board.setMotorVolts(0);
+      await world.run(outcome(stopped));
+      // At rest, it would be read only after 2 s.
+      world.after(0.1, () => board.setMotorVolts(9.1));
+    });
+    expect(gapMm).toBeLessThan(0.05);
+  });
+
+  it("if the board does not answer it any more, and then restarts", async () => {
+    const gapMm = await resumedGapMm(async ({ world, board, run }) => {
+      board.setFrozen(true);
+      await world.advance(0.3);
+      board.setMute(true);
+      run.emergencyStop().catch(() => undefined);
+      world.after(4, () => {
+        board.setMute(false);
+        board.restart();
+      });
+    });
+    expect(gapMm).toBeLessThan(0.05);
+  });
+});
+
+describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])("a supply that fails on firmware %s", (firmware) => {
+  /** The supply fails; later it is back. The plotter stays where it was when that was noticed. */
+  async function fails({ world, driver, board }: Pick<LivePlot, "world" | "driver" | "board">) {
+    board.setMotorVolts(0);
+    while (driver.state.connection !== "fault") await world.advance(0.01);
+    await world.advance(driver.state.emergencyStopMs! / 1_000);
+    const { moveCount } = board.statistics();
+    await world.advance(2);
+    board.setMotorVolts(9.1);
+    await world.advance(3);
+    expect(board.statistics().moveCount).toBe(moveCount);
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: null, yMm: null });
+    expect(board.state()).toMatchObject({ motorsOn: false, isBusy: false, penUp: true });
+  }
+
+  it("ends a manual move", async () => {
+    const plotter = await newPlotter(firmware);
+    const walk = outcome(plotter.driver.walkTo(280, 180));
+    await plotter.world.advance(0.6);
+    await fails(plotter);
+    expect(await plotter.world.run(walk)).toMatch(/^conflict/);
+  });
+
+  it("ends a cancelled plot's way home", async () => {
+    const line = strokesOf([10, 10, 250, 10, 250, 150]);
+    const plot = await plotting("junction", line, firmware);
+    await plot.world.advance(8);
+    const cancelled = plot.run.cancel();
+    const { board } = plot;
+    while (!board.state().penUp || !board.state().isBusy) await plot.world.advance(0.05);
+    await plot.world.advance(0.3);
+    await fails(plot);
+    await cancelled;
+  });
+});
+
 describe("a manual move that is stopped while the pen is lifted for it", () => {
   it("does not begin, and later moves are not affected", async () => {
-    const clock = new ManualClock();
-    const board = new VirtualBoard({ clock });
-    const events = {
-      changed: () => undefined,
-      buttonPressed: () => undefined,
-      supplyRead: () => undefined,
-      lost: () => undefined,
-    };
-    const driver = driverOf(machineById("axidraw-v3"));
-    const machine = await clock.run(
-      driver.identify(board.transport(), { clock, machineClock: clock, speed: 1, events }),
-    );
-    await clock.run(machine.takeOver());
+    const { clock, board, machine } = await newMachine();
     for (let times = 1; times <= 2; times++) {
       await clock.run(machine.movePen(false, SETTINGS));
       const walk = outcome(machine.walk(40, 30, SETTINGS));
@@ -90,19 +268,65 @@ describe("a manual move that is stopped while the pen is lifted for it", () => {
     await clock.run(machine.walk(40, 30, SETTINGS));
     expect(board.state()).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
   });
+
+  it("does not begin, if it draws", async () => {
+    const { clock, board, machine } = await newMachine();
+    await clock.run(machine.movePen(false, SETTINGS));
+    const drawing = outcome(moveByHand(machine, { kind: "test-patch" }, SETTINGS));
+    await clock.advance(0.1);
+    machine.stopAtOnce();
+    expect(await clock.run(drawing)).toMatch(/^conflict: The move was stopped/);
+    await clock.advance(1);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true, isBusy: false });
+  });
+});
+
+describe("a manual move that is stopped between two of its steps", () => {
+  it.each<HandMove>([
+    { kind: "jog", dxMm: 10, dyMm: 5 },
+    { kind: "frame", boxMm: { xMm: 5, yMm: 5, widthMm: 20, heightMm: 10 } },
+    { kind: "test-patch" },
+  ])("does not begin if the motors are being switched on: $kind", async (move) => {
+    const { clock, board, machine } = await newMachine({ parseMs: 5 });
+    await clock.run(machine.movePen(true, SETTINGS));
+    const moved = outcome(moveByHand(machine, move, SETTINGS));
+    await clock.advance(0.012);
+    expect(machine.state).toBeNull();
+    machine.stopAtOnce();
+    expect(await clock.run(moved)).toMatch(/^conflict: The move was stopped/);
+    await clock.advance(1);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, motorsOn: true, isBusy: false });
+  });
+
+  it("does not go on to the next switch", async () => {
+    const input = { port: "B", pin: 0, pressed: 0 } as const;
+    const { clock, board, machine } = await newMachine();
+    const plain = machineById("axidraw-v3");
+    const controller = { ...plain.controller, homing: { x: input, y: input } };
+    const customMachine = { ...plain, id: "switched", controller };
+    const settings = { ...SETTINGS, machine: "switched", customMachine };
+    let stoppedMm: number | null = null;
+    board.onSend((bytes) => {
+      const { xMm } = board.state();
+      if (stoppedMm !== null || xMm > -5 || !String.fromCharCode(...bytes).startsWith("PI")) return;
+      stoppedMm = xMm;
+      machine.stopAtOnce();
+    });
+    const homed = outcome(moveByHand(machine, { kind: "home" }, settings));
+    expect(await clock.run(homed)).toMatch(/^conflict: The move was stopped/);
+    expect(board.state()).toMatchObject({ xMm: stoppedMm, isBusy: false });
+  });
 });
 
 describe("firmware without step counters", () => {
-  async function newPlotter() {
-    const world = new ManualClock();
-    const driver = new PlotterDriver({ device: "virtual", clock: world, firmware: "2.4.2" });
-    await world.run(driver.start());
+  const newOldPlotter = async () => {
+    const { world, driver, board } = await newPlotter("2.4.2");
     const plot = (): Promise<LivePlotRun> => world.run(driver.plot(new LocalPlanner(DRAWING), SETTINGS));
-    return { world, driver, board: virtualBoardOf(driver), plot };
-  }
+    return { world, driver, board, plot };
+  };
 
   it("has lost the position after an emergency stop", async () => {
-    const { world, driver, plot } = await newPlotter();
+    const { world, driver, plot } = await newOldPlotter();
     const run = await plot();
     await world.advance(2);
     const stopped = outcome(run.emergencyStop());
@@ -112,7 +336,7 @@ describe("firmware without step counters", () => {
   });
 
   it("has lost the position after a typed line that moves the motors", async () => {
-    const { world, driver, board } = await newPlotter();
+    const { world, driver, board } = await newOldPlotter();
     await world.run(driver.walkTo(10, 0));
     const { note } = await world.run(driver.command("SM,1000,800,800"));
     expect(note).toContain("position is unknown");

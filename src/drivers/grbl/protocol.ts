@@ -18,10 +18,10 @@ export function versionOf(line: string): string | null {
   return `Grbl ${match[1].replace(/\.\d{6,}$/, "")}`;
 }
 
-/** The receive buffer given by `[OPT:V,15,128]`; null if there is none. */
-export function rxBytesOf(line: string): number | null {
-  const match = /^\[OPT:[^,\]]*,\d+,(\d+)/.exec(line);
-  return match ? Number(match[1]) : null;
+/** The queue of moves and the receive buffer given by `[OPT:V,15,128]`; null if there are none. */
+export function buffersOf(line: string): { queueMoves: number; rxBytes: number } | null {
+  const match = /^\[OPT:[^,\]]*,(\d+),(\d+)/.exec(line);
+  return match && { queueMoves: Number(match[1]), rxBytes: Number(match[2]) };
 }
 
 export interface Status {
@@ -75,4 +75,10 @@ export const alarm = (code: number): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     `The Grbl has stopped with ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}. Check the carriage's position, and push it to home before you resume.`,
+  );
+
+export const restarted = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "The Grbl has restarted: its reset button was pressed, or its supply failed. Push the carriage to home before you resume.",
   );

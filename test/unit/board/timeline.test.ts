@@ -51,6 +51,18 @@ describe("a board that stops answering", () => {
   });
 });
 
+describe("a reply about waiting commands that is read late", () => {
+  it("does not move the board's time back", async () => {
+    const { clock, timeline } = await given(Array<number>(30).fill(0.02), 30, 32);
+    await clock.advance(0.11);
+    const askedS = clock.nowS();
+    // The board answers while the sixth command runs. The host is busy meanwhile.
+    await clock.advance(0.3);
+    timeline.waiting(24, askedS);
+    expect(timeline.boardS()).toBeCloseTo(0.41);
+  });
+});
+
 describe("one miscounted acknowledgement", () => {
   it("moves the board's time by no more than a few ms", async () => {
     const durationS = 0.15;

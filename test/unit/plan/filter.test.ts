@@ -12,7 +12,7 @@ function planned(): BlockColumns {
   from.push(0.25, 41.25, 5, 50, 0, -200, 0, 31.25);
   return from;
 }
-const END = { x: 47.5, y: 5, alongMm: 37.5, segmentCount: 1 };
+const END = { x: 47.5, y: 5, alongMm: 37.5 };
 
 /** x, vx, ax at the end of the last block. */
 function endOf(out: BlockColumns): readonly number[] {

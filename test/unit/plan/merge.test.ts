@@ -32,7 +32,7 @@ const RULES: MergeRules = {
 /** A run along x from rest, given as [seconds, acceleration] of each block. */
 function straightRun(phases: readonly (readonly [number, number])[]): {
   readonly blocks: BlockColumns;
-  readonly at: { x: number; y: number; alongMm: number; segmentCount: number };
+  readonly at: { x: number; y: number; alongMm: number };
 } {
   const blocks = new BlockColumns(0, false);
   let [x, v] = [0, 0];
@@ -41,7 +41,7 @@ function straightRun(phases: readonly (readonly [number, number])[]): {
     x += s * (v + (s * a) / 2);
     v += s * a;
   }
-  return { blocks, at: { x, y: 0, alongMm: x, segmentCount: phases.length } };
+  return { blocks, at: { x, y: 0, alongMm: x } };
 }
 
 /** A line of 100 000 points in continuous loops, as in dense handwriting. */

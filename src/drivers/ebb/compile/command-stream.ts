@@ -43,3 +43,6 @@ export interface BoardState {
   readonly acc1: number;
   readonly acc2: number;
 }
+
+/** The state after the motors are switched on at home. */
+export const AT_HOME: BoardState = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };

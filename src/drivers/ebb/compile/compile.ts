@@ -19,10 +19,10 @@ import {
   penSetUpCommands,
   type ServoMove,
 } from "../protocol/commands.js";
-import type { BoardState, CommandStream } from "./command-stream.js";
+import { AT_HOME, type BoardState, type CommandStream } from "./command-stream.js";
 import { checkEbbProfile } from "../protocol/ebb-controller.js";
 import { firmwareFeatures } from "../protocol/firmware.js";
-import type { LegWriter, MotorState, RunWriter } from "./leg.js";
+import type { LegWriter, RunWriter } from "./leg.js";
 import { LegRuns } from "./leg-runs.js";
 import { RunWalk } from "./run-walk.js";
 import { StreamColumns } from "./stream-columns.js";
@@ -81,9 +81,7 @@ export function commandLine(stream: CommandStream, index: number): string {
 }
 
 class Compiler {
-  private readonly columns = new StreamColumns();
-  private readonly m1: MotorState;
-  private readonly m2: MotorState;
+  private readonly columns: StreamColumns;
   private readonly runs: RunWriter;
   /** The current pen heights of the board, percent. */
   private readonly heights: { up: number; down: number };
@@ -94,9 +92,7 @@ class Compiler {
     private readonly trajectory: Trajectory,
     private readonly options: CompileOptions,
   ) {
-    const start = options.start ?? { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
-    this.m1 = { steps: start.steps1, acc: start.acc1 };
-    this.m2 = { steps: start.steps2, acc: start.acc2 };
+    this.columns = new StreamColumns(options.start ?? AT_HOME);
     this.runs = this.runWriter();
     this.heights = { up: options.pen.upPct, down: options.pen.downPct };
   }
@@ -128,19 +124,19 @@ class Compiler {
   }
 
   private runWriter(): RunWriter {
-    const { trajectory, columns, m1, m2 } = this;
+    const { trajectory, columns } = this;
     const features = firmwareFeatures(this.options.firmware);
     const walk = new RunWalk(trajectory, this.options.machine);
-    const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns, m1, m2);
+    const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns);
     switch (features.motion) {
       case "jerk":
-        return legs(new SignedWriter(columns.text, features));
+        return legs(new SignedWriter(features));
       case "timed":
-        return legs(new TimedWriter(columns.text));
+        return legs(new TimedWriter());
       case "steps":
-        return legs(new SteppedWriter(columns.text, features));
+        return legs(new SteppedWriter(features));
       case "slices":
-        return new SliceRuns(features, walk, columns, m1, m2);
+        return new SliceRuns(features, walk, columns);
     }
   }
 
@@ -148,24 +144,20 @@ class Compiler {
   private penMove(move: PenMove): void {
     const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
     const servoMove = this.servoMoveOf(move, { inFlight: false, run: -1, planS: move.startS });
-    this.writeIdle(
-      penCommand(this.options.machine, servoMove, waitMs),
-      Math.max(1, waitMs * TICKS_PER_MS),
-      move.startS,
-      -1,
-    );
+    const line = penCommand(this.options.machine, servoMove, waitMs);
+    this.columns.add(line, Math.max(1, waitMs * TICKS_PER_MS), move.startS, -1);
   }
 
   /** A pen move during a run. It takes one tick, in which the motors do not move. */
   private penMoveInFlight(move: PenMove, run: number, planS: number): void {
     const servoMove = this.servoMoveOf(move, { inFlight: !move.up, run, planS });
-    this.writeIdle(penCommand(this.options.machine, servoMove, 0), 1, planS, run);
+    this.columns.add(penCommand(this.options.machine, servoMove, 0), 1, planS, run);
   }
 
   /** Waits for the rest of a pen move that began during the run. */
   private waitForPen(waitS: number, planS: number): void {
     const waitMs = Math.round(waitS * 1_000);
-    if (waitMs > 0) this.writeIdle(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
+    if (waitMs > 0) this.columns.add(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
   }
 
   /** Converts a pen move, and sets its height and speed on the board if they changed. */
@@ -196,14 +188,7 @@ class Compiler {
       const parameter = line.slice(0, line.lastIndexOf(","));
       if (this.parameters.get(parameter) === line) continue;
       this.parameters.set(parameter, line);
-      this.writeIdle(line, 0, planS, run);
+      this.columns.add(line, 0, planS, run);
     }
-  }
-
-  /** A command during which the motors do not move. */
-  private writeIdle(line: string, ticks: number, planS: number, run: number): void {
-    const { columns, m1, m2 } = this;
-    columns.text.line(line);
-    columns.add(ticks, planS, run, m1, m2);
   }
 }

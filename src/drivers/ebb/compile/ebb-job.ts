@@ -1,10 +1,9 @@
 /** Plans strokes for an EBB within the limits of its firmware, and compiles the commands. */
+import { strokesOf } from "../../../drawing/lines.js";
 import type { StrokeSet } from "../../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../../machines/profile.js";
-import { plan, planTravel } from "../../../plan/plan.js";
-import type { Trajectory } from "../../../plan/trajectory.js";
+import { plan } from "../../../plan/plan.js";
 import type { MotionSettings } from "../../../settings/motion.js";
-import type { PenSettings } from "../../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../../machine-job.js";
 import { closingCommands, setUpCommands } from "../protocol/commands.js";
 import { dropsAtStroke, motionForFirmware } from "../protocol/firmware-motion.js";
@@ -21,8 +20,9 @@ export function planEbbJob(
   options: DriverPlanOptions,
 ): MachineJob<CommandStream> {
   const firmware = options.firmware ?? OLDEST_PLANNED_FIRMWARE;
+  const { pen } = settings;
   const motion = motionForFirmware(settings.motion, firmware);
-  const trajectory = plan(strokes, motion, settings.pen, {
+  const trajectory = plan(strokes, motion, pen, {
     machine,
     from: options.from ?? undefined,
     startX: options.startXMm,
@@ -34,35 +34,7 @@ export function planEbbJob(
     dropsAtStroke: dropsAtStroke(firmware),
     cancel: options.cancel,
   });
-  return ebbJob(trajectory, machine, firmware, settings.pen, options.board as BoardState | undefined);
-}
-
-/**
- * A straight move with the pen up, mm from home, as a separate job.
- *
- * @throws PlotwrightError "bad-setting" for settings that contradict each other
- */
-export function planEbbWalk(
-  from: { readonly x: number; readonly y: number },
-  to: { readonly x: number; readonly y: number },
-  { motion, pen }: JobSettings,
-  machine: MachineProfile,
-  firmware: string,
-  board: BoardState,
-): MachineJob<CommandStream> {
-  const limited = motionForFirmware(motion, firmware);
-  const trajectory = planTravel([from.x, from.y], [to.x, to.y], limited, pen, machine);
-  return ebbJob(trajectory, machine, firmware, pen, board);
-}
-
-/** A trajectory as a job. `start`: the board's counters; undefined: all zero, as after the motors are switched on. */
-function ebbJob(
-  trajectory: Trajectory,
-  machine: MachineProfile,
-  firmware: string,
-  pen: PenSettings,
-  start: BoardState | undefined,
-): MachineJob<CommandStream> {
+  const start = options.board as BoardState | undefined;
   let compiled: CommandStream | null = null;
   const commands = (): CommandStream => (compiled ??= compile(trajectory, { machine, firmware, pen, start }));
   const lines = (): string[] => {
@@ -72,6 +44,24 @@ function ebbJob(
   };
   return { trajectory, commands, lines };
 }
+
+/** A straight move with the pen up, mm from home, as a separate job. */
+export const planEbbWalk = (
+  from: { readonly x: number; readonly y: number },
+  to: { readonly x: number; readonly y: number },
+  settings: JobSettings,
+  machine: MachineProfile,
+  firmware: string,
+  board: BoardState,
+): MachineJob<CommandStream> =>
+  planEbbJob(strokesOf([]), settings, machine, {
+    startXMm: from.x,
+    startYMm: from.y,
+    endXMm: to.x,
+    endYMm: to.y,
+    firmware,
+    board,
+  });
 
 /**
  * How far a pen that stopped on the planned line can be from the drawing: the deviation of the planned line, plus the

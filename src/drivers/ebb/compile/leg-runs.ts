@@ -12,14 +12,23 @@
  */
 import type { Trajectory } from "../../../plan/trajectory.js";
 import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS } from "../../../units.js";
-import { MAX_TICKS, type Leg, type LegWriter, type Midway, type MotorLeg } from "./leg.js";
-import type { MotorState, RunWriter } from "./leg.js";
-import { HIGHEST_PLANNED_RATE, TOO_FAST } from "../protocol/limits.js";
+import {
+  MAX_TICKS,
+  TOO_FAST,
+  type Leg,
+  type LegWriter,
+  type Midway,
+  type MotorLeg,
+  type RunWriter,
+} from "./leg.js";
 import type { MotorPoint, RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
 /** If one acceleration misses a leg's end speeds by more than this, the leg gets two (0.2 mm/s at 80 steps/mm). */
 const JOIN_RATE = rateFromStepsPerS(0.2 * 80);
+
+/** Plans are slowed down to this rate, to leave room for corrections of fractions of a step. */
+const HIGHEST_PLANNED_RATE = Math.floor(0.985 * ACCUMULATOR_RANGE);
 
 /** Max deviation from the line: half a step, as a rate during one tick. */
 const MAX_DEVIATION_RATE = ACCUMULATOR_RANGE / 2;
@@ -36,7 +45,7 @@ const SHORTEST_TICKS = 26;
 /** The end of a leg. */
 interface Cut {
   readonly tick: number;
-  /** The block at that tick. */
+  /** The block that ends at that tick or contains it. */
   readonly block: number;
   readonly isRunEnd: boolean;
 }
@@ -51,8 +60,6 @@ export class LegRuns implements RunWriter {
     private readonly walk: RunWalk,
     private readonly writer: LegWriter,
     private readonly columns: StreamColumns,
-    private readonly m1: MotorState,
-    private readonly m2: MotorState,
   ) {}
 
   /** A reversal within this many ticks of a cut needs no separate cut. */
@@ -106,12 +113,10 @@ export class LegRuns implements RunWriter {
 
   /** Waits if a run's last step comes before its planned end. So a run takes the planned time on every firmware. */
   private waitForRunEnd(run: number): void {
-    const { walk, columns, m1, m2 } = this;
+    const { walk, columns } = this;
     const ms = Math.round((walk.endTick(walk.end - 1) - columns.boardTicks) / TICKS_PER_MS);
     if (ms < 1) return;
-    columns.text.line(`SM,${ms},0,0`);
-    const planS = walk.planS(columns.boardTicks);
-    columns.add(ms * TICKS_PER_MS, planS, run, m1, m2);
+    columns.add(`SM,${ms},0,0`, ms * TICKS_PER_MS, walk.planS(columns.boardTicks), run);
   }
 
   /** The next cut after `tick`, which is in `block`. The cut is not before `notBefore`. */
@@ -121,44 +126,35 @@ export class LegRuns implements RunWriter {
     const runEnd = Math.max(walk.endTick(last), tick + 1);
     const shortest = Math.max(tick + writer.minTicks, notBefore);
     let soonest = shortest;
-    let k = block;
-    while (k < last && walk.endTick(k) < soonest) k++;
+    let k = walk.blockTo(soonest, block);
     if (k !== block && this.trajectory.planned) {
       // Room for two commands: short blocks of a shaped motion seldom fit one acceleration.
       soonest = Math.max(shortest, tick + 2 * writer.minTicks);
-      while (k < last && walk.endTick(k) < soonest) k++;
+      k = walk.blockTo(soonest, k);
     }
     let end = k === last ? runEnd : walk.endTick(k);
-    if (k !== block) {
-      // Short blocks are combined. Take no more of a following long block than needed.
-      if (end - soonest >= writer.minTicks) end = soonest;
-    } else {
+    if (k === block) {
       end = this.withinBlock(tick, block, soonest, end);
+    } else if (end - soonest >= writer.minTicks) {
+      // Short blocks are combined. Take no more of a following long block than needed.
+      end = soonest;
     }
     const midwayTick = this.midwayTick();
-    if (midwayTick < end) {
-      end = Math.max(soonest, midwayTick);
-      k = walk.blockAt(end, block);
-    }
+    if (midwayTick < end) end = Math.max(soonest, midwayTick);
     if (writer.turnTicks > 0) {
-      let turn = this.firstTurn(tick, block, k, shortest, end);
+      const earliest = Math.max(tick + this.turnTicks, shortest - writer.minTicks);
+      let turn = this.turnBetween(earliest, end - this.turnTicks, block);
       if (turn === Infinity) turn = this.turnNear(end, block, soonest, runEnd);
-      if (turn !== Infinity) {
-        end = turn;
-        k = walk.blockAt(end, block);
-      }
+      if (turn !== Infinity) end = turn;
     }
     // The rest of the run must be long enough for a command, plus a tick for each pen move.
     const restTicks = writer.minTicks + this.midway.length;
     if (end < runEnd && runEnd - end < restTicks) {
       const earlier = runEnd - restTicks;
-      end = earlier >= soonest && earlier < end ? earlier : runEnd;
-      k = end === runEnd ? last : walk.blockAt(end, block);
+      end = earlier >= soonest ? earlier : runEnd;
     }
-    if (end < runEnd) {
-      while (k > block && walk.endTick(k - 1) >= end) k--;
-    }
-    return { tick: end, block: k, isRunEnd: end >= runEnd };
+    const isRunEnd = end >= runEnd;
+    return { tick: end, block: isRunEnd ? last : walk.blockTo(end, block), isRunEnd };
   }
 
   /** Where to cut a block that is long enough for a command but may be too long for one. */
@@ -171,34 +167,27 @@ export class LegRuns implements RunWriter {
     return pieces > 1 ? Math.max(soonest, tick + Math.round((blockEnd - tick) / pieces)) : blockEnd;
   }
 
-  /** The first tick at which a motor reverses within a leg; Infinity if none does. */
-  private firstTurn(tick: number, from: number, to: number, soonest: number, end: number): number {
-    const { walk, writer } = this;
-    const earliest = Math.max(tick + this.turnTicks, soonest - writer.minTicks);
-    const latest = end - this.turnTicks;
-    for (let k = from; k <= to; k++) {
-      const after = k === from ? earliest : Math.max(earliest, walk.endTick(k - 1));
-      const turn = walk.turnTick(k, after, k === to ? latest : Math.min(latest, walk.endTick(k)));
-      if (turn !== Infinity) return turn;
-    }
-    return Infinity;
-  }
-
   /**
    * The tick near the cut at which a motor of a shaped motion reverses; Infinity if none does. The cut then moves there.
    * Shaped motion has short blocks of high acceleration: a separate command would be too short for the board, and
    * without any cut the motor would jump.
    */
   private turnNear(end: number, block: number, soonest: number, runEnd: number): number {
-    const { walk, writer } = this;
+    const { minTicks } = this.writer;
     if (!this.trajectory.planned) return Infinity;
     const from = Math.max(soonest - 1, end - this.turnTicks);
-    const to = Math.min(end + writer.minTicks, runEnd - writer.minTicks);
-    for (let k = walk.blockAt(from, block); k < walk.end; k++) {
-      const since = k > block ? Math.max(from, walk.endTick(k - 1)) : from;
-      if (since >= to) break;
-      const turn = walk.turnTick(k, since, Math.min(to, walk.endTick(k)));
+    return this.turnBetween(from, Math.min(end + minTicks, runEnd - minTicks), block);
+  }
+
+  /** The first tick in (from, to] at which a motor reverses; Infinity if none does. Searched from `block` on. */
+  private turnBetween(from: number, to: number, block: number): number {
+    const { walk } = this;
+    let since = from;
+    for (let k = walk.blockAt(from, block); k < walk.end && since < to; k++) {
+      const until = Math.min(to, walk.endTick(k));
+      const turn = walk.turnTick(k, since, until);
       if (turn !== Infinity) return turn;
+      since = until;
     }
     return Infinity;
   }
@@ -218,9 +207,7 @@ export class LegRuns implements RunWriter {
     const isAtStart = Math.abs(motor.v0) < Math.abs(motor.v1);
     const end = isAtStart ? soonest : Math.max(soonest, cut.tick - writer.minTicks);
     if (end >= cut.tick) return null;
-    let k = walk.blockAt(end, block);
-    while (k > block && walk.endTick(k - 1) >= end) k--;
-    return { tick: end, block: k, isRunEnd: false };
+    return { tick: end, block: walk.blockTo(end, block), isRunEnd: false };
   }
 
   /** The leg from `tick`, which is in `block`, to a cut. It may take longer than planned. */
@@ -232,7 +219,7 @@ export class LegRuns implements RunWriter {
       ticks: cut.tick - tick,
       m1: legBetween(start.m1, end.m1),
       m2: legBetween(start.m2, end.m2),
-      isParabola: block === cut.block && !walk.hasJerk(block),
+      isParabola: block === cut.block && walk.jerk(block) === 0,
       isLast: cut.isRunEnd && this.runIndex === this.trajectory.runs.count - 1,
     };
     return this.slowedDown(planned, cut.isRunEnd);
@@ -264,9 +251,11 @@ export class LegRuns implements RunWriter {
    * Returns false if nothing was written, because no step is due.
    */
   private writeLeg(leg: Leg): boolean {
-    if (this.writer.joinsAnySpeeds || leg.isParabola || leg.ticks < 2 * this.writer.turnTicks)
+    const { jerkErrorRate, turnTicks } = this.writer;
+    const isOneCommand = jerkErrorRate === Infinity || leg.isParabola || leg.ticks < 2 * turnTicks;
+    if (isOneCommand || !(isBent(leg.m1, leg.ticks) || isBent(leg.m2, leg.ticks))) {
       return this.writeCommand(leg);
-    if (!isBent(leg.m1, leg.ticks) && !isBent(leg.m2, leg.ticks)) return this.writeCommand(leg);
+    }
     const ticks = Math.floor(leg.ticks / 2);
     const m1 = firstHalf(leg.m1, leg.ticks, ticks);
     const m2 = firstHalf(leg.m2, leg.ticks, ticks);
@@ -281,11 +270,10 @@ export class LegRuns implements RunWriter {
   }
 
   private writeCommand(leg: Leg): boolean {
-    const { columns, m1, m2 } = this;
-    const planS = this.walk.planS(columns.boardTicks);
-    const ticks = this.writer.write(leg, m1, m2);
-    if (ticks === 0) return false;
-    columns.add(ticks, planS, this.runIndex, m1, m2);
+    const { columns } = this;
+    const command = this.writer.commandFor(leg, columns.m1, columns.m2);
+    if (!command) return false;
+    columns.add(command.line, command.ticks, this.walk.planS(columns.boardTicks), this.runIndex);
     return true;
   }
 }

@@ -4,7 +4,7 @@
  * Positions in steps (fractional), speeds in accumulator counts per tick. The board may be a fraction of a
  * step off at the start of a leg. The command leads from the actual position to the planned one.
  */
-import { TICKS_PER_S } from "../../../units.js";
+import { ACCUMULATOR_RANGE, TICKS_PER_S } from "../../../units.js";
 
 export interface MotorLeg {
   /** The plan's position at the start and the end. */
@@ -29,6 +29,12 @@ export interface Leg {
 /** Max ticks of a command: 150 ms. */
 export const MAX_TICKS = 3_750;
 
+/** Max rate in a command. The board's own limit is one step per tick. */
+export const HIGHEST_RATE = Math.floor(0.999 * ACCUMULATOR_RANGE);
+
+export const TOO_FAST =
+  "Parts of the plot are faster than the motors can step (25 000 steps per second). They are plotted at the board's maximum speed.";
+
 /** Predicted state of one motor. */
 export interface MotorState {
   steps: number;
@@ -51,7 +57,13 @@ export interface RunWriter {
   write(run: number, midway: readonly Midway[]): void;
 }
 
-/** Writes the command for a leg, and updates the motors' predicted states exactly. */
+/** A command, and the board ticks from its start to the next one's. */
+export interface LegCommand {
+  readonly line: string;
+  readonly ticks: number;
+}
+
+/** Makes the command for a leg, and updates the motors' predicted states exactly. */
 export interface LegWriter {
   /** Min ticks of a command. */
   readonly minTicks: number;
@@ -62,18 +74,13 @@ export interface LegWriter {
   readonly turnTicks: number;
   /** Idle ticks of every command, in which the motors rest. The other ticks run faster to make up for them. */
   readonly idleTicks: number;
-  /** One command can join any two speeds (it has a jerk). */
-  readonly joinsAnySpeeds: boolean;
   /**
    * Max speed error at a leg's ends from replacing a jerk by a constant acceleration, counts per tick. Infinity: the
-   * command has a jerk.
+   * command has a jerk, so it can join any two speeds.
    */
   readonly jerkErrorRate: number;
-  /**
-   * Returns the ticks it takes (normally `leg.ticks`), or 0 if no motor has to move yet
-   * and nothing was written.
-   */
-  write(leg: Leg, m1: MotorState, m2: MotorState): number;
+  /** Returns null if no motor has to move yet. */
+  commandFor(leg: Leg, m1: MotorState, m2: MotorState): LegCommand | null;
 }
 
 /** How much of the position error to correct in one command of `ticks` ticks, in steps. */

@@ -7,7 +7,7 @@
  */
 import { motor1FromXy, motor2FromXy } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
-import type { Trajectory } from "../../../plan/trajectory.js";
+import { blockState, newMotionState, type Trajectory } from "../../../plan/trajectory.js";
 import { rateFromStepsPerS, S_PER_TICK, TICKS_PER_S } from "../../../units.js";
 
 /** The plan at one moment: position of one motor in steps (fractional), speed in accumulator counts per tick. */
@@ -26,6 +26,7 @@ export class RunWalk {
   first = 0;
   end = 0;
   origin = 0;
+  private readonly state = newMotionState();
 
   constructor(
     private readonly trajectory: Trajectory,
@@ -60,6 +61,13 @@ export class RunWalk {
     return k;
   }
 
+  /** The block that ends at `tick` or contains it, searched from `block` on. */
+  blockTo(tick: number, block: number): number {
+    let k = block;
+    while (k + 1 < this.end && this.endTick(k) < tick) k++;
+    return k;
+  }
+
   /** The plan at `tick`, evaluated in `block`. */
   pointAt(tick: number, block: number): PlanPoint {
     return this.evaluate(this.planS(tick) - this.trajectory.startS[block], block);
@@ -68,11 +76,6 @@ export class RunWalk {
   /** The plan at the exact end of a block. */
   endOf(block: number): PlanPoint {
     return this.evaluate(this.trajectory.durationS[block], block);
-  }
-
-  hasJerk(block: number): boolean {
-    const { jx, jy } = this.trajectory;
-    return jx !== null && jy !== null && (jx[block] !== 0 || jy[block] !== 0);
   }
 
   /** Jerk of the motor with the larger jerk, counts per tick³. */
@@ -105,13 +108,8 @@ export class RunWalk {
 
   /** The plan `t` seconds after the start of block `k`. */
   private evaluate(t: number, k: number): PlanPoint {
-    const { trajectory: b, machine } = this;
-    const jx = b.jx === null ? 0 : b.jx[k];
-    const jy = b.jy === null ? 0 : b.jy[k];
-    const x = b.x[k] + t * (b.vx[k] + t * (b.ax[k] / 2 + (t * jx) / 6));
-    const y = b.y[k] + t * (b.vy[k] + t * (b.ay[k] / 2 + (t * jy) / 6));
-    const vx = b.vx[k] + t * (b.ax[k] + (t * jx) / 2);
-    const vy = b.vy[k] + t * (b.ay[k] + (t * jy) / 2);
+    const { machine } = this;
+    const { x, y, vx, vy } = blockState(this.trajectory, k, t, this.state);
     return {
       m1: { p: motor1FromXy(machine, x, y), v: rateFromStepsPerS(motor1FromXy(machine, vx, vy)) },
       m2: { p: motor2FromXy(machine, x, y), v: rateFromStepsPerS(motor2FromXy(machine, vx, vy)) },

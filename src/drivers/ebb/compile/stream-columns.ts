@@ -1,14 +1,18 @@
 /** Builds a command stream: one row of columns per command, and its text. */
+import { grown } from "../../../geometry/growable.js";
 import { sFromTicks } from "../../../units.js";
-import { CommandText } from "../protocol/commands.js";
-import type { CommandStream } from "./command-stream.js";
+import { asciiBytes } from "../../line-splitter.js";
+import type { BoardState, CommandStream } from "./command-stream.js";
 import type { MotorState } from "./leg.js";
 
 export class StreamColumns {
-  readonly text = new CommandText();
-  /** Ticks from the stream's start to the end of the last command written. */
+  /** The motors' predicted states after the last command. */
+  readonly m1: MotorState;
+  readonly m2: MotorState;
+  /** Ticks from the stream's start to the end of the last command. */
   boardTicks = 0;
   private readonly warnings: string[] = [];
+  private text = new Uint8Array(1 << 12);
   private readonly textOffsets = [0];
   private readonly boardS: number[] = [];
   private readonly planS: number[] = [];
@@ -18,17 +22,22 @@ export class StreamColumns {
   private readonly acc2: number[] = [];
   private readonly run: number[] = [];
 
-  /** Completes the command whose text was just written: its `ticks`, and the motors' state after it. */
-  add(ticks: number, planStartS: number, run: number, m1: MotorState, m2: MotorState): void {
+  constructor({ steps1, steps2, acc1, acc2 }: BoardState) {
+    this.m1 = { steps: steps1, acc: acc1 };
+    this.m2 = { steps: steps2, acc: acc2 };
+  }
+
+  /** Adds a command after which the motors are in the states `m1` and `m2`. */
+  add(line: string, ticks: number, planStartS: number, run: number): void {
+    this.addText(line);
     this.boardS.push(sFromTicks(this.boardTicks));
     this.planS.push(planStartS);
-    this.steps1.push(m1.steps);
-    this.steps2.push(m2.steps);
-    this.acc1.push(m1.acc);
-    this.acc2.push(m2.acc);
+    this.steps1.push(this.m1.steps);
+    this.steps2.push(this.m2.steps);
+    this.acc1.push(this.m1.acc);
+    this.acc2.push(this.m2.acc);
     this.run.push(run);
     this.boardTicks += ticks;
-    this.textOffsets.push(this.text.byteCount);
   }
 
   warnOnce(warning: string): void {
@@ -41,7 +50,7 @@ export class StreamColumns {
     this.planS.push(planEndS);
     return {
       count,
-      text: this.text.finish(),
+      text: this.text.slice(0, this.textOffsets[count]),
       textOffsets: new Uint32Array(this.textOffsets),
       boardS: new Float64Array(this.boardS),
       planS: new Float64Array(this.planS),
@@ -52,5 +61,14 @@ export class StreamColumns {
       run: new Int32Array(this.run),
       warnings: this.warnings,
     };
+  }
+
+  private addText(line: string): void {
+    const bytes = asciiBytes(`${line}\r`);
+    const start = this.textOffsets[this.run.length];
+    const end = start + bytes.length;
+    if (end > this.text.length) this.text = grown(this.text, end);
+    this.text.set(bytes, start);
+    this.textOffsets.push(end);
   }
 }

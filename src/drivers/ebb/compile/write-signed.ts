@@ -10,55 +10,46 @@
  * error of the previous one. The remaining error is at most T/2 counts, a few millionths of a step.
  */
 import { ACCUMULATOR_RANGE } from "../../../units.js";
-import { rateAt, registersFor, sumOfRates } from "../model/accumulator.js";
-import type { CommandText } from "../protocol/commands.js";
+import { rateAt, registersFor, stateAfter, type Rates } from "../model/accumulator.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } from "./leg.js";
-import { HIGHEST_RATE } from "../protocol/limits.js";
+import {
+  correction,
+  HIGHEST_RATE,
+  type Leg,
+  type LegCommand,
+  type LegWriter,
+  type MotorLeg,
+  type MotorState,
+} from "./leg.js";
 
 const RANGE = ACCUMULATOR_RANGE;
-
-interface Arguments {
-  readonly rate: number;
-  readonly accel: number;
-  readonly jerk: number;
-}
 
 export class SignedWriter implements LegWriter {
   readonly minTicks = 125;
   readonly turnTicks = 0;
   readonly idleTicks: number;
-  readonly joinsAnySpeeds = true;
   /** The unit of J is 91 mm/s³: within `MAX_TICKS`, an error of half a unit bends the line by less than 2 µm. */
   readonly jerkErrorRate = Infinity;
 
-  constructor(
-    private readonly text: CommandText,
-    features: FirmwareFeatures,
-  ) {
+  constructor(features: FirmwareFeatures) {
     this.idleTicks = features.idleTicksTimed;
   }
 
-  write(leg: Leg, m1: MotorState, m2: MotorState): number {
+  commandFor(leg: Leg, m1: MotorState, m2: MotorState): LegCommand {
     const ticks = leg.ticks - this.idleTicks;
     const a1 = argumentsFor(leg, leg.m1, m1, ticks);
     const a2 = argumentsFor(leg, leg.m2, m2, ticks);
-    const hasJerk = a1.jerk !== 0 || a2.jerk !== 0;
-    this.text.name(hasJerk ? "T3" : "LT");
-    this.text.number(ticks);
-    for (const a of [a1, a2]) {
-      this.text.number(a.rate);
-      this.text.number(a.accel);
-      if (hasJerk) this.text.number(a.jerk);
-    }
-    this.text.end();
     run(a1, ticks, m1);
     run(a2, ticks, m2);
-    return leg.ticks;
+    const line =
+      a1.jerk === 0 && a2.jerk === 0
+        ? `LT,${ticks},${a1.rate},${a1.accel},${a2.rate},${a2.accel}`
+        : `T3,${ticks},${a1.rate},${a1.accel},${a1.jerk},${a2.rate},${a2.accel},${a2.jerk}`;
+    return { line, ticks: leg.ticks };
   }
 }
 
-function argumentsFor(leg: Leg, motor: MotorLeg, state: MotorState, ticks: number): Arguments {
+function argumentsFor(leg: Leg, motor: MotorLeg, state: MotorState, ticks: number): Rates {
   const stretch = leg.ticks / ticks;
   const planned = motor.p1 - motor.p0;
   const error = motor.p0 + 0.5 - state.steps - state.acc / RANGE;
@@ -74,10 +65,10 @@ function argumentsFor(leg: Leg, motor: MotorLeg, state: MotorState, ticks: numbe
 }
 
 /** The planned rates are limited already. Rounding and correction may still exceed the range slightly. */
-function keptInRange(a: Arguments, ticks: number): Arguments {
+function keptInRange(a: Rates, ticks: number): Rates {
   const registers = registersFor("signed", a.rate, a.accel, a.jerk);
-  const last = rateAt(ticks, registers.rate, registers.accel, registers.jerk);
-  const first = rateAt(1, registers.rate, registers.accel, registers.jerk);
+  const last = rateAt(ticks, registers);
+  const first = rateAt(1, registers);
   const over = Math.max(first, last) - HIGHEST_RATE;
   const under = -HIGHEST_RATE - Math.min(first, last);
   if (over > 0) return { ...a, rate: a.rate - Math.ceil(over) };
@@ -85,10 +76,8 @@ function keptInRange(a: Arguments, ticks: number): Arguments {
   return a;
 }
 
-function run(a: Arguments, ticks: number, state: MotorState): void {
-  const { rate, accel, jerk } = registersFor("signed", a.rate, a.accel, a.jerk);
-  const sum = state.acc + sumOfRates(ticks, rate, accel, jerk);
-  const steps = Math.floor(sum / RANGE);
-  state.steps += steps;
-  state.acc = sum - steps * RANGE;
+function run(a: Rates, ticks: number, state: MotorState): void {
+  const { net, acc } = stateAfter(ticks, registersFor("signed", a.rate, a.accel, a.jerk), state.acc);
+  state.steps += net;
+  state.acc = acc;
 }

@@ -8,8 +8,7 @@
 import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 import { slowRate } from "../model/slow-rate.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import { HIGHEST_SLICE_RATE, OLD_FIRMWARE, TOO_FAST } from "../protocol/limits.js";
-import type { Midway, MotorState, RunWriter } from "./leg.js";
+import { TOO_FAST, type Midway, type MotorState, type RunWriter } from "./leg.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
@@ -20,8 +19,16 @@ import type { StreamColumns } from "./stream-columns.js";
 const SLICE_MS = 10;
 const SLICE_TICKS = SLICE_MS * TICKS_PER_MS;
 
+/**
+ * Max planned rate: lower than that of the other commands, because a slice has whole milliseconds, whole steps and an
+ * idle tick.
+ */
+const HIGHEST_SLICE_RATE = Math.floor(0.95 * ACCUMULATOR_RANGE);
 /** Max steps per millisecond of one motor. */
 const MAX_STEPS_PER_MS = (HIGHEST_SLICE_RATE / ACCUMULATOR_RANGE) * TICKS_PER_MS;
+
+const OLD_FIRMWARE =
+  "This board's firmware is older than 2.5.3 and cannot accelerate within a command, so lines may be slightly uneven. Update the firmware.";
 
 export class SliceRuns implements RunWriter {
   /** Ticks by which the last run ended later than planned. */
@@ -31,12 +38,10 @@ export class SliceRuns implements RunWriter {
     private readonly features: FirmwareFeatures,
     private readonly walk: RunWalk,
     private readonly columns: StreamColumns,
-    private readonly m1: MotorState,
-    private readonly m2: MotorState,
   ) {}
 
   write(run: number, midway: readonly Midway[]): void {
-    const { walk, columns, features, m1, m2 } = this;
+    const { walk, columns, features } = this;
     walk.begin(run, columns.boardTicks - this.lateTicks);
     if (walk.first === walk.end) return;
     columns.warnOnce(OLD_FIRMWARE);
@@ -58,8 +63,8 @@ export class SliceRuns implements RunWriter {
       const tick = columns.boardTicks + ms * TICKS_PER_MS + features.idleTicks;
       block = isLast ? last : walk.blockAt(tick, block);
       const target = isLast ? walk.endOf(block) : walk.pointAt(tick, block);
-      const steps1 = Math.round(target.m1.p) - m1.steps;
-      const steps2 = Math.round(target.m2.p) - m2.steps;
+      const steps1 = Math.round(target.m1.p) - columns.m1.steps;
+      const steps2 = Math.round(target.m2.p) - columns.m2.steps;
       const minMs = Math.ceil(Math.max(Math.abs(steps1), Math.abs(steps2)) / MAX_STEPS_PER_MS);
       if (minMs > ms) walk.origin += (minMs - ms) * TICKS_PER_MS;
       if (minMs > ms + 1) columns.warnOnce(TOO_FAST);
@@ -71,17 +76,11 @@ export class SliceRuns implements RunWriter {
 
   private writeSlice(ms: number, steps1: number, steps2: number, run: number): void {
     if (ms === 0) return;
-    const { columns, features, m1, m2 } = this;
-    const planS = this.walk.planS(columns.boardTicks);
-    columns.text.name("SM");
-    columns.text.number(ms);
-    columns.text.number(steps1);
-    columns.text.number(steps2);
-    columns.text.end();
-    const stepping = Math.max(this.step(m1, ms, steps1), this.step(m2, ms, steps2));
+    const { columns, features } = this;
+    const stepping = Math.max(this.step(columns.m1, ms, steps1), this.step(columns.m2, ms, steps2));
     // An SM without steps is a plain delay and has no idle tick.
     const ticks = stepping > 0 ? stepping + features.idleTicks : ms * TICKS_PER_MS;
-    columns.add(ticks, planS, run, m1, m2);
+    columns.add(`SM,${ms},${steps1},${steps2}`, ticks, this.walk.planS(columns.boardTicks), run);
   }
 
   /** Updates one motor's state. Returns the ticks until its last step. */

@@ -10,15 +10,21 @@
  * The rate of an LM must not reach zero, or the last step would never come. Rates are
  * kept above 1 % of the mean.
  */
-import { firstWhere } from "../../../geometry/binary-search.js";
 import { ACCUMULATOR_RANGE, rateFromStepsPerS } from "../../../units.js";
-import { registersFor, sumOfRates, type Registers } from "../model/accumulator.js";
-import type { CommandText } from "../protocol/commands.js";
+import { registersFor, stateAfter, tickOfStep } from "../model/accumulator.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import type { Leg, LegWriter, MotorLeg, MotorState } from "./leg.js";
-import { HIGHEST_RATE, SLOWEST_PART_OF_MEAN } from "../protocol/limits.js";
+import {
+  HIGHEST_RATE,
+  type Leg,
+  type LegCommand,
+  type LegWriter,
+  type MotorLeg,
+  type MotorState,
+} from "./leg.js";
 
 const RANGE = ACCUMULATOR_RANGE;
+/** Min rate of a motor, as a part of the leg's mean rate. */
+const SLOWEST_PART_OF_MEAN = 0.01;
 
 interface Arguments {
   /** Magnitude; the sign of `steps` gives the direction. */
@@ -31,29 +37,20 @@ export class SteppedWriter implements LegWriter {
   readonly minTicks = 200;
   readonly turnTicks = 120;
   readonly idleTicks = 0;
-  readonly joinsAnySpeeds = false;
   /** 0.5 mm/s at 80 steps/mm. */
   readonly jerkErrorRate = rateFromStepsPerS(0.5 * 80);
 
-  constructor(
-    private readonly text: CommandText,
-    private readonly features: FirmwareFeatures,
-  ) {}
+  constructor(private readonly features: FirmwareFeatures) {}
 
-  write(leg: Leg, m1: MotorState, m2: MotorState): number {
-    const { text } = this;
+  commandFor(leg: Leg, m1: MotorState, m2: MotorState): LegCommand | null {
     const ticks = leg.ticks - this.features.idleTicks;
     const a1 = argumentsFor(leg.m1, m1, ticks);
     const a2 = argumentsFor(leg.m2, m2, ticks);
-    if (a1.steps === 0 && a2.steps === 0) return 0;
-    text.name("LM");
-    for (const a of [a1, a2]) {
-      text.number(a.rate);
-      text.number(a.steps);
-      text.number(a.accel);
-    }
-    text.end();
-    return Math.max(run(a1, ticks, m1), run(a2, ticks, m2)) + this.features.idleTicks;
+    if (a1.steps === 0 && a2.steps === 0) return null;
+    return {
+      line: `LM,${a1.rate},${a1.steps},${a1.accel},${a2.rate},${a2.steps},${a2.accel}`,
+      ticks: Math.max(run(a1, ticks, m1), run(a2, ticks, m2)) + this.features.idleTicks,
+    };
   }
 }
 
@@ -75,14 +72,8 @@ function argumentsFor(motor: MotorLeg, state: MotorState, ticks: number): Argume
 function run(a: Arguments, ticks: number, state: MotorState): number {
   if (a.steps === 0) return 0;
   const registers = registersFor("late", a.rate, a.accel);
-  const distance = Math.abs(a.steps) * RANGE - state.acc;
-  const last = tickOfSum(distance, ticks, registers);
-  state.acc += sumOfRates(last, registers.rate, registers.accel, 0) - Math.abs(a.steps) * RANGE;
+  const last = tickOfStep(Math.abs(a.steps), ticks, registers, state.acc);
+  state.acc = stateAfter(last, registers, state.acc).acc;
   state.steps += a.steps;
   return last;
-}
-
-/** First tick at which the sum of rates reaches `distance`; at most `ticks`. */
-function tickOfSum(distance: number, ticks: number, { rate, accel }: Registers): number {
-  return firstWhere(1, ticks, (tick) => sumOfRates(tick, rate, accel, 0) >= distance);
 }

@@ -9,10 +9,16 @@
  * that fraction counts in the wrong direction. If zero is closer to the true position, the command clears it.
  */
 import { ACCUMULATOR_RANGE, rateFromStepsPerS } from "../../../units.js";
-import { registersFor, sumOfRates } from "../model/accumulator.js";
-import type { CommandText } from "../protocol/commands.js";
-import { correction, type Leg, type LegWriter, type MotorLeg, type MotorState } from "./leg.js";
-import { HIGHEST_RATE } from "../protocol/limits.js";
+import { registersFor, stateAfter } from "../model/accumulator.js";
+import {
+  correction,
+  HIGHEST_RATE,
+  type Leg,
+  type LegCommand,
+  type LegWriter,
+  type MotorLeg,
+  type MotorState,
+} from "./leg.js";
 
 const RANGE = ACCUMULATOR_RANGE;
 /** An accumulator is cleared only if that reduces the error by more than this, steps. */
@@ -28,30 +34,19 @@ export class TimedWriter implements LegWriter {
   readonly minTicks = 125;
   readonly turnTicks = 30;
   readonly idleTicks = 0;
-  readonly joinsAnySpeeds = false;
   /** 0.25 mm/s at 80 steps/mm. */
   readonly jerkErrorRate = rateFromStepsPerS(0.25 * 80);
 
-  constructor(private readonly text: CommandText) {}
-
-  write(leg: Leg, m1: MotorState, m2: MotorState): number {
-    const { text } = this;
+  commandFor(leg: Leg, m1: MotorState, m2: MotorState): LegCommand | null {
     const a1 = argumentsFor(leg, leg.m1, m1);
     const a2 = argumentsFor(leg, leg.m2, m2);
     // The board refuses a command with both rates zero. Nothing is lost by waiting for the next leg.
-    if (a1.rate === 0 && a2.rate === 0) return 0;
-    text.name("LT");
-    text.number(leg.ticks);
-    for (const a of [a1, a2]) {
-      text.number(a.rate);
-      text.number(a.accel);
-    }
-    const clear = (a1.clear ? 1 : 0) + (a2.clear ? 2 : 0);
-    if (clear !== 0) text.number(clear);
-    text.end();
+    if (a1.rate === 0 && a2.rate === 0) return null;
     run(a1, leg.ticks, m1);
     run(a2, leg.ticks, m2);
-    return leg.ticks;
+    const line = `LT,${leg.ticks},${a1.rate},${a1.accel},${a2.rate},${a2.accel}`;
+    const clear = (a1.clear ? 1 : 0) + (a2.clear ? 2 : 0);
+    return { line: clear === 0 ? line : `${line},${clear}`, ticks: leg.ticks };
   }
 }
 
@@ -84,9 +79,7 @@ function keptAboveZero(rate: number, accel: number, ticks: number): number {
 
 function run(a: Arguments, ticks: number, state: MotorState): void {
   if (a.clear) state.acc = 0;
-  const { rate, accel } = registersFor("half", a.rate, a.accel);
-  const sum = state.acc + sumOfRates(ticks, rate, accel, 0);
-  const steps = Math.floor(sum / RANGE);
-  state.steps += a.rate < 0 ? -steps : steps;
-  state.acc = sum - steps * RANGE;
+  const { net, acc } = stateAfter(ticks, registersFor("half", a.rate, a.accel), state.acc);
+  state.steps += a.rate < 0 ? -net : net;
+  state.acc = acc;
 }

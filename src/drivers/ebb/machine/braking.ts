@@ -18,12 +18,10 @@ export function brakingAt(
   const { motion: coded, pen } = withLayerCodes(settings, layers);
   const motion = motionForFirmware(coded, firmware);
   const own = place ? layers[layer[place.stroke]] : undefined;
-  const travelAccel = accelEverywhere(motion, motion.travel.accelMmPerS2);
-  if (!own)
-    return { limits: { drawAccel: accelEverywhere(motion, motion.draw.accelMmPerS2), travelAccel }, pen };
-  const id = settingsIdOf(own);
-  return {
-    limits: { drawAccel: accelEverywhere(motion, drawLimitsOf(motion, id).accelMmPerS2), travelAccel },
-    pen: penOfLayer(pen, id),
+  const draw = own ? drawLimitsOf(motion, settingsIdOf(own)) : motion.draw;
+  const limits = {
+    drawAccel: accelEverywhere(motion, draw.accelMmPerS2),
+    travelAccel: accelEverywhere(motion, motion.travel.accelMmPerS2),
   };
+  return { limits, pen: own ? penOfLayer(pen, settingsIdOf(own)) : pen };
 }

@@ -11,7 +11,7 @@ import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { sFromTicks } from "../../../units.js";
 import type { MachineEvents } from "../../driver.js";
-import { boardRestarted } from "../../faults.js";
+import { boardRestarted, moveStopped } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { delay } from "../../transport.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
@@ -27,6 +27,7 @@ import { maxAheadS, Streamer, stuck } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
+import { PlaceMark } from "./place-mark.js";
 import { isButtonPressed, isPowerLow, pollLines } from "./readings.js";
 
 /** Allowance for the connection, the board and this computer. */
@@ -42,11 +43,6 @@ const STILL_S = 2;
 const SETTLE_S = 0.02;
 /** Time for a servo to move from end to end and settle. */
 const SERVO_MS = 400;
-/** The board's layer variable while its counters count from home is this plus the microstep mode. */
-const PLACE_KNOWN = 112;
-/** Its value while the counters do not count from home. After a restart of the board it is 0. */
-const SWITCHED_ON = 1;
-const COARSEST_MODE = 5;
 
 export class Carriage {
   penUp: boolean | null = null;
@@ -57,21 +53,22 @@ export class Carriage {
   /** Underruns of all streams on this connection. */
   underrunCount = 0;
 
+  stopCount = 0;
   private playing: Streamer | null = null;
-  /** How many times `stopAtOnce` was called. */
-  private stopCount = 0;
   private hasRestarted = false;
   private origin: readonly [number, number] = [0, 0];
   /** The board's state from which the next stream is compiled. */
   state: BoardState | null = null;
   /** The motors' microsteps while their position is known. */
   private microstepMode = 0;
+  private readonly mark: PlaceMark;
   private readonly queueDepth: number;
 
   constructor(
     readonly connection: Connection,
     private readonly events: MachineEvents,
   ) {
+    this.mark = new PlaceMark(connection.session, connection.features);
     this.queueDepth = queueDepthOf(connection.features);
   }
 
@@ -79,12 +76,12 @@ export class Carriage {
   async takeOver(): Promise<void> {
     const { session, features } = this.connection;
     if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
-    if (!features.hasStepQuery) return;
-    await this.untilStill();
-    this.microstepMode = await this.markedMode();
-    if (this.microstepMode === 0) return;
-    await this.findPlace();
-    this.motorsOn = true;
+    if (features.hasStepQuery) await this.untilStill();
+    this.microstepMode = await this.mark.markedMode();
+    if (this.microstepMode !== 0) {
+      await this.findPlace();
+      this.motorsOn = true;
+    }
     await this.liftWhereLeft();
   }
 
@@ -92,7 +89,7 @@ export class Carriage {
   private async liftWhereLeft(): Promise<void> {
     const { session } = this.connection;
     const penUp = Number(await session.query("QP")) === 1;
-    this.left = { penUp };
+    if (this.state) this.left = { penUp };
     if (!penUp) await session.send(`SP,1,${SERVO_MS}`, SERVO_MS / 1000);
   }
 
@@ -124,7 +121,7 @@ export class Carriage {
    * to wait for rest.
    */
   async findPlaceAgain(stillS: number): Promise<boolean> {
-    if (this.state && this.connection.features.hasStepQuery) {
+    if (this.state && this.connection.features.hasStepQuery && !(await this.mark.isGone())) {
       await this.findPlace(stillS);
       return true;
     }
@@ -132,35 +129,6 @@ export class Carriage {
     await this.untilStill(stillS);
     await this.forgetPlace();
     return false;
-  }
-
-  /**
-   * The microstep mode, if the board's counters still count from home; otherwise 0. The board's layer variable records
-   * this: it is 0 after each start of the board. Before firmware 2.7, `findPlace` has to zero the counters, so they do
-   * not always count from home.
-   */
-  private async markedMode(): Promise<number> {
-    const { session, features } = this.connection;
-    if (!features.hasClear) return 0;
-    // A board that has restarted has its motors off (QE: from 2.8.0).
-    if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return 0;
-    const mode = Number(await session.query(this.markQuery)) - PLACE_KNOWN;
-    return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
-  }
-
-  /** Records on the board whether its counters count from home: only then can the next connection find the position. */
-  private async markHome(): Promise<void> {
-    const isFromHome = this.origin[0] === 0 && this.origin[1] === 0;
-    await this.mark(isFromHome ? PLACE_KNOWN + this.microstepMode : SWITCHED_ON);
-  }
-
-  private get markQuery(): string {
-    return this.connection.features.hasFutureSyntax ? "QL,0" : "QL";
-  }
-
-  private async mark(value: number): Promise<void> {
-    const { session, features } = this.connection;
-    if (features.hasClear) await session.send(features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`);
   }
 
   /** Waits until the motors rest: a board that was left during a plot still plays its queue, possibly a long move. */
@@ -182,6 +150,8 @@ export class Carriage {
     const machine = machineOf(settings);
     const { state, microstepMode } = this;
     const wanted = ebbOf(machine).microstepMode;
+    // It may have restarted while it was at rest, when nothing is polled.
+    if (state && (await this.mark.isGone())) return this.restarted(settings);
     if (state && microstepMode === wanted) return state;
     const { session, features } = this.connection;
     for (const line of setUpCommands(machine, settings.pen, features.version)) await session.send(line);
@@ -193,7 +163,7 @@ export class Carriage {
     ];
     this.microstepMode = wanted;
     this.origin = [steps1, steps2];
-    await this.markHome();
+    await this.mark.set(wanted, steps1 === 0 && steps2 === 0);
     this.motorsOn = true;
     this.state = { steps1, steps2, acc1: 0, acc2: 0 };
     this.events.changed();
@@ -226,7 +196,7 @@ export class Carriage {
   streamer(settings: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
-    const lines = pollLines(features, this.markQuery);
+    const lines = pollLines(features, this.mark.query);
     const places = new CertainPlace(features, this.origin, lines[lines.length - 1]);
     const streamer = new Streamer(session, {
       clock: boardClock,
@@ -237,7 +207,7 @@ export class Carriage {
       liftLine: penCommand(machineOf(settings), penMoveOf(settings.pen, true), 0),
       origin: this.origin,
       onPoll: (line, reply, asked) => {
-        if (line === this.markQuery && Number(reply) === 0) void this.checkRestart(streamer);
+        if (line === this.mark.query && Number(reply) === 0) void this.checkRestart(streamer);
         else {
           const at = places.answered(line, reply, asked, streamer);
           if (at) certain(at);
@@ -249,11 +219,10 @@ export class Carriage {
     return streamer;
   }
 
-  /** Queries a second time, because a single unexpected reply may belong to another query. */
+  /** Call when a poll reports that the mark is gone. */
   private async checkRestart(streamer: Streamer): Promise<void> {
-    const { session } = this.connection;
-    const answer = await session.query(this.markQuery, STILL_S).catch(() => null);
-    if (answer === null || Number(answer) !== 0 || !streamer.playing) return;
+    const isGone = await this.mark.isGone().catch(() => false);
+    if (!isGone || !streamer.playing) return;
     this.hasRestarted = true;
     streamer.halt(boardRestarted());
   }
@@ -264,6 +233,12 @@ export class Carriage {
     if (this.queueDepth > 1) await this.connection.session.send(`CU,4,${this.queueDepth}`);
     await this.movePen(true, settings);
     await this.motorsOff();
+  }
+
+  private async restarted(settings: MachineSettings): Promise<never> {
+    this.state = null;
+    await this.release(settings).catch(() => undefined);
+    throw boardRestarted();
   }
 
   /** Plays a plan on a streamer of this carriage, to its end or to a cut. */
@@ -280,11 +255,10 @@ export class Carriage {
       return report;
     } catch (error) {
       if (!canFindPlace(streamer, error)) this.state = null;
-      if (this.hasRestarted) {
-        this.hasRestarted = false;
-        await this.release(settings).catch(() => undefined);
-      }
-      throw error;
+      else if (this.state && (await this.mark.isGone().catch(() => false))) this.hasRestarted = true;
+      if (!this.hasRestarted) throw error;
+      this.hasRestarted = false;
+      return await this.restarted(settings);
     } finally {
       this.playing = null;
       this.underrunCount += streamer.underrunCount;
@@ -312,7 +286,7 @@ export class Carriage {
     try {
       await this.play(streamer, plot, settings);
     } catch (error) {
-      if (canFindPlace(streamer, error)) await this.findPlace();
+      if (this.state && canFindPlace(streamer, error)) await this.findPlace();
       throw error;
     }
     this.penIs(true);
@@ -367,7 +341,7 @@ export class Carriage {
 
   /** Switches the motors off, so that the carriage can be moved by hand. Its position is then unknown. */
   async motorsOff(): Promise<void> {
-    await this.mark(0);
+    await this.mark.clear();
     await this.connection.session.send("EM,0,0");
     this.motorsOn = false;
     this.left = null;
@@ -385,7 +359,7 @@ export class Carriage {
       await session.send("CS");
       this.origin = [0, 0];
       this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
-      await this.markHome();
+      await this.mark.set(this.microstepMode, true);
     } else {
       this.origin = [this.origin[0] - steps1, this.origin[1] - steps2];
       this.state = { steps1: 0, steps2: 0, acc1, acc2 };
@@ -398,12 +372,19 @@ export class Carriage {
     this.state = null;
     this.left = null;
     this.motorsOn = null;
-    await this.mark(0);
+    await this.mark.clear();
     this.events.changed();
   }
 
   async isSupplyLow(): Promise<boolean> {
     return isPowerLow("QC", await this.connection.session.query("QC"));
+  }
+
+  /** Reads the supply as a poll during a plot does. */
+  async pollSupply(): Promise<boolean> {
+    const isLow = await this.isSupplyLow();
+    this.events.supplyRead(isLow);
+    return isLow;
   }
 
   /** Handles the answers that arrive while a stream plays. */
@@ -429,8 +410,6 @@ export class Carriage {
  */
 const canFindPlace = (streamer: Streamer, error: unknown): boolean =>
   streamer.refused !== null || (error instanceof PlotwrightError && error.code === "conflict");
-
-const moveStopped = (): PlotwrightError => new PlotwrightError("conflict", "The move was stopped at once.");
 
 const placeUnknown = (): PlotwrightError =>
   new PlotwrightError(

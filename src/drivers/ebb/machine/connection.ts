@@ -27,16 +27,11 @@ export async function connectBoard(
   try {
     const identity = await session.identify();
     const features = firmwareFeatures(identity.firmware);
-    const boardName = features.hasGeneralQuery ? await nameOf(session) : null;
+    const boardName = features.hasGeneralQuery ? (await session.query("QT")).trim() || null : null;
     session.onFault((error) => events.lost(error));
     return { session, features, boardName, boardClock: machineClock, speed, waitSpeed: Math.max(1, speed) };
   } catch (error) {
     await session.close();
     throw error;
   }
-}
-
-async function nameOf(session: BoardSession): Promise<string | null> {
-  const name = (await session.query("QT")).trim();
-  return name === "" ? null : name;
 }

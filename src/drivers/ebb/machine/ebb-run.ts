@@ -10,7 +10,7 @@ import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { comeToRest } from "../../../plan/come-to-rest.js";
-import { isPenUpBefore } from "../../../plan/pen-moves.js";
+import { isPenUpBefore, penMoveBefore, penMoveColumns } from "../../../plan/pen-moves.js";
 import { reseatWaitS } from "../../../plan/pen-times.js";
 import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
 import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
@@ -130,9 +130,14 @@ export class EbbRun implements MachineRun {
       left = this.whereStopped() ?? this.progress.place;
     } catch (error) {
       // The play may have failed for another reason before the stop was requested.
-      if (error === this.emergency) left = await this.afterEmergency(streamer);
-      else {
-        left = streamer.refused ? await this.afterRefusal(streamer, streamer.refused) : this.certain;
+      if (error === this.emergency) {
+        // Counts if the position cannot be read back. Without step counters, the estimate counts.
+        if (carriage.connection.features.hasStepQuery) left = this.certain;
+        left = await this.afterEmergency(streamer);
+      } else {
+        // Without a state, the position is lost.
+        const { refused } = streamer;
+        left = refused && carriage.state ? await this.afterRefusal(streamer, refused) : this.certain;
         throw error;
       }
     } finally {
@@ -237,8 +242,9 @@ export class EbbRun implements MachineRun {
     });
     const state = boardStateBefore(restCommands, restCommands.count, start);
     const next = this.placeIn(part, planS, restTrajectory.endX, restTrajectory.endY);
+    const path = lifts ? restTrajectory : withPenOf(trajectory, fromS, restTrajectory);
     return {
-      part: { commands: restCommands, trajectory: restTrajectory, start, afterS: leftS, next },
+      part: { commands: restCommands, trajectory: path, start, afterS: leftS, next },
       place: next,
       state,
     };
@@ -276,13 +282,16 @@ export class EbbRun implements MachineRun {
 
   /** The board's queue is cleared: the counters show how far it drew. */
   private async afterEmergency(streamer: Streamer): Promise<Place | null> {
-    await this.carriage.findPlace();
-    const { steps1, steps2 } = this.carriage.state!;
-    const at = streamer.placeOfStop(this.carriage.connection.features, steps1, steps2) ?? streamer.place();
-    const { x, y } = this.carriage.place(machineOf(this.settings))!;
-    const place = this.afterSwing(at, x, y);
+    const { carriage } = this;
+    await carriage.findPlace();
+    const { steps1, steps2 } = carriage.state!;
+    const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2) ?? streamer.place();
+    const { x, y } = carriage.place(machineOf(this.settings))!;
+    // The board counts on if the supply fails just before or after the stop. A single reading may be wrong.
+    const isUnpowered = (await carriage.pollSupply()) && (await carriage.pollSupply());
+    const place = isUnpowered ? this.certain : this.afterSwing(at, x, y);
     this.stopped = { place };
-    this.carriage.penUp = null;
+    carriage.penUp = null;
     return place;
   }
 
@@ -338,6 +347,16 @@ export class EbbRun implements MachineRun {
   private whereStopped(): Place | null {
     return this.stopped?.place ?? null;
   }
+}
+
+/**
+ * A path that begins with the pen as it is at `tS` of the trajectory before it: a stop on that path then lifts a pen that
+ * is down. The path's commands do not move the pen.
+ */
+function withPenOf(before: Trajectory, tS: number, path: Trajectory): Trajectory {
+  const last = penMoveBefore(before, tS);
+  if (!last || last.up) return path;
+  return { ...path, penMoves: penMoveColumns([{ ...last, beforeRun: 0, startS: -1, waitS: 0, moveS: 0 }]) };
 }
 
 /** The height that the last drop before `tS` lowers the pen to; if there is none, that of the first drop. */

@@ -7,6 +7,7 @@
 import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
+import { moveStopped } from "../../faults.js";
 import type { MachineSettings } from "../../machine-job.js";
 import type { HomingSwitches, SwitchInput } from "../protocol/ebb-controller.js";
 import type { Carriage } from "./carriage.js";
@@ -27,9 +28,10 @@ export async function seekHome(
 ): Promise<void> {
   const machine = machineOf(settings);
   const slow = withTravelSpeed(settings, SEEK_SPEED_MM_PER_S);
+  const { stopCount } = carriage;
   await carriage.ready(settings);
-  await seekAxis(carriage, slow, homing.x, "x", machine.widthMm * SLACK);
-  await seekAxis(carriage, slow, homing.y, "y", machine.heightMm * SLACK);
+  await seekAxis(carriage, slow, homing.x, "x", machine.widthMm * SLACK, stopCount);
+  await seekAxis(carriage, slow, homing.y, "y", machine.heightMm * SLACK, stopCount);
   await carriage.setHome(settings);
 }
 
@@ -39,10 +41,12 @@ async function seekAxis(
   input: SwitchInput,
   axis: "x" | "y",
   maxMm: number,
+  stopCount: number,
 ): Promise<void> {
   const machine = machineOf(settings);
   await carriage.connection.session.send(`PD,${input.port},${input.pin},1`);
   const step = async (byMm: number): Promise<void> => {
+    if (carriage.stopCount !== stopCount) throw moveStopped();
     const { x, y } = carriage.place(machine)!;
     await carriage.walk(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
   };

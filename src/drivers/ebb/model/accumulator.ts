@@ -28,11 +28,15 @@ const MAX_PIECE_TICKS = 2 ** 16;
 /** A command that wraps its registers more often than this is treated as never ending. */
 const MAX_PIECES = 100_000;
 
-/** One motor's registers; see the legend above. `forward` = false: steps count down (late and half only). */
-export interface Registers {
+/** A rate and how it changes; see the legend above. */
+export interface Rates {
   readonly rate: number;
   readonly accel: number;
   readonly jerk: number;
+}
+
+/** One motor's registers. `forward` = false: steps count down (late and half only). */
+export interface Registers extends Rates {
   readonly forward: boolean;
 }
 
@@ -48,31 +52,35 @@ export function registersFor(arithmetic: TickArithmetic, rate: number, accel: nu
 }
 
 /** Rate of tick k. */
-export const rateAt = (k: number, rate: number, accel: number, jerk: number): number =>
+export const rateAt = (k: number, { rate, accel, jerk }: Rates): number =>
   rate + k * accel + jerk * ((k * (k + 1)) / 2);
 
 /** S(t): the sum of the rates of ticks 1 … t. Exact up to MAX_PIECE_TICKS while rates stay in range. */
-export const sumOfRates = (t: number, rate: number, accel: number, jerk: number): number =>
+export const sumOfRates = (t: number, { rate, accel, jerk }: Rates): number =>
   t * rate + accel * ((t * (t + 1)) / 2) + jerk * ((t * (t + 1) * (t + 2)) / 6);
 
+/** State of one motor after some ticks of a command. */
+interface AxisState {
+  /** Signed steps since the command began. */
+  readonly net: number;
+  readonly acc: number;
+}
+
+/** The state after `t` ticks in which the rate keeps its sign and stays in range. `net` has the sign of the rate. */
+export function stateAfter(t: number, rates: Rates, acc: number): AxisState {
+  const sum = acc + sumOfRates(t, rates);
+  const net = Math.floor(sum / RANGE);
+  return { net, acc: sum - net * RANGE };
+}
+
 /** A range of ticks in which the rate keeps its sign and stays in range. */
-interface Piece {
+interface Piece extends Rates {
   /** Ticks of the command before this piece. */
   readonly fromTick: number;
   readonly ticks: number;
-  readonly rate: number;
-  readonly accel: number;
-  readonly jerk: number;
   /** Accumulator and net steps at its start. */
   readonly acc: number;
   readonly net: number;
-}
-
-/** State of one motor after some ticks of a command. */
-export interface AxisState {
-  /** Signed steps since the command began. */
-  net: number;
-  acc: number;
 }
 
 /**
@@ -83,14 +91,10 @@ export interface AxisState {
 export class AxisMotion {
   /** Ticks until this motor is done; Infinity if it never is. */
   readonly ticks: number;
-  /** Steps made in either direction. */
-  readonly stepsMade: number;
   /** Signed steps. */
   readonly net: number;
   /** Accumulator when done. */
   readonly acc: number;
-  /** Rate of the last tick. */
-  readonly lastRate: number;
   private readonly pieces: Piece[] = [];
   private readonly forward: boolean;
 
@@ -102,57 +106,48 @@ export class AxisMotion {
     tickLimit: number,
   ) {
     this.forward = registers.forward;
-    const jerk = registers.jerk;
+    const { jerk } = registers;
     let { rate, accel } = registers;
     let tick = 0;
     let made = 0;
     let net = 0;
-    let lastRate = rate;
     let endless = false;
     while (tick < tickLimit && made < stepLimit) {
       if (arithmetic === "signed") accel = int32(accel);
-      rate = normalRate(arithmetic, rate, accel, jerk);
+      rate = normalRate(arithmetic, { rate, accel, jerk });
+      const rates = { rate, accel, jerk };
       const isConstant = accel === 0 && jerk === 0;
       if ((isConstant && rate === 0 && tickLimit === Infinity) || this.pieces.length >= MAX_PIECES) {
         endless = true;
         break;
       }
       const limit = isConstant ? longestConstantTicks(rate) : MAX_PIECE_TICKS;
-      let ticks = sameSignTicks(arithmetic, rate, accel, jerk, Math.min(limit, tickLimit - tick));
-      let steps = stepsAfter(ticks, rate, accel, jerk, acc);
-      if (made + Math.abs(steps) >= stepLimit) {
-        ticks = tickOfStep(stepLimit - made, ticks, rate, accel, jerk, acc);
-        steps = stepsAfter(ticks, rate, accel, jerk, acc);
+      let ticks = sameSignTicks(arithmetic, rates, Math.min(limit, tickLimit - tick));
+      let after = stateAfter(ticks, rates, acc);
+      if (made + Math.abs(after.net) >= stepLimit) {
+        ticks = tickOfStep(stepLimit - made, ticks, rates, acc);
+        after = stateAfter(ticks, rates, acc);
       }
-      this.pieces.push({ fromTick: tick, ticks, rate, accel, jerk, acc, net });
-      acc += sumOfRates(ticks, rate, accel, jerk) - steps * RANGE;
-      net += steps;
-      made += Math.abs(steps);
+      this.pieces.push({ fromTick: tick, ticks, ...rates, acc, net });
+      acc = after.acc;
+      net += after.net;
+      made += Math.abs(after.net);
       tick += ticks;
-      lastRate = rateAt(ticks, rate, accel, jerk);
-      rate = lastRate;
+      rate = rateAt(ticks, rates);
       accel += ticks * jerk;
     }
     this.ticks = endless ? Infinity : tick;
-    this.stepsMade = made;
     this.net = this.signed(net);
     this.acc = acc;
-    this.lastRate = lastRate;
   }
 
   /** The state after `tick` ticks; after the last tick, the final state. */
-  placeAt(tick: number, out: AxisState): AxisState {
+  placeAt(tick: number): AxisState {
     const piece = this.pieceAt(tick);
-    if (piece === undefined || tick >= this.ticks) {
-      out.net = this.net;
-      out.acc = this.acc;
-      return out;
-    }
+    if (piece === undefined || tick >= this.ticks) return { net: this.net, acc: this.acc };
     const t = Math.max(0, Math.min(tick - piece.fromTick, piece.ticks));
-    const steps = stepsAfter(t, piece.rate, piece.accel, piece.jerk, piece.acc);
-    out.net = this.signed(piece.net + steps);
-    out.acc = piece.acc + sumOfRates(t, piece.rate, piece.accel, piece.jerk) - steps * RANGE;
-    return out;
+    const { net, acc } = stateAfter(t, piece, piece.acc);
+    return { net: this.signed(piece.net + net), acc };
   }
 
   /**
@@ -162,7 +157,7 @@ export class AxisMotion {
     if (tick < 1 || tick > this.ticks) return 0;
     const piece = this.pieceAt(tick - 1);
     if (piece === undefined) return 0;
-    return this.signed(rateAt(tick - piece.fromTick, piece.rate, piece.accel, piece.jerk));
+    return this.signed(rateAt(tick - piece.fromTick, piece));
   }
 
   /** The registers after `tick` ticks, from which the motion can be continued. */
@@ -170,8 +165,12 @@ export class AxisMotion {
     const piece = this.pieceAt(tick);
     if (piece === undefined) return { rate: 0, accel: 0, jerk: 0, forward: this.forward };
     const t = tick - piece.fromTick;
-    const rate = rateAt(t, piece.rate, piece.accel, piece.jerk);
-    return { rate, accel: piece.accel + t * piece.jerk, jerk: piece.jerk, forward: this.forward };
+    return {
+      rate: rateAt(t, piece),
+      accel: piece.accel + t * piece.jerk,
+      jerk: piece.jerk,
+      forward: this.forward,
+    };
   }
 
   /** Steps in either direction within the first `tick` ticks. */
@@ -180,7 +179,7 @@ export class AxisMotion {
     for (const piece of this.pieces) {
       if (piece.fromTick >= tick) break;
       const t = Math.min(piece.ticks, tick - piece.fromTick);
-      made += Math.abs(stepsAfter(t, piece.rate, piece.accel, piece.jerk, piece.acc));
+      made += Math.abs(stateAfter(t, piece, piece.acc).net);
     }
     return made;
   }
@@ -199,42 +198,25 @@ export class AxisMotion {
 /** Number of ticks for which the sum of a constant rate is exact. */
 const longestConstantTicks = (rate: number): number => Math.floor(2 ** 52 / Math.max(1, Math.abs(rate)));
 
-/** Net steps within a piece after t of its ticks, with the sign of the rate. */
-const stepsAfter = (t: number, rate: number, accel: number, jerk: number, acc: number): number =>
-  Math.floor((acc + sumOfRates(t, rate, accel, jerk)) / RANGE);
-
-/** First tick of a piece at which `steps` steps were made. The piece must make at least that many. */
-function tickOfStep(
-  steps: number,
-  ticks: number,
-  rate: number,
-  accel: number,
-  jerk: number,
-  acc: number,
-): number {
-  return firstWhere(1, ticks, (tick) => Math.abs(stepsAfter(tick, rate, accel, jerk, acc)) >= steps);
-}
+/** First of `ticks` ticks at which `steps` steps were made; at the latest the last one. */
+export const tickOfStep = (steps: number, ticks: number, rates: Rates, acc: number): number =>
+  firstWhere(1, ticks, (tick) => Math.abs(stateAfter(tick, rates, acc).net) >= steps);
 
 /** Wraps the rate register so that the next tick's rate is in range. */
-function normalRate(arithmetic: TickArithmetic, rate: number, accel: number, jerk: number): number {
+function normalRate(arithmetic: TickArithmetic, { rate, accel, jerk }: Rates): number {
   const first = rate + accel + jerk;
   if (arithmetic === "signed") return rate - first + int32(first);
   return rate - first + (((first % RANGE) + RANGE) % RANGE);
 }
 
 /** For how many ticks (1 … limit) the rate stays in range and keeps the sign of the first tick. */
-function sameSignTicks(
-  arithmetic: TickArithmetic,
-  rate: number,
-  accel: number,
-  jerk: number,
-  limit: number,
-): number {
+function sameSignTicks(arithmetic: TickArithmetic, rates: Rates, limit: number): number {
+  const { rate, accel, jerk } = rates;
   const negative = rate + accel + jerk < 0;
   const low = negative ? -RANGE : 0;
   const high = negative ? -1 : RANGE - 1;
   const inside = (k: number): boolean => {
-    const r = rateAt(k, rate, accel, jerk);
+    const r = rateAt(k, rates);
     return r >= low && r <= high;
   };
   // The rate is monotone up to its vertex.

@@ -2,9 +2,10 @@
  * Parses the parameters of SM, XM, LM, L3, LT, T3, TD and HM into entries of the motion queue, as each firmware does.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import { rateFromStepsPerS, TICKS_PER_S } from "../../../units.js";
-import { stepperMove, steppedAxis, type AxisOrder, type MoveOrder, type Order } from "./orders.js";
-import { BoardFault, type Parameters } from "./parameters.js";
+import { ACCUMULATOR_RANGE, rateFromStepsPerS, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
+import type { AxisOrder, MoveOrder, Order } from "./orders.js";
+import { BoardFault, invalidValue, type Parameters } from "./parameters.js";
+import { slowRate } from "./slow-rate.js";
 
 const INT31 = 2 ** 31 - 1;
 
@@ -15,54 +16,85 @@ export class MotionCommands {
     private readonly isTestMode: () => boolean,
   ) {}
 
+  /** The orders of a command as plotwright writes it; none if the command moves no motor. */
+  planned(name: string, p: Parameters): readonly Order[] {
+    switch (name) {
+      case "SM":
+        return this.slow(p, false);
+      case "LM":
+        return this.stepped(p, false);
+      case "LT":
+      case "T3":
+        return this.timed(p, name === "T3");
+      default:
+        return [];
+    }
+  }
+
   slow(p: Parameters, mixed: boolean): readonly Order[] {
     const ms = p.uint(2 ** 24 - 1);
     const a = p.int();
     const b = mixed || p.hasMore ? p.int() : 0;
     const clear = this.clearBits(p, 3);
-    if (ms === 0) throw new BoardFault(6, "Err: Invalid parameter value");
-    const order = stepperMove(this.features, ms, mixed ? a + b : a, mixed ? a - b : b, clear);
-    if (order === null) throw new BoardFault(0, "Err: <axis1> step rate too high");
-    return [order];
+    if (ms === 0) throw invalidValue();
+    const [steps1, steps2] = mixed ? [a + b, a - b] : [a, b];
+    if (steps1 === 0 && steps2 === 0) return [this.delay(ms)];
+    const axis1 = this.constantAxis(ms, steps1);
+    const axis2 = this.constantAxis(ms, steps2);
+    return [{ kind: "move", axis1, axis2, ticks: Infinity, clear }];
+  }
+
+  private delay(ms: number): Order {
+    const longestMs = this.features.arithmetic === "signed" ? 100_000 : 16_777_215;
+    return { kind: "delay", ticks: Math.min(ms, longestMs) * TICKS_PER_MS };
+  }
+
+  private constantAxis(ms: number, steps: number): AxisOrder {
+    if (steps === 0) return { rate: 0, accel: 0, jerk: 0, steps: 0 };
+    const { arithmetic } = this.features;
+    const rate = slowRate(arithmetic, ms, Math.abs(steps));
+    const isTooFast = rate > ACCUMULATOR_RANGE || (arithmetic !== "signed" && rate === ACCUMULATOR_RANGE);
+    if (rate < 1 || isTooFast) throw new BoardFault(0, "Err: <axis1> step rate too high");
+    return { rate: Math.sign(steps) * rate, accel: 0, jerk: 0, steps: Math.abs(steps) };
   }
 
   stepped(p: Parameters, hasJerk: boolean): readonly Order[] {
-    const axis1 = this.steppedArguments(p, hasJerk);
-    const axis2 = this.steppedArguments(p, hasJerk);
-    const dead = (axis: AxisOrder): boolean =>
-      axis.steps === 0 || (axis.rate === 0 && axis.accel === 0 && axis.jerk === 0);
-    const isDead = dead(axis1) && dead(axis2);
-    const order = this.move(p, false, axis1, axis2, Infinity);
-    if (isDead) throw new BoardFault(6, "Err: Invalid parameter value");
+    const axis1 = this.steppedAxis(p, hasJerk);
+    const axis2 = this.steppedAxis(p, hasJerk);
+    const order = this.move(p, axis1, axis2, Infinity);
+    const isDead = ({ steps, rate, accel, jerk }: AxisOrder): boolean =>
+      steps === 0 || (rate === 0 && accel === 0 && jerk === 0);
+    if (isDead(axis1) && isDead(axis2)) throw invalidValue();
     return [order];
   }
 
-  private steppedArguments(p: Parameters, hasJerk: boolean): AxisOrder {
-    const signed = this.features.arithmetic === "signed";
-    const rate = signed ? p.int() : p.uint(INT31);
+  /** Negative steps negate rate and acceleration, but not the jerk, as the firmware does. */
+  private steppedAxis(p: Parameters, hasJerk: boolean): AxisOrder {
+    const isSigned = this.features.arithmetic === "signed";
+    const rate = isSigned ? p.int() : p.uint(INT31);
     const steps = p.int();
     const accel = p.int();
     const jerk = hasJerk ? p.int() : 0;
-    const axis = steppedAxis(this.features.arithmetic, rate, steps, accel, jerk);
-    if (axis === null) throw new BoardFault(6, "Err: Invalid parameter value");
-    return axis;
+    // −0 keeps the direction.
+    if (!isSigned) return { rate: steps < 0 ? -rate : rate, accel, jerk: 0, steps: Math.abs(steps) };
+    if (steps >= 0) return { rate, accel, jerk, steps };
+    if (rate < 0) throw invalidValue();
+    return { rate: 0 - rate, accel: 0 - accel, jerk, steps: -steps };
   }
 
   timed(p: Parameters, hasJerk: boolean): readonly Order[] {
     const ticks = p.uint();
-    const axis1 = timedArguments(p, hasJerk);
-    const axis2 = timedArguments(p, hasJerk);
-    if (ticks === 0) throw new BoardFault(6, "Err: Invalid parameter value");
-    if (this.features.arithmetic !== "signed" && axis1.rate === 0 && axis2.rate === 0) {
-      throw new BoardFault(6, "Err: Invalid parameter value");
-    }
-    return [this.move(p, true, axis1, axis2, ticks)];
+    const axis1 = timedAxis(p, hasJerk);
+    const axis2 = timedAxis(p, hasJerk);
+    const isDead = this.features.arithmetic !== "signed" && axis1.rate === 0 && axis2.rate === 0;
+    if (ticks === 0 || isDead) throw invalidValue();
+    return [this.move(p, axis1, axis2, ticks)];
   }
 
   /** An S-shaped speed profile in two halves: positive jerk, then negative. */
   timedDouble(p: Parameters): readonly Order[] {
     const ticks = p.uint();
-    if (ticks === 0) throw new BoardFault(6, "Err: Invalid parameter value");
+    if (ticks === 0) throw invalidValue();
     const axis = (): [AxisOrder, AxisOrder] => {
       const rateA = p.int();
       const rateB = p.int();
@@ -75,26 +107,14 @@ export class MotionCommands {
     };
     const [first1, second1] = axis();
     const [first2, second2] = axis();
-    const first = this.move(p, true, first1, first2, ticks);
-    return [first, { ...first, axis1: second1, axis2: second2, clear: 0, startAcc: null }];
+    const first = this.move(p, first1, first2, ticks);
+    return [first, { kind: "move", axis1: second1, axis2: second2, ticks, clear: 0 }];
   }
 
-  private move(
-    p: Parameters,
-    isTimed: boolean,
-    axis1: AxisOrder,
-    axis2: AxisOrder,
-    ticks: number,
-  ): MoveOrder {
-    const { features } = this;
-    const idleTicks = isTimed ? features.idleTicksTimed : features.idleTicks;
-    const base = { kind: "move" as const, isTimed, axis1, axis2, ticks, idleTicks };
-    if (this.isTestMode()) {
-      return p.hasMore
-        ? { ...base, clear: 0, startAcc: p.uint(INT31) }
-        : { ...base, clear: 3, startAcc: null };
-    }
-    return { ...base, clear: this.clearBits(p, 2 ** 32 - 1), startAcc: null };
+  private move(p: Parameters, axis1: AxisOrder, axis2: AxisOrder, ticks: number): MoveOrder {
+    const move = { kind: "move" as const, axis1, axis2, ticks };
+    if (!this.isTestMode()) return { ...move, clear: this.clearBits(p, 2 ** 32 - 1) };
+    return p.hasMore ? { ...move, clear: 0, startAcc: p.uint(INT31) } : { ...move, clear: 3 };
   }
 
   private clearBits(p: Parameters, max: number): number {
@@ -115,30 +135,15 @@ export class MotionCommands {
       if (longest === 0) return [];
       const axis = (distance: number): AxisOrder => {
         const stepsPerS = (fastest * Math.abs(distance)) / longest;
-        const rate = Math.min(INT31, Math.floor(rateFromStepsPerS(stepsPerS)));
-        return {
-          rate: Math.sign(distance) * Math.max(distance === 0 ? 0 : 1, rate),
-          accel: 0,
-          jerk: 0,
-          steps: Math.abs(distance),
-        };
+        const rate = Math.max(1, Math.min(INT31, Math.floor(rateFromStepsPerS(stepsPerS))));
+        return { rate: Math.sign(distance) * rate, accel: 0, jerk: 0, steps: Math.abs(distance) };
       };
-      const order: MoveOrder = {
-        kind: "move",
-        isTimed: false,
-        axis1: axis(distance1),
-        axis2: axis(distance2),
-        ticks: Infinity,
-        idleTicks: this.features.idleTicks,
-        clear: 0,
-        startAcc: null,
-      };
-      return [order];
+      return [{ kind: "move", axis1: axis(distance1), axis2: axis(distance2), ticks: Infinity, clear: 0 }];
     };
   }
 }
 
-function timedArguments(p: Parameters, hasJerk: boolean): AxisOrder {
+function timedAxis(p: Parameters, hasJerk: boolean): AxisOrder {
   const rate = p.int();
   const accel = p.int();
   return { rate, accel, jerk: hasJerk ? p.int() : 0, steps: Infinity };

@@ -10,6 +10,8 @@ export class BoardFault extends Error {
   }
 }
 
+export const invalidValue = (): BoardFault => new BoardFault(6, "Err: Invalid parameter value");
+
 export class Parameters {
   private readonly fields: string[];
   private next = 0;
@@ -43,11 +45,9 @@ export class Parameters {
     const field = this.fields[this.next];
     if (field === undefined) throw new BoardFault(4, "Err: Missing parameter(s)");
     this.next++;
-    if (!/^-?\d{0,10}$/.test(field)) throw new BoardFault(6, "Err: Invalid parameter value");
+    if (!/^-?\d{0,10}$/.test(field)) throw invalidValue();
     const value = field === "" || field === "-" ? 0 : Number(field);
-    if (value < min || value > max || (min === 0 && field.startsWith("-"))) {
-      throw new BoardFault(6, "Err: Invalid parameter value");
-    }
+    if (value < min || value > max || (min === 0 && field.startsWith("-"))) throw invalidValue();
     return value;
   }
 }

@@ -8,12 +8,11 @@ import type { TickArithmetic } from "../protocol/firmware.js";
 const SLOWEST_SHORT_MS = 30;
 
 /**
- * Accumulator counts per tick for `steps` ≥ 0 in `ms` milliseconds. Rounded down, so a move may end
+ * Accumulator counts per tick for `steps` ≥ 0 in `ms` > 0 milliseconds. Rounded down, so a move may end
  * late, never early. Firmware 3 computes in single precision; older ones with integers, with only 15
  * bits up to 30 ms.
  */
 export function slowRate(arithmetic: TickArithmetic, ms: number, steps: number): number {
-  if (ms <= 0) return Infinity;
   if (arithmetic === "signed") {
     const perMs = Math.fround(Math.fround(85_899_345.92) / Math.fround(ms));
     return Math.trunc(Math.fround(Math.fround(steps) * perMs));

@@ -1,8 +1,4 @@
-/**
- * Command lines of the EiBotBoard: those at the start and end of a plot, pen moves, and a text writer for the commands
- * between.
- */
-import { grown } from "../../../geometry/growable.js";
+/** Command lines of the EiBotBoard: those at the start and end of a plot, and pen moves. */
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { checkEbbProfile, ebbOf, STANDARD_PIN } from "./ebb-controller.js";
@@ -99,46 +95,4 @@ function servoRate(
     : Math.max(1, Math.floor((timeMs * partOfWait) / SERVO_FRAME_MS));
   const rate = ratePctPerS && distancePct === 0 ? 1 : (distancePct * unitsPerPct) / frames;
   return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(rate - 1e-9)));
-}
-
-const CR = 13;
-
-/** Writes command lines into a growing ASCII buffer. */
-export class CommandText {
-  private bytes = new Uint8Array(1 << 12);
-  private length = 0;
-
-  get byteCount(): number {
-    return this.length;
-  }
-
-  /** Adds a whole line; `text` has no line end. */
-  line(text: string): void {
-    this.name(text);
-    this.end();
-  }
-
-  name(text: string): void {
-    this.reserve(text.length);
-    for (let i = 0; i < text.length; i++) this.bytes[this.length++] = text.charCodeAt(i);
-  }
-
-  /** Adds a comma and an integer. */
-  number(value: number): void {
-    this.name(`,${value}`);
-  }
-
-  end(): void {
-    this.reserve(1);
-    this.bytes[this.length++] = CR;
-  }
-
-  finish(): Uint8Array {
-    return this.bytes.slice(0, this.length);
-  }
-
-  private reserve(count: number): void {
-    const needed = this.length + count;
-    if (needed > this.bytes.length) this.bytes = grown(this.bytes, needed);
-  }
 }

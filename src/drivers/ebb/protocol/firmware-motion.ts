@@ -1,6 +1,5 @@
 /** Limits of the firmware on the plan itself. */
 import type { LayerMotion, MotionSettings } from "../../../settings/motion.js";
-import type { PenSettings } from "../../../settings/pen.js";
 import type { FirmwareRules } from "../../machine-job.js";
 import { firmwareFeatures, queueDepthOf } from "./firmware.js";
 
@@ -25,13 +24,11 @@ const limitsMotion = (firmware: string | null): boolean =>
 export const dropsAtStroke = (firmware: string | null): boolean =>
   firmware === null || queueDepthOf(firmwareFeatures(firmware)) === 1;
 
-const isPlannedAlike = ({ overlap }: PenSettings, a: string | null, b: string | null): boolean =>
-  limitsMotion(a) === limitsMotion(b) && (overlap !== "fast" || dropsAtStroke(a) === dropsAtStroke(b));
-
 /** A version of an EBB is a bare number; those of other controllers begin with their name. */
 export const ebbFirmware: FirmwareRules = {
   isOwn: (firmware) => /^v?\d/.test(firmware),
-  isPlannedAlike,
+  isPlannedAlike: ({ overlap }, a, b) =>
+    limitsMotion(a) === limitsMotion(b) && (overlap !== "fast" || dropsAtStroke(a) === dropsAtStroke(b)),
 };
 
 /**
@@ -43,13 +40,14 @@ export const ebbFirmware: FirmwareRules = {
  */
 export function motionForFirmware(motion: MotionSettings, firmware: string | null): MotionSettings {
   if (!limitsMotion(firmware)) return motion;
-  const { draw, travel, layers } = motion;
+  const { draw, travel } = motion;
+  const layers = Object.entries(motion.layers ?? {}).map(([id, limits]) => [id, gentler(limits)] as const);
   return {
     ...motion,
     shaper: "none",
     draw: gentler(draw),
     travel: gentler(travel),
-    ...(layers === undefined ? {} : { layers: gentlerLayers(layers) }),
+    ...(motion.layers && { layers: Object.fromEntries(layers) }),
   };
 }
 
@@ -58,6 +56,3 @@ function gentler<T extends LayerMotion>(limits: T): T {
   if (accelMmPerS2 === undefined) return limits;
   return { ...limits, accelMmPerS2: Math.min(accelMmPerS2, SLICED_ACCEL_MM_PER_S2) };
 }
-
-const gentlerLayers = (layers: Readonly<Record<string, LayerMotion>>): Record<string, LayerMotion> =>
-  Object.fromEntries(Object.entries(layers).map(([id, limits]) => [id, gentler(limits)]));

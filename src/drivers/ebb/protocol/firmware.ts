@@ -7,12 +7,6 @@
 import { PlotwrightError } from "../../../errors.js";
 
 /**
- * The kind of motion commands used: constant-rate slices, step-limited ramps, timed ramps,
- * timed ramps with jerk.
- */
-export type MotionCommands = "slices" | "steps" | "timed" | "jerk";
-
-/**
  * How the 25 kHz interrupt adds up rates. "late": the acceleration is added after the accumulator is updated.
  * "half": before it, with half a tick's acceleration subtracted first, magnitudes only. "signed": as "half",
  * with signed 32-bit rates and a jerk term.
@@ -21,7 +15,8 @@ export type TickArithmetic = "late" | "half" | "signed";
 
 export interface FirmwareFeatures {
   readonly version: string;
-  readonly motion: MotionCommands;
+  /** The kind of motion commands used: constant-rate slices, step-limited ramps, timed ramps, timed ramps with jerk. */
+  readonly motion: "slices" | "steps" | "timed" | "jerk";
   readonly arithmetic: TickArithmetic;
   /** Idle ticks after every motion command. */
   readonly idleTicks: number;

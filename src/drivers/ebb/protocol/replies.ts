@@ -6,6 +6,8 @@
  * So lines are split at any run of CR and LF.
  */
 export interface ReplyShape {
+  /** Matches the values without the name, to distinguish the replies of different commands. */
+  readonly values: RegExp;
   /** Line end of the values in legacy syntax; null if the command returns no values. */
   readonly valueEnd: "\r\n" | "\n\r" | null;
   /** The legacy syntax adds OK. */
@@ -16,31 +18,37 @@ export interface ReplyShape {
   readonly isSilent: boolean;
 }
 
-const PLAIN: ReplyShape = { valueEnd: null, ok: true, isNamed: false, isSilent: false };
-const value = (valueEnd: "\r\n" | "\n\r", ok: boolean, isNamed = false): ReplyShape => ({
+const PLAIN: ReplyShape = { values: /^$/, valueEnd: null, ok: true, isNamed: false, isSilent: false };
+const SILENT: ReplyShape = { values: /^$/, valueEnd: null, ok: false, isNamed: false, isSilent: true };
+
+const withValues = (values: RegExp, valueEnd: "\r\n" | "\n\r", ok = true, isNamed = false): ReplyShape => ({
+  values,
   valueEnd,
   ok,
   isNamed,
   isSilent: false,
 });
-const SILENT: ReplyShape = { valueEnd: null, ok: false, isNamed: false, isSilent: true };
+
+const NUMBER = /^\d+$/;
+/** Two readings of the A/D converter, 10 bits each. */
+const TWO_READINGS = /^(0*\d{1,3}|0*10[01]\d|0*102[0-3]),(0*\d{1,3}|0*10[01]\d|0*102[0-3])$/;
 
 const SHAPES: Readonly<Record<string, ReplyShape>> = {
-  V: value("\r\n", false),
-  QM: value("\n\r", false, true),
-  QG: value("\r\n", false),
-  PI: value("\r\n", false, true),
-  QS: value("\n\r", true),
-  QP: value("\n\r", true),
-  QB: value("\r\n", true),
-  QC: value("\r\n", true),
-  QE: value("\n\r", true),
-  QR: value("\n\r", true),
-  QN: value("\r\n", true),
-  QL: value("\r\n", true),
-  QT: value("\r\n", true),
-  ES: value("\n\r", true),
-  QU: value("\r\n", true, true),
+  V: withValues(/firmware version \d/i, "\r\n", false),
+  QM: withValues(/^\d,\d,\d(,\d)?$/, "\n\r", false, true),
+  QG: withValues(/^[0-9A-F]{2}$/i, "\r\n", false),
+  PI: withValues(NUMBER, "\r\n", false, true),
+  QS: withValues(/^-?\d+,-?\d+$/, "\n\r"),
+  QP: withValues(NUMBER, "\n\r"),
+  QB: withValues(NUMBER, "\r\n"),
+  QC: withValues(TWO_READINGS, "\r\n"),
+  QE: withValues(/^\d{1,2},\d{1,2}$/, "\n\r"),
+  QR: withValues(NUMBER, "\n\r"),
+  QN: withValues(NUMBER, "\r\n"),
+  QL: withValues(NUMBER, "\r\n"),
+  QT: withValues(/^.{1,16}$/, "\r\n"),
+  ES: withValues(/^[01](,\d+,\d+,-?\d+,-?\d+)?$/, "\n\r"),
+  QU: withValues(/^(\d+,)?-?\d+$/, "\r\n", true, true),
   RB: SILENT,
   BL: SILENT,
 };

@@ -13,42 +13,16 @@
 import { commandName, replyShape, type ReplyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 
-const NUMBER = /^\d+$/;
-const TWO_NUMBERS = /^-?\d+,-?\d+$/;
-/** Two readings of the A/D converter, 10 bits each. */
-const TWO_READINGS = /^(0*\d{1,3}|0*10[01]\d|0*102[0-3]),(0*\d{1,3}|0*10[01]\d|0*102[0-3])$/;
-
-/** Pattern of each command's value, without the name, to distinguish the replies of different commands. */
-const VALUE_PATTERNS: Readonly<Record<string, RegExp>> = {
-  V: /firmware version \d/i,
-  QM: /^\d,\d,\d(,\d)?$/,
-  QG: /^[0-9A-F]{2}$/i,
-  PI: NUMBER,
-  QS: TWO_NUMBERS,
-  QC: TWO_READINGS,
-  QE: /^\d{1,2},\d{1,2}$/,
-  QP: NUMBER,
-  QB: NUMBER,
-  QR: NUMBER,
-  QN: NUMBER,
-  QL: NUMBER,
-  QU: /^(\d+,)?-?\d+$/,
-  QT: /^.{1,16}$/,
-  ES: /^[01](,\d+,\d+,-?\d+,-?\d+)?$/,
-};
-const NO_VALUE = /^$/;
-
 /** A command that waits for its reply. `settle` is called exactly once. */
 export interface AwaitedAnswer {
   readonly line: string;
   settle(error: PlotwrightError | null, value: string): void;
 }
 
-interface Waiting {
-  readonly awaited: AwaitedAnswer;
+interface Waiting<Awaited> {
+  readonly awaited: Awaited;
   readonly name: string;
   readonly shape: ReplyShape;
-  readonly pattern: RegExp;
   value: string | null;
   /** An OK arrived while the value was due. */
   hadOk: boolean;
@@ -64,16 +38,14 @@ export class LostAnswer extends PlotwrightError {
   }
 }
 
-export class AnswerQueue {
+export class AnswerQueue<Awaited extends AwaitedAnswer = AwaitedAnswer> {
   /** Number of lines that belong to no command: noise, late replies, or replies to another program. */
   strayCount = 0;
   /** Number of replies that never came, as shown by the reply to a later command. */
   lostCount = 0;
-  /**
-   * The order of replies is in doubt. Set by the session, which then sends `V`; the reply to `V` clears it.
-   */
+  /** The order of replies is in doubt. Set by the session, which then sends `V`, and clears it at the reply. */
   inDoubt = false;
-  private readonly waiting: Waiting[] = [];
+  private readonly waiting: Waiting<Awaited>[] = [];
   /** An error was just received: ignore the OK that some firmware sends after it. */
   private forgivesOk = false;
   private lastLine = "";
@@ -84,14 +56,13 @@ export class AnswerQueue {
     return this.waiting.length;
   }
 
-  get first(): AwaitedAnswer | null {
-    return this.waiting[0]?.awaited ?? null;
+  get first(): Awaited | undefined {
+    return this.waiting[0]?.awaited;
   }
 
-  add(awaited: AwaitedAnswer): void {
+  add(awaited: Awaited): void {
     const name = commandName(awaited.line);
-    const pattern = VALUE_PATTERNS[name] ?? NO_VALUE;
-    this.waiting.push({ awaited, name, shape: replyShape(name), pattern, value: null, hadOk: false });
+    this.waiting.push({ awaited, name, shape: replyShape(name), value: null, hadOk: false });
   }
 
   /** Takes one reply line without its line end. Empty lines have no meaning in either syntax. */
@@ -157,7 +128,7 @@ export class AnswerQueue {
       const candidate = this.waiting[i];
       const named = line === candidate.name || line.startsWith(`${candidate.name},`);
       const value = named ? line.slice(candidate.name.length + 1) : line;
-      if (!candidate.pattern.test(value)) continue;
+      if (!candidate.shape.values.test(value)) continue;
       if (!named && (value === "" || candidate.shape.isNamed)) continue;
       // A second value for the same query: one of the two is not its reply.
       if (candidate.value !== null) return false;
@@ -186,8 +157,8 @@ export class AnswerQueue {
   private finishFirst(value: string): void {
     const done = this.waiting.shift()!;
     this.lastLine = done.awaited.line;
-    if (done.name === "V") this.inDoubt = false;
-    if (this.inDoubt && !isPlain(done.shape)) done.awaited.settle(new LostAnswer(done.awaited.line), "");
+    const isLost = this.inDoubt && !isPlain(done.shape) && done.name !== "V";
+    if (isLost) done.awaited.settle(new LostAnswer(done.awaited.line), "");
     else done.awaited.settle(null, value);
   }
 

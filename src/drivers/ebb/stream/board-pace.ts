@@ -65,8 +65,8 @@ export class BoardPace {
     this.originS = Math.min(this.originS, nowS - startS);
   }
 
-  /** Proof that the command ending at `endS` had not ended when the board answered. */
-  notEnded(endS: number, nowS: number): void {
-    this.originS = Math.max(this.originS, nowS - endS);
+  /** Proof that the command ending at `endS` had not ended at the host's time `atS`. */
+  notEnded(endS: number, atS: number): void {
+    this.originS = Math.max(this.originS, atS - endS);
   }
 }

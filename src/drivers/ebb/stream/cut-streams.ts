@@ -1,25 +1,26 @@
 /** Functions to cut and build command streams, for a switch from one plan to another in motion. */
-import { asciiBytes } from "../../line-splitter.js";
 import { commandLine } from "../compile/compile.js";
 import type { BoardState, CommandStream } from "../compile/command-stream.js";
+import { StreamColumns } from "../compile/stream-columns.js";
+import { firstWhere } from "../../../geometry/binary-search.js";
+import { TICKS_PER_S } from "../../../units.js";
 
-/** The board's state after the commands before `index`. */
-export function boardStateBefore(stream: CommandStream, index: number, start: BoardState): BoardState {
-  if (index === 0) return start;
-  return {
-    steps1: stream.steps1[index - 1],
-    steps2: stream.steps2[index - 1],
-    acc1: stream.acc1[index - 1],
-    acc2: stream.acc2[index - 1],
-  };
-}
+/** The board's state after command `i`. */
+export const boardStateAfter = ({ steps1, steps2, acc1, acc2 }: CommandStream, i: number): BoardState => ({
+  steps1: steps1[i],
+  steps2: steps2[i],
+  acc1: acc1[i],
+  acc2: acc2[i],
+});
+
+/** The board's state after the commands before `index`. `start`: its state before the stream. */
+export const boardStateBefore = (stream: CommandStream, index: number, start: BoardState): BoardState =>
+  index === 0 ? start : boardStateAfter(stream, index - 1);
 
 /** The first command that begins at least `leadS` after command `index`. */
-export function commandAfter(commands: CommandStream, index: number, leadS: number): number {
-  const fromS = commands.boardS[index] + leadS;
-  let i = index;
-  while (i < commands.count && commands.boardS[i] < fromS) i++;
-  return i;
+export function commandAfter({ boardS, count }: CommandStream, index: number, leadS: number): number {
+  const fromS = boardS[index] + leadS;
+  return firstWhere(index, count, (i) => boardS[i] >= fromS);
 }
 
 /**
@@ -71,25 +72,7 @@ export function restingStream(
   state: BoardState,
   planS: number,
 ): CommandStream {
-  const count = lines.length;
-  const text = lines.map(([line]) => `${line}\r`).join("");
-  const textOffsets = new Uint32Array(count + 1);
-  const boardS = new Float64Array(count + 1);
-  lines.forEach(([line, durationS], i) => {
-    textOffsets[i + 1] = textOffsets[i] + line.length + 1;
-    boardS[i + 1] = boardS[i] + durationS;
-  });
-  return {
-    count,
-    text: asciiBytes(text),
-    textOffsets,
-    boardS,
-    planS: new Float64Array(count + 1).fill(planS),
-    steps1: new Int32Array(count).fill(state.steps1),
-    steps2: new Int32Array(count).fill(state.steps2),
-    acc1: new Uint32Array(count).fill(state.acc1),
-    acc2: new Uint32Array(count).fill(state.acc2),
-    run: new Int32Array(count).fill(-1),
-    warnings: [],
-  };
+  const columns = new StreamColumns(state);
+  for (const [line, durationS] of lines) columns.add(line, durationS * TICKS_PER_S, planS, -1);
+  return columns.finish(planS);
 }

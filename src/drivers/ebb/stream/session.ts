@@ -50,7 +50,7 @@ export interface BoardIdentity {
 }
 
 interface SentCommand extends AwaitedAnswer {
-  readonly waitS: number;
+  readonly patienceS: number;
   readonly alone: boolean;
 }
 
@@ -73,13 +73,11 @@ export class BoardSession {
 
   private readonly patienceS: number;
   private readonly silence: SilenceWatch;
-  private readonly answers: AnswerQueue;
+  private readonly answers: AnswerQueue<SentCommand>;
   private readonly faultListeners: ((error: PlotwrightError) => void)[] = [];
   private readonly lines = new LineSplitter();
   private fault: PlotwrightError | null = null;
   private closed = false;
-  /** A `V` that was sent to restore the order of replies has not been answered yet. */
-  private isFindingOrder = false;
   /** Something was received since the last attempt to identify the board. */
   private hasHeard = false;
 
@@ -224,27 +222,21 @@ export class BoardSession {
    * confused with others, so when it arrives, all earlier commands have been answered.
    */
   private findOrder(): void {
-    if (this.isFindingOrder || !this.identity || this.answers.count === 0 || this.fault) return;
-    this.isFindingOrder = true;
+    if (this.answers.inDoubt || !this.identity || this.answers.count === 0 || this.fault) return;
     this.answers.inDoubt = true;
     const onReply = (): void => {
-      this.isFindingOrder = false;
       this.answers.inDoubt = false;
     };
     this.write([{ line: "V", waitS: this.patienceS, alone: true, onReply }]);
   }
 
   private expect({ line, waitS = 0, alone = false, onReply }: Outgoing): void {
-    const sent: SentCommand = {
-      line,
-      waitS,
-      alone,
-      settle: (error, value) => {
-        this.awaitFirst();
-        onReply?.(error, value);
-      },
+    const patienceS = alone ? waitS : this.patienceS + waitS;
+    const settle: SentCommand["settle"] = (error, value) => {
+      this.awaitFirst();
+      onReply?.(error, value);
     };
-    this.answers.add(sent);
+    this.answers.add({ line, patienceS, alone, settle });
     if (this.answers.count === 1) this.awaitFirst();
   }
 
@@ -264,19 +256,15 @@ export class BoardSession {
 
   /** Call when another command has become the first unanswered one. */
   private awaitFirst(): void {
-    const first = this.answers.first as SentCommand | null;
-    this.silence.expect(first ? this.patienceOf(first) : Infinity);
+    this.silence.expect(this.answers.first?.patienceS ?? Infinity);
   }
 
   /** The first unanswered command has waited too long. */
   private noAnswer(): void {
-    const first = this.answers.first as SentCommand;
+    const { first } = this.answers;
+    if (!first) return;
     if (first.alone) this.answers.failFirst(silent(first.line));
     else this.fail(silent(first.line));
-  }
-
-  private patienceOf(sent: SentCommand): number {
-    return sent.alone ? sent.waitS : this.patienceS + sent.waitS;
   }
 
   private transportClosed(error: Error | undefined): void {

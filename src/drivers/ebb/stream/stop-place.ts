@@ -15,6 +15,7 @@
  */
 import type { BoardState } from "../compile/command-stream.js";
 import { commandLine } from "../compile/compile.js";
+import { boardStateAfter } from "./cut-streams.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { commandName } from "../protocol/replies.js";
 import { sFromTicks } from "../../../units.js";
@@ -116,11 +117,9 @@ function stepsOf(command: InFlight, commands: readonly InFlight[]): Steps {
 
 /** The board's state before a command; null for the very first one. */
 function stateBefore({ number, stream, index }: InFlight, commands: readonly InFlight[]): BoardState | null {
-  const before = index > 0 ? { stream, index: index - 1 } : commands.find((one) => one.number === number - 1);
-  if (!before) return null;
-  const { steps1, steps2, acc1, acc2 } = before.stream;
-  const i = before.index;
-  return { steps1: steps1[i], steps2: steps2[i], acc1: acc1[i], acc2: acc2[i] };
+  if (index > 0) return boardStateAfter(stream, index - 1);
+  const before = commands.find((one) => one.number === number - 1);
+  return before ? boardStateAfter(before.stream, before.index) : null;
 }
 
 const numbered = (command: InFlight, boardS: number): NumberedPlace => ({
@@ -152,11 +151,10 @@ class NearestTick {
       this.offer(command, off, Math.min(endS, Math.max(startS, this.stopS)));
       return;
     }
-    const place = { net: 0, acc: 0 };
     for (let tick = 0; tick <= move.ticks;) {
       const off = this.off(
-        before.steps1 - missing1 + move.motion1.placeAt(tick, place).net,
-        before.steps2 - missing2 + move.motion2.placeAt(tick, place).net,
+        before.steps1 - missing1 + move.motion1.placeAt(tick).net,
+        before.steps2 - missing2 + move.motion2.placeAt(tick).net,
       );
       this.offer(command, off, startS + sFromTicks(tick));
       // A motor makes at most one step per tick, so none of the skipped ticks can be nearer.
@@ -182,16 +180,7 @@ class NearestTick {
 function moveOf(line: string, features: FirmwareFeatures, before: BoardState): RunningMove | null {
   const name = commandName(line);
   const parameters = new Parameters(line.slice(name.length));
-  const motion = new MotionCommands(features, () => false);
-  const orders =
-    name === "SM"
-      ? motion.slow(parameters, false)
-      : name === "LM"
-        ? motion.stepped(parameters, false)
-        : name === "LT" || name === "T3"
-          ? motion.timed(parameters, name === "T3")
-          : [];
-  const [order] = orders;
+  const [order] = new MotionCommands(features, () => false).planned(name, parameters);
   if (order?.kind !== "move") return null;
-  return RunningMove.begin(order, features.arithmetic, before.acc1, before.acc2);
+  return RunningMove.begin(order, features, before.acc1, before.acc2);
 }

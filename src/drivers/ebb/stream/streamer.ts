@@ -172,9 +172,14 @@ export class Streamer {
     this.session.write([
       note(query, (reply) => (stop.waitingCount = waitingCount(query, reply))),
       note("ES", (reply) => (stop.stepsLeft = stepsLeft(reply))),
-      ...(this.options.liftLine === undefined ? [] : [{ line: this.options.liftLine, waitS }]),
+      ...this.lift(),
     ]);
     this.abandon(error);
+  }
+
+  private lift(): Outgoing[] {
+    const { liftLine: line } = this.options;
+    return line === undefined ? [] : [{ line, waitS: this.timeline.longestS() }];
   }
 
   /** Where the board was at the emergency stop; null if no command had run. */
@@ -208,8 +213,8 @@ export class Streamer {
     this.cancelWake?.();
     this.cancelWake = null;
     const { stream } = this;
-    // There is no stream if a reply arrives after the end.
-    if (this.failure || this.ending || !stream) return;
+    // A reply may arrive after the end.
+    if (this.failure || this.ending || !stream || !this.settle) return;
     const boardS = this.timeline.boardS();
     this.timeline.forgetExecuted(boardS);
     const batch: Outgoing[] = [];
@@ -364,7 +369,6 @@ export class Streamer {
       // The motors' supply may have failed since the last poll. The board answers this one before the report.
       this.poll(() => undefined);
       const report = await this.report();
-      this.stream = null;
       this.ending = false;
       const settle = this.settle;
       this.settle = null;
@@ -410,7 +414,7 @@ export class Streamer {
 
   /** `abandon`, and clears the board's queue: its commands must not be drawn if the board recovers. */
   halt(error: PlotwrightError): void {
-    this.session.write([{ line: "ES" }]);
+    this.session.write([{ line: "ES" }, ...this.lift()]);
     this.abandon(error);
   }
 

@@ -132,7 +132,8 @@ export class BoardTimeline {
     if (!executing) return false;
     this.pace.begun(executing.startS, nowS);
     if (count === 0) return false;
-    this.pace.notEnded(executing.endS, nowS);
+    // A busy host reads the reply late, so only the time of the query is certain.
+    this.pace.notEnded(executing.endS, askedS);
     if (executing.number !== this.executing) {
       this.executing = executing.number;
       this.executingSinceS = nowS;

@@ -6,14 +6,14 @@
  */
 import { compareFirmware, type FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
-import type { MachineProfile, Springs } from "../../../machines/profile.js";
+import type { MachineProfile } from "../../../machines/profile.js";
 import { stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
+import type { DrawnPolyline } from "../../drawn-polylines.js";
 import { pctFromServoPos, servoPosFromPct } from "../protocol/servo-height.js";
 import { BoardTotals, MAX_JOINED_TICKS, type BoardStatistics } from "./board-totals.js";
-import { DrawnLine, type DrawnPolyline, type LineRecord } from "./drawn-line.js";
-import { RunningMove, type Order } from "../model/orders.js";
+import type { LineRecord } from "./drawn-line.js";
+import { isTimed, RunningMove, type Order } from "../model/orders.js";
 import { FRAME_TICKS, Servo } from "./servo.js";
-import { SwingingLine } from "./swinging-line.js";
 
 const BOOT_SERVO_UP = 22_565;
 const BOOT_SERVO_DOWN = 15_302;
@@ -67,30 +67,27 @@ export class BoardCore {
   private contactTick = Infinity;
   private running: Running | null = null;
   private readonly servo: Servo;
-  private line: LineRecord | null;
   /** When the motion froze (a simulated fault); null while it runs. */
   private frozenTick: number | null = null;
   /** False: moves take their time but make no steps (a simulated fault). */
   private makesSteps = true;
   /** False: steps are counted, but the motors do not turn (no motor supply), so nothing is drawn. */
   private turnsMotors = true;
-  private readonly totals = new BoardTotals();
   /** End tick and end rates of the last move; null if any other order came after it. */
   private lastMove: { endTick: number; v1: number; v2: number } | null = null;
 
   constructor(
     readonly features: FirmwareFeatures,
     readonly machine: MachineProfile,
-    recordLine: boolean,
+    /** Null: the line is not recorded. */
+    private readonly line: LineRecord | null,
     /** Null: the tip touches and leaves the paper with the command. */
     private readonly servoOptions: VirtualServo | null,
-    /** Null: the pen is exactly where the motors are. */
-    springs: Springs | null = null,
+    private readonly totals = new BoardTotals(),
   ) {
     const { speed, framePhaseMs } = servoOptions ?? {};
     const phaseTicks = framePhaseMs === undefined ? null : framePhaseMs * TICKS_PER_MS;
     this.servo = new Servo(BOOT_SERVO_UP, speed, phaseTicks);
-    this.line = recordLine ? (springs ? new SwingingLine(machine, springs) : new DrawnLine(machine)) : null;
   }
 
   /** The firmware is this version or a newer one. */
@@ -175,13 +172,13 @@ export class BoardCore {
     if (next !== undefined) this.start(next);
   }
 
-  /** ES. Returns whether moves were dropped, and the steps that were left of them. */
-  stop(): { hit: boolean; waiting1: number; waiting2: number; left1: number; left2: number } {
+  /** ES. Returns whether moves were dropped, and the steps of the first waiting one and those left of the running one. */
+  stop(): { hit: boolean; waiting: [number, number]; left: [number, number] } {
     const running = this.running;
     const { arithmetic, stopEndsTimed } = this.features;
     // Before firmware 3, pen moves and delays continue.
     const isStoppable = (order: Order): boolean =>
-      arithmetic === "signed" || (order.kind === "move" && (stopEndsTimed || !order.isTimed));
+      arithmetic === "signed" || (order.kind === "move" && (stopEndsTimed || !isTimed(order)));
     const waiting = this.fifo.find((order) => order.kind === "move" && isStoppable(order));
     let hit = waiting !== undefined;
     let left: [number, number] = [0, 0];
@@ -198,7 +195,7 @@ export class BoardCore {
       const steps = waiting?.kind === "move" ? waiting[axis].steps : 0;
       return Number.isFinite(steps) ? steps : 0;
     };
-    return { hit, waiting1: stepsOf("axis1"), waiting2: stepsOf("axis2"), left1: left[0], left2: left[1] };
+    return { hit, waiting: [stepsOf("axis1"), stepsOf("axis2")], left };
   }
 
   /** The current step counters. */
@@ -206,10 +203,8 @@ export class BoardCore {
     const { running } = this;
     if (running === null || running.move === null || !this.makesSteps) return [this.steps1, this.steps2];
     const tick = Math.floor(this.motionTick - running.startTick);
-    const place = { net: 0, acc: 0 };
-    const net1 = running.move.motion1.placeAt(tick, place).net;
-    const net2 = running.move.motion2.placeAt(tick, place).net;
-    return [this.steps1 + net1, this.steps2 + net2];
+    const { motion1, motion2 } = running.move;
+    return [this.steps1 + motion1.placeAt(tick).net, this.steps2 + motion2.placeAt(tick).net];
   }
 
   /** CS, and EM on every firmware. The running move continues. */
@@ -226,7 +221,7 @@ export class BoardCore {
     if (running === null || running.move === null) return [false, false];
     const tick = this.motionTick - running.startTick;
     // The firmware stores a timed move's ticks in motor 1's step field, so only that motor's flag is set.
-    if (running.move.order.isTimed) return [true, false];
+    if (isTimed(running.move.order)) return [true, false];
     return [tick < running.move.motion1.ticks, tick < running.move.motion2.ticks];
   }
 
@@ -274,10 +269,8 @@ export class BoardCore {
     const running = this.running;
     if (running !== null) this.settle(running, this.motionTick);
     this.running = null;
-    const fresh = new BoardCore(this.features, this.machine, false, this.servoOptions);
+    const fresh = new BoardCore(this.features, this.machine, this.line, this.servoOptions, this.totals);
     fresh.nowTick = this.nowTick;
-    fresh.line = this.line;
-    Object.assign(fresh.totals, this.totals);
     fresh.line?.begin(false, 0, 0, fresh.nowTick);
     fresh.turnsMotors = this.turnsMotors;
     return fresh;
@@ -296,7 +289,7 @@ export class BoardCore {
 
   private start(order: Order): void {
     if (order.kind === "move") {
-      this.startMove(RunningMove.begin(order, this.features.arithmetic, this.acc1, this.acc2));
+      this.startMove(RunningMove.begin(order, this.features, this.acc1, this.acc2));
       return;
     }
     const { lastMove } = this;
@@ -363,8 +356,8 @@ export class BoardCore {
     }
     const done = Math.floor(ticks);
     if (this.turnsMotors) this.line?.addMove(move, done, this.steps1, this.steps2, running.startTick);
-    const place1 = move.motion1.placeAt(done, { net: 0, acc: 0 });
-    const place2 = move.motion2.placeAt(done, { net: 0, acc: 0 });
+    const place1 = move.motion1.placeAt(done);
+    const place2 = move.motion2.placeAt(done);
     this.steps1 += place1.net;
     this.steps2 += place2.net;
     this.acc1 = place1.acc;
@@ -397,7 +390,7 @@ export class BoardCore {
 
   private stepsLeft(running: Running): [number, number] {
     const { move, order } = running;
-    if (move === null || order.kind !== "move" || order.isTimed) return [0, 0];
+    if (move === null || order.kind !== "move" || isTimed(order)) return [0, 0];
     const tick = Math.floor(this.motionTick - running.startTick);
     return [
       order.axis1.steps - move.motion1.stepsMadeAfter(tick),

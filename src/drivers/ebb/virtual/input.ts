@@ -12,7 +12,6 @@ interface Line {
 
 export class InputLines {
   private readonly lines: Line[] = [];
-  private head = 0;
   private partial = "";
   private partialBytes = 0;
   private lastWasCr = false;
@@ -40,23 +39,18 @@ export class InputLines {
 
   /** Tick at which the next line is complete; Infinity if there is none. */
   get nextArrivalTick(): number {
-    return this.lines[this.head]?.arrivalTick ?? Infinity;
+    return this.lines[0]?.arrivalTick ?? Infinity;
   }
 
   take(): string {
-    const line = this.lines[this.head++];
+    const line = this.lines.shift();
     if (line === undefined) return "";
     this.byteCount -= line.byteCount;
-    if (this.head > 1_000) {
-      this.lines.splice(0, this.head);
-      this.head = 0;
-    }
     return line.text;
   }
 
   clear(): void {
     this.lines.length = 0;
-    this.head = 0;
     this.partial = "";
     this.partialBytes = 0;
     this.byteCount = 0;

@@ -9,7 +9,7 @@ import { commandName, replyShape } from "../protocol/replies.js";
 import type { BoardCore } from "./core.js";
 import { MotionCommands } from "../model/motion-commands.js";
 import type { Order } from "../model/orders.js";
-import { BoardFault, Parameters } from "../model/parameters.js";
+import { BoardFault, invalidValue, Parameters } from "../model/parameters.js";
 import { BoardQueries, type BoardInputs } from "./queries.js";
 import { TICKS_PER_MS } from "../../../units.js";
 
@@ -32,14 +32,8 @@ interface Action {
   readonly then?: () => void;
 }
 
-type Handler = (parameters: Parameters) => Action;
-
-/** Settings of the board that last until a reset. */
-interface Switches {
-  future: boolean;
-  sendsOk: boolean;
-  testMode: boolean;
-}
+/** Nothing is returned for a command that acted at once and is answered without values. */
+type Handler = (parameters: Parameters) => Action | void;
 
 interface InterpreterHooks {
   readonly send: (text: string) => void;
@@ -50,7 +44,10 @@ interface InterpreterHooks {
 }
 
 export class Interpreter {
-  private readonly switches: Switches = { future: false, sendsOk: true, testMode: false };
+  // Settings of the board that last until a reset.
+  private hasFutureSyntax = false;
+  private sendsOk = true;
+  private isTestMode = false;
   private readonly motion: MotionCommands;
   private readonly queries: BoardQueries;
   private readonly handlers: ReadonlyMap<string, Handler>;
@@ -61,7 +58,7 @@ export class Interpreter {
     private readonly inputs: BoardInputs,
     private readonly hooks: InterpreterHooks,
   ) {
-    this.motion = new MotionCommands(core.features, () => this.switches.testMode);
+    this.motion = new MotionCommands(core.features, () => this.isTestMode);
     this.queries = new BoardQueries(core, inputs);
     this.handlers = this.commands();
   }
@@ -86,7 +83,7 @@ export class Interpreter {
         throw new BoardFault(5, `Err: Need comma next, found: '${rest[0]}'`);
       }
       const parameters = new Parameters(rest);
-      const action = handler(parameters);
+      const action = handler(parameters) ?? {};
       this.blocked = { name, action, orders: [...(action.orders ?? [])], extra: parameters.hasMore };
       this.resume();
     } catch (error) {
@@ -121,7 +118,7 @@ export class Interpreter {
       return;
     }
     const values = action.values?.();
-    if (this.switches.future) {
+    if (this.hasFutureSyntax) {
       const extraLine = name === "QU" ? "\n" : "";
       this.hooks.send((values === undefined ? name : `${name},${values}`) + "\n" + extraLine);
       return;
@@ -134,12 +131,12 @@ export class Interpreter {
   }
 
   private okText(): string {
-    if (this.switches.sendsOk) return "OK\r\n";
+    if (this.sendsOk) return "OK\r\n";
     return this.core.features.hasFutureSyntax ? "\r\n" : "";
   }
 
   private sendError(name: string, fault: BoardFault): void {
-    if (this.switches.future && name !== "") this.hooks.send(`${name},!${fault.code} ${fault.text}\n`);
+    if (this.hasFutureSyntax && name !== "") this.hooks.send(`${name},!${fault.code} ${fault.text}\n`);
     else this.hooks.send(`!${fault.code} ${fault.text}\r\n`);
   }
 
@@ -161,7 +158,7 @@ export class Interpreter {
       ["SE", "2.2.0", (p) => this.engraver(p)],
       ["EM", "0.0.0", (p) => this.enable(p)],
       ["ES", "2.2.7", (p) => this.stop(p)],
-      ["CS", "2.4.3", () => this.done(() => this.core.clearSteps(true))],
+      ["CS", "2.4.3", () => this.core.clearSteps(true)],
       ["CU", "0.0.0", (p) => this.configureUser(p)],
       ["R", "0.0.0", () => ({ then: this.hooks.reset })],
       ["RB", "2.5.4", () => ({ isSilent: true, then: this.hooks.restart })],
@@ -198,43 +195,38 @@ export class Interpreter {
     return { whenIdle: () => order(this.core.steps1, this.core.steps2) };
   }
 
-  private enable(p: Parameters): Action {
+  private enable(p: Parameters): Action | void {
     const mode1 = p.uint(5);
-    if (!p.hasMore) {
-      // Firmware 2.8 and newer ignores EM with one argument.
-      return this.core.features.enableIsQueued
-        ? { isSilent: !this.switches.future, raw: "EM" }
-        : this.done(() => this.core.enableMotors(mode1, null));
-    }
-    const mode2 = p.uint(5);
-    if (this.core.features.enableIsQueued) return { orders: [{ kind: "enable", mode1, mode2 }] };
-    return this.done(() => this.core.enableMotors(mode1, mode2));
+    const mode2 = p.hasMore ? p.uint(5) : null;
+    if (!this.core.features.enableIsQueued) this.core.enableMotors(mode1, mode2);
+    else if (mode2 !== null) return { orders: [{ kind: "enable", mode1, mode2 }] };
+    // Firmware 2.8 and newer ignores EM with one argument.
+    else return { isSilent: !this.hasFutureSyntax, raw: "EM" };
   }
 
   private stop(p: Parameters): Action {
     const disable = p.optionalUint(0, 1);
-    const { hit, waiting1, waiting2, left1, left2 } = this.core.stop();
+    const { hit, waiting, left } = this.core.stop();
     if (disable === 1 && this.core.isFrom("2.8.0")) {
       this.core.mode1 = 0;
       this.core.mode2 = 0;
     }
     const flag = hit ? 1 : 0;
     const isShort = this.core.isFrom("3.0.0");
-    return { values: () => (isShort ? `${flag}` : [flag, waiting1, waiting2, left1, left2].join(",")) };
+    return { values: () => (isShort ? `${flag}` : [flag, ...waiting, ...left].join(",")) };
   }
 
   // pen and outputs
 
-  private pen(p: Parameters): Action {
+  private pen(p: Parameters): Action | void {
     const value = p.uint(3);
     const { core } = this;
     if (value > 1) {
-      if (!core.features.hasImmediateLift) throw new BoardFault(6, "Err: Invalid parameter value");
+      if (!core.features.hasImmediateLift) throw invalidValue();
       if (value === 3) this.disableDrops();
-      return this.done(() => {
-        core.movePen(core.servoUp, core.servoRateUp, true);
-        core.penUp = true;
-      });
+      core.movePen(core.servoUp, core.servoRateUp, true);
+      core.penUp = true;
+      return;
     }
     const delayMs = p.optionalUint(0, MS16);
     if (p.hasMore) p.uint(24);
@@ -267,30 +259,20 @@ export class Interpreter {
     return { orders: [this.penOrder(!this.core.penUp, p.optionalUint(0, MS16))] };
   }
 
-  private servo(p: Parameters): Action {
+  private servo(p: Parameters): Action | void {
     const position = p.uint(MS16);
     const pin = p.uint(24);
     const rate = p.optionalUint(0, MS16);
     const delayMs = p.optionalUint(0, MS16);
-    if (position === 0) return {};
+    if (position === 0) return;
     // On the standard output, the board treats the pen as up only at exactly the height of SC,4.
     const penUp = pin === STANDARD_PIN ? position === this.core.servoUp : null;
-    return {
-      orders: [
-        {
-          kind: "servo",
-          position,
-          rate,
-          ticks: delayMs * TICKS_PER_MS,
-          penUp,
-          movesPen: pin === ebbOf(this.core.machine).servoPin,
-          isPen: false,
-        },
-      ],
-    };
+    const movesPen = pin === ebbOf(this.core.machine).servoPin;
+    const ticks = delayMs * TICKS_PER_MS;
+    return { orders: [{ kind: "servo", position, rate, ticks, penUp, movesPen, isPen: false }] };
   }
 
-  private configure(p: Parameters): Action {
+  private configure(p: Parameters): void {
     const which = p.uint(255);
     const value = p.uint(MS16);
     const { core } = this;
@@ -299,32 +281,30 @@ export class Interpreter {
     else if (which === 10) core.servoRateUp = core.servoRateDown = value;
     else if (which === 11) core.servoRateUp = value;
     else if (which === 12) core.servoRateDown = value;
-    else if (which === 1 && value > 2) throw new BoardFault(6, "Err: Invalid parameter value");
-    return {};
+    else if (which === 1 && value > 2) throw invalidValue();
   }
 
-  private engraver(p: Parameters): Action {
+  private engraver(p: Parameters): Action | void {
     p.uint(1);
     p.optionalUint(0, 1_023);
-    return p.optionalUint(0, 1) === 1 ? { orders: [{ kind: "delay", ticks: 1 }] } : {};
+    if (p.optionalUint(0, 1) === 1) return { orders: [{ kind: "delay", ticks: 1 }] };
   }
 
-  private servoTimeout(p: Parameters): Action {
+  private servoTimeout(p: Parameters): void {
     p.uint();
     if (p.hasMore) this.core.servoUsed = p.uint(1) === 1;
-    return {};
   }
 
   // settings
 
-  private configureUser(p: Parameters): Action {
+  private configureUser(p: Parameters): Action | void {
     const which = p.uint(255);
     const value = p.int();
-    const { core, switches } = this;
-    if (which === 1) return this.done(() => (switches.sendsOk = value !== 0));
-    if (which === 50) return this.done(() => (core.autoEnable = value !== 0));
-    if (which === 60) return this.done(() => (this.inputs.powerThreshold = value));
-    if (!core.features.hasFutureSyntax) return {};
+    const { core } = this;
+    if (which === 1) this.sendsOk = value !== 0;
+    if (which === 50) core.autoEnable = value !== 0;
+    if (which === 60) this.inputs.powerThreshold = value;
+    if (!core.features.hasFutureSyntax) return;
     if (which === 4) {
       const depth = Math.min(core.features.maxFifoDepth, value);
       return {
@@ -335,11 +315,10 @@ export class Interpreter {
       };
     }
     if (which === 10) {
-      switches.future = value !== 0;
-      return { raw: switches.future ? "\n" : "CUOK\r\n" };
+      this.hasFutureSyntax = value !== 0;
+      return { raw: this.hasFutureSyntax ? "\n" : "CUOK\r\n" };
     }
-    if (which === 251) return this.done(() => (switches.testMode = value !== 0));
-    return {};
+    if (which === 251) this.isTestMode = value !== 0;
   }
 
   private queryUtility(p: Parameters): Action {
@@ -352,15 +331,15 @@ export class Interpreter {
       6: core.fifo.length,
     };
     const answer = answers[which];
-    if (answer === undefined) throw new BoardFault(6, "Err: Invalid parameter value");
+    if (answer === undefined) throw invalidValue();
     const echoes = !this.core.isFrom("3.0.2");
     return { values: () => (echoes ? `${which},${answer}` : `${answer}`) };
   }
 
-  private setLayer(p: Parameters): Action {
+  private setLayer(p: Parameters): void {
     const value = p.uint(255);
     const index = p.optionalUint(0, 31);
-    return this.done(() => (this.inputs.layer[index] = value));
+    this.inputs.layer[index] = value;
   }
 
   private queryLayer(p: Parameters): Action {
@@ -368,13 +347,12 @@ export class Interpreter {
     return { values: () => this.queries.padded(this.inputs.layer[index], 3) };
   }
 
-  private setNode(value: number): Action {
-    return this.done(() => (this.inputs.nodeCount = value >>> 0));
+  private setNode(value: number): void {
+    this.inputs.nodeCount = value >>> 0;
   }
 
-  private setName(p: Parameters): Action {
-    const name = p.text(16);
-    return this.done(() => (this.inputs.name = name));
+  private setName(p: Parameters): void {
+    this.inputs.name = p.text(16);
   }
 
   private pinInput(p: Parameters): Action {
@@ -382,14 +360,8 @@ export class Interpreter {
     return { values: () => (this.inputs.buttonDown ? "0" : "1") };
   }
 
-  private pinOutput(p: Parameters): Action {
+  private pinOutput(p: Parameters): void {
     p.text(8);
-    return {};
-  }
-
-  private done(work: () => unknown): Action {
-    work();
-    return {};
   }
 }
 

@@ -2,14 +2,13 @@
  * The line that the virtual board has drawn on a machine that swings. The carriage follows the motors, and the pen hangs
  * on a spring in each axis (src/plan/spring-pen.ts). It continues to swing while the motors rest.
  */
-import { PointBuffer } from "../../../geometry/growable.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { SpringAxis } from "../../../plan/spring-pen.js";
 import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
-import type { AxisState } from "../model/accumulator.js";
+import { DrawnPolylines, type DrawnPolyline } from "../../drawn-polylines.js";
 import type { RunningMove } from "../model/orders.js";
-import type { DrawnPolyline, LineRecord } from "./drawn-line.js";
+import type { LineRecord } from "./drawn-line.js";
 
 const SAMPLE_TICKS = TICKS_PER_MS;
 /** Below this the pen is at rest. */
@@ -27,12 +26,7 @@ export class SwingingLine implements LineRecord {
   private vy = 0;
   /** The pen is simulated up to here. */
   private tick = 0;
-  private readonly points = new PointBuffer();
-  /** By polyline: its first point, and whether the pen was down. */
-  private readonly firsts: number[] = [0];
-  private readonly downs: boolean[] = [false];
-  private readonly place1: AxisState = { net: 0, acc: 0 };
-  private readonly place2: AxisState = { net: 0, acc: 0 };
+  private readonly lines = new DrawnPolylines();
 
   constructor(
     private readonly machine: MachineProfile,
@@ -40,16 +34,13 @@ export class SwingingLine implements LineRecord {
   ) {
     this.axisX = new SpringAxis(xHz, damping);
     this.axisY = new SpringAxis(yHz, damping);
-    this.add();
+    this.begin(false, 0, 0, 0);
   }
 
   begin(penDown: boolean, steps1: number, steps2: number, tick: number): void {
     this.rest(tick);
-    this.x = xFromMotors(this.machine, steps1, steps2);
-    this.y = yFromMotors(this.machine, steps1, steps2);
-    this.firsts.push(this.points.pointCount);
-    this.downs.push(penDown);
-    this.add();
+    this.lines.begin(penDown);
+    this.addAt(steps1, steps2);
   }
 
   addMove(move: RunningMove, ticks: number, steps1: number, steps2: number, startTick: number): void {
@@ -65,11 +56,7 @@ export class SwingingLine implements LineRecord {
       this.axisX.advance(dt, (nextVx - vx) / dt);
       this.axisY.advance(dt, (nextVy - vy) / dt);
       [vx, vy] = [nextVx, nextVy];
-      move.motion1.placeAt(to, this.place1);
-      move.motion2.placeAt(to, this.place2);
-      this.x = xFromMotors(this.machine, steps1 + this.place1.net, steps2 + this.place2.net);
-      this.y = yFromMotors(this.machine, steps1 + this.place1.net, steps2 + this.place2.net);
-      this.add();
+      this.addAt(steps1 + move.motion1.placeAt(to).net, steps2 + move.motion2.placeAt(to).net);
     }
     [this.vx, this.vy] = [vx, vy];
     this.tick = startTick + end;
@@ -77,12 +64,7 @@ export class SwingingLine implements LineRecord {
 
   polylines(tick: number): DrawnPolyline[] {
     this.rest(tick);
-    return this.firsts.flatMap((from, i) => {
-      const to = this.firsts[i + 1] ?? this.points.pointCount;
-      const penDown = this.downs[i];
-      if (to - from < 2 && !penDown) return [];
-      return [{ penDown, xy: this.points.data.slice(2 * from, 2 * to) }];
-    });
+    return this.lines.list();
   }
 
   /** Simulates the pen until `tick` while the motors rest. */
@@ -115,7 +97,14 @@ export class SwingingLine implements LineRecord {
     return [xFromMotors(this.machine, steps1, steps2), yFromMotors(this.machine, steps1, steps2)];
   }
 
+  /** Adds the pen's position with the motors at these counts. */
+  private addAt(steps1: number, steps2: number): void {
+    this.x = xFromMotors(this.machine, steps1, steps2);
+    this.y = yFromMotors(this.machine, steps1, steps2);
+    this.add();
+  }
+
   private add(): void {
-    this.points.push(this.x + this.axisX.d, this.y + this.axisY.d);
+    this.lines.add(this.x + this.axisX.d, this.y + this.axisY.d);
   }
 }

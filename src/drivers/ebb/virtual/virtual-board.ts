@@ -17,18 +17,20 @@ import { machineById } from "../../../machines/profiles.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
 import { sFromTicks, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
 import { asciiBytes } from "../../line-splitter.js";
+import type { DrawnPolyline } from "../../drawn-polylines.js";
 import type { Clock, Transport } from "../../transport.js";
 import { VirtualLink } from "../../virtual-link.js";
 import type { BoardStatistics } from "./board-totals.js";
 import { BoardCore, type VirtualServo } from "./core.js";
-import type { DrawnPolyline } from "./drawn-line.js";
+import { DrawnLine } from "./drawn-line.js";
 import { InputLines } from "./input.js";
 import { Interpreter } from "./interpreter.js";
 import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
+import { SwingingLine } from "./swinging-line.js";
 
 export type { BoardStatistics } from "./board-totals.js";
 export type { VirtualServo } from "./core.js";
-export type { DrawnPolyline } from "./drawn-line.js";
+export type { DrawnPolyline } from "../../drawn-polylines.js";
 
 /** Min supply voltage at which the motors turn. */
 const MIN_MOTOR_VOLTS = 7;
@@ -129,9 +131,9 @@ export class VirtualBoard {
     this.inputLimit = options.inputBytes ?? 256;
     this.systemLimit = options.systemBytes ?? 4_096;
     this.startS = this.clock.nowS();
-    const features = firmwareFeatures(this.firmware);
-    const { recordLine = true, servo = null, springs = null } = options;
-    this.core = new BoardCore(features, this.machine, recordLine, servo, springs);
+    const { recordLine = true, servo = null, springs } = options;
+    const line = springs ? new SwingingLine(this.machine, springs) : new DrawnLine(this.machine);
+    this.core = new BoardCore(firmwareFeatures(this.firmware), this.machine, recordLine ? line : null, servo);
     this.interpreter = this.makeInterpreter();
   }
 

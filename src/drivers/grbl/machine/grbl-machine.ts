@@ -8,6 +8,7 @@ import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { ConnectOptions, ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
+import { moveStopped } from "../../faults.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
 import type { Clock } from "../../transport.js";
 import { grblCommandsOf, MODES, penLines, planGrblJob, SYNC, type GrblCommands } from "../grbl-job.js";
@@ -34,8 +35,7 @@ export class GrblMachine implements Machine {
   private at: Axes | null = null;
   private isAsleep = false;
   private byHand: LineStream | null = null;
-  /** How many times `stopAtOnce` was called. */
-  private stopCount = 0;
+  stopCount = 0;
 
   constructor(
     readonly session: GrblSession,
@@ -253,5 +253,3 @@ export class GrblMachine implements Machine {
     this.options.events.changed();
   }
 }
-
-const moveStopped = (): PlotwrightError => new PlotwrightError("conflict", "The move was stopped at once.");

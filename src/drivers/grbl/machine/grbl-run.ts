@@ -12,14 +12,17 @@ import type { Machine, MachineRun, RunEvents, RunRequest } from "../../driver.js
 import type { PlannedPlot } from "../../machine-job.js";
 import { RunProgress, type PlotProgress } from "../../run-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
+import { restarted } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
-import { stopTime } from "./stop-place.js";
+import { stopPlace } from "./stop-place.js";
 
 /** Tolerance between mm along the plan and mm along the drawing; the plan rounds to whole steps. */
 const SNAP_MM = 0.5;
+/** A stop farther from the plan than this shows that the Grbl counts from another place, because it has restarted. */
+const LOST_MM = 2;
 
 /** The parts of the machine that a run uses. */
-interface Carriage extends Pick<Machine, "penUp" | "movePen" | "place"> {
+interface Carriage extends Pick<Machine, "penUp" | "movePen" | "place" | "forgetPlace"> {
   stream(commands: GrblCommands): LineStream;
   /** Called after a job has been played to its end. */
   arrived(): Promise<void>;
@@ -93,10 +96,12 @@ export class GrblRun implements MachineRun {
       // The caller of `fail` takes care of the machine.
       if (this.failure) throw error;
       left = await this.whereStopped(this.current);
+      const settings = this.request.settings();
+      const isLost = machine.place(machineOf(settings)) === null;
       // The Grbl may have failed before the stop was requested.
-      if (error !== this.requested) {
-        await machine.movePen(true, this.request.settings()).catch(() => undefined);
-        throw error;
+      if (isLost || error !== this.requested) {
+        await machine.movePen(true, settings).catch(() => undefined);
+        throw error === this.requested ? restarted() : error;
       }
       this.stopped = { place: left };
     } finally {
@@ -124,14 +129,19 @@ export class GrblRun implements MachineRun {
     return null;
   }
 
-  /** Clears Grbl's queue. Its position shows how far it drew. */
+  /** Clears Grbl's queue. Its position shows how far it drew; if that is lost, the place is forgotten. */
   private async whereStopped({ plot, commands, stream }: Playing): Promise<Place | null> {
     const { machine, progress, strokes } = this;
     await machine.recover(stream);
     const at = machine.place(machineOf(this.request.settings()));
-    if (!at) return progress.place;
     const { trajectory } = plot;
-    const planS = stopTime(trajectory, at, stream.boundsS, stream.planS);
+    const found = at && stopPlace(trajectory, at, stream.boundsS, stream.planS);
+    if (!at || (found && found.awayMm > LOST_MM)) {
+      await machine.forgetPlace();
+      // Everything before it is certainly drawn. The line may overlap where it resumes.
+      return placeAt(trajectory, stream.boundsS[0]) ?? progress.place;
+    }
+    const planS = found?.atS ?? stream.planS;
     this.events.progressed({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
     const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
     if (stroke < 0) return nextPlace(trajectory, planS) ?? (this.isEmergency ? this.endOfDrawing() : null);

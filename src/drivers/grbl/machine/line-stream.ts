@@ -2,7 +2,6 @@
 import { PlotwrightError } from "../../../errors.js";
 import { delay, type Clock } from "../../transport.js";
 import type { GrblCommands } from "../grbl-job.js";
-import { QUEUE_MOVES } from "../model/planner.js";
 import { NOW, type Status } from "../protocol.js";
 import type { GrblSession } from "./session.js";
 
@@ -20,6 +19,8 @@ export class LineStream {
   isBroken = false;
   private isSettled = false;
   private clearing: Promise<Status> | null = null;
+  /** When a stop was requested: the plan's time hardly advances during the braking. */
+  private stopS: number | null = null;
   /** The last time at which the position on the plan was known exactly. */
   private known: { readonly planS: number; readonly clockS: number };
   private settle: (error: PlotwrightError | null) => void = () => undefined;
@@ -62,21 +63,25 @@ export class LineStream {
   /** Estimated position, seconds along the plan: no further than the accepted lines. */
   get planS(): number {
     const { planS } = this.commands;
-    const nowS = this.known.planS + this.clock.nowS() - this.known.clockS;
-    return Math.min(Math.max(nowS, planS[Math.max(0, this.answeredCount - QUEUE_MOVES)]), this.takenS);
+    const nowS = this.known.planS + (this.stopS ?? this.clock.nowS()) - this.known.clockS;
+    return Math.min(
+      Math.max(nowS, planS[Math.max(0, this.answeredCount - this.session.queueMoves)]),
+      this.takenS,
+    );
   }
 
   /** Bounds of the position, seconds along the plan. */
   get boundsS(): readonly [fromS: number, toS: number] {
     const { planS, count } = this.commands;
-    const from = Math.max(0, this.answeredCount - QUEUE_MOVES - 1);
-    return [planS[from], planS[Math.min(count, this.answeredCount + 2)]];
+    const from = Math.max(0, this.answeredCount - this.session.queueMoves - 1);
+    return [Math.max(planS[from], this.known.planS), planS[Math.min(count, this.answeredCount + 2)]];
   }
 
   /** Slows down along the path, then clears Grbl's queue. `play` rejects with the error. */
   slowDown(error: PlotwrightError): void {
     if (this.isOver) return;
     this.isOver = true;
+    this.stopS = this.clock.nowS();
     this.session.now(NOW.hold);
     // Without an answer, clearing the queue fails too.
     void this.rest()
@@ -101,6 +106,7 @@ export class LineStream {
   /** Clears Grbl's queue if that is not yet done. */
   cleared(): Promise<Status> {
     this.isOver = true;
+    this.stopS ??= this.clock.nowS();
     this.clearing ??= this.session.reset();
     return this.clearing;
   }

@@ -8,15 +8,16 @@ import { asciiBytes, LineSplitter } from "../../line-splitter.js";
 import { SessionLog } from "../../session-log.js";
 import { SilenceWatch } from "../../silence-watch.js";
 import { delay, type Clock, type Transport } from "../../transport.js";
-import type { Axes } from "../model/planner.js";
+import { QUEUE_MOVES, type Axes } from "../model/planner.js";
 import {
   alarm,
+  buffersOf,
   isGreeting,
   NOW,
   offsetOf,
   refusal,
+  restarted,
   RX_BYTES,
-  rxBytesOf,
   statusOf,
   versionOf,
   type Status,
@@ -32,6 +33,8 @@ interface SentLine {
 /** Silence after which the board counts as gone, s; its status is polled meanwhile. */
 const PATIENCE_S = 3;
 const POLL_S = 0.5;
+/** Reported by a reset during motion. */
+const RESET_ALARM = 3;
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
@@ -45,7 +48,7 @@ export class GrblSession {
    */
   onBreak: ((error: PlotwrightError) => void) | null = null;
 
-  private rxBytes = RX_BYTES;
+  private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
   private sentBytes = 0;
   private sent: SentLine[] = [];
   private offset: Axes = [0, 0, 0];
@@ -92,7 +95,12 @@ export class GrblSession {
 
   /** Whether the buffer has room for another line now. */
   hasRoom(line: string): boolean {
-    return this.sent.length === 0 || this.sentBytes + line.length + 1 <= this.rxBytes;
+    return this.sent.length === 0 || this.sentBytes + line.length + 1 <= this.buffers.rxBytes;
+  }
+
+  /** Max accepted moves that are not done. */
+  get queueMoves(): number {
+    return this.buffers.queueMoves;
   }
 
   /** Sends one line; `settle` is called once, with its reply or an error. */
@@ -182,13 +190,14 @@ export class GrblSession {
     }
     this.log.add("received", line);
     this.version = versionOf(line) ?? this.version;
-    this.rxBytes = rxBytesOf(line) ?? this.rxBytes;
+    this.buffers = buffersOf(line) ?? this.buffers;
     const refused = /^error:(\d+)/.exec(line);
     const alarmed = /^ALARM:(\d+)/.exec(line);
     if (line === "ok") this.settleFirst(null);
     else if (refused) this.settleFirst(Number(refused[1]));
     else if (alarmed) {
-      if (this.greetingWaiters.length === 0) this.broken(alarm(Number(alarmed[1])));
+      const code = Number(alarmed[1]);
+      if (code !== RESET_ALARM || this.greetingWaiters.length === 0) this.broken(alarm(code));
     } else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);
       if (waiters.length === 0) this.broken(restarted());
@@ -251,12 +260,6 @@ export class GrblSession {
 }
 
 const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The machine was stopped.");
-
-const restarted = (): PlotwrightError =>
-  new PlotwrightError(
-    "board-error",
-    "The Grbl has restarted: its reset button was pressed, or its supply failed. Push the carriage to home before you resume.",
-  );
 
 function notGrbl(received: readonly string[]): PlotwrightError {
   if (received.length === 0) return silent("its version");

@@ -5,17 +5,23 @@ import type { Trajectory } from "../../../plan/trajectory.js";
 /** Blocks within this of the nearest one count as equally near, because the path may cross itself. */
 const SAME_MM = 0.03;
 
+/** A point on the plan, in seconds along it, and how far the carriage is from it. */
+interface StopPlace {
+  readonly awayMm: number;
+  readonly atS: number;
+}
+
 /**
- * Seconds along the plan of the point nearest to x, y between two times; if there are several, the one
- * nearest to the estimate.
+ * The point of the plan nearest to x, y between two times; if there are several, the one nearest to the estimate. Null
+ * if nothing moves between the two.
  */
-export function stopTime(
+export function stopPlace(
   trajectory: Trajectory,
   { x, y }: { readonly x: number; readonly y: number },
   [fromS, toS]: readonly [number, number],
   nearS: number,
-): number {
-  const found: { readonly awayMm: number; readonly atS: number }[] = [];
+): StopPlace | null {
+  const found: StopPlace[] = [];
   for (let k = 0; k < trajectory.blockCount; k++) {
     const startS = trajectory.startS[k];
     if (startS + trajectory.durationS[k] < fromS || startS > toS) continue;
@@ -24,10 +30,10 @@ export function stopTime(
   const minMm = Math.min(...found.map(({ awayMm }) => awayMm));
   const near = found.filter(({ awayMm }) => awayMm <= minMm + SAME_MM);
   near.sort((a, b) => Math.abs(a.atS - nearS) - Math.abs(b.atS - nearS));
-  return near[0]?.atS ?? nearS;
+  return near[0] ?? null;
 }
 
-function nearestOn(trajectory: Trajectory, k: number, x: number, y: number): { awayMm: number; atS: number } {
+function nearestOn(trajectory: Trajectory, k: number, x: number, y: number): StopPlace {
   const { vx, vy, ax, ay, durationS, startS } = trajectory;
   const t = durationS[k];
   const dx = vx[k] * t + (ax[k] * t * t) / 2;

@@ -22,7 +22,6 @@ export class GrblMotion {
   private atS = 0;
   /** End of the last move in the queue. */
   private target: Axes = [0, 0, 0];
-  private lastMove: Move | null = null;
   private isHolding = false;
 
   constructor(
@@ -65,9 +64,8 @@ export class GrblMotion {
 
   /** Queues a move to `to`, which must differ from the end of the queue. `go` starts the motion. */
   queue(to: Axes, feed: number): void {
-    const before = this.isEmpty ? null : this.lastMove;
-    this.lastMove = moveOf(this.target, to, feed, this.limits, before);
-    this.moves.push(this.lastMove);
+    const before = this.moves[this.moves.length - 1] ?? null;
+    this.moves.push(moveOf(this.target, to, feed, this.limits, before));
     this.target = to;
     if (this.isMoving && !this.isHolding) this.plan();
   }

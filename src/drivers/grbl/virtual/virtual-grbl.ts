@@ -3,6 +3,7 @@
  * reports, and real-time commands. It supports the commands that this driver sends, and refuses others as Grbl does.
  */
 import { placeFromMotors } from "../../../machines/motors.js";
+import { DrawnPolylines, type DrawnPolyline } from "../../drawn-polylines.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Transport } from "../../transport.js";
@@ -19,12 +20,6 @@ const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
 const ERROR = { number: 2, dollar: 3, locked: 9, unknown: 20, noFeed: 22, unused: 36 } as const;
 /** Modes that are always on. */
 const FIXED_MODES = new Set(["G0", "G1", "G21", "G54", "G90", "G94"]);
-
-interface GrblDrawn {
-  readonly penDown: boolean;
-  /** mm from home: x, y, x, y … */
-  readonly xy: Float64Array;
-}
 
 interface VirtualGrblState {
   readonly state: string;
@@ -57,13 +52,14 @@ export class VirtualGrbl implements VirtualMachine {
   private startDueS: number | null = null;
   private cancelTimer: () => void = () => undefined;
   private isClosed = false;
-  private readonly polylines: { penDown: boolean; xy: number[] }[] = [];
+  private readonly lines = new DrawnPolylines();
+  private isDrawing = false;
 
   constructor(private readonly options: VirtualMachineOptions) {
     const { clock, machine } = options;
     this.startS = clock.nowS();
     this.motion = new GrblMotion(axisLimits(grblOf(machine)), () => this.record());
-    this.polylines.push({ penDown: false, xy: [0, 0] });
+    this.newLine(false);
   }
 
   transport(): Transport {
@@ -112,9 +108,9 @@ export class VirtualGrbl implements VirtualMachine {
     return { state: this.stateName(), xMm, yMm, zMm: z, penUp: !this.isDown(z), lostCount: this.lostCount };
   }
 
-  drawn(): GrblDrawn[] {
+  drawn(): DrawnPolyline[] {
     this.catchUp();
-    return this.polylines.map(({ penDown, xy }) => ({ penDown, xy: Float64Array.from(xy) }));
+    return this.lines.list();
   }
 
   private get nowS(): number {
@@ -329,18 +325,20 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private record(): void {
-    const [x, y, z] = this.workAt();
-    const penDown = this.isDown(z);
-    if (this.polylines[this.polylines.length - 1].penDown !== penDown) this.newLine(penDown);
-    else {
-      const page = this.onPage(x, y);
-      this.polylines[this.polylines.length - 1].xy.push(page.x, page.y);
-    }
+    const penDown = this.isDown(this.workAt()[2]);
+    if (this.isDrawing !== penDown) this.newLine(penDown);
+    else this.addPoint();
   }
 
   private newLine(penDown: boolean): void {
+    this.isDrawing = penDown;
+    this.lines.begin(penDown);
+    this.addPoint();
+  }
+
+  private addPoint(): void {
     const [x, y] = this.workAt();
     const page = this.onPage(x, y);
-    this.polylines.push({ penDown, xy: [page.x, page.y] });
+    this.lines.add(page.x, page.y);
   }
 }
