@@ -3,23 +3,12 @@
  *
  *   B′(t)/3 = a t² + b t + c,  a = −p0 + 3p1 − 3p2 + p3,  b = 2 (p0 − 2p1 + p2),  c = p1 − p0
  */
-import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "./drawing.js";
-import type { Affine } from "../geometry/affine.js";
+import { VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type Curves } from "./drawing.js";
+import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import type { Box } from "../geometry/box.js";
 
-/**
- * The box of verbs [verbFrom, verbTo), whose coordinates start at `coordFrom`, transformed by `map`. Moves that draw
- * nothing are ignored.
- */
-export function curveBoxOf(
-  verbs: Uint8Array,
-  verbFrom: number,
-  verbTo: number,
-  coords: Float64Array,
-  coordFrom: number,
-  map: Affine,
-): Box {
-  const { a, b, c, d, e, f } = map;
+/** The box of curves transformed by `map`. Moves that draw nothing are ignored. */
+export function curveBoxOf({ verbs, coords }: Curves, map: Affine): Box {
   let x0 = Infinity;
   let y0 = Infinity;
   let x1 = -Infinity;
@@ -32,18 +21,17 @@ export function curveBoxOf(
   };
   let x = 0;
   let y = 0;
-  let at = coordFrom;
-  for (let v = verbFrom; v < verbTo; v++) {
-    const verb = verbs[v];
+  let at = 0;
+  for (const verb of verbs) {
     if (verb !== VERB_MOVE) include(x, y);
     if (verb === VERB_CLOSE) continue;
     const endAt = verb === VERB_CUBIC ? at + 4 : at;
-    const endX = a * coords[endAt] + c * coords[endAt + 1] + e;
-    const endY = b * coords[endAt] + d * coords[endAt + 1] + f;
+    const endX = applyX(map, coords[endAt], coords[endAt + 1]);
+    const endY = applyY(map, coords[endAt], coords[endAt + 1]);
     if (verb === VERB_CUBIC) {
       const [ux, uy, wx, wy] = [coords[at], coords[at + 1], coords[at + 2], coords[at + 3]];
-      const [minX, maxX] = extremesOf(x, a * ux + c * uy + e, a * wx + c * wy + e, endX);
-      const [minY, maxY] = extremesOf(y, b * ux + d * uy + f, b * wx + d * wy + f, endY);
+      const [minX, maxX] = extremesOf(x, applyX(map, ux, uy), applyX(map, wx, wy), endX);
+      const [minY, maxY] = extremesOf(y, applyY(map, ux, uy), applyY(map, wx, wy), endY);
       include(minX, minY);
       include(maxX, maxY);
     }

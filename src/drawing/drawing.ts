@@ -52,6 +52,14 @@ export interface DrawingPaths {
   readonly speedFactor?: Float64Array | undefined;
 }
 
+/** The curves of one shape or clip. */
+export type Curves = Pick<DrawingPaths, "verbs" | "coords">;
+
+export const curvesOf = (paths: DrawingPaths, shape: number): Curves => ({
+  verbs: paths.verbs.subarray(paths.verbOffsets[shape], paths.verbOffsets[shape + 1]),
+  coords: paths.coords.subarray(paths.coordOffsets[shape], paths.coordOffsets[shape + 1]),
+});
+
 /** A layer of the file: a top-level group, or a child of a single outer group. */
 export interface DrawingGroup {
   /** Stable within the file: the group's id, or a generated one. */

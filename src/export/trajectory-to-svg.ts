@@ -4,14 +4,9 @@
  * Blocks are sampled so finely that a piece neither spans a whole speed band nor deviates from the curve by
  * more than SAGITTA. Consecutive pieces of one band become one path, which keeps the file small.
  */
+import type { PaperSize } from "../drawing/paper.js";
 import { blockState, newMotionState, type Trajectory } from "../plan/trajectory.js";
 import { mmText, svgOpening } from "./svg-text.js";
-
-/** Paper size as placed. */
-interface Paper {
-  readonly widthMm: number;
-  readonly heightMm: number;
-}
 
 const SPEED_BAND_COUNT = 24;
 /** Max gap between a curved block and its line segments, mm. */
@@ -20,8 +15,8 @@ const MAX_PIECES = 200;
 const LEGEND_HEIGHT = 14;
 const PEN_WIDTH = 0.3;
 
-/** SVG text of a planned drawing, mm. Pen-up moves are thin grey lines. */
-export function trajectoryToSvg(trajectory: Trajectory, { widthMm, heightMm }: Paper): string {
+/** SVG text of a planned drawing on paper as placed, mm. Pen-up moves are thin grey lines. */
+export function trajectoryToSvg(trajectory: Trajectory, { widthMm, heightMm }: PaperSize): string {
   const top = topSpeed(trajectory);
   const bands: string[][] = Array.from({ length: SPEED_BAND_COUNT }, () => []);
   const travel: string[] = [];

@@ -48,6 +48,10 @@ export function compose(outer: Affine, inner: Affine): Affine {
   };
 }
 
+/** The map with (x, y) as its origin. */
+export const mapAround = (x: number, y: number, map: Affine): Affine =>
+  compose(translation(x, y), compose(map, translation(-x, -y)));
+
 export const applyX = (m: Affine, x: number, y: number): number => m.a * x + m.c * y + m.e;
 export const applyY = (m: Affine, x: number, y: number): number => m.b * x + m.d * y + m.f;
 

@@ -1,4 +1,6 @@
 /** Axis-aligned boxes, mm. A box is empty if x0 > x1 or y0 > y1. */
+import { applyX, applyY, type Affine } from "./affine.js";
+
 export interface Box {
   readonly x0: number;
   readonly y0: number;
@@ -34,6 +36,27 @@ export const uniteBoxes = (a: Box, b: Box): Box => ({
   x1: Math.max(a.x1, b.x1),
   y1: Math.max(a.y1, b.y1),
 });
+
+/** The box with every side moved outwards. */
+export const grownBox = ({ x0, y0, x1, y1 }: Box, mm: number): Box => ({
+  x0: x0 - mm,
+  y0: y0 - mm,
+  x1: x1 + mm,
+  y1: y1 + mm,
+});
+
+/** The corners of a box after a map: x, y, x, y …, in the order of its outline. */
+export const mappedCorners = (map: Affine, { x0, y0, x1, y1 }: Box): number[] =>
+  [
+    [x0, y0],
+    [x1, y0],
+    [x1, y1],
+    [x0, y1],
+  ].flatMap(([x, y]) => [applyX(map, x, y), applyY(map, x, y)]);
+
+/** The bounding box of a box after a map. */
+export const mapBox = (map: Affine, box: Box): Box =>
+  isEmptyBox(box) ? box : boxOfPoints(mappedCorners(map, box));
 
 /** Bounding box of the interleaved coordinates [from, to) (indices into `xy`). */
 export function boxOfPoints(xy: ArrayLike<number>, from = 0, to = xy.length): Box {

@@ -31,7 +31,8 @@ const UNEVEN = 3;
 
 /**
  * Appends the points of the curve p0 p1 p2 p3 after p0, up to and including p3 (p0 itself is not written).
- * Coordinates and `tolerance` in the same unit, usually mm; tolerance > 0.
+ * Coordinates and `tolerance` in the same unit, usually mm; tolerance > 0. `depth`: how often the curve has been
+ * halved already.
  */
 export function flattenCubic(
   out: PointBuffer,
@@ -44,50 +45,50 @@ export function flattenCubic(
   x3: number,
   y3: number,
   tolerance: number,
+  depth = 0,
 ): void {
   if (!(tolerance > 0)) throw new RangeError(`flattenCubic: tolerance must be > 0, got ${tolerance}`);
-  flatten(out, x0, y0, x1, y1, x2, y2, x3, y3, tolerance, 0);
-}
-
-/** `depth`: how often the curve has been halved. */
-function flatten(
-  out: PointBuffer,
-  x0: number,
-  y0: number,
-  x1: number,
-  y1: number,
-  x2: number,
-  y2: number,
-  x3: number,
-  y3: number,
-  tolerance: number,
-  depth: number,
-): void {
-  const n = stepCount(x0, y0, x1, y1, x2, y2, x3, y3, tolerance);
-  if (n === 1) return out.push(x3, y3);
+  if (isFlat(x0, y0, x1, y1, x2, y2, x3, y3, tolerance)) return out.push(x3, y3);
+  // Second differences at both ends.
+  const ax = x0 - 2 * x1 + x2;
+  const ay = y0 - 2 * y1 + y2;
+  const bx = x1 - 2 * x2 + x3;
+  const by = y1 - 2 * y2 + y3;
+  const n = stepCount(Math.max(Math.hypot(ax, ay), Math.hypot(bx, by)), tolerance);
   const canHalve = n > 2 && n < MAX_STEPS && depth < MAX_DEPTH;
-  if (!canHalve || !isUneven(x0, y0, x1, y1, x2, y2, x3, y3)) {
-    return writeSteps(out, x0, y0, x1, y1, x2, y2, x3, y3, n);
+  if (canHalve && isUneven(ax, ay, bx, by)) {
+    // de Casteljau at t = 1/2.
+    const x01 = (x0 + x1) / 2;
+    const y01 = (y0 + y1) / 2;
+    const x12 = (x1 + x2) / 2;
+    const y12 = (y1 + y2) / 2;
+    const x23 = (x2 + x3) / 2;
+    const y23 = (y2 + y3) / 2;
+    const x012 = (x01 + x12) / 2;
+    const y012 = (y01 + y12) / 2;
+    const x123 = (x12 + x23) / 2;
+    const y123 = (y12 + y23) / 2;
+    const xm = (x012 + x123) / 2;
+    const ym = (y012 + y123) / 2;
+    flattenCubic(out, x0, y0, x01, y01, x012, y012, xm, ym, tolerance, depth + 1);
+    flattenCubic(out, xm, ym, x123, y123, x23, y23, x3, y3, tolerance, depth + 1);
+    return;
   }
-  // de Casteljau at t = 1/2.
-  const x01 = (x0 + x1) / 2;
-  const y01 = (y0 + y1) / 2;
-  const x12 = (x1 + x2) / 2;
-  const y12 = (y1 + y2) / 2;
-  const x23 = (x2 + x3) / 2;
-  const y23 = (y2 + y3) / 2;
-  const x012 = (x01 + x12) / 2;
-  const y012 = (y01 + y12) / 2;
-  const x123 = (x12 + x23) / 2;
-  const y123 = (y12 + y23) / 2;
-  const xm = (x012 + x123) / 2;
-  const ym = (y012 + y123) / 2;
-  flatten(out, x0, y0, x01, y01, x012, y012, xm, ym, tolerance, depth + 1);
-  flatten(out, xm, ym, x123, y123, x23, y23, x3, y3, tolerance, depth + 1);
+  // The curve at t = 1/n, 2/n, … from its power form, and p3 unchanged.
+  const vx = 3 * (x1 - x0);
+  const vy = 3 * (y1 - y0);
+  const jx = x3 - x0 - vx - 3 * ax;
+  const jy = y3 - y0 - vy - 3 * ay;
+  out.reserve(n);
+  for (let i = 1; i < n; i++) {
+    const t = i / n;
+    out.push(x0 + t * (vx + t * (3 * ax + t * jx)), y0 + t * (vy + t * (3 * ay + t * jy)));
+  }
+  out.push(x3, y3);
 }
 
-/** Number of equal steps of t needed for the tolerance; 1 if the chord is enough. */
-function stepCount(
+/** Whether the chord is within the tolerance of the curve. */
+function isFlat(
   x0: number,
   y0: number,
   x1: number,
@@ -97,76 +98,31 @@ function stepCount(
   x3: number,
   y3: number,
   tolerance: number,
-): number {
+): boolean {
   const cx = x3 - x0;
   const cy = y3 - y0;
   const chord2 = cx * cx + cy * cy;
   const s1 = (x1 - x0) * cx + (y1 - y0) * cy;
   const s2 = (x2 - x0) * cx + (y2 - y0) * cy;
-  if (chord2 > 0 && s1 >= 0 && s2 >= 0 && s1 <= chord2 && s2 <= chord2) {
-    const d1 = (x1 - x0) * cy - (y1 - y0) * cx;
-    const d2 = (x2 - x0) * cy - (y2 - y0) * cx;
-    const factor = d1 * d2 >= 0 ? 3 / 4 : 4 / 9;
-    const gap = factor * Math.max(Math.abs(d1), Math.abs(d2));
-    if (gap * gap <= tolerance * tolerance * chord2) return 1;
-  }
-  const a = Math.max(
-    Math.hypot(x0 - 2 * x1 + x2, y0 - 2 * y1 + y2),
-    Math.hypot(x1 - 2 * x2 + x3, y1 - 2 * y2 + y3),
-  );
-  const n = Math.ceil(Math.sqrt((0.75 * a) / tolerance));
+  if (!(chord2 > 0 && s1 >= 0 && s2 >= 0 && s1 <= chord2 && s2 <= chord2)) return false;
+  const d1 = (x1 - x0) * cy - (y1 - y0) * cx;
+  const d2 = (x2 - x0) * cy - (y2 - y0) * cx;
+  const factor = d1 * d2 >= 0 ? 3 / 4 : 4 / 9;
+  const gap = factor * Math.max(Math.abs(d1), Math.abs(d2));
+  return gap * gap <= tolerance * tolerance * chord2;
+}
+
+/** Number of equal steps of t needed for the tolerance, with this largest second difference. */
+function stepCount(difference: number, tolerance: number): number {
+  const n = Math.ceil(Math.sqrt((0.75 * difference) / tolerance));
   return n >= 1 ? Math.min(n, MAX_STEPS) : 1;
 }
 
-function isUneven(
-  x0: number,
-  y0: number,
-  x1: number,
-  y1: number,
-  x2: number,
-  y2: number,
-  x3: number,
-  y3: number,
-): boolean {
-  const ax = x0 - 2 * x1 + x2;
-  const ay = y0 - 2 * y1 + y2;
-  const bx = x1 - 2 * x2 + x3;
-  const by = y1 - 2 * y2 + y3;
+/** Whether the second differences (ax, ay) and (bx, by) are too different for equal steps. */
+function isUneven(ax: number, ay: number, bx: number, by: number): boolean {
   const a2 = ax * ax + ay * ay;
   const b2 = bx * bx + by * by;
   const limit = UNEVEN * UNEVEN;
   // Opposite accelerations mean an inflection: after halving, the flat middle can become one chord.
   return a2 > limit * b2 || b2 > limit * a2 || ax * bx + ay * by < 0;
-}
-
-/** Writes the curve at t = 1/n, 2/n, … 1 from its power form. p3 is written unchanged. */
-function writeSteps(
-  out: PointBuffer,
-  x0: number,
-  y0: number,
-  x1: number,
-  y1: number,
-  x2: number,
-  y2: number,
-  x3: number,
-  y3: number,
-  n: number,
-): void {
-  out.reserve(n);
-  const data = out.data;
-  let at = out.length;
-  const cx = 3 * (x1 - x0);
-  const cy = 3 * (y1 - y0);
-  const bx = 3 * (x0 - 2 * x1 + x2);
-  const by = 3 * (y0 - 2 * y1 + y2);
-  const ax = x3 - x0 - cx - bx;
-  const ay = y3 - y0 - cy - by;
-  for (let i = 1; i < n; i++) {
-    const t = i / n;
-    data[at++] = x0 + t * (cx + t * (bx + t * ax));
-    data[at++] = y0 + t * (cy + t * (by + t * ay));
-  }
-  data[at++] = x3;
-  data[at++] = y3;
-  out.length = at;
 }

@@ -5,7 +5,8 @@
  * if its last point equals its first. Each line carries a tag (the shape or layer that it
  * belongs to), which every step passes on. Lengths in mm.
  */
-import { grown } from "./growable.js";
+import { boxOfPoints, type Box } from "./box.js";
+import { ColumnBuffer, PointBuffer } from "./growable.js";
 
 export interface Lines {
   /** x, y, x, y … */
@@ -24,28 +25,29 @@ export const lineCount = (lines: Lines): number => lines.tag.length;
 
 /** Collects lines point by point, dropping points that repeat the previous one. */
 export class LineBuilder {
-  private xy = new Float64Array(1024);
-  /** At least one entry longer than the tags. */
-  private offsets = new Uint32Array(512);
-  private tags = new Uint32Array(256);
-  private points = 0;
-  private lines = 0;
+  private readonly xy = new PointBuffer(512);
+  private readonly offsets = new ColumnBuffer(Uint32Array, 512);
+  private readonly tags = new ColumnBuffer(Uint32Array, 256);
   /** First point of the line being built. */
   private first = 0;
   private skipped = false;
   private skippedX = 0;
   private skippedY = 0;
 
+  constructor() {
+    this.offsets.push(0);
+  }
+
   /** Number of points in the line being built. */
   get openPoints(): number {
-    return this.points - this.first;
+    return this.xy.pointCount - this.first;
   }
 
   point(x: number, y: number): void {
-    const at = 2 * this.points;
-    if (this.points > this.first) {
-      const dx = x - this.xy[at - 2];
-      const dy = y - this.xy[at - 1];
+    const { data, length } = this.xy;
+    if (length > 2 * this.first) {
+      const dx = x - data[length - 2];
+      const dy = y - data[length - 1];
       if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) {
         this.skippedX = x;
         this.skippedY = y;
@@ -54,39 +56,53 @@ export class LineBuilder {
       }
     }
     this.skipped = false;
-    if (at + 2 > this.xy.length) this.xy = grown(this.xy);
-    this.xy[at] = x;
-    this.xy[at + 1] = y;
-    this.points++;
+    this.xy.push(x, y);
   }
 
   /** Ends the line. A line without points is not added. */
   end(tag: number): void {
-    if (this.points === this.first) return;
+    const { data, length } = this.xy;
+    if (this.openPoints === 0) return;
     // Keep the exact last point, so that a line closed in the input stays exactly closed.
-    if (this.skipped && this.points > this.first + 1) {
-      this.xy[2 * this.points - 2] = this.skippedX;
-      this.xy[2 * this.points - 1] = this.skippedY;
+    if (this.skipped && this.openPoints > 1) {
+      data[length - 2] = this.skippedX;
+      data[length - 1] = this.skippedY;
     }
     this.skipped = false;
-    if (this.lines === this.tags.length) {
-      this.tags = grown(this.tags);
-      this.offsets = grown(this.offsets);
-    }
-    this.tags[this.lines] = tag;
-    this.offsets[++this.lines] = this.first = this.points;
+    this.first = this.xy.pointCount;
+    this.offsets.push(this.first);
+    this.tags.push(tag);
+  }
+
+  /** Ends the line as the outline of an area: back at its first point, or discarded if it has fewer than three. */
+  endArea(tag: number): void {
+    const { data } = this.xy;
+    if (this.openPoints > 2) this.point(data[2 * this.first], data[2 * this.first + 1]);
+    if (this.openPoints > 2) this.end(tag);
+    else this.drop();
   }
 
   /** Discards the line being built. */
   drop(): void {
     this.skipped = false;
-    this.points = this.first;
+    this.xy.length = 2 * this.first;
   }
 
   /** Adds line `i` of `lines`; backwards if `reversed`. */
   copy(lines: Lines, i: number, tag: number, reversed = false): void {
     this.extend(lines, i, reversed);
     this.end(tag);
+  }
+
+  /** Adds a closed line, which then begins at its point number `start`. */
+  copyFrom({ xy, offsets, tag }: Lines, i: number, start: number): void {
+    const first = offsets[i];
+    const segments = offsets[i + 1] - 1 - first;
+    for (let k = 0; k <= segments; k++) {
+      const p = first + ((start + k) % segments);
+      this.point(xy[2 * p], xy[2 * p + 1]);
+    }
+    this.end(tag[i]);
   }
 
   /** Adds the points of line `i` of `lines` to the line being built. */
@@ -99,13 +115,13 @@ export class LineBuilder {
 
   finish(): Lines {
     this.drop();
-    return {
-      xy: this.xy.slice(0, 2 * this.points),
-      offsets: this.offsets.slice(0, this.lines + 1),
-      tag: this.tags.slice(0, this.lines),
-    };
+    return { xy: this.xy.toArray(), offsets: this.offsets.toArray(), tag: this.tags.toArray() };
   }
 }
+
+/** Bounding box of line `i`. */
+export const lineBox = ({ xy, offsets }: Lines, i: number): Box =>
+  boxOfPoints(xy, 2 * offsets[i], 2 * offsets[i + 1]);
 
 /** Length of line `i`, mm. */
 export function lineLength(lines: Lines, i: number): number {
@@ -138,12 +154,32 @@ export function pickLines(lines: Lines, indices: ArrayLike<number>): Lines {
   return builder.finish();
 }
 
+/** The lines for which `isKept` is true. */
+export function filterLines(lines: Lines, isKept: (i: number) => boolean): Lines {
+  const kept: number[] = [];
+  for (let i = 0; i < lineCount(lines); i++) if (isKept(i)) kept.push(i);
+  return pickLines(lines, kept);
+}
+
+/** Ranges [first, end) of lines that share a tag; lines of one tag are contiguous. */
+export function tagRanges({ tag }: Lines): [number, number][] {
+  const ranges: [number, number][] = [];
+  for (let first = 0, end = 0; first < tag.length; first = end) {
+    while (end < tag.length && tag[end] === tag[first]) end++;
+    ranges.push([first, end]);
+  }
+  return ranges;
+}
+
 /** Faster than Math.hypot, and as accurate at these magnitudes. */
 export function distance(x0: number, y0: number, x1: number, y1: number): number {
   const dx = x1 - x0;
   const dy = y1 - y0;
   return Math.sqrt(dx * dx + dy * dy);
 }
+
+/** The number at the share `t` between two numbers; exactly the second one for 1. */
+export const mix = (from: number, to: number, t: number): number => (t === 1 ? to : from + t * (to - from));
 
 /** Where on a segment it is nearest to (x, y): the share of its length before that point, 0 … 1. */
 export function nearestShare(x0: number, y0: number, x1: number, y1: number, x: number, y: number): number {

@@ -8,7 +8,7 @@
 import { Clipper64, ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
 import { boxOfPoints, boxesTouch, boxContains, type Box } from "./box.js";
 import { clipLine } from "./clip.js";
-import { LineBuilder, lineCount, type Lines } from "./polyline.js";
+import { LineBuilder, lineBox, lineCount, type Lines } from "./polyline.js";
 
 /** Clipper units per mm. */
 export const SCALE = 10_000;
@@ -21,14 +21,17 @@ export interface Region {
   readonly isBox: boolean;
 }
 
-/** Line `i` as a ring in Clipper units. */
-export function ringOf(lines: Lines, i: number): Path64 {
+/** Points x, y, x, y … [from, to) in mm as a ring in Clipper units. */
+export function ringOf(xy: ArrayLike<number>, from = 0, to = xy.length): Path64 {
   const ring: Path64 = [];
-  for (let p = lines.offsets[i]; p < lines.offsets[i + 1]; p++) {
-    ring.push({ x: Math.round(lines.xy[2 * p] * SCALE), y: Math.round(lines.xy[2 * p + 1] * SCALE) });
+  for (let k = from; k < to; k += 2) {
+    ring.push({ x: Math.round(xy[k] * SCALE), y: Math.round(xy[k + 1] * SCALE) });
   }
   return ring;
 }
+
+export const ringOfLine = ({ xy, offsets }: Lines, i: number): Path64 =>
+  ringOf(xy, 2 * offsets[i], 2 * offsets[i + 1]);
 
 /** A region from rings that are already clean. */
 export function regionOf(rings: Paths64): Region {
@@ -75,7 +78,7 @@ export function cutLine(
 ): void {
   const { xy, offsets } = lines;
   const tag = lines.tag[i];
-  const bounds = boxOfPoints(xy, 2 * offsets[i], 2 * offsets[i + 1]);
+  const bounds = lineBox(lines, i);
   if (region.rings.length === 0 || !boxesTouch(bounds, region.box)) {
     if (keepOutside) builder.copy(lines, i, tag);
     return;
@@ -88,11 +91,18 @@ export function cutLine(
     return;
   }
   const clipper = new Clipper64();
-  clipper.addOpenSubject(withoutReversals(ringOf(lines, i)));
+  clipper.addOpenSubject(withoutReversals(ringOfLine(lines, i)));
   clipper.addClip(region.rings);
   const open: Paths64 = [];
   clipper.execute(keepOutside ? ClipType.Difference : ClipType.Intersection, FillRule.NonZero, [], open);
-  writePieces(open, tag, builder);
+  // Pieces split only at the line's own start, or where it goes back, are joined again.
+  for (const piece of stitched(open)) addPath(piece, tag, builder);
+}
+
+/** Adds a line from points in Clipper units. */
+export function addPath(path: Path64, tag: number, builder: LineBuilder): void {
+  for (const p of path) builder.point(p.x / SCALE, p.y / SCALE);
+  builder.end(tag);
 }
 
 /**
@@ -112,14 +122,6 @@ function withoutReversals(line: Path64): Paths64 {
   }
   parts.push(points.slice(first));
   return parts;
-}
-
-/** Writes the pieces of one line. Pieces split only at the line's own start, or where it goes back, are joined again. */
-function writePieces(pieces: Paths64, tag: number, builder: LineBuilder): void {
-  for (const piece of stitched(pieces)) {
-    for (const p of piece) builder.point(p.x / SCALE, p.y / SCALE);
-    builder.end(tag);
-  }
 }
 
 function stitched(pieces: Paths64): Paths64 {

@@ -5,8 +5,9 @@
  * rectangle is skipped for every shape inside it, so such files need no clipping later. A region gets an
  * index only when a shape needs it.
  */
-import type { ClipRegion } from "../drawing/drawing.js";
-import { boxContains, type Box } from "../geometry/box.js";
+import { VERB_CUBIC, type ClipRegion } from "../drawing/drawing.js";
+import { boxContains, boxOfPoints, grownBox, type Box } from "../geometry/box.js";
+import { getOrAdd } from "./get-or-add.js";
 
 export type ClipShapes = Required<Omit<ClipRegion, "parent">>;
 
@@ -16,22 +17,22 @@ const GRACE = 1e-6;
 export class ClipNode {
   /** Index in `Drawing.clips`, by the index of the remaining chain outside. */
   private readonly indexByParent = new Map<number, number>();
+  /** The region itself if it is an axis-aligned rectangle, in page mm; otherwise null. */
+  readonly rectangle: Box | null;
 
   constructor(
     readonly parent: ClipNode | null,
     readonly shapes: ClipShapes,
-    /** The region itself if it is an axis-aligned rectangle, in page mm; otherwise null. */
-    readonly rectangle: Box | null,
-  ) {}
+  ) {
+    this.rectangle = rectangleOf(shapes);
+  }
 
   indexUnder(parentIndex: number, clips: ClipRegion[]): number {
-    let index = this.indexByParent.get(parentIndex);
-    if (index === undefined) {
-      index = clips.length;
-      clips.push({ ...this.shapes, parent: parentIndex });
-      this.indexByParent.set(parentIndex, index);
-    }
-    return index;
+    return getOrAdd(
+      this.indexByParent,
+      parentIndex,
+      () => clips.push({ ...this.shapes, parent: parentIndex }) - 1,
+    );
   }
 }
 
@@ -39,16 +40,27 @@ export class ClipNode {
 export function clipIndexFor(node: ClipNode | null, box: Box, clips: ClipRegion[]): number {
   const cutting: ClipNode[] = [];
   for (let at = node; at !== null; at = at.parent) {
-    if (at.rectangle === null || !boxContains(grown(at.rectangle), box)) cutting.push(at);
+    if (at.rectangle === null || !boxContains(grownBox(at.rectangle, GRACE), box)) cutting.push(at);
   }
   let index = -1;
   for (let i = cutting.length - 1; i >= 0; i--) index = cutting[i].indexUnder(index, clips);
   return index;
 }
 
-const grown = ({ x0, y0, x1, y1 }: Box): Box => ({
-  x0: x0 - GRACE,
-  y0: y0 - GRACE,
-  x1: x1 + GRACE,
-  y1: y1 + GRACE,
-});
+/** The region's box if it is one axis-aligned rectangle, otherwise null. */
+function rectangleOf({ verbs, coords, rule }: ClipShapes): Box | null {
+  if (rule.length !== 1) return null;
+  const points = coords.length / 2;
+  const isClosedAgain = points === 5 && coords[0] === coords[8] && coords[1] === coords[9];
+  if (points !== 4 && !isClosedAgain) return null;
+  if (verbs.includes(VERB_CUBIC)) return null;
+  for (let i = 0; i < 4; i++) {
+    const next = ((i + 1) % 4) * 2;
+    const sameX = coords[2 * i] === coords[next];
+    const sameY = coords[2 * i + 1] === coords[next + 1];
+    // Sides alternate. A degenerate side is both horizontal and vertical: not a rectangle.
+    if (sameX === sameY) return null;
+    if (i % 2 === 0 && sameX !== (coords[4] === coords[6])) return null;
+  }
+  return boxOfPoints(coords);
+}

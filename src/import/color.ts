@@ -4,6 +4,7 @@
 /** CSS colours to "#rrggbb" and an opacity. */
 import "culori/css";
 import { clampRgb, converter, formatHex, parse } from "culori/fn";
+import { remembered } from "./get-or-add.js";
 
 export interface Color {
   /** "#rrggbb", lower case. */
@@ -12,26 +13,16 @@ export interface Color {
   readonly alpha: number;
 }
 
-const cache = new Map<string, Color | null>();
 const CACHE_LIMIT = 4096;
 const toRgb = converter("rgb");
 
 /** The colour, or null if the text is not one (the caller handles `currentColor` and `none`). */
-export function parseColor(text: string): Color | null {
-  const known = cache.get(text);
-  if (known !== undefined) return known;
-  const color = parsed(text.trim().toLowerCase());
-  if (cache.size >= CACHE_LIMIT) cache.clear();
-  cache.set(text, color);
-  return color;
-}
-
-function parsed(text: string): Color | null {
+export const parseColor = remembered(CACHE_LIMIT, (text): Color | null => {
   try {
-    const color = parse(text);
+    const color = parse(text.trim().toLowerCase());
     return color ? { hex: formatHex(clampRgb(toRgb(color))), alpha: color.alpha ?? 1 } : null;
   } catch {
     // culori throws for a function whose list ends early, such as "color(".
     return null;
   }
-}
+});

@@ -10,9 +10,10 @@ import {
 } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
 import { IDENTITY, type Affine } from "../geometry/affine.js";
-import { boxOfPoints, EMPTY_BOX, uniteBoxes, type Box } from "../geometry/box.js";
+import { boxOfPoints, type Box } from "../geometry/box.js";
 import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
+import { getOrAdd } from "./get-or-add.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 
@@ -24,6 +25,9 @@ const MAX_COORDINATE_MM = 1e6;
  * size.
  */
 const MAX_COORDS = 50_000_000;
+
+/** Min side of a page around the drawing, mm, so that a drawing of one straight line has a page with an area. */
+const SMALLEST_SIDE = 1;
 
 /** Below this share of the file the total cannot be estimated yet. MARGIN allows for a denser rest. */
 const MIN_SHARE_TO_ESTIMATE = 0.01;
@@ -138,21 +142,19 @@ export class DrawingBuilder {
 
   /** The box of the curves themselves; `boxOfShapes` gives that of their control points. */
   extent(): Box {
-    let box = EMPTY_BOX;
-    const verbOffsets = this.verbOffsets.data;
-    const coordOffsets = this.coordOffsets.data;
-    for (let i = 0; i < this.shapeCount; i++) {
-      const [from, to] = [verbOffsets[i], verbOffsets[i + 1]];
-      box = uniteBoxes(
-        box,
-        curveBoxOf(this.verbs.data, from, to, this.coords.data, coordOffsets[i], IDENTITY),
-      );
-    }
-    return box;
+    return curveBoxOf({ verbs: this.verbs.view(), coords: this.coords.data }, IDENTITY);
   }
 
-  /** Moves everything, for files that do not define where their page is. */
-  translate(dx: number, dy: number): void {
+  /** For files without a page: the page is the drawing's extent. */
+  finishAround(): Drawing {
+    if (this.shapeCount === 0) return this.finish(SMALLEST_SIDE, SMALLEST_SIDE);
+    const { x0, y0, x1, y1 } = this.extent();
+    this.translate(-x0, -y0);
+    this.warnings.translate(-x0, -y0);
+    return this.finish(Math.max(x1 - x0, SMALLEST_SIDE), Math.max(y1 - y0, SMALLEST_SIDE));
+  }
+
+  private translate(dx: number, dy: number): void {
     // Clips may share their coordinates.
     const clipCoords = new Set(this.clips.map((clip) => clip.coords));
     for (const coords of [this.coords.data.subarray(0, this.coords.length), ...clipCoords]) {
@@ -213,26 +215,12 @@ export class DrawingBuilder {
   }
 
   private colorOf(color: string | null): number {
-    if (color === null) return -1;
-    let index = this.colorIndex.get(color);
-    if (index === undefined) {
-      index = this.colors.length;
-      this.colors.push(color);
-      this.colorIndex.set(color, index);
-    }
-    return index;
+    return color === null ? -1 : getOrAdd(this.colorIndex, color, () => this.colors.push(color) - 1);
   }
 
   private dashOf(dash: DashPattern | null): number {
     if (dash === null) return -1;
-    const key = JSON.stringify(dash);
-    let index = this.dashIndex.get(key);
-    if (index === undefined) {
-      index = this.dashes.length;
-      this.dashes.push(dash);
-      this.dashIndex.set(key, index);
-    }
-    return index;
+    return getOrAdd(this.dashIndex, JSON.stringify(dash), () => this.dashes.push(dash) - 1);
   }
 }
 

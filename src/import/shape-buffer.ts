@@ -39,7 +39,7 @@ export class ShapeBuffer {
   }
 
   moveTo(x: number, y: number): void {
-    this.dropLoneMove();
+    this.finish();
     this.verbs.push(VERB_MOVE);
     this.coords.push(x, y);
     this.x = this.startX = x;
@@ -103,7 +103,7 @@ export class ShapeBuffer {
 
   /** Appends another, finished shape with its points mapped. */
   append({ verbs, coords }: ShapeBuffer, map: Affine): void {
-    this.dropLoneMove();
+    this.finish();
     for (let i = 0, at = 0; i < verbs.length; i++) {
       const verb = verbs.data[i];
       this.verbs.push(verb);
@@ -122,12 +122,8 @@ export class ShapeBuffer {
     }
   }
 
-  /** Call once when the shape is complete. */
+  /** Call when the shape is complete: removes a lone move at its end. */
   finish(): void {
-    this.dropLoneMove();
-  }
-
-  private dropLoneMove(): void {
     const verbs = this.verbs;
     if (verbs.length === 0 || verbs.data[verbs.length - 1] !== VERB_MOVE) return;
     verbs.length--;
@@ -147,4 +143,4 @@ export class ShapeBuffer {
 
 /** The box of a finished shape's curves, not of their control points. */
 export const curveBox = ({ verbs, coords }: ShapeBuffer): Box =>
-  curveBoxOf(verbs.data, 0, verbs.length, coords.data, 0, IDENTITY);
+  curveBoxOf({ verbs: verbs.view(), coords: coords.data }, IDENTITY);

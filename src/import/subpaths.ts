@@ -1,5 +1,5 @@
 /** A shape's subpaths as polylines, with chords for its curves. */
-import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_MOVE } from "../drawing/drawing.js";
+import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type Curves } from "../drawing/drawing.js";
 import { flattenCubic } from "../geometry/cubic.js";
 import { PointBuffer } from "../geometry/growable.js";
 
@@ -10,7 +10,7 @@ export interface Subpath {
 }
 
 /** @param tolerance max gap between a curve and its chords, in the units of `coords` */
-export function subpathsOf(verbs: Uint8Array, coords: Float64Array, tolerance: number): Subpath[] {
+export function subpathsOf({ verbs, coords }: Curves, tolerance: number): Subpath[] {
   const subpaths: Subpath[] = [];
   const points = new PointBuffer();
   const end = (isClosed: boolean): void => {

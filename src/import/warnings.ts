@@ -1,6 +1,7 @@
 /** Collects features that will not be drawn as seen on screen, counted by kind, with the first few positions. */
 import type { DrawingWarning } from "../drawing/drawing.js";
 import { isEmptyBox, type Box } from "../geometry/box.js";
+import { getOrAdd } from "./get-or-add.js";
 
 const MAX_BOXES = 20;
 const MAX_DETAILS = 3;
@@ -105,11 +106,7 @@ export class Warnings {
    * @param detail named in the message for the first few
    */
   add(code: WarningCode, box?: Box, detail?: string, count = 1): void {
-    let entry = this.entries.get(code);
-    if (entry === undefined) {
-      entry = { count: 0, boxes: [], details: [] };
-      this.entries.set(code, entry);
-    }
+    const entry = getOrAdd(this.entries, code, () => ({ count: 0, boxes: [], details: [] }));
     entry.count += count;
     if (box !== undefined && entry.boxes.length < MAX_BOXES && isUsable(box))
       entry.boxes.push([box.x0, box.y0, box.x1, box.y1]);

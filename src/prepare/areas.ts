@@ -2,8 +2,8 @@
 import { ClipType, FillRule, type Paths64 } from "clipper2-ts";
 import { RULE_EVENODD, type Drawing } from "../drawing/drawing.js";
 import { boxContains, type Box } from "../geometry/box.js";
-import { isClosedLine, lineCount, type Lines } from "../geometry/polyline.js";
-import { SCALE, cleanRings, combine, regionOf, ringOf, type Region } from "../geometry/region.js";
+import { isClosedLine, tagRanges, type Lines } from "../geometry/polyline.js";
+import { cleanRings, combine, regionOf, ringOf, ringOfLine, type Region } from "../geometry/region.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
@@ -19,14 +19,14 @@ export function filledAreas(
   work: Work,
 ): Map<number, Region> {
   const areas = new Map<number, Region>();
-  for (let i = 0, next = 0; i < lineCount(lines); i = next) {
+  for (const [first, end] of tagRanges(lines)) {
     stopIfCancelled(work);
-    const shape = lines.tag[i];
+    const shape = lines.tag[first];
     const isFilled = drawing.paths.fill[shape] >= 0;
     const rings: Paths64 = [];
-    for (next = i; next < lineCount(lines) && lines.tag[next] === shape; next++) {
-      const isRing = isFilled || (hasOutlines && isClosedLine(lines, next));
-      if (isRing && lines.offsets[next + 1] - lines.offsets[next] > 2) rings.push(ringOf(lines, next));
+    for (let i = first; i < end; i++) {
+      const isRing = isFilled || (hasOutlines && isClosedLine(lines, i));
+      if (isRing && lines.offsets[i + 1] - lines.offsets[i] > 2) rings.push(ringOfLine(lines, i));
     }
     if (rings.length === 0) continue;
     const isEvenOdd = !isFilled || drawing.paths.fillRule[shape] === RULE_EVENODD;
@@ -41,7 +41,8 @@ export function filledAreas(
 
 /** Cuts the areas to `limit`. Areas entirely outside are dropped. */
 export function cropAreas(areas: ReadonlyMap<number, Region>, limit: Box): Map<number, Region> {
-  const frame = frameOf(limit);
+  const { x0, y0, x1, y1 } = limit;
+  const frame = ringOf([x0, y0, x1, y0, x1, y1, x0, y1]);
   const kept = new Map<number, Region>();
   for (const [shape, area] of areas) {
     const inside = boxContains(limit, area.box)
@@ -55,11 +56,3 @@ export function cropAreas(areas: ReadonlyMap<number, Region>, limit: Box): Map<n
 /** The areas of filled shapes only, because an outline hides nothing. */
 export const filledOnly = (areas: ReadonlyMap<number, Region>, drawing: Drawing): Map<number, Region> =>
   new Map([...areas].filter(([shape]) => drawing.paths.fill[shape] >= 0));
-
-const frameOf = (box: Box): { x: number; y: number }[] =>
-  [
-    [box.x0, box.y0],
-    [box.x1, box.y0],
-    [box.x1, box.y1],
-    [box.x0, box.y1],
-  ].map(([x, y]) => ({ x: Math.round(x * SCALE), y: Math.round(y * SCALE) }));

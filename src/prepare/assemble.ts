@@ -4,7 +4,7 @@
  */
 import type { Drawing } from "../drawing/drawing.js";
 import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
-import { lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
+import { filterLines, lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
 import type { FileLayer, LayerTable } from "./layers.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { setFor } from "./set-for.js";
@@ -26,12 +26,9 @@ export function byLayer(lines: Lines, parts: SpeedParts): Lines {
   if (parts.count === 1) return tagged;
   for (let i = 0; i < part.length; i++) part[i] = parts.ofShape[lines.tag[i]];
   if (isSorted(part)) return tagged;
-  const next = new Uint32Array(parts.count + 1);
-  for (const k of part) next[k + 1]++;
-  for (let k = 0; k < parts.count; k++) next[k + 1] += next[k];
-  const order = new Uint32Array(part.length);
-  part.forEach((k, i) => (order[next[k]++] = i));
-  return pickLines(tagged, order);
+  const linesOf = Array.from({ length: parts.count }, (): number[] => []);
+  part.forEach((k, i) => linesOf[k].push(i));
+  return pickLines(tagged, linesOf.flat());
 }
 
 const isSorted = (values: Uint32Array): boolean => {
@@ -40,12 +37,8 @@ const isSorted = (values: Uint32Array): boolean => {
 };
 
 /** Removes strokes shorter than this, including dots; 0 keeps all. */
-export function dropShort(lines: Lines, shorterThan: number): Lines {
-  if (!(shorterThan > 0)) return lines;
-  const kept: number[] = [];
-  for (let i = 0; i < lineCount(lines); i++) if (lineLength(lines, i) >= shorterThan) kept.push(i);
-  return pickLines(lines, kept);
-}
+export const dropShort = (lines: Lines, shorterThan: number): Lines =>
+  shorterThan > 0 ? filterLines(lines, (i) => lineLength(lines, i) >= shorterThan) : lines;
 
 export function countLayers(
   lines: Lines,
@@ -53,30 +46,24 @@ export function countLayers(
   parts: SpeedParts,
   isVisible: readonly boolean[],
 ): PreparedLayer[] {
-  const strokes = new Float64Array(table.layers.length);
-  const points = new Float64Array(table.layers.length);
-  const length = new Float64Array(table.layers.length);
-  for (let i = 0; i < lineCount(lines); i++) {
-    const k = parts.layer[lines.tag[i]];
-    strokes[k]++;
-    points[k] += lines.offsets[i + 1] - lines.offsets[i];
-    length[k] += lineLength(lines, i);
-  }
-  return table.layers.map((layer, k) => ({
+  const layers = table.layers.map((layer, k) => ({
     ...layer,
     visible: isVisible[k],
-    strokeCount: strokes[k],
-    pointCount: points[k],
-    drawMm: length[k],
+    strokeCount: 0,
+    pointCount: 0,
+    drawMm: 0,
   }));
+  for (let i = 0; i < lineCount(lines); i++) {
+    const layer = layers[parts.layer[lines.tag[i]]];
+    layer.strokeCount++;
+    layer.pointCount += lines.offsets[i + 1] - lines.offsets[i];
+    layer.drawMm += lineLength(lines, i);
+  }
+  return layers;
 }
 
-export function visibleOnly(lines: Lines, parts: SpeedParts, isVisible: readonly boolean[]): Lines {
-  if (isVisible.every(Boolean)) return lines;
-  const kept: number[] = [];
-  for (let i = 0; i < lineCount(lines); i++) if (isVisible[parts.layer[lines.tag[i]]]) kept.push(i);
-  return pickLines(lines, kept);
-}
+export const visibleOnly = (lines: Lines, parts: SpeedParts, isVisible: readonly boolean[]): Lines =>
+  isVisible.every(Boolean) ? lines : filterLines(lines, (i) => isVisible[parts.layer[lines.tag[i]]]);
 
 export function emptyWarning(drawing: Drawing, isVisible: readonly boolean[]): string {
   if (drawing.paths.count === 0) return "The file has no lines to draw.";
@@ -116,65 +103,37 @@ export function strokeSetOf(
   return { ...strokes, xy, layers: moved };
 }
 
-function unshifted(
-  lines: Lines,
-  parts: SpeedParts,
-  layers: readonly StrokeLayer[],
-  isVisible: readonly boolean[],
-  reinkMm: number,
-): StrokeSet {
-  if (reinkMm > 0) return inkedStrokeSet(lines, parts, layers, isVisible, reinkMm);
-  let next = 0;
-  const renumbered = layers.map((_, k) => (isVisible[k] ? next++ : 0));
-  const layer = new Uint16Array(lineCount(lines));
-  if (layers.length > 1) {
-    for (let i = 0; i < layer.length; i++) layer[i] = renumbered[parts.layer[lines.tag[i]]];
-  }
-  return {
-    xy: lines.xy,
-    offsets: lines.offsets,
-    layer,
-    ...speedFactorField(lines, parts),
-    layers: layers.filter((_, k) => isVisible[k]).map(plainLayer),
-  };
-}
-
-function speedFactorField(lines: Lines, parts: SpeedParts): Pick<StrokeSet, "speedFactor"> {
-  const speedFactor = speedFactorsOf(lines, parts);
-  return speedFactor === undefined ? {} : { speedFactor };
-}
-
-const plainLayer = ({ id, name, color }: StrokeLayer): StrokeLayer => ({ id, name, color });
-
 /** A stroke stores its layer as a 16-bit index. */
 const MAX_PORTIONS = 65_536;
 
-/** Splits layers into portions for `reinkMm`. Each part of a layer begins a new portion. */
-function inkedStrokeSet(
+/** Splits layers into portions if `reinkMm` is set. Each part of a layer begins a new portion. */
+function unshifted(
   given: Lines,
   parts: SpeedParts,
   layers: readonly StrokeLayer[],
   isVisible: readonly boolean[],
   reinkMm: number,
 ): StrokeSet {
-  const { lines, portion } = inkPortions(given, reinkMm);
+  const inked = reinkMm > 0 ? inkPortions(given, reinkMm) : null;
+  const { xy, offsets, tag } = inked?.lines ?? given;
   const out: StrokeLayer[] = [];
-  const layer = new Uint16Array(lineCount(lines));
+  const layer = new Uint16Array(tag.length);
   let i = 0;
-  for (let k = 0; k < layers.length; k++) {
+  for (const [k, { id, name, color }] of layers.entries()) {
     if (!isVisible[k]) continue;
-    // Layers without strokes are kept too, as in `unshifted`.
-    out.push(plainLayer(layers[k]));
+    // Layers without strokes are kept too.
+    out.push({ id, name, color });
     let number = 1;
-    for (const first = i; i < layer.length && parts.layer[lines.tag[i]] === k; i++) {
-      const isNew = i > first && (portion[i] !== portion[i - 1] || lines.tag[i] !== lines.tag[i - 1]);
+    for (const first = i; i < tag.length && parts.layer[tag[i]] === k; i++) {
+      const isNew =
+        inked !== null && i > first && (inked.portion[i] !== inked.portion[i - 1] || tag[i] !== tag[i - 1]);
       if (isNew && out.length < MAX_PORTIONS) {
         number++;
-        const { id, name, color } = layers[k];
         out.push({ id: `${id}~${number}`, name: `${name} (${number})`, color, partOf: id });
       }
       layer[i] = out.length - 1;
     }
   }
-  return { xy: lines.xy, offsets: lines.offsets, layer, ...speedFactorField(lines, parts), layers: out };
+  const speedFactor = speedFactorsOf(tag, parts);
+  return { xy, offsets, layer, ...(speedFactor === undefined ? {} : { speedFactor }), layers: out };
 }

@@ -8,11 +8,11 @@
  * With a clock the search ends after `orderS`. Without one it ends after about the same amount of work, and every run
  * has the same result. So the page, the server and a job resumed after a crash have the same strokes.
  */
-import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
+import { distance, isClosedLine, tagRanges, type Lines } from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
 import { improveBlocks } from "./tour-blocks.js";
 import { TourSearch } from "./tour-search.js";
-import { entryPoint, exitPoint, tagRanges, type Tour } from "./tour.js";
+import { entryPoint, exitPoint, type Tour } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** Kicks that count as one second when there is no clock: about the speed of a desktop computer. */

@@ -3,8 +3,8 @@
  * becomes part of its outline.
  */
 import type { Drawing } from "../drawing/drawing.js";
-import { LineBuilder, lineCount, totalLength, type Lines } from "../geometry/polyline.js";
-import { SCALE, cutLine, type Region } from "../geometry/region.js";
+import { LineBuilder, tagRanges, totalLength, type Lines } from "../geometry/polyline.js";
+import { addPath, cutLine, type Region } from "../geometry/region.js";
 import { filledAreas } from "./areas.js";
 import type { Work } from "./work.js";
 
@@ -19,13 +19,12 @@ export function clipLines(
   work: Work,
 ): Lines {
   const builder = new LineBuilder();
-  for (let i = 0, next = 0; i < lineCount(lines); i = next) {
-    const shape = lines.tag[i];
-    for (next = i; next < lineCount(lines) && lines.tag[next] === shape;) next++;
+  for (const [first, end] of tagRanges(lines)) {
+    const shape = lines.tag[first];
     const clip = clipOf(shape);
-    if (clip === null) copyAll(lines, i, next, builder);
-    else if (drawing.paths.stroke[shape] >= 0) cutAll(lines, i, next, clip, builder);
-    else clipFill(lines, i, next, drawing, clip, builder, work);
+    if (clip === null) copyAll(lines, first, end, builder);
+    else if (drawing.paths.stroke[shape] >= 0) cutAll(lines, first, end, clip, builder);
+    else clipFill(lines, first, end, drawing, clip, builder, work);
   }
   return builder.finish();
 }
@@ -59,8 +58,5 @@ function clipFill(
   }
   const shape = lines.tag[from];
   const area = filledAreas(outline, drawing, () => clip, false, work).get(shape);
-  for (const ring of area?.rings ?? []) {
-    for (const point of [...ring, ring[0]]) builder.point(point.x / SCALE, point.y / SCALE);
-    builder.end(shape);
-  }
+  for (const ring of area?.rings ?? []) addPath([...ring, ring[0]], shape, builder);
 }

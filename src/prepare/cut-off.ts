@@ -1,7 +1,7 @@
 /** Finds the lines that the margins cut off, to show them on the page. */
 import type { Drawing } from "../drawing/drawing.js";
-import { EMPTY_BOX, boxContains, boxOfPoints, boxesTouch, isEmptyBox, type Box } from "../geometry/box.js";
-import { lineCount, pickLines, type Lines } from "../geometry/polyline.js";
+import { boxContains, boxesTouch, grownBox, isEmptyBox, type Box } from "../geometry/box.js";
+import { filterLines, lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { clipRegions } from "./clip-regions.js";
 import { clipLines } from "./clipped-fills.js";
@@ -28,12 +28,7 @@ const FLATTEN_MM = 0.1;
 export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: Placement): CutOff | null {
   const limit = cropBox(settings, place);
   if (limit === null) return null;
-  const widened = {
-    x0: limit.x0 - UNNOTICED_MM,
-    y0: limit.y0 - UNNOTICED_MM,
-    x1: limit.x1 + UNNOTICED_MM,
-    y1: limit.y1 + UNNOTICED_MM,
-  };
+  const widened = grownBox(limit, UNNOTICED_MM);
   if (boxContains(widened, place.whole)) return null;
   const table = layersOf(drawing, settings.layers);
   const isVisible = visibleLayers(table, settings);
@@ -47,16 +42,7 @@ export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: 
   if (drawing.clips.length > 0) {
     lines = clipLines(lines, drawing, clipRegions(drawing, place.map, FLATTEN_MM), {});
   }
-  const leaving: number[] = [];
-  let outsideCount = 0;
-  for (let i = 0; i < lineCount(lines); i++) {
-    const box = lineBox(lines, i);
-    if (boxContains(widened, box)) continue;
-    leaving.push(i);
-    if (!boxesTouch(box, limit)) outsideCount++;
-  }
-  return leaving.length === 0 ? null : { limit, lines: pickLines(lines, leaving), outsideCount };
+  const leaving = filterLines(lines, (i) => !boxContains(widened, lineBox(lines, i)));
+  const outside = filterLines(leaving, (i) => !boxesTouch(lineBox(leaving, i), limit));
+  return lineCount(leaving) === 0 ? null : { limit, lines: leaving, outsideCount: lineCount(outside) };
 }
-
-const lineBox = ({ xy, offsets }: Lines, i: number): Box =>
-  offsets[i] === offsets[i + 1] ? EMPTY_BOX : boxOfPoints(xy, 2 * offsets[i], 2 * offsets[i + 1]);

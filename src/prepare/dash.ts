@@ -3,7 +3,7 @@ import type { DashPattern } from "../drawing/drawing.js";
 import type { Box } from "../geometry/box.js";
 import { insideRange } from "../geometry/clip.js";
 import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
-import { LineBuilder, SAME_POINT, lineCount, type Lines } from "../geometry/polyline.js";
+import { LineBuilder, SAME_POINT, lineCount, mix, type Lines } from "../geometry/polyline.js";
 
 /** A pattern with a shorter period than this is drawn as a solid line, because no pen resolves it, mm. */
 const FINEST_PERIOD = 0.05;
@@ -60,23 +60,23 @@ class Dasher {
 
   run(lines: Lines, i: number, box: Box): void {
     const { xy, offsets } = lines;
-    const range: [number, number] = [0, 1];
     for (let p = offsets[i] + 1; p < offsets[i + 1]; p++) {
       const x0 = xy[2 * p - 2];
       const y0 = xy[2 * p - 1];
       const x1 = xy[2 * p];
       const y1 = xy[2 * p + 1];
       const length = this.lengthOf(x1 - x0, y1 - y0);
-      if (!insideRange(x0, y0, x1, y1, box, range)) {
+      const range = insideRange(x0, y0, x1, y1, box);
+      if (range === null) {
         this.pass(length);
         continue;
       }
       const [enter, leave] = range;
-      const x = (t: number): number => (t === 1 ? x1 : x0 + t * (x1 - x0));
-      const y = (t: number): number => (t === 1 ? y1 : y0 + t * (y1 - y0));
       if (enter > 0) this.pass(enter * length);
       const isEnd = p === offsets[i + 1] - 1 && leave === 1;
-      this.dash(x(enter), y(enter), x(leave), y(leave), (leave - enter) * length, isEnd);
+      const from = [mix(x0, x1, enter), mix(y0, y1, enter)] as const;
+      const to = [mix(x0, x1, leave), mix(y0, y1, leave)] as const;
+      this.dash(...from, ...to, (leave - enter) * length, isEnd);
       if (leave < 1) this.pass((1 - leave) * length);
     }
     this.endDash();

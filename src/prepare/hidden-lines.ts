@@ -6,8 +6,7 @@
  * lines.
  */
 import Flatbush from "flatbush";
-import { boxOfPoints } from "../geometry/box.js";
-import { LineBuilder, lineCount, type Lines } from "../geometry/polyline.js";
+import { LineBuilder, lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import { cutLine, type Region } from "../geometry/region.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
@@ -36,7 +35,7 @@ export function hideCovered(
       builder.copy(lines, i, lines.tag[i]);
       continue;
     }
-    const box = boxOfPoints(lines.xy, 2 * lines.offsets[i], 2 * lines.offsets[i + 1]);
+    const box = lineBox(lines, i);
     const above = tree.search(box.x0, box.y0, box.x1, box.y1, (k) => shapes[k] > lines.tag[i]);
     const covers = above.map((k) => areas.get(shapes[k]) as Region);
     addUncovered(lines, i, covers, builder);

@@ -11,8 +11,14 @@
  * No points move: joining adds the gap, at most `radius`, as a straight segment. Dots and closed lines are unchanged.
  */
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
-import { LineBuilder, SAME_POINT, isClosedLine, lineLength, type Lines } from "../geometry/polyline.js";
-import { tagRanges } from "./tour.js";
+import {
+  LineBuilder,
+  SAME_POINT,
+  isClosedLine,
+  lineLength,
+  tagRanges,
+  type Lines,
+} from "../geometry/polyline.js";
 
 /** Max candidates compared at one point, so that the time stays linear even for a star of 100 000 rays. */
 const MAX_CANDIDATES = 24;
@@ -27,30 +33,14 @@ export function joinLines(lines: Lines, radius: number): Lines {
     const pairing = new Pairing(lines, first, end, Math.max(radius, SAME_POINT));
     pairing.run(SAME_POINT, true);
     if (radius > SAME_POINT) pairing.run(radius, false);
-    writeChains(lines, first, end, pairing.partner, builder);
+    pairing.write(builder);
   }
   return builder.finish();
 }
 
-/** Writes each chain at the position of the first of its lines. */
-function writeChains(
-  lines: Lines,
-  first: number,
-  end: number,
-  partner: Int32Array,
-  builder: LineBuilder,
-): void {
-  const done = new Uint8Array(end - first);
-  for (let i = 0; i < end - first; i++) {
-    if (partner[2 * i] === UNPAIRED && partner[2 * i + 1] === UNPAIRED) {
-      builder.copy(lines, first + i, lines.tag[first + i]);
-    } else if (done[i] === 0) writeChain(lines, first, partner, i, done, builder);
-  }
-}
-
 /** Pairs the ends of the lines [first, end), except those of dots and closed lines. */
 class Pairing {
-  readonly partner: Int32Array;
+  private readonly partner: Int32Array;
   private readonly far: Int32Array;
   private readonly length: Float64Array;
   private readonly xy: Float64Array;
@@ -62,8 +52,8 @@ class Pairing {
   private readonly near = new NearestPoints(MAX_CANDIDATES);
 
   constructor(
-    lines: Lines,
-    first: number,
+    private readonly lines: Lines,
+    private readonly first: number,
     end: number,
     private readonly radius: number,
   ) {
@@ -74,9 +64,9 @@ class Pairing {
     this.xy = new Float64Array(2 * ends);
     this.out = new Float64Array(2 * ends);
     for (let e = 0; e < ends; e += 2) {
-      const line = first + (e >> 1);
-      this.setEnd(lines, e, lines.offsets[line], 1);
-      this.setEnd(lines, e + 1, lines.offsets[line + 1] - 1, -1);
+      const line = this.lineOf(e);
+      this.setEnd(e, lines.offsets[line], 1);
+      this.setEnd(e + 1, lines.offsets[line + 1] - 1, -1);
       this.far[e] = e + 1;
       this.far[e + 1] = e;
       this.length[e] = this.length[e + 1] = lineLength(lines, line);
@@ -84,7 +74,7 @@ class Pairing {
     this.free = new PointGrid(this.xy);
     this.isFree = new Uint8Array(ends).fill(1);
     for (let e = 0; e < ends; e += 2) {
-      const line = first + (e >> 1);
+      const line = this.lineOf(e);
       const isDot = lines.offsets[line + 1] - lines.offsets[line] === 1;
       if (isDot || isClosedLine(lines, line)) {
         this.take(e);
@@ -104,7 +94,13 @@ class Pairing {
     }
   }
 
-  private setEnd({ xy }: Lines, e: number, at: number, step: number): void {
+  /** The line of an end. */
+  private lineOf(e: number): number {
+    return this.first + (e >> 1);
+  }
+
+  private setEnd(e: number, at: number, step: number): void {
+    const { xy } = this.lines;
     const dx = xy[2 * at] - xy[2 * (at + step)];
     const dy = xy[2 * at + 1] - xy[2 * (at + step) + 1];
     const length = Math.sqrt(dx * dx + dy * dy) || 1;
@@ -163,36 +159,38 @@ class Pairing {
     this.far[tail] = head;
     this.length[head] = this.length[tail] = length;
   }
-}
 
-/** Writes the chain that contains line `i`, in line i's direction. It starts at a free end; a loop starts at line `i`. */
-function writeChain(
-  lines: Lines,
-  first: number,
-  partner: Int32Array,
-  i: number,
-  done: Uint8Array,
-  builder: LineBuilder,
-): void {
-  let entry = 2 * i;
-  while (partner[entry] !== UNPAIRED) {
-    entry = partner[entry] ^ 1;
-    if (entry >> 1 === i) break;
+  /** Writes each chain at the position of the first of its lines. */
+  write(builder: LineBuilder): void {
+    const { partner, lines } = this;
+    const done = new Uint8Array(partner.length / 2);
+    for (let e = 0; e < partner.length; e += 2) {
+      const line = this.lineOf(e);
+      if (partner[e] === UNPAIRED && partner[e + 1] === UNPAIRED) builder.copy(lines, line, lines.tag[line]);
+      else if (done[e >> 1] === 0) this.writeChain(e, done, builder);
+    }
   }
-  const head = entry;
-  const closes = partner[head] !== UNPAIRED;
-  for (;;) {
-    const line = entry >> 1;
-    done[line] = 1;
-    builder.extend(lines, first + line, (entry & 1) === 1);
-    const next = partner[entry ^ 1];
-    if (next === UNPAIRED || next === head) break;
-    entry = next;
+
+  /**
+   * Writes the chain that contains the line with the first end `start`, in that line's direction. It starts at a free
+   * end; a loop starts at that line.
+   */
+  private writeChain(start: number, done: Uint8Array, builder: LineBuilder): void {
+    const { partner, lines } = this;
+    let entry = start;
+    while (partner[entry] !== UNPAIRED) {
+      entry = partner[entry] ^ 1;
+      if (entry >> 1 === start >> 1) break;
+    }
+    const head = entry;
+    for (;;) {
+      done[entry >> 1] = 1;
+      builder.extend(lines, this.lineOf(entry), (entry & 1) === 1);
+      const next = partner[entry ^ 1];
+      if (next === UNPAIRED || next === head) break;
+      entry = next;
+    }
+    if (partner[head] !== UNPAIRED) builder.point(this.xy[2 * head], this.xy[2 * head + 1]);
+    builder.end(lines.tag[this.lineOf(start)]);
   }
-  if (closes) {
-    const line = first + (head >> 1);
-    const p = (head & 1) === 1 ? lines.offsets[line + 1] - 1 : lines.offsets[line];
-    builder.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
-  }
-  builder.end(lines.tag[first + i]);
 }

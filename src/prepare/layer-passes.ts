@@ -1,6 +1,5 @@
 /** Repeats layers that are drawn more than once, for more ink, with little travel. */
-import { LineBuilder, distance, type Lines } from "../geometry/polyline.js";
-import { tagRanges } from "./tour.js";
+import { LineBuilder, distance, tagRanges, type Lines } from "../geometry/polyline.js";
 
 /**
  * Repeats each tag's lines `passesOf` times. If it saves travel, every second pass is drawn backwards (last line first,

@@ -3,20 +3,19 @@
  * any point. 20 000 strokes take about 0.01 s.
  */
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
-import { distance, isClosedLine, type Lines } from "../geometry/polyline.js";
+import { isClosedLine, type Lines } from "../geometry/polyline.js";
 import type { Tour } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** The pen's position, and its travel so far, mm. */
-export interface PenPlace {
+/** The pen's position, mm. */
+interface PenPlace {
   readonly x: number;
   readonly y: number;
-  readonly travelMm: number;
 }
 
 /**
  * Orders lines [first, end) from a start position (mm), and writes them to the same range of `tour.order`. With
- * `freeStart`, a closed line may start at any point. Returns the final position of the pen and its travel.
+ * `freeStart`, a closed line may start at any point. Returns the final position of the pen.
  */
 export function nearestOrder(
   lines: Lines,
@@ -31,7 +30,7 @@ export function nearestOrder(
   const points = new PointGrid(entries.xy);
   const nearest = new NearestPoints(1);
   const { xy } = entries;
-  let { x, y, travelMm } = from;
+  let { x, y } = from;
   for (let k = first; k < end; k++) {
     if ((k & 1023) === 0) stopIfCancelled(work);
     points.find(x, y, Infinity, nearest);
@@ -45,11 +44,10 @@ export function nearestOrder(
     tour.start[line] = closed ? entry - low : 0;
     tour.reversed[line] = !closed && entry > low ? 1 : 0;
     const exit = closed ? entry : low + high - 1 - entry;
-    travelMm += distance(x, y, xy[2 * entry], xy[2 * entry + 1]);
     x = xy[2 * exit];
     y = xy[2 * exit + 1];
   }
-  return { x, y, travelMm };
+  return { x, y };
 }
 
 interface Entries {
@@ -71,24 +69,20 @@ function entriesOf(lines: Lines, first: number, end: number, freeStart: boolean)
   const line = new Uint32Array(maxEntries);
   const closed = new Uint8Array(end - first);
   let count = 0;
+  const add = (i: number, p: number): void => {
+    line[count] = i;
+    places[2 * count] = xy[2 * p];
+    places[2 * count + 1] = xy[2 * p + 1];
+    count++;
+  };
   for (let i = first; i < end; i++) {
     const from = offsets[i];
     const last = offsets[i + 1] - 1;
-    const isClosed = last > from + 1 && isClosedLine(lines, i);
+    const isClosed = isClosedLine(lines, i);
     if (isClosed) closed[i - first] = 1;
     const until = isClosed && freeStart ? last : from + 1;
-    for (let p = from; p < until; p++) {
-      line[count] = i;
-      places[2 * count] = xy[2 * p];
-      places[2 * count + 1] = xy[2 * p + 1];
-      count++;
-    }
-    if (!isClosed && last > from) {
-      line[count] = i;
-      places[2 * count] = xy[2 * last];
-      places[2 * count + 1] = xy[2 * last + 1];
-      count++;
-    }
+    for (let p = from; p < until; p++) add(i, p);
+    if (!isClosed && last > from) add(i, last);
     firstOf[i - first + 1] = count;
   }
   return { xy: places.subarray(0, 2 * count), line, firstOf, isClosed: closed };

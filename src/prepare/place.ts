@@ -8,20 +8,27 @@
  *                                   place    the content in the given box, then turned about its centre
  */
 import { curveBoxOf } from "../drawing/curve-box.js";
-import type { ClipRegion, Drawing } from "../drawing/drawing.js";
+import { curvesOf, type Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
 import { PlotwrightError } from "../errors.js";
 import {
   IDENTITY,
-  applyX,
-  applyY,
   compose,
+  mapAround,
   rotation,
   scaling,
   translation,
   type Affine,
 } from "../geometry/affine.js";
-import { EMPTY_BOX, boxOfPoints, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
+import {
+  EMPTY_BOX,
+  boxOfPoints,
+  intersectBoxes,
+  isEmptyBox,
+  mappedCorners,
+  uniteBoxes,
+  type Box,
+} from "../geometry/box.js";
 import type { MirrorMode, PlacedBox, PrepareSettings } from "../settings/prepare.js";
 
 export interface Placement {
@@ -46,7 +53,8 @@ export function orientedPaper(paper: PaperSize, landscape: boolean): PaperSize {
 
 /** Throws `bad-setting` if the margins leave no room. */
 export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Placement {
-  const paper = paperBox(settings);
+  const { widthMm, heightMm } = orientedPaper(settings.paper, settings.landscape);
+  const paper = { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
   const inside = insideMargins(paper, settings);
   const turn = compose(rotation((settings.rotateDeg * Math.PI) / 180), MIRRORS[settings.mirror]);
   const { boxes: turned, whole } = shapeBoxes(drawing, turn);
@@ -75,9 +83,7 @@ export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Place
 /** A turn about the centre of the box; null for no turn. */
 function aboutCentre(box: Box, turnDeg: number): Affine | null {
   if (turnDeg === 0 || isEmptyBox(box)) return null;
-  const x = (box.x0 + box.x1) / 2;
-  const y = (box.y0 + box.y1) / 2;
-  return compose(translation(x, y), compose(rotation((turnDeg * Math.PI) / 180), translation(-x, -y)));
+  return mapAround((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2, rotation((turnDeg * Math.PI) / 180));
 }
 
 const MIRRORS: Readonly<Record<MirrorMode, Affine>> = {
@@ -85,11 +91,6 @@ const MIRRORS: Readonly<Record<MirrorMode, Affine>> = {
   leftRight: scaling(-1, 1),
   upDown: scaling(1, -1),
 };
-
-function paperBox(settings: PrepareSettings): Box {
-  const { widthMm, heightMm } = orientedPaper(settings.paper, settings.landscape);
-  return { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
-}
 
 function insideMargins(paper: Box, settings: PrepareSettings): Box {
   const m = settings.marginMm;
@@ -112,12 +113,11 @@ const EVERYTHING: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infini
 
 /** Boxes for `Placement`. */
 function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: readonly Box[]; readonly whole: Box } {
-  const { count, verbs, verbOffsets, coords, coordOffsets } = drawing.paths;
   const boxes: Box[] = [];
   let whole = EMPTY_BOX;
   let hasEmpty = false;
-  for (let i = 0; i < count; i++) {
-    const box = curveBoxOf(verbs, verbOffsets[i], verbOffsets[i + 1], coords, coordOffsets[i], map);
+  for (let i = 0; i < drawing.paths.count; i++) {
+    const box = curveBoxOf(curvesOf(drawing.paths, i), map);
     boxes.push(box);
     if (isEmptyBox(box)) hasEmpty = true;
     whole = uniteBoxes(whole, box);
@@ -130,7 +130,7 @@ function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: readonly B
  */
 function contentBox(drawing: Drawing, boxes: readonly Box[], whole: Box, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
-  const clipBoxes = drawing.clips.map((clip) => clipBox(clip, map));
+  const clipBoxes = drawing.clips.map((clip) => curveBoxOf(clip, map));
   // A shape that draws nothing makes `whole` infinite, so it counts as far away too.
   if (page === null && clipBoxes.length === 0 && !isFarAway(whole)) return whole;
   let content = EMPTY_BOX;
@@ -143,9 +143,6 @@ function contentBox(drawing: Drawing, boxes: readonly Box[], whole: Box, map: Af
   });
   return content;
 }
-
-const clipBox = ({ verbs, coords }: ClipRegion, map: Affine): Box =>
-  curveBoxOf(verbs, 0, verbs.length, coords, 0, map);
 
 /** mm. Anything beyond this (a thousand kilometres) is an error in the file. */
 const FAR_AWAY = 1e9;
@@ -183,13 +180,8 @@ function placed(content: Box, place: PlacedBox): Affine {
 const onCorner = (page: Box): Affine => translation(-page.x0, -page.y0);
 
 /** Corners of the file's page under a map, x, y, x, y … clockwise or counter-clockwise. */
-export function pageCorners(drawing: Drawing, map: Affine): number[] {
-  const { widthMm: w, heightMm: h } = drawing;
-  const corners = [0, 0, w, 0, w, h, 0, h];
-  return corners.map((_, k) =>
-    k % 2 === 0 ? applyX(map, corners[k], corners[k + 1]) : applyY(map, corners[k - 1], corners[k]),
-  );
-}
+export const pageCorners = ({ widthMm, heightMm }: Drawing, map: Affine): number[] =>
+  mappedCorners(map, { x0: 0, y0: 0, x1: widthMm, y1: heightMm });
 
 const pageBox = (drawing: Drawing, map: Affine): Box => boxOfPoints(pageCorners(drawing, map));
 

@@ -195,7 +195,7 @@ function inDrawingOrder(
 ): Ordered {
   const asInFile = repeatLines(lines, passesOf);
   const travelMmUnordered = travelAsDrawn(asInFile);
-  const tour = orderLines(lines, travelAsDrawn(lines), settings, work);
+  const tour = orderLines(lines, settings, work);
   const inOrder = repeatLines(spreadLines(linesOfTour(lines, tour), settings.spread), passesOf);
   const travelMm = travelAsDrawn(inOrder);
   // With several passes, an order with less travel per pass may need more travel between passes.

@@ -5,13 +5,21 @@ import {
   boxContains,
   boxesTouch,
   boxOfPoints,
+  grownBox,
   intersectBoxes,
   isEmptyBox,
   type Box,
 } from "../geometry/box.js";
 import { clipLinesToBox } from "../geometry/clip.js";
-import { LineBuilder, lineCount, pickLines, totalLength, type Lines } from "../geometry/polyline.js";
-import { SCALE, cutLines, regionOf, type Region } from "../geometry/region.js";
+import {
+  LineBuilder,
+  filterLines,
+  lineBox,
+  lineCount,
+  totalLength,
+  type Lines,
+} from "../geometry/polyline.js";
+import { cutLines, regionOf, ringOf, type Region } from "../geometry/region.js";
 import { patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
@@ -70,19 +78,15 @@ export function dashesOf(drawing: Drawing, place: Placement): (shape: number) =>
 }
 
 /** The lines that will be dashed and leave `limit`. No dashes are made outside, so only these lines tell the loss. */
-export function dashedAcross(
+export const dashedAcross = (
   lines: Lines,
   dashOf: (shape: number) => DashPattern | null,
   limit: Box | null,
-): Lines {
-  const leaving: number[] = [];
-  for (let i = 0; limit !== null && i < lineCount(lines); i++) {
-    if (dashOf(lines.tag[i]) === null) continue;
-    const box = boxOfPoints(lines.xy, 2 * lines.offsets[i], 2 * lines.offsets[i + 1]);
-    if (!boxContains(limit, box)) leaving.push(i);
-  }
-  return pickLines(lines, leaving);
-}
+): Lines =>
+  filterLines(
+    lines,
+    (i) => limit !== null && dashOf(lines.tag[i]) !== null && !boxContains(limit, lineBox(lines, i)),
+  );
 
 /** If the margins cut off no more than this, it is rounding and causes no warning, mm. */
 const UNNOTICED_CROP = 0.1;
@@ -107,23 +111,14 @@ export function cutsAreas(
   limit: Box,
   counts: (shape: number) => boolean,
 ): boolean {
-  const widened = {
-    x0: limit.x0 - UNNOTICED_CROP,
-    y0: limit.y0 - UNNOTICED_CROP,
-    x1: limit.x1 + UNNOTICED_CROP,
-    y1: limit.y1 + UNNOTICED_CROP,
-  };
+  const widened = grownBox(limit, UNNOTICED_CROP);
   return [...areas].some(([shape, { box }]) => counts(shape) && !boxContains(widened, box));
 }
 
 /** Crops to the file's own page, which may be rotated. */
 export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Lines {
   const corners = pageCorners(drawing, place.map);
-  const ring = [0, 2, 4, 6].map((k) => ({
-    x: Math.round(corners[k] * SCALE),
-    y: Math.round(corners[k + 1] * SCALE),
-  }));
-  const page = regionOf([ring]);
+  const page = regionOf([ringOf(corners)]);
   // Most drawings are within their page. Check that first, because cutting a large drawing by a region is slow.
   const [x0, y0, x1, y1] = corners;
   const isUpright = Math.min(Math.abs(x1 - x0), Math.abs(y1 - y0)) < 1e-6;
@@ -132,11 +127,8 @@ export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Li
 }
 
 /** Removes the outlines of shapes without a stroke. */
-export function strokedOnly(lines: Lines, drawing: Drawing): Lines {
-  const kept: number[] = [];
-  for (let i = 0; i < lineCount(lines); i++) if (drawing.paths.stroke[lines.tag[i]] >= 0) kept.push(i);
-  return pickLines(lines, kept);
-}
+export const strokedOnly = (lines: Lines, drawing: Drawing): Lines =>
+  filterLines(lines, (i) => drawing.paths.stroke[lines.tag[i]] >= 0);
 
 /** The hatch of each layer; null if no layer has one. */
 export function hatchesOf(settings: PrepareSettings, table: LayerTable): HatchSettings[] | null {

@@ -52,14 +52,8 @@ export function reloopLines(lines: Lines): Lines {
       builder.copy(lines, i, lines.tag[i]);
       continue;
     }
-    const first = lines.offsets[i];
-    const segments = lines.offsets[i + 1] - 1 - first;
-    const start = Math.floor(random() * segments);
-    for (let k = 0; k <= segments; k++) {
-      const p = first + ((start + k) % segments);
-      builder.point(lines.xy[2 * p], lines.xy[2 * p + 1]);
-    }
-    builder.end(lines.tag[i]);
+    const segments = lines.offsets[i + 1] - 1 - lines.offsets[i];
+    builder.copyFrom(lines, i, Math.floor(random() * segments));
   }
   return builder.finish();
 }

@@ -6,7 +6,6 @@
  *   parts    0 full  1 half   2 full
  */
 import type { Drawing } from "../drawing/drawing.js";
-import type { Lines } from "../geometry/polyline.js";
 import type { LayerTable } from "./layers.js";
 
 export interface SpeedParts {
@@ -41,7 +40,7 @@ export function speedPartsOf(drawing: Drawing, { layers, ofShape }: LayerTable):
   return { count: layer.length, ofShape: ofPart, layer, factor };
 }
 
-/** Each line's share of its layer's speed; undefined if all are 1. */
-export function speedFactorsOf({ tag }: Lines, { factor }: SpeedParts): Float64Array | undefined {
+/** Each line's share of its layer's speed, by its part; undefined if all are 1. */
+export function speedFactorsOf(tag: Uint32Array, { factor }: SpeedParts): Float64Array | undefined {
   return factor.every((one) => one === 1) ? undefined : Float64Array.from(tag, (part) => factor[part]);
 }

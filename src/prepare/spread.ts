@@ -2,10 +2,17 @@
  * Reorders and splits strokes for wet ink: neighbours are drawn at different times, with stops to take up
  * ink.
  */
-import { LineBuilder, distance, lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
+import {
+  LineBuilder,
+  distance,
+  lineCount,
+  lineLength,
+  pickLines,
+  tagRanges,
+  type Lines,
+} from "../geometry/polyline.js";
 import { randomFrom } from "./random.js";
 import type { SpreadMode } from "../settings/prepare.js";
-import { tagRanges } from "./tour.js";
 
 /** Number of passes of "interleave": pass k draws every fourth line, starting with line k. */
 const PASSES = 4;

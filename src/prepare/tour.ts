@@ -16,10 +16,8 @@ export interface Tour {
 /** The lines in their current order. */
 export function fileTour(lines: Lines): Tour {
   const count = lineCount(lines);
-  const order = new Uint32Array(count);
-  for (let i = 0; i < count; i++) order[i] = i;
   return {
-    order,
+    order: new Uint32Array(count).map((_, i) => i),
     reversed: new Uint8Array(count),
     start: new Uint32Array(count),
   };
@@ -40,69 +38,28 @@ export function exitPoint(lines: Lines, tour: Tour, i: number): number {
 /** Pen-up travel from home through all lines and back home, mm. */
 export function travelOf(lines: Lines, tour: Tour): number {
   const { xy } = lines;
-  const { order } = tour;
   let x = 0;
   let y = 0;
   let travel = 0;
-  for (let k = 0; k < order.length; k++) {
-    const i = order[k];
+  for (const i of tour.order) {
     const entry = 2 * entryPoint(lines, tour, i);
     travel += distance(x, y, xy[entry], xy[entry + 1]);
     const exit = 2 * exitPoint(lines, tour, i);
     x = xy[exit];
     y = xy[exit + 1];
   }
-  return order.length > 0 ? travel + distance(x, y, 0, 0) : 0;
+  return travel + distance(x, y, 0, 0);
 }
 
 /** The same travel for the lines in their current order. */
-export function travelAsDrawn(lines: Lines): number {
-  const { xy, offsets } = lines;
-  const count = lineCount(lines);
-  let x = 0;
-  let y = 0;
-  let travel = 0;
-  for (let i = 0; i < count; i++) {
-    const entry = 2 * offsets[i];
-    travel += distance(x, y, xy[entry], xy[entry + 1]);
-    const exit = 2 * offsets[i + 1] - 2;
-    x = xy[exit];
-    y = xy[exit + 1];
-  }
-  return count > 0 ? travel + distance(x, y, 0, 0) : 0;
-}
+export const travelAsDrawn = (lines: Lines): number => travelOf(lines, fileTour(lines));
 
 /** The lines in the order and direction of the tour. */
 export function linesOfTour(lines: Lines, tour: Tour): Lines {
   const builder = new LineBuilder();
-  const { order } = tour;
-  for (let k = 0; k < order.length; k++) {
-    const i = order[k];
-    if (tour.start[i] > 0 && isClosedLine(lines, i)) copyFrom(lines, i, tour.start[i], builder);
+  for (const i of tour.order) {
+    if (tour.start[i] > 0 && isClosedLine(lines, i)) builder.copyFrom(lines, i, tour.start[i]);
     else builder.copy(lines, i, lines.tag[i], tour.reversed[i] === 1);
   }
   return builder.finish();
-}
-
-/** Copies a closed line from another start point. */
-function copyFrom(lines: Lines, i: number, start: number, builder: LineBuilder): void {
-  const { xy, offsets } = lines;
-  const first = offsets[i];
-  const segments = offsets[i + 1] - 1 - first;
-  for (let k = 0; k <= segments; k++) {
-    const p = first + ((start + k) % segments);
-    builder.point(xy[2 * p], xy[2 * p + 1]);
-  }
-  builder.end(lines.tag[i]);
-}
-
-/** Ranges [first, end) of lines that share a tag; lines of one tag are contiguous. */
-export function tagRanges({ tag }: Lines): [number, number][] {
-  const count = tag.length;
-  const ranges: [number, number][] = [];
-  for (let first = 0, end = 0; first < count; first = end) {
-    while (end < count && tag[end] === tag[first]) end++;
-    ranges.push([first, end]);
-  }
-  return ranges;
 }

@@ -8,6 +8,7 @@
  */
 import type { DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";
+import { getOrAdd } from "../get-or-add.js";
 import { readMtext, type MtextFormat, type MtextParagraph, type MtextRun } from "./mtext-codes.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import { CAPITAL_EM, type TextFont } from "../text/text-font.js";
@@ -90,9 +91,7 @@ export function drawDxfParagraphs(text: DxfParagraphs, font: TextFont): DrawnPar
   lines.forEach((line, i) => {
     let x = startOf(line, text.height, boxWidth, (place % 3) / 2);
     for (const piece of line.pieces) {
-      const { color } = piece.format;
-      let shape = shapes.get(color);
-      if (shape === undefined) shapes.set(color, (shape = new ShapeBuffer()));
+      const shape = getOrAdd(shapes, piece.format.color, () => new ShapeBuffer());
       drawPiece(piece, compose(placed, translation(x, top - bases[i] + footOf(piece, line))), shape);
       x += piece.width;
     }

@@ -12,6 +12,7 @@
  * own base point.
  */
 import type { DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
+import { getOrAdd } from "../get-or-add.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 import { subpathsOf } from "../subpaths.js";
 import { RAD_PER_DEG } from "../../units.js";
@@ -56,7 +57,7 @@ export function drawPattern(
   shape: ShapeBuffer,
   tolerance: number,
 ): boolean {
-  const polygons = subpathsOf(rings.verbs.view(), rings.coords.data, tolerance)
+  const polygons = subpathsOf({ verbs: rings.verbs.view(), coords: rings.coords.data }, tolerance)
     .map(({ xy }) => xy)
     .filter((xy) => xy.length > 4);
   const cuts = pattern.map((line) => cutsOf(polygons, line));
@@ -100,9 +101,7 @@ function cutsOf(polygons: readonly Float64Array[], line: PatternLine): Cuts | nu
       const [along0, along1] = [u0 * cos + k0 * sin, u1 * cos + k1 * sin];
       for (let k = first; k < end; k++) {
         const u = along0 + ((k - n0) / (n1 - n0)) * (along1 - along0);
-        const cuts = byLine.get(k);
-        if (cuts === undefined) byLine.set(k, [u]);
-        else cuts.push(u);
+        getOrAdd(byLine, k, () => []).push(u);
       }
     }
   }
@@ -118,13 +117,12 @@ function cutsOf(polygons: readonly Float64Array[], line: PatternLine): Cuts | nu
 function drawCuts({ line, cos, sin, spacing, period, byLine }: Cuts, shape: ShapeBuffer): void {
   const { base, offset, dashes } = line;
   const shift = offset.x * cos + offset.y * sin;
-  for (const k of [...byLine.keys()].sort((a, b) => a - b)) {
+  for (const [k, cuts] of [...byLine].sort(([a], [b]) => a - b)) {
     const v = k * spacing;
     const piece = (from: number, to: number): void => {
       shape.moveTo(base.x + from * cos - v * sin, base.y + from * sin + v * cos);
       shape.lineTo(base.x + to * cos - v * sin, base.y + to * sin + v * cos);
     };
-    const cuts = byLine.get(k) as number[];
     for (let i = 0; i + 1 < cuts.length; i += 2) {
       if (!(cuts[i + 1] > cuts[i])) continue;
       if (period > 0) drawDashes(dashes, period, k * shift, cuts[i], cuts[i + 1], piece);

@@ -27,7 +27,7 @@ import { drawPattern } from "./dxf-pattern.js";
 import { drawDxfEntity } from "./dxf-shapes.js";
 import { drawDxfParagraphs } from "./dxf-paragraphs.js";
 import { drawDxfWriting } from "./dxf-text.js";
-import { finishAroundDrawing } from "../finish-around-drawing.js";
+import { getOrAdd } from "../get-or-add.js";
 import { fontOf, type ImportOptions } from "../import-options.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { TextFont } from "../text/text-font.js";
@@ -179,7 +179,7 @@ class DxfImport {
       else this.visit(top.entities[top.next++], top, stack);
     }
     this.reportUnread(text);
-    return finishAroundDrawing(this.builder, this.warnings);
+    return this.builder.finishAround();
   }
 
   private findUnit(): number {
@@ -335,13 +335,10 @@ class DxfImport {
   }
 
   private groupOf(name: string, hidden: boolean): number {
-    let group = this.groups.get(name);
-    if (group === undefined) {
-      group = this.builder.addGroup(name, name === "0" ? "Layer 0" : name, hidden);
-      this.groups.set(name, group);
+    return getOrAdd(this.groups, name, () => {
       if (hidden) this.warnings.add("hidden-layer", undefined, name);
-    }
-    return group;
+      return this.builder.addGroup(name, name === "0" ? "Layer 0" : name, hidden);
+    });
   }
 
   private colorOf(entity: DxfEntity, layer: DxfLayer | undefined, from: Pending): string {

@@ -9,7 +9,7 @@ import type { Affine } from "../../geometry/affine.js";
 import { drawCentreArc } from "../arc.js";
 import type { Box } from "../../geometry/box.js";
 import { DrawingBuilder } from "../drawing-builder.js";
-import { finishAroundDrawing } from "../finish-around-drawing.js";
+import { getOrAdd } from "../get-or-add.js";
 import { readEncodedPolyline } from "./hpgl-encoded.js";
 import { HpglLabels } from "./hpgl-label.js";
 import { fontOf, type ImportOptions } from "../import-options.js";
@@ -94,7 +94,7 @@ class HpglImport {
     if (this.commandCount === 0) {
       throw new PlotwrightError("bad-file", "This is not an HPGL file: it has no commands. Export it again.");
     }
-    return finishAroundDrawing(this.builder, this.warnings);
+    return this.builder.finishAround();
   }
 
   private command(name: string, args: readonly number[]): void {
@@ -184,17 +184,20 @@ class HpglImport {
   }
 
   /** Goes to a point in user units. */
-  private goTo(ux: number, uy: number): void {
-    const x = ux * this.scaleX + (this.isRelative ? this.x : this.originX);
-    const y = uy * this.scaleY + (this.isRelative ? this.y : this.originY);
-    this.moveOrDraw(x, y);
-  }
-
-  private moveOrDraw(x: number, y: number): void {
+  private goTo(ux: number, uy: number, isRelative = this.isRelative): void {
+    const [x, y] = this.plotterUnits(ux, uy, isRelative);
     if (this.isDown) this.lineTo(x, y);
     else this.flush();
     this.x = x;
     this.y = y;
+  }
+
+  /** A point in user units, from the origin or from the pen. */
+  private plotterUnits(ux: number, uy: number, isRelative: boolean): [x: number, y: number] {
+    return [
+      ux * this.scaleX + (isRelative ? this.x : this.originX),
+      uy * this.scaleY + (isRelative ? this.y : this.originY),
+    ];
   }
 
   private lineTo(x: number, y: number): void {
@@ -220,8 +223,7 @@ class HpglImport {
   }
 
   private arc(args: readonly number[], isRelative: boolean): void {
-    const cx = args[0] * this.scaleX + (isRelative ? this.x : this.originX);
-    const cy = args[1] * this.scaleY + (isRelative ? this.y : this.originY);
+    const [cx, cy] = this.plotterUnits(args[0], args[1], isRelative);
     const radius = Math.hypot(this.x - cx, this.y - cy);
     const start = Math.atan2(this.y - cy, this.x - cx);
     const sweep = Math.max(-2 * Math.PI, Math.min(2 * Math.PI, (args[2] * Math.PI) / 180));
@@ -250,10 +252,7 @@ class HpglImport {
 
   private rectangle(args: readonly number[], isRelative: boolean): void {
     this.flush();
-    const { shape, x, y } = this;
-    const x1 = args[0] * this.scaleX + (isRelative ? x : this.originX);
-    const y1 = args[1] * this.scaleY + (isRelative ? y : this.originY);
-    shape.rectangle(x, y, x1, y1);
+    this.shape.rectangle(this.x, this.y, ...this.plotterUnits(args[0], args[1], isRelative));
     this.flush();
   }
 
@@ -265,9 +264,7 @@ class HpglImport {
       move: (x, y, isUp, isAbsolute) => {
         this.isDown = !isUp;
         if (isUp) this.flush();
-        const dx = isAbsolute ? this.originX : this.x;
-        const dy = isAbsolute ? this.originY : this.y;
-        this.moveOrDraw(x * this.scaleX + dx, y * this.scaleY + dy);
+        this.goTo(x, y, !isAbsolute);
       },
     });
   }
@@ -331,12 +328,7 @@ class HpglImport {
   }
 
   private groupOf(pen: number): number {
-    let group = this.groups.get(pen);
-    if (group === undefined) {
-      group = this.builder.addGroup(`pen-${pen}`, `Pen ${pen}`, false);
-      this.groups.set(pen, group);
-    }
-    return group;
+    return getOrAdd(this.groups, pen, () => this.builder.addGroup(`pen-${pen}`, `Pen ${pen}`, false));
   }
 }
 

@@ -14,7 +14,6 @@ import { PlotwrightError } from "../../errors.js";
 import { IDENTITY } from "../../geometry/affine.js";
 import { parseColor } from "../color.js";
 import { DrawingBuilder, type Look } from "../drawing-builder.js";
-import { finishAroundDrawing } from "../finish-around-drawing.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import { Warnings } from "../warnings.js";
 
@@ -36,7 +35,7 @@ export function importPolylines(text: string): Drawing {
   const { widthMm, heightMm } = file;
   if (widthMm === undefined && heightMm === undefined) {
     warnings.add("page-size", undefined, "taken from the drawing");
-    return finishAroundDrawing(builder, warnings);
+    return builder.finishAround();
   }
   return builder.finish(pageSide(widthMm, "widthMm"), pageSide(heightMm, "heightMm"));
 }

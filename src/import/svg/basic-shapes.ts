@@ -1,19 +1,14 @@
 /** SVG's basic shapes and paths to verbs and coordinates in user units (SVG 2, chapters 9 and 10). */
 import { drawCentreArc, drawEllipse } from "../arc.js";
-import type { Side } from "./length.js";
+import { isFontLength, lengthPx, type Side } from "./length.js";
+import type { Declared, Property } from "./properties.js";
+import { declaredValue } from "./style.js";
+import type { Context } from "./svg-context.js";
+import { attribute, type SvgTree } from "./svg-tree.js";
 import { drawPathData, NumberReader } from "../path-data.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 
 export type LengthName = "x" | "y" | "width" | "height" | "cx" | "cy" | "r" | "rx" | "ry";
-
-/** Source of a shape's numbers: CSS first, then attributes. */
-export interface ShapeSource {
-  /** User units; null if the value is absent, auto or malformed. */
-  length(name: LengthName, side: Side): number | null;
-  /** An attribute that is a plain length. */
-  attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null;
-  text(name: "d" | "points"): string | undefined;
-}
 
 export const SHAPE_TAGS: ReadonlySet<string> = new Set([
   "path",
@@ -148,4 +143,48 @@ function drawPoints(text: string, shape: ShapeBuffer, isClosed: boolean): string
   }
   if (isClosed && pointCount > 1) shape.close();
   return fault;
+}
+
+/** The numbers of one element: from CSS first, then from attributes. */
+export class ShapeSource {
+  /** The element's last length that could not be read. */
+  malformed: string | null = null;
+  /** The element's last length in ex or ch. */
+  fontLength: string | null = null;
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly element: number,
+    private readonly declared: Declared,
+    private readonly context: Context,
+  ) {}
+
+  /** User units; null if the value is absent, auto or malformed. */
+  length(name: LengthName, side: Side): number | null {
+    return this.px(this.css(name) ?? attribute(this.tree, this.element, name), side);
+  }
+
+  /** An attribute that is a plain length. */
+  attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null {
+    return this.px(attribute(this.tree, this.element, name), side);
+  }
+
+  text(name: "d" | "points"): string | undefined {
+    const path = name === "d" ? this.css("d") : undefined;
+    if (path === "none") return "";
+    const quoted = path === undefined ? null : /^path\(\s*["'](.*)["']\s*\)$/s.exec(path);
+    return quoted?.[1] ?? attribute(this.tree, this.element, name);
+  }
+
+  private px(text: string | undefined, side: Side): number | null {
+    if (text === undefined || text === "auto") return null;
+    const length = lengthPx(text, this.context.basis, side);
+    if (length === null) this.malformed = text.slice(0, 40);
+    else if (isFontLength(text)) this.fontLength = text.trim();
+    return length;
+  }
+
+  private css(name: Property): string | undefined {
+    return declaredValue(this.context.style, this.declared, name);
+  }
 }

@@ -7,10 +7,10 @@
  * rules that may match. css-select decides for selectors with more parts.
  */
 import { compile } from "css-select";
-import type { Declared } from "./declared.js";
-import { IS_KEYWORD, IS_PROPERTY, NOT_DRAWN_PROPERTIES, PRESENTATION } from "./properties.js";
+import { getOrAdd } from "../get-or-add.js";
+import { IS_KEYWORD, IS_PROPERTY, NOT_DRAWN_PROPERTIES, PRESENTATION, type Declared } from "./properties.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
-import { attribute, attributeValue, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
+import { attribute, attributeValue, childrenOf, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
 
 const MARKERS = ["marker-start", "marker-mid", "marker-end"] as const;
 const IS_PRESENTATION = new Set<string>([...PRESENTATION, ...NOT_DRAWN_PROPERTIES.keys()]);
@@ -109,34 +109,21 @@ export class Cascade {
     if (kind === "any") this.forAll.push(filed);
     else {
       const map = kind === "id" ? this.byId : kind === "class" ? this.byClass : this.byType;
-      const list = map.get(name);
-      if (list === undefined) map.set(name, [filed]);
-      else list.push(filed);
+      getOrAdd(map, name, () => []).push(filed);
     }
   }
 
   private ref(index: number): ElementRef {
-    let ref = this.refs.get(index);
-    if (ref === undefined) {
-      ref = { index };
-      this.refs.set(index, ref);
-    }
-    return ref;
+    return getOrAdd(this.refs, index, () => ({ index }));
   }
 
   private children(parent: number): ElementRef[] {
-    let list = this.childLists.get(parent);
-    if (list === undefined) {
-      list = [];
-      const { tree } = this;
-      for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
-        if (tagOf(tree, child) === TEXT_NODE) continue;
-        this.positions.set(child, list.length);
-        list.push(this.ref(child));
-      }
-      this.childLists.set(parent, list);
-    }
-    return list;
+    const { tree } = this;
+    return getOrAdd(this.childLists, parent, () => {
+      const elements = [...childrenOf(tree, parent)].filter((child) => tagOf(tree, child) !== TEXT_NODE);
+      elements.forEach((child, place) => this.positions.set(child, place));
+      return elements.map((child) => this.ref(child));
+    });
   }
 
   /**
@@ -211,10 +198,6 @@ function* styleTexts(tree: SvgTree): Generator<string> {
     if (tagOf(tree, element) !== "style") continue;
     const type = attribute(tree, element, "type") ?? "";
     if (type !== "" && type.toLowerCase() !== "text/css") continue;
-    let text = "";
-    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
-      text += textOf(tree, child);
-    }
-    yield text;
+    yield Array.from(childrenOf(tree, element), (child) => textOf(tree, child)).join("");
   }
 }

@@ -1,7 +1,9 @@
 /** Clip shapes as rings for Clipper: to clip the shapes of a clipPath, and to combine those of a mask. */
-import { ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
-import { RULE_EVENODD, type ClipRegion } from "../../drawing/drawing.js";
-import { SCALE, cleanRings, combine } from "../../geometry/region.js";
+import { ClipType, type Path64, type Paths64 } from "clipper2-ts";
+import type { ClipRegion, Curves } from "../../drawing/drawing.js";
+import { ringsOfClip } from "../../drawing/flatten.js";
+import { IDENTITY } from "../../geometry/affine.js";
+import { SCALE, combine, ringOf } from "../../geometry/region.js";
 import type { ClipNode, ClipShapes } from "../clip-node.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import { subpathsOf } from "../subpaths.js";
@@ -49,27 +51,8 @@ function shapeOf(rings: Paths64): ShapeBuffer {
 }
 
 /** The union of the shapes, each filled by its own rule. */
-export function ringsOf({ verbs, coords, rule, shape }: Omit<ClipRegion, "parent">): Paths64 {
-  const byShape = new Map<number, { rings: Paths64; rule: FillRule }>();
-  outlinesOf(verbs, coords).forEach(({ ring }, subpath) => {
-    const index = shape?.[subpath] ?? 0;
-    const entry = byShape.get(index) ?? {
-      rings: [],
-      rule: rule[subpath] === RULE_EVENODD ? FillRule.EvenOdd : FillRule.NonZero,
-    };
-    entry.rings.push(ring);
-    byShape.set(index, entry);
-  });
-  const filled = [...byShape.values()].map((entry) => cleanRings(entry.rings, entry.rule));
-  return cleanRings(filled.flat(), FillRule.NonZero);
-}
+export const ringsOf = (clip: Omit<ClipRegion, "parent">): Paths64 => ringsOfClip(clip, IDENTITY, FLATNESS);
 
 /** The subpaths of a path in page mm. */
-export const outlinesOf = (verbs: Uint8Array, coords: Float64Array): Outline[] =>
-  subpathsOf(verbs, coords, FLATNESS).map(({ xy, isClosed }) => ({ ring: ringOf(xy), isClosed }));
-
-const ringOf = (xy: Float64Array): Path64 =>
-  Array.from({ length: xy.length / 2 }, (_, i) => ({
-    x: Math.round(xy[2 * i] * SCALE),
-    y: Math.round(xy[2 * i + 1] * SCALE),
-  }));
+export const outlinesOf = (curves: Curves): Outline[] =>
+  subpathsOf(curves, FLATNESS).map(({ xy, isClosed }) => ({ ring: ringOf(xy), isClosed }));

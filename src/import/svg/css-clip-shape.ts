@@ -4,7 +4,7 @@ import type { Box } from "../../geometry/box.js";
 import { drawEllipse } from "../arc.js";
 import { drawPathData } from "../path-data.js";
 import { ShapeBuffer } from "../shape-buffer.js";
-import { lengthPx, type LengthBasis, type Side } from "./length.js";
+import { basisOfBox, lengthPx, type LengthBasis, type Side } from "./length.js";
 import { originOf } from "./transform.js";
 
 /** Max error of an arc, as a share of the reference box's diagonal. */
@@ -28,7 +28,7 @@ export function cssClipShape(text: string, box: Box, outer: LengthBasis): CssCli
   const [, name, body] = FUNCTION.exec(text) ?? ["", "", ""];
   const rule = RULE.exec(body)?.[1];
   const args = body.replace(RULE, "").trim();
-  const basis = { ...outer, viewportWidth: box.x1 - box.x0, viewportHeight: box.y1 - box.y0 };
+  const basis = basisOfBox(outer, box);
   const shape = new ShapeBuffer();
   const tolerance = ARC_TOLERANCE * Math.hypot(basis.viewportWidth, basis.viewportHeight);
   const isDrawn = draw(name, args, { shape, box, basis, tolerance });

@@ -2,6 +2,7 @@
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference
 /// <reference path="./css-tree-parser.d.ts" />
 /** Style sheets and `style` attributes to rules and declarations (parsing only; cascade.ts applies them). */
+import { remembered } from "../get-or-add.js";
 import { IS_PROPERTY } from "./properties.js";
 import parseCss from "css-tree/parser";
 import type { CssNode, List, Selector } from "css-tree";
@@ -206,20 +207,10 @@ function keyOfPart(node: CssNode): Rule["key"] {
   return { kind: "any", name: "" };
 }
 
-const styleCache = new Map<string, readonly Declaration[]>();
 const STYLE_CACHE_LIMIT = 2048;
 
 /** The declarations of a `style` attribute, in order. */
-export function parseInlineStyle(text: string): readonly Declaration[] {
-  const known = styleCache.get(text);
-  if (known !== undefined) return known;
-  const declarations = readInline(text);
-  if (styleCache.size >= STYLE_CACHE_LIMIT) styleCache.clear();
-  styleCache.set(text, declarations);
-  return declarations;
-}
-
-function readInline(text: string): Declaration[] {
+export const parseInlineStyle = remembered(STYLE_CACHE_LIMIT, (text): readonly Declaration[] => {
   const declarations: Declaration[] = [];
   if (nestingDepth(text) > MAX_NESTING) return declarations;
   const list = parseCss(text, {
@@ -234,4 +225,4 @@ function readInline(text: string): Declaration[] {
     declarations.push(declare(node.property, node.value.value, node.important !== false));
   });
   return declarations;
-}
+});

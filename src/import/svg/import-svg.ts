@@ -12,20 +12,18 @@ import { checkText } from "../../check-arguments.js";
 import type { Drawing } from "../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
-import { Cascade } from "./cascade.js";
-import type { Declared } from "./declared.js";
+import type { Cascade } from "./cascade.js";
+import type { Declared } from "./properties.js";
 import { DrawingBuilder } from "../drawing-builder.js";
-import { finishAroundDrawing } from "../finish-around-drawing.js";
 import type { Context } from "./svg-context.js";
-import { SvgConditions } from "./svg-conditions.js";
 import { SvgClips } from "./svg-clips.js";
 import { checkImportOptions, fontOf, type ImportOptions } from "../import-options.js";
 import { SvgPaintServers } from "./svg-paint-servers.js";
 import { SvgGeometry } from "./svg-geometry.js";
-import { planLayers } from "./svg-layers.js";
+import { SvgFile } from "./svg-file.js";
 import { pageOf, type SvgPage } from "./svg-page.js";
 import { SvgPainter } from "./svg-painter.js";
-import { attribute, parseSvgTree, type SvgTree } from "./svg-tree.js";
+import { parseSvgTree, type SvgTree } from "./svg-tree.js";
 import { SvgWalk } from "./svg-walk.js";
 import type { LengthBasis } from "./length.js";
 import { aroundOrigin, parseTransform } from "./transform.js";
@@ -57,33 +55,22 @@ function draw(
   options: ImportOptions,
   warnings: Warnings,
 ): { readonly builder: DrawingBuilder; readonly page: SvgPage } {
-  const tree = parseSvgTree(text);
-  const cascade = new Cascade(tree);
+  const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
+  const file = new SvgFile(parseSvgTree(text), fontOf(options), languages);
+  const { tree, cascade, layers } = file;
   reportParsing(tree, cascade, warnings);
 
   const root = cascade.declaredOf(0);
-  const page = findPage(tree, root, options.pxPerInch ?? PX_PER_INCH);
-  const context = rootContext(page, root, options.pxPerInch ?? PX_PER_INCH);
+  const pxPerInch = options.pxPerInch ?? PX_PER_INCH;
+  const page = pageOf(tree, root, pxPerInch);
+  const context = rootContext(page, root, pxPerInch);
   const builder = new DrawingBuilder(warnings);
-  const layers = planLayers(tree);
   if (!layers.isSplit) warnings.add("too-many-layers", undefined, undefined, layers.groupCount);
   const arcToleranceMm = ARC_TOLERANCE * Math.hypot(page.widthMm, page.heightMm);
   const geometry = new SvgGeometry(tree, warnings, arcToleranceMm);
-  const servers = new SvgPaintServers(tree, cascade);
-  const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
-  const conditions = new SvgConditions(tree, languages);
-  const painter = new SvgPainter(
-    tree,
-    geometry,
-    servers,
-    builder,
-    warnings,
-    cascade,
-    fontOf(options),
-    conditions,
-  );
-  const clips = new SvgClips(tree, cascade, geometry, painter, warnings);
-  const walk = new SvgWalk(tree, cascade, layers, geometry, clips, painter, builder, warnings, conditions);
+  const painter = new SvgPainter(file, geometry, new SvgPaintServers(file), builder, warnings);
+  const clips = new SvgClips(file, geometry, painter, warnings);
+  const walk = new SvgWalk(file, geometry, clips, painter, builder, warnings);
   if (isShown(root)) walk.run(context);
   return { builder, page };
 }
@@ -94,21 +81,6 @@ function reportParsing(tree: SvgTree, cascade: Cascade, warnings: Warnings): voi
   if (tree.hasStylesheetLink) warnings.add("style-external");
   if (cascade.importCount > 0) warnings.add("style-external", undefined, undefined, cascade.importCount);
   for (const fault of cascade.faults) warnings.add("style-fault", undefined, fault);
-}
-
-function findPage(tree: SvgTree, root: Declared, pxPerInch: number): SvgPage {
-  if (!(pxPerInch > 0 && Number.isFinite(pxPerInch))) {
-    throw new RangeError(`importSvg: pxPerInch must be > 0, got ${pxPerInch}`);
-  }
-  return pageOf(
-    {
-      width: [root.get("width"), attribute(tree, 0, "width")],
-      height: [root.get("height"), attribute(tree, 0, "height")],
-      viewBox: attribute(tree, 0, "viewBox"),
-      preserveAspectRatio: attribute(tree, 0, "preserveAspectRatio"),
-    },
-    pxPerInch,
-  );
 }
 
 function rootContext(page: SvgPage, root: Declared, pxPerInch: number): Context {
@@ -156,5 +128,5 @@ function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Dra
   const { x0, y0, x1, y1 } = builder.extent();
   const size = `taken from the drawing: ${(x1 - x0).toFixed(1)} × ${(y1 - y0).toFixed(1)} mm`;
   warnings.add("page-size", undefined, size);
-  return finishAroundDrawing(builder, warnings);
+  return builder.finishAround();
 }

@@ -1,4 +1,5 @@
 /** CSS and SVG lengths to user units (CSS px). */
+import type { Box } from "../../geometry/box.js";
 import { evaluateCalc } from "./calc.js";
 import { MM_PER_INCH, MM_PER_PX } from "../../units.js";
 
@@ -12,6 +13,13 @@ export interface LengthBasis {
   /** px, for `rem`. */
   readonly rootFontSize: number;
 }
+
+/** The basis for lengths whose percentages refer to a box. */
+export const basisOfBox = (basis: LengthBasis, { x0, y0, x1, y1 }: Box): LengthBasis => ({
+  ...basis,
+  viewportWidth: x1 - x0,
+  viewportHeight: y1 - y0,
+});
 
 /**
  * The side of the viewport that a percentage refers to; "both" is the diagonal / √2, for radii and widths.
@@ -31,6 +39,9 @@ const ABSOLUTE: ReadonlyMap<string, number> = new Map([
   ["pt", (MM_PER_INCH * PX_PER_MM) / 72],
   ["pc", (MM_PER_INCH * PX_PER_MM) / 6],
 ]);
+
+/** The parts of a list that is separated by blanks and commas. */
+export const listIn = (text: string): string[] => text.split(/[\s,]+/).filter((part) => part !== "");
 
 /** Number and lower-case unit ("" for none), or null if the text is not a length. */
 export function splitLength(text: string): { value: number; unit: string } | null {

@@ -3,7 +3,7 @@
  * to it, and black ones on top of them cut holes.
  */
 import { ClipperOffset, ClipType, EndType, FillRule, JoinType, type Paths64 } from "clipper2-ts";
-import { VERB_MOVE, type Drawing } from "../../drawing/drawing.js";
+import { curvesOf, VERB_MOVE, type Drawing } from "../../drawing/drawing.js";
 import { cleanRings, combine, SCALE } from "../../geometry/region.js";
 import type { ClipShapes } from "../clip-node.js";
 import type { WarningCode } from "../warnings.js";
@@ -84,9 +84,7 @@ function combined({ paths, clips }: Drawing, isLight: (color: number) => boolean
     region = combine(isLight(color) ? ClipType.Union : ClipType.Difference, region, inside);
   };
   for (let i = 0; i < paths.count; i++) {
-    const verbs = paths.verbs.subarray(paths.verbOffsets[i], paths.verbOffsets[i + 1]);
-    const coords = paths.coords.subarray(paths.coordOffsets[i], paths.coordOffsets[i + 1]);
-    const outlines = outlinesOf(verbs, coords);
+    const outlines = outlinesOf(curvesOf(paths, i));
     if (paths.fill[i] >= 0) {
       const rule = paths.fillRule[i] === 0 ? FillRule.NonZero : FillRule.EvenOdd;
       paint(

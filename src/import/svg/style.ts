@@ -1,10 +1,9 @@
 /** Computed style: inherited and declared properties, as values ready for drawing. */
-import type { Property } from "./properties.js";
-import type { Declared } from "./declared.js";
+import type { Declared, Property } from "./properties.js";
 import { parseColor, type Color } from "../color.js";
 import type { Paint } from "./paint.js";
 import { computeTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
-import { lengthPx, splitLength, type LengthBasis } from "./length.js";
+import { lengthPx, listIn, splitLength, type LengthBasis } from "./length.js";
 
 /** The inherited properties. */
 export interface Style {
@@ -223,10 +222,7 @@ export function parseOpacity(text: string): number | null {
 function parseDashes(text: string, basis: LengthBasis): readonly number[] | null | undefined {
   if (text === "none") return null;
   if (/,\s*,/.test(text)) return undefined;
-  const lengths = text
-    .split(/[\s,]+/)
-    .filter((part) => part !== "")
-    .map((part) => lengthPx(part, basis, "both"));
+  const lengths = listIn(text).map((part) => lengthPx(part, basis, "both"));
   if (lengths.some((length) => length === null || length < 0)) return undefined;
   const known = lengths as number[];
   const sum = known.reduce((total, length) => total + length, 0);

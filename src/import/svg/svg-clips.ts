@@ -5,24 +5,21 @@
  * those of ancestor elements, are intersected through the chain of ClipNodes.
  */
 import { RULE_EVENODD, RULE_NONZERO, VERB_CLOSE, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
-import { applyX, applyY, compose, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
-import { boxOfPoints, EMPTY_BOX, isEmptyBox, uniteBoxes, type Box } from "../../geometry/box.js";
-import { ColumnBuffer, PointBuffer } from "../../geometry/growable.js";
-import { AncestorStyles } from "./ancestor-style.js";
+import { compose, IDENTITY, scaling, translation, type Affine } from "../../geometry/affine.js";
+import { EMPTY_BOX, isEmptyBox, mapBox, mappedCorners, uniteBoxes, type Box } from "../../geometry/box.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
-import { Cascade } from "./cascade.js";
 import { cssClipShape, splitReferenceBox } from "./css-clip-shape.js";
-import type { Declared } from "./declared.js";
 import { clippedShape } from "./clip-shapes.js";
 import { ClipNode, type ClipShapes } from "../clip-node.js";
-import { elementTransform } from "./element-transform.js";
+import { getOrAdd } from "../get-or-add.js";
+import { elementTransform } from "./transform.js";
 import { lengthPx } from "./length.js";
-import { mapBox } from "../map-box.js";
-import { curveBox, type ShapeBuffer } from "../shape-buffer.js";
+import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import { withStyle, type Context } from "./svg-context.js";
+import type { SvgFile } from "./svg-file.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import type { SvgPainter } from "./svg-painter.js";
-import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
+import { attribute, childrenOf, HREF, tagOf } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseUrl } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
@@ -36,14 +33,12 @@ const MAX_MEASURED = 1_000_000;
 
 interface BuiltClip {
   readonly shapes: ClipShapes;
-  readonly rectangle: Box | null;
   /** One node per outer chain, so that equal clips share their index. */
   readonly nodes: Map<ClipNode | null, ClipNode>;
 }
 
 export class SvgClips {
   private readonly built = new Map<string, BuiltClip | null>();
-  private readonly ancestors: AncestorStyles;
   private measured = 0;
   private childClips = 0;
   private childNesting = 0;
@@ -51,15 +46,12 @@ export class SvgClips {
   private readonly open = new Set<number>();
 
   constructor(
-    private readonly tree: SvgTree,
-    private readonly cascade: Cascade,
+    private readonly file: SvgFile,
     private readonly geometry: SvgGeometry,
     /** Lays out text. */
     private readonly painter: SvgPainter,
     private readonly warnings: Warnings,
-  ) {
-    this.ancestors = new AncestorStyles(tree, cascade);
-  }
+  ) {}
 
   /** The clip of an element with this `clip-path` value inside `context`; "empty" if it hides everything. */
   clipOf(
@@ -69,7 +61,8 @@ export class SvgClips {
     nesting = 0,
   ): ClipNode | null | "empty" {
     if (value === undefined || value === "none") return context.clip;
-    const { tree, warnings } = this;
+    const { file, warnings } = this;
+    const { tree } = file;
     const shapeClip = this.shapeClip(element, value, context);
     if (shapeClip !== null) return shapeClip;
     const id = parseUrl(value);
@@ -82,7 +75,7 @@ export class SvgClips {
     if (attribute(tree, target, "clipPathUnits") === "objectBoundingBox") {
       const box = this.measure(element, context);
       if (box === null || isEmptyBox(box)) return context.clip;
-      units = { a: box.x1 - box.x0, b: 0, c: 0, d: box.y1 - box.y0, e: box.x0, f: box.y0 };
+      units = boxUnits(box);
     }
     return this.clipTo(element, target, context, units, nesting);
   }
@@ -97,27 +90,21 @@ export class SvgClips {
     const clip = cssClipShape(text, box, context.basis);
     if (clip === null) return null;
     const collector = new ClipCollector();
-    collector.add(clip.shape, context.map, clip.evenOdd);
+    collector.add(clip.shape, context.map, clip.evenOdd, null);
     const shapes = collector.finish();
-    return shapes === null ? "empty" : new ClipNode(context.clip, shapes, rectangleOf(shapes));
+    return shapes === null ? "empty" : new ClipNode(context.clip, shapes);
   }
 
   /** A clip to a rectangle in user units: a viewport's edge. */
   rectangleClip(context: Context, x: number, y: number, width: number, height: number): ClipNode {
-    const { map } = context;
-    const coords = new Float64Array(8);
-    const corners = [x, y, x + width, y, x + width, y + height, x, y + height];
-    for (let i = 0; i < 8; i += 2) {
-      coords[i] = applyX(map, corners[i], corners[i + 1]);
-      coords[i + 1] = applyY(map, corners[i], corners[i + 1]);
-    }
+    const corners = mappedCorners(context.map, { x0: x, y0: y, x1: x + width, y1: y + height });
     const shapes = {
       verbs: RECTANGLE_VERBS,
-      coords,
+      coords: Float64Array.from(corners),
       rule: Uint8Array.of(RULE_NONZERO),
       shape: Uint32Array.of(0),
     };
-    return new ClipNode(context.clip, shapes, rectangleOf(shapes));
+    return new ClipNode(context.clip, shapes);
   }
 
   /** Clips `element` to the clipPath `target`; `units` maps the clipPath's units to user units. */
@@ -128,8 +115,8 @@ export class SvgClips {
     units: Affine,
     nesting: number,
   ): ClipNode | null | "empty" {
-    const declared = this.cascade.declaredOf(target);
-    const style = computeStyle(this.ancestors.outside(target, context.basis), declared, context.basis);
+    const declared = this.file.cascade.declaredOf(target);
+    const style = computeStyle(this.file.styleAround(target, context.basis), declared, context.basis);
     // A clipPath with display none does not clip.
     if (declaredValue(style, declared, "display") === "none") return context.clip;
     const own = declaredValue(style, declared, "clip-path");
@@ -148,39 +135,29 @@ export class SvgClips {
   private contentClip(target: number, inner: Context, outside: ClipNode | null): ClipNode | "empty" {
     const { a, b, c, d, e, f } = inner.map;
     const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
-    let built = this.built.get(key);
-    if (built === undefined) {
-      this.open.add(target);
-      built = this.build(target, inner);
-      this.open.delete(target);
-      this.built.set(key, built);
-    }
+    const built = getOrAdd(this.built, key, () => this.build(target, inner));
     if (built === null) return "empty";
-    let node = built.nodes.get(outside);
-    if (node === undefined) {
-      node = new ClipNode(outside, built.shapes, built.rectangle);
-      built.nodes.set(outside, node);
-    }
-    return node;
+    return getOrAdd(built.nodes, outside, () => new ClipNode(outside, built.shapes));
   }
 
   /** The shapes of a clipPath in page mm; null if it has none. */
   private build(target: number, context: Context): BuiltClip | null {
-    const { tree } = this;
     const collector = new ClipCollector();
-    for (let child = tree.firstChildren[target]; child >= 0; child = tree.nextSiblings[child]) {
+    this.open.add(target);
+    for (const child of childrenOf(this.file.tree, target)) {
       this.addChild(child, { ...context, clip: null }, collector);
     }
+    this.open.delete(target);
     const shapes = collector.finish();
     if (shapes === null) return null;
-    return { shapes, rectangle: rectangleOf(shapes), nodes: new Map() };
+    return { shapes, nodes: new Map() };
   }
 
   private addChild(child: number, outer: Context, collector: ClipCollector): void {
-    const { tree } = this;
+    const { tree } = this.file;
     const tag = tagOf(tree, child);
     if (!SHAPE_TAGS.has(tag) && tag !== "use" && tag !== "text") return;
-    const declared = this.cascade.declaredOf(child);
+    const declared = this.file.cascade.declaredOf(child);
     const style = computeStyle(outer.style, declared, outer.basis);
     if (declaredValue(style, declared, "display") === "none") return;
     const boxOf = (): Box | null => this.boxOf(child, { ...outer, style });
@@ -191,7 +168,10 @@ export class SvgClips {
     const context = clip === moved.clip ? moved : { ...moved, clip };
     if (tag === "use") this.addUse(child, context, collector);
     else if (tag === "text") this.addText(child, context, collector);
-    else if (style.isVisible) this.addShape(child, tag, declared, context, collector);
+    else if (style.isVisible) {
+      const shape = this.geometry.geometryOf(child, tag, declared, context);
+      collector.add(shape, context.map, style.clipRule === "evenodd", clip);
+    }
   }
 
   /** Like `clipOf`, but limited, since there may be many clips of clips. */
@@ -203,38 +183,34 @@ export class SvgClips {
       this.childNesting--;
       return clip;
     }
-    const where = `clip inside a clipPath, line ${this.tree.lines[child]}`;
+    const where = `clip inside a clipPath, line ${this.file.tree.lines[child]}`;
     this.warnings.add("clip-ignored", undefined, where);
     return context.clip;
   }
 
-  private addShape(
-    child: number,
-    tag: string,
-    declared: Declared,
-    context: Context,
-    collector: ClipCollector,
-  ): void {
-    const shape = this.geometry.geometryOf(child, tag, declared, context);
-    addClipped(collector, shape, context.map, context.style.clipRule === "evenodd", context.clip);
-  }
-
   private addText(child: number, context: Context, collector: ClipCollector): void {
     const hasOutlines = this.painter.outlinesOf(child, context, (shape, map) => {
-      addClipped(collector, shape, map, false, context.clip);
+      collector.add(shape, map, false, context.clip);
     });
     if (!hasOutlines) this.warnings.add("clip-text");
   }
 
   /** Inside a clipPath, `use` may only refer to a shape or a text. */
   private addUse(use: number, context: Context, collector: ClipCollector): void {
-    const { tree } = this;
-    const target = tree.elementById.get((attribute(tree, use, HREF) ?? "").trim().slice(1));
+    const { target, shift } = this.copyOf(use, context);
     if (target === undefined) return;
-    if (!SHAPE_TAGS.has(tagOf(tree, target)) && tagOf(tree, target) !== "text") return;
-    const x = lengthPx(attribute(tree, use, "x") ?? "0", context.basis, "width") ?? 0;
-    const y = lengthPx(attribute(tree, use, "y") ?? "0", context.basis, "height") ?? 0;
-    this.addChild(target, { ...context, map: compose(context.map, translation(x, y)) }, collector);
+    const tag = tagOf(this.file.tree, target);
+    if (!SHAPE_TAGS.has(tag) && tag !== "text") return;
+    this.addChild(target, { ...context, map: compose(context.map, shift) }, collector);
+  }
+
+  /** What a `use` refers to, and where it places that. */
+  private copyOf(use: number, { basis }: Context): { target: number | undefined; shift: Affine } {
+    const { tree } = this.file;
+    const x = lengthPx(attribute(tree, use, "x") ?? "0", basis, "width") ?? 0;
+    const y = lengthPx(attribute(tree, use, "y") ?? "0", basis, "height") ?? 0;
+    const target = tree.elementById.get((attribute(tree, use, HREF) ?? "").trim().slice(1));
+    return { target, shift: translation(x, y) };
   }
 
   /** The box of an element's geometry in its own user units; null if it has none. */
@@ -247,7 +223,7 @@ export class SvgClips {
    * Like `boxOf`, but returns an empty box if there is no geometry, and null if there is too much to measure.
    */
   private measure(element: number, context: Context): Box | null {
-    const { tree } = this;
+    const { tree } = this.file;
     let box = EMPTY_BOX;
     const pending: { element: number; map: Affine }[] = [{ element, map: IDENTITY }];
     while (pending.length > 0) {
@@ -257,7 +233,7 @@ export class SvgClips {
         return null;
       }
       const tag = tagOf(tree, at);
-      const declared = this.cascade.declaredOf(at);
+      const declared = this.file.cascade.declaredOf(at);
       const style = computeStyle(context.style, declared, context.basis);
       if (declaredValue(style, declared, "display") === "none") continue;
       const own = at === element ? IDENTITY : elementTransform(style, declared, context.basis, () => null);
@@ -267,56 +243,41 @@ export class SvgClips {
       } else if (tag === "text") {
         box = uniteBoxes(box, mapBox(inner, this.painter.textBox(at, withStyle(context, style, IDENTITY))));
       } else if (tag === "use") {
-        const target = tree.elementById.get((attribute(tree, at, HREF) ?? "").trim().slice(1));
-        const x = lengthPx(attribute(tree, at, "x") ?? "0", context.basis, "width") ?? 0;
-        const y = lengthPx(attribute(tree, at, "y") ?? "0", context.basis, "height") ?? 0;
+        const { target, shift } = this.copyOf(at, context);
         if (target !== undefined && pending.length < MAX_NESTING * 1000) {
-          pending.push({ element: target, map: compose(inner, translation(x, y)) });
+          pending.push({ element: target, map: compose(inner, shift) });
         }
       } else if (tag === "g" || tag === "a" || tag === "svg" || tag === "switch" || tag === "symbol") {
-        for (let child = tree.firstChildren[at]; child >= 0; child = tree.nextSiblings[child]) {
-          pending.push({ element: child, map: inner });
-        }
+        for (const child of childrenOf(tree, at)) pending.push({ element: child, map: inner });
       }
     }
     return box;
   }
 }
 
-/** Adds the part of a shape inside `clip`. */
-function addClipped(
-  collector: ClipCollector,
-  shape: ShapeBuffer,
-  map: Affine,
-  evenOdd: boolean,
-  clip: ClipNode | null,
-): void {
-  if (clip === null) return collector.add(shape, map, evenOdd);
-  const whole = new ClipCollector();
-  whole.add(shape, map, evenOdd);
-  const outline = whole.finish();
-  if (outline !== null) collector.add(clippedShape(outline, clip), IDENTITY, false);
-}
+/** Maps the units of objectBoundingBox, 0 … 1, to the box. */
+export const boxUnits = ({ x0, y0, x1, y1 }: Box): Affine =>
+  compose(translation(x0, y0), scaling(x1 - x0, y1 - y0));
 
 /** Collects subpaths of several shapes, mapped to page mm, with the rule and the shape of each. */
 class ClipCollector {
-  private readonly verbs = new ColumnBuffer(Uint8Array);
-  private readonly coords = new PointBuffer();
+  private readonly all = new ShapeBuffer();
   private readonly rules: number[] = [];
   private readonly shapes: number[] = [];
   private shapeCount = 0;
 
-  add(shape: ShapeBuffer, map: Affine, evenOdd: boolean): void {
+  /** Adds the part of a shape inside `clip`. */
+  add(shape: ShapeBuffer, map: Affine, evenOdd: boolean, clip: ClipNode | null): void {
     if (shape.isEmpty) return;
-    const from = shape.coords.data;
-    for (let i = 0; i < shape.coords.length; i += 2) {
-      const x = applyX(map, from[i], from[i + 1]);
-      const y = applyY(map, from[i], from[i + 1]);
-      this.coords.push(Number.isFinite(x) ? x : 0, Number.isFinite(y) ? y : 0);
+    if (clip !== null) {
+      const whole = new ClipCollector();
+      whole.add(shape, map, evenOdd, null);
+      const outline = whole.finish();
+      if (outline !== null) this.add(clippedShape(outline, clip), IDENTITY, false, null);
+      return;
     }
-    for (let i = 0; i < shape.verbs.length; i++) {
-      const verb = shape.verbs.data[i];
-      this.verbs.push(verb);
+    this.all.append(shape, map);
+    for (const verb of shape.verbs.view()) {
       if (verb !== VERB_MOVE) continue;
       this.rules.push(evenOdd ? RULE_EVENODD : RULE_NONZERO);
       this.shapes.push(this.shapeCount);
@@ -325,30 +286,13 @@ class ClipCollector {
   }
 
   finish(): ClipShapes | null {
-    if (this.verbs.length === 0) return null;
+    const { verbs, coords, isEmpty } = this.all;
+    if (isEmpty) return null;
     return {
-      verbs: this.verbs.toArray(),
-      coords: this.coords.toArray(),
+      verbs: verbs.toArray(),
+      coords: coords.toArray().map((mm) => (Number.isFinite(mm) ? mm : 0)),
       rule: Uint8Array.from(this.rules),
       shape: Uint32Array.from(this.shapes),
     };
   }
-}
-
-/** The region's box if it is one axis-aligned rectangle, otherwise null. */
-export function rectangleOf({ verbs, coords, rule }: ClipShapes): Box | null {
-  if (rule.length !== 1) return null;
-  const points = coords.length / 2;
-  const isClosedAgain = points === 5 && coords[0] === coords[8] && coords[1] === coords[9];
-  if (points !== 4 && !isClosedAgain) return null;
-  for (let i = 1; i < verbs.length; i++) if (verbs[i] !== VERB_LINE && verbs[i] !== VERB_CLOSE) return null;
-  for (let i = 0; i < 4; i++) {
-    const next = ((i + 1) % 4) * 2;
-    const sameX = coords[2 * i] === coords[next];
-    const sameY = coords[2 * i + 1] === coords[next + 1];
-    // Sides alternate. A degenerate side is both horizontal and vertical: not a rectangle.
-    if (sameX === sameY) return null;
-    if (i % 2 === 0 && sameX !== (coords[4] === coords[6])) return null;
-  }
-  return boxOfPoints(coords);
 }

@@ -1,15 +1,12 @@
 /** Converts elements to outlines in user units, and finds their place on the page. */
 import { applyX, applyY, largestScale } from "../../geometry/affine.js";
-import type { Box } from "../../geometry/box.js";
-import { drawBasicShape, type LengthName, type ShapeSource } from "./basic-shapes.js";
-import type { Property } from "./properties.js";
-import type { Declared } from "./declared.js";
-import { isFontLength, lengthPx, type Side } from "./length.js";
-import { mapBox } from "../map-box.js";
+import { mapBox, type Box } from "../../geometry/box.js";
+import { drawBasicShape, ShapeSource, type LengthName } from "./basic-shapes.js";
+import type { Declared } from "./properties.js";
+import type { Side } from "./length.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
-import { declaredValue } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgGeometry {
@@ -28,7 +25,7 @@ export class SvgGeometry {
     const { shape } = this;
     shape.clear();
     const tolerance = this.arcToleranceMm / largestScale(context.map);
-    const source = new ElementSource(this.tree, element, declared, context);
+    const source = new ShapeSource(this.tree, element, declared, context);
     const drawn = drawBasicShape(tag, source, shape, tolerance);
     shape.finish();
     const fault = drawn ?? (source.malformed === null ? null : `"${source.malformed}" is not a length`);
@@ -50,7 +47,7 @@ export class SvgGeometry {
     name: LengthName,
     side: Side,
   ): number | null {
-    return new ElementSource(this.tree, element, declared, context).length(name, side);
+    return new ShapeSource(this.tree, element, declared, context).length(name, side);
   }
 
   /** The page box of a rectangle in user units. */
@@ -70,47 +67,5 @@ export class SvgGeometry {
     const id = attribute(this.tree, element, "id");
     const line = `line ${this.tree.lines[element]}`;
     return id === undefined ? line : `${line}, id ${id.slice(0, 40)}`;
-  }
-}
-
-/** The numbers of one element. */
-class ElementSource implements ShapeSource {
-  /** The element's last length that could not be read. */
-  malformed: string | null = null;
-  /** The element's last length in ex or ch. */
-  fontLength: string | null = null;
-
-  constructor(
-    private readonly tree: SvgTree,
-    private readonly element: number,
-    private readonly declared: Declared,
-    private readonly context: Context,
-  ) {}
-
-  length(name: LengthName, side: Side): number | null {
-    return this.px(this.css(name) ?? attribute(this.tree, this.element, name), side);
-  }
-
-  attributeLength(name: "x1" | "y1" | "x2" | "y2", side: Side): number | null {
-    return this.px(attribute(this.tree, this.element, name), side);
-  }
-
-  text(name: "d" | "points"): string | undefined {
-    const path = name === "d" ? this.css("d") : undefined;
-    if (path === "none") return "";
-    const quoted = path === undefined ? null : /^path\(\s*["'](.*)["']\s*\)$/s.exec(path);
-    return quoted?.[1] ?? attribute(this.tree, this.element, name);
-  }
-
-  private px(text: string | undefined, side: Side): number | null {
-    if (text === undefined || text === "auto") return null;
-    const length = lengthPx(text, this.context.basis, side);
-    if (length === null) this.malformed = text.slice(0, 40);
-    else if (isFontLength(text)) this.fontLength = text.trim();
-    return length;
-  }
-
-  private css(name: Property): string | undefined {
-    return declaredValue(this.context.style, this.declared, name);
   }
 }

@@ -2,23 +2,24 @@
 import type { DrawingBuilder } from "../drawing-builder.js";
 import type { Warnings } from "../warnings.js";
 import type { Context } from "./svg-context.js";
-import { isMarkedLayer, layerName, type LayerPlan } from "./svg-layers.js";
-import { attribute, type SvgTree } from "./svg-tree.js";
+import type { SvgFile } from "./svg-file.js";
+import { isMarkedLayer, layerName } from "./svg-layers.js";
+import { attribute } from "./svg-tree.js";
 
 export class LayerGroups {
   /** The group for shapes outside every layer; −1 until needed. */
   private looseGroup = -1;
 
   constructor(
-    private readonly tree: SvgTree,
-    private readonly layers: LayerPlan,
+    private readonly file: SvgFile,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
   ) {}
 
   /** The group of an element inside `outer`; adds it if the element is a layer. */
   groupOf(element: number, tag: string, outer: Context): number {
-    const { tree, layers, builder } = this;
+    const { builder } = this;
+    const { tree, layers } = this.file;
     if (outer.uses !== null || tree.parents[element] !== layers.parent) return outer.group;
     const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
     const number = builder.groups.length + 1;

@@ -4,7 +4,7 @@
  * Layers are the top-level groups. A single wrapper around them (group, switch, link or nested svg) is
  * skipped, since many programs and scripts wrap everything once.
  */
-import { attribute, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { attribute, childrenOf, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 
 /** More top-level groups than this are data, not layers: some charts have one per point. */
 const MAX_LAYERS = 200;
@@ -77,22 +77,12 @@ function leadsToGroups(tree: SvgTree, element: number): boolean {
 
 /** The only child with content, if it may be a wrapper; otherwise −1. */
 function wrapperIn(tree: SvgTree, parent: number): number {
-  let only = -1;
-  for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
-    if (NOT_CONTENT.has(tagOf(tree, child))) continue;
-    if (only >= 0) return -1;
-    only = child;
-  }
-  return only >= 0 && WRAPPERS.has(tagOf(tree, only)) ? only : -1;
+  const content = [...childrenOf(tree, parent)].filter((child) => !NOT_CONTENT.has(tagOf(tree, child)));
+  return content.length === 1 && WRAPPERS.has(tagOf(tree, content[0])) ? content[0] : -1;
 }
 
-function groupsIn(tree: SvgTree, parent: number): number[] {
-  const groups: number[] = [];
-  for (let child = tree.firstChildren[parent]; child >= 0; child = tree.nextSiblings[child]) {
-    if (tagOf(tree, child) === "g") groups.push(child);
-  }
-  return groups;
-}
+const groupsIn = (tree: SvgTree, parent: number): number[] =>
+  [...childrenOf(tree, parent)].filter((child) => tagOf(tree, child) === "g");
 
 export const isMarkedLayer = (tree: SvgTree, element: number): boolean =>
   attribute(tree, element, "inkscape:groupmode") === "layer";

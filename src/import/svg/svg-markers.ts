@@ -8,17 +8,16 @@ import {
   scaling,
   translation,
 } from "../../geometry/affine.js";
-import { AncestorStyles } from "./ancestor-style.js";
-import type { Cascade } from "./cascade.js";
-import type { Declared } from "./declared.js";
+import type { Declared } from "./properties.js";
 import { lengthPx, type LengthBasis, type Side } from "./length.js";
 import type { MarkerPlace } from "./markers.js";
 import type { SvgClips } from "./svg-clips.js";
 import { contextPaints, MAX_COPY_DEPTH, withViewport, type Context, type UseChain } from "./svg-context.js";
-import { attribute, type SvgTree } from "./svg-tree.js";
+import type { SvgFile } from "./svg-file.js";
+import { attribute } from "./svg-tree.js";
 import { computeStyle, declaredValue, type Style } from "./style.js";
 import { parseTransform } from "./transform.js";
-import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./view-box.js";
+import { isEmptyViewBox, parseViewBox, viewBoxMap } from "./svg-viewport.js";
 
 function orientRad(text: string): number {
   const turn = parseTransform(`rotate(${text})`);
@@ -35,22 +34,17 @@ function refPosition(text: string, start: number, length: number, basis: LengthB
 }
 
 export class SvgMarkers {
-  private readonly ancestors: AncestorStyles;
-
   constructor(
-    private readonly tree: SvgTree,
-    private readonly cascade: Cascade,
+    private readonly file: SvgFile,
     private readonly clips: SvgClips,
-  ) {
-    this.ancestors = new AncestorStyles(tree, cascade);
-  }
+  ) {}
 
   /**
    * The context for the content of `marker` at `place` on a shape drawn in `context`; null if nothing is
    * visible.
    */
   insideOf(marker: number, place: MarkerPlace, context: Context): Context | null {
-    const { tree } = this;
+    const { tree } = this.file;
     const text = (name: string): string | undefined => attribute(tree, marker, name);
     const length = (name: string, side: Side, normal: number): number =>
       lengthPx(text(name) ?? "", context.basis, side) ?? normal;
@@ -84,8 +78,8 @@ export class SvgMarkers {
       outer: context.uses,
       depth,
     };
-    const declared = this.cascade.declaredOf(marker);
-    const outside = this.ancestors.outside(marker, context.basis);
+    const declared = this.file.cascade.declaredOf(marker);
+    const outside = this.file.styleAround(marker, context.basis);
     const style = computeStyle(outside, declared, { ...context.basis, fontSize: outside.fontSize });
     const inside = {
       ...withViewport(context, map, box?.width ?? width, box?.height ?? height),
@@ -104,7 +98,7 @@ export class SvgMarkers {
   /** `inherit` takes the value of the element around the marker. */
   private overflowOf(marker: number, declared: Declared, style: Style): string | undefined {
     if (declared.get("overflow") !== "inherit") return declaredValue(style, declared, "overflow");
-    const around = this.cascade.declaredOf(this.tree.parents[marker]);
+    const around = this.file.cascade.declaredOf(this.file.tree.parents[marker]);
     return declaredValue(style, around, "overflow") ?? "visible";
   }
 }

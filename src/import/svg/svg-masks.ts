@@ -7,14 +7,14 @@ import type { Box } from "../../geometry/box.js";
 import { compose, IDENTITY } from "../../geometry/affine.js";
 import type { Drawing } from "../../drawing/drawing.js";
 import { ClipNode } from "../clip-node.js";
-import { AncestorStyles } from "./ancestor-style.js";
-import type { Cascade } from "./cascade.js";
-import { lengthPx, type Side } from "./length.js";
+import { getOrAdd } from "../get-or-add.js";
+import { basisOfBox, lengthPx, type Side } from "./length.js";
 import { maskRegion, type MaskRegion } from "./mask-region.js";
-import { rectangleOf, type SvgClips } from "./svg-clips.js";
+import { boxUnits, type SvgClips } from "./svg-clips.js";
 import { withStyle, type Context } from "./svg-context.js";
 import { effectsOf } from "./svg-effects.js";
-import { attribute, tagOf, type SvgTree } from "./svg-tree.js";
+import type { SvgFile } from "./svg-file.js";
+import { attribute, tagOf } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseUrl } from "./style.js";
 
 /** Max elements and coordinates drawn in masks, in the whole file: masks may be used many times. */
@@ -32,29 +32,25 @@ interface MaskClip {
 export type DrawApart = (element: number, context: Context, work: { left: number }) => Drawing | null;
 
 export class SvgMasks {
-  private readonly ancestors: AncestorStyles;
   private readonly regions = new Map<string, MaskRegion | null>();
   /** The masks that are being drawn, to find those that refer to themselves. */
   private readonly open = new Set<number>();
   private readonly work = { left: MAX_MASK_WORK };
 
   constructor(
-    private readonly tree: SvgTree,
-    private readonly cascade: Cascade,
+    private readonly file: SvgFile,
     private readonly clips: SvgClips,
     private readonly drawApart: DrawApart,
-  ) {
-    this.ancestors = new AncestorStyles(tree, cascade);
-  }
+  ) {}
 
   /** The mask of `element` with this `mask` value, inside the context's clip; null if it is not applied. */
   clipOf(element: number, value: string | undefined, context: Context): MaskClip | null {
-    const { tree } = this;
+    const { tree } = this.file;
     const id = value === undefined ? null : parseUrl(value);
     const target = id === null ? undefined : tree.elementById.get(id);
     if (target === undefined || tagOf(tree, target) !== "mask" || this.open.has(target)) return null;
-    const declared = this.cascade.declaredOf(target);
-    const style = computeStyle(this.ancestors.outside(target, context.basis), declared, context.basis);
+    const declared = this.file.cascade.declaredOf(target);
+    const style = computeStyle(this.file.styleAround(target, context.basis), declared, context.basis);
     if (effectsOf(style, declared).length > 0 || declaredValue(style, declared, "clip-path") !== undefined)
       return null;
     const isAlpha = declaredValue(style, declared, "mask-type") === "alpha";
@@ -62,39 +58,32 @@ export class SvgMasks {
     if (box === null) return null;
     const outside = this.regionOf(target, box, context);
     const isOfBox = attribute(tree, target, "maskContentUnits") === "objectBoundingBox";
-    const units = { a: box.x1 - box.x0, b: 0, c: 0, d: box.y1 - box.y0, e: box.x0, f: box.y0 };
-    const map = isOfBox ? compose(context.map, units) : context.map;
+    const map = isOfBox ? compose(context.map, boxUnits(box)) : context.map;
     const inside = { ...context, map, group: -1, clip: null, uses: null };
     const region = this.contentOf(target, withStyle(inside, style, IDENTITY), isAlpha);
     if (region === null) return null;
     const { shapes, isFaint } = region;
-    return { clip: shapes === null ? "empty" : new ClipNode(outside, shapes, rectangleOf(shapes)), isFaint };
+    return { clip: shapes === null ? "empty" : new ClipNode(outside, shapes), isFaint };
   }
 
   private contentOf(target: number, context: Context, isAlpha: boolean): MaskRegion | null {
     const { a, b, c, d, e, f } = context.map;
     const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
-    let region = this.regions.get(key);
-    if (region === undefined) {
+    return getOrAdd(this.regions, key, () => {
       this.open.add(target);
       const content = this.drawApart(target, context, this.work);
       this.open.delete(target);
       this.work.left -= WORK_PER_SHAPE * (1 + (content?.paths.count ?? 0));
-      region = content === null ? null : maskRegion(content, isAlpha);
-      this.regions.set(key, region);
-    }
-    return region;
+      return content === null ? null : maskRegion(content, isAlpha);
+    });
   }
 
   /** The mask's own rectangle. */
   private regionOf(target: number, box: Box, context: Context): ClipNode {
-    const isOfPage = attribute(this.tree, target, "maskUnits") === "userSpaceOnUse";
-    const [width, height] = [box.x1 - box.x0, box.y1 - box.y0];
-    const basis = isOfPage
-      ? context.basis
-      : { ...context.basis, viewportWidth: width, viewportHeight: height };
+    const isOfPage = attribute(this.file.tree, target, "maskUnits") === "userSpaceOnUse";
+    const basis = isOfPage ? context.basis : basisOfBox(context.basis, box);
     const length = (name: string, side: Side, normal: string): number => {
-      const text = attribute(this.tree, target, name) ?? normal;
+      const text = attribute(this.file.tree, target, name) ?? normal;
       const isShare = !isOfPage && !text.includes("%");
       return lengthPx(isShare ? `${Number(text) * 100}%` : text, basis, side) ?? 0;
     };

@@ -2,8 +2,10 @@
 import { PlotwrightError } from "../../errors.js";
 import { scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
+import type { Declared } from "./properties.js";
 import { absolutePx, splitLength } from "./length.js";
-import { parseViewBox, viewBoxMap } from "./view-box.js";
+import { attribute, type SvgTree } from "./svg-tree.js";
+import { parseViewBox, viewBoxMap } from "./svg-viewport.js";
 
 export interface SvgPage {
   readonly widthMm: number;
@@ -22,20 +24,16 @@ const MAX_PAGE_MM = 100_000;
 const DEFAULT_WIDTH_PX = 300;
 const DEFAULT_HEIGHT_PX = 150;
 
-interface PageAttributes {
-  /** Candidates in order: CSS, then the attribute. */
-  readonly width: readonly (string | undefined)[];
-  readonly height: readonly (string | undefined)[];
-  readonly viewBox: string | undefined;
-  readonly preserveAspectRatio: string | undefined;
-}
-
 /** @param pxPerInch for px and numbers without unit: 96 by CSS, 72 or 90 in some programs */
-export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
+export function pageOf(tree: SvgTree, root: Declared, pxPerInch: number): SvgPage {
+  if (!(pxPerInch > 0 && Number.isFinite(pxPerInch))) {
+    throw new RangeError(`importSvg: pxPerInch must be > 0, got ${pxPerInch}`);
+  }
   const mmPerPx = MM_PER_INCH / pxPerInch;
-  const box = parseViewBox(attributes.viewBox);
-  const width = firstMm(attributes.width, mmPerPx);
-  const height = firstMm(attributes.height, mmPerPx);
+  const box = parseViewBox(attribute(tree, 0, "viewBox"));
+  // CSS applies before the attributes.
+  const width = firstMm([root.get("width"), attribute(tree, 0, "width")], mmPerPx);
+  const height = firstMm([root.get("height"), attribute(tree, 0, "height")], mmPerPx);
   if (box === null) {
     const widthMm = checked(width ?? DEFAULT_WIDTH_PX * mmPerPx, "wide");
     const heightMm = checked(height ?? DEFAULT_HEIGHT_PX * mmPerPx, "high");
@@ -54,7 +52,7 @@ export function pageOf(attributes: PageAttributes, pxPerInch: number): SvgPage {
   return {
     widthMm,
     heightMm,
-    map: viewBoxMap(box, widthMm, heightMm, attributes.preserveAspectRatio),
+    map: viewBoxMap(box, widthMm, heightMm, attribute(tree, 0, "preserveAspectRatio")),
     viewportWidth: box.width,
     viewportHeight: box.height,
     isSized: true,

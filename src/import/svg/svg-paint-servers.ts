@@ -1,8 +1,8 @@
 /** The single colour that replaces a gradient or pattern. */
-import { Cascade } from "./cascade.js";
 import { parseColor } from "../color.js";
 import type { Context } from "./svg-context.js";
-import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
+import type { SvgFile } from "./svg-file.js";
+import { attribute, childrenOf, HREF, tagOf } from "./svg-tree.js";
 import { declaredValue, INITIAL_STYLE } from "./style.js";
 
 const SERVERS = new Set(["linearGradient", "radialGradient", "pattern"]);
@@ -11,10 +11,7 @@ const MAX_HREF_STEPS = 32;
 export class SvgPaintServers {
   private readonly serverColors = new Map<string, string | null | undefined>();
 
-  constructor(
-    private readonly tree: SvgTree,
-    private readonly cascade: Cascade,
-  ) {}
+  constructor(private readonly file: SvgFile) {}
 
   /** The colour that replaces a paint server; null if it paints nothing, undefined if it does not exist. */
   serverColor(id: string, context: Context): string | null | undefined {
@@ -23,18 +20,18 @@ export class SvgPaintServers {
   }
 
   isPattern(id: string): boolean {
-    const element = this.tree.elementById.get(id);
-    return element !== undefined && tagOf(this.tree, element) === "pattern";
+    const element = this.file.tree.elementById.get(id);
+    return element !== undefined && tagOf(this.file.tree, element) === "pattern";
   }
 
   /** The first stop's colour. Gradients may share stops, so their hrefs are followed. */
   private findServerColor(id: string, context: Context): string | null | undefined {
-    const { tree } = this;
+    const { tree } = this.file;
     let element = tree.elementById.get(id);
     if (element === undefined || !SERVERS.has(tagOf(tree, element))) return undefined;
     if (tagOf(tree, element) === "pattern") return this.patternColor(element);
     for (let step = 0; step < MAX_HREF_STEPS && element !== undefined; step++) {
-      for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+      for (const child of childrenOf(tree, element)) {
         if (tagOf(tree, child) === "stop") return this.stopColor(child, context);
       }
       const href = attribute(tree, element, HREF) ?? "";
@@ -49,7 +46,7 @@ export class SvgPaintServers {
    * Whether its units refer to the shape's box: then it paints nothing on a shape without width or height.
    */
   isOfBox(id: string): boolean {
-    const { tree } = this;
+    const { tree } = this.file;
     const element = tree.elementById.get(id);
     if (element === undefined) return false;
     const name = tagOf(tree, element) === "pattern" ? "patternUnits" : "gradientUnits";
@@ -58,7 +55,7 @@ export class SvgPaintServers {
 
   /** Patterns are not drawn: black replaces them, unless they are empty. */
   private patternColor(pattern: number): string | undefined {
-    const { tree } = this;
+    const { tree } = this.file;
     const inherited = (has: (element: number) => boolean): boolean => {
       let element: number | undefined = pattern;
       for (let step = 0; step < MAX_HREF_STEPS && element !== undefined; step++) {
@@ -76,7 +73,7 @@ export class SvgPaintServers {
   }
 
   private stopColor(stop: number, context: Context): string {
-    const text = declaredValue(context.style, this.cascade.declaredOf(stop), "stop-color");
+    const text = declaredValue(context.style, this.file.cascade.declaredOf(stop), "stop-color");
     if (text === undefined) return INITIAL_STYLE.color.hex;
     if (text.toLowerCase() === "currentcolor") return context.style.color.hex;
     return (parseColor(text) ?? INITIAL_STYLE.color).hex;

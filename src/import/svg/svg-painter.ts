@@ -8,65 +8,56 @@ import {
   unstretched,
   type Affine,
 } from "../../geometry/affine.js";
-import { EMPTY_BOX, uniteBoxes, type Box } from "../../geometry/box.js";
+import { EMPTY_BOX, mapBox, uniteBoxes, type Box } from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
 import { MM_PER_PX } from "../../units.js";
-import type { Cascade } from "./cascade.js";
-import type { Declared } from "./declared.js";
+import type { Declared } from "./properties.js";
 import type { DrawingBuilder, Look } from "../drawing-builder.js";
 import { lengthPx } from "./length.js";
 import { drawPathData } from "../path-data.js";
-import { mapBox } from "../map-box.js";
 import { MeasuredPath } from "./measured-path.js";
 import { curveBox, type ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
 import { warnOf } from "./svg-effects.js";
 import { isMarked } from "./markers.js";
-import type { SvgConditions } from "./svg-conditions.js";
+import type { SvgFile } from "./svg-file.js";
 import { MaskPaintServers, type SvgPaintServers } from "./svg-paint-servers.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { placeText, type PlacedText } from "./svg-text.js";
 import type { PlacedLetter } from "./svg-text-layout.js";
 import { SvgTextPaths } from "./svg-text-path.js";
 import { USUAL_METRICS, type TextFont } from "../text/text-font.js";
-import { attribute, type SvgTree } from "./svg-tree.js";
+import { attribute } from "./svg-tree.js";
 import type { Paint } from "./paint.js";
 import type { Color } from "../color.js";
 import { declaredValue, INITIAL_STYLE } from "./style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgPainter {
-  /** The current element, and its name in warnings. */
-  private element = 0;
-  private readonly where = (): string => this.geometry.whereOf(this.element);
   private readonly textPaths: SvgTextPaths;
 
   constructor(
-    private readonly tree: SvgTree,
+    private readonly file: SvgFile,
     private readonly geometry: SvgGeometry,
     private readonly servers: SvgPaintServers,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
-    private readonly cascade: Cascade,
-    /** The font for text; null if text is only reported. */
-    private readonly font: TextFont | null,
-    private readonly conditions: SvgConditions,
   ) {
-    this.textPaths = new SvgTextPaths(tree, cascade, geometry);
+    this.textPaths = new SvgTextPaths(file, geometry);
   }
 
   /** A painter for the content of a mask. */
   forMask(builder: DrawingBuilder, warnings: Warnings): SvgPainter {
-    const { tree, geometry, cascade, font, conditions } = this;
-    const servers = new MaskPaintServers(tree, cascade);
-    return new SvgPainter(tree, geometry, servers, builder, warnings, cascade, font, conditions);
+    const { file, geometry } = this;
+    return new SvgPainter(file, geometry, new MaskPaintServers(file), builder, warnings);
   }
 
   /** The box of a text in its user units: the full line height, from the first letter to the last. */
   textBox(element: number, context: Context): Box {
-    if (this.font === null) return EMPTY_BOX;
-    const { letters } = this.placed(element, context, this.font);
-    const { ascent, descent } = this.font.metrics ?? USUAL_METRICS;
+    const { font } = this.file;
+    if (font === null) return EMPTY_BOX;
+    const { letters } = this.placed(element, context, font);
+    const { ascent, descent } = font.metrics ?? USUAL_METRICS;
     return letters.reduce((box, { x, y, angle, advance, style: { fontSize } }) => {
       const turned = compose(translation(x, y), rotation(angle));
       const cell = { x0: 0, y0: -ascent * fontSize, x1: advance, y1: descent * fontSize };
@@ -76,20 +67,20 @@ export class SvgPainter {
 
   /** Calls `add` with each visible letter and its map to page mm; false if the font has no outlines. */
   outlinesOf(element: number, context: Context, add: (shape: ShapeBuffer, map: Affine) => void): boolean {
-    if (this.font?.kind !== "outline") return false;
-    const { letters } = this.placed(element, context, this.font);
+    const { font } = this.file;
+    if (font?.kind !== "outline") return false;
+    const { letters } = this.placed(element, context, font);
     for (const letter of letters) {
       if (!letter.style.isVisible) continue;
       add(this.shapeOf(letter), mapOf(letter, context));
     }
-    for (const wanted of otherFaces(letters, this.font))
+    for (const wanted of otherFaces(letters, font))
       this.warnings.add("text-style-ignored", undefined, wanted);
     return true;
   }
 
   private placed(element: number, context: Context, font: TextFont): PlacedText {
-    const { tree, cascade, textPaths, conditions } = this;
-    return placeText(tree, cascade, textPaths, element, context, font, conditions);
+    return placeText(this.file, this.textPaths, element, context, font);
   }
 
   /** In em. Valid until the next shape. */
@@ -104,7 +95,6 @@ export class SvgPainter {
   drawShape(element: number, tag: string, declared: Declared, context: Context): void {
     const { style } = context;
     if (!style.isVisible) return;
-    this.element = element;
     const shape = this.geometry.geometryOf(element, tag, declared, context);
     if (shape.isEmpty) {
       if (shape.lonePoints > 0 && !isMarked(tag, context))
@@ -113,27 +103,28 @@ export class SvgPainter {
     }
     const look = this.lookOf(element, tag, declared, context);
     if (look !== null) {
-      this.builder.addShape(shape, context.map, look, context.group, context.clip, this.where);
+      const where = (): string => this.geometry.whereOf(element);
+      this.builder.addShape(shape, context.map, look, context.group, context.clip, where);
     }
   }
 
   /** Draws the letters of a text as shapes; warns instead if there is no font. */
   drawText(element: number, context: Context): void {
     const { builder, warnings } = this;
-    if (this.font === null) {
+    const { font } = this.file;
+    if (font === null) {
       if (context.style.isVisible) warnings.add("text-not-drawn", this.roughPlaceOf(element, context));
       return;
     }
-    const text = this.placed(element, context, this.font);
+    const text = this.placed(element, context, font);
     const firstShape = builder.shapeCount;
     for (const letter of text.letters) this.drawLetter(letter, element, context);
     let box = this.geometry.placeOf(context, text.x, text.y, 0, 0);
     if (builder.shapeCount > firstShape) {
       box = builder.boxOfShapes(firstShape, builder.shapeCount);
       warnOf(text.effects, box, warnings);
-      if (this.font.kind === "single-stroke") warnings.add("text-substituted", box);
-      for (const wanted of otherFaces(text.letters, this.font))
-        warnings.add("text-style-ignored", box, wanted);
+      if (font.kind === "single-stroke") warnings.add("text-substituted", box);
+      for (const wanted of otherFaces(text.letters, font)) warnings.add("text-style-ignored", box, wanted);
     }
     for (const char of text.missing) warnings.add("glyphs-missing", box, `"${char}"`);
     if (text.unsupported.length > 0) {
@@ -146,12 +137,11 @@ export class SvgPainter {
     if (!style.isVisible) return;
     const shape = this.shapeOf(letter);
     if (shape.isEmpty) return;
-    this.element = element;
     const own = { ...context, style };
-    const stroke = this.colorOf(style.stroke, style.strokeOpacity, own, "gradient-stroke");
-    const fill = this.colorOf(style.fill, style.fillOpacity, own, "gradient-fill");
+    const stroke = this.colorOf(style.stroke, style.strokeOpacity, own, "stroke");
+    const fill = this.colorOf(style.fill, style.fillOpacity, own, "fill");
     if (stroke === null && fill === null) return;
-    const isOutline = this.font?.kind === "outline";
+    const isOutline = this.file.font?.kind === "outline";
     const look: Look = {
       // A single stroke has no interior: the fill colour becomes its line colour.
       stroke: isOutline ? stroke : (stroke ?? fill),
@@ -159,13 +149,14 @@ export class SvgPainter {
       strokeWidth: stroke === null ? 0 : style.strokeWidth * meanScale(context.map),
       speedFactor: context.speedFactor,
     };
-    this.builder.addShape(shape, mapOf(letter, context), look, context.group, context.clip, this.where);
+    const where = (): string => this.geometry.whereOf(element);
+    this.builder.addShape(shape, mapOf(letter, context), look, context.group, context.clip, where);
   }
 
   private roughPlaceOf(element: number, context: Context): Box {
     const { fontSize } = context.style;
     const first = (name: "x" | "y"): number => {
-      const text = (attribute(this.tree, element, name) ?? "0").trim().split(/[\s,]+/)[0];
+      const text = (attribute(this.file.tree, element, name) ?? "0").trim().split(/[\s,]+/)[0];
       return lengthPx(text, context.basis, name === "x" ? "width" : "height") ?? 0;
     };
     return this.geometry.placeOf(context, first("x"), first("y") - fontSize, fontSize, fontSize);
@@ -174,9 +165,8 @@ export class SvgPainter {
   /** How the shape is painted; null if it is not painted. */
   private lookOf(element: number, tag: string, declared: Declared, context: Context): Look | null {
     const { style } = context;
-    let stroke = this.colorOf(style.stroke, style.strokeOpacity, context, "gradient-stroke");
-    const fill =
-      tag === "line" ? null : this.colorOf(style.fill, style.fillOpacity, context, "gradient-fill");
+    let stroke = this.colorOf(style.stroke, style.strokeOpacity, context, "stroke");
+    const fill = tag === "line" ? null : this.colorOf(style.fill, style.fillOpacity, context, "fill");
     if (stroke !== null && style.strokeWidth === 0) {
       stroke = null;
       if (fill === null) this.warnings.add("zero-width-stroke", this.geometry.firstPoint(context));
@@ -198,7 +188,7 @@ export class SvgPainter {
 
   private dashOf(element: number, context: Context, scale: number, isNonScaling: boolean): DashPattern {
     const { dashes, dashOffset } = context.style;
-    const own = Number(attribute(this.tree, element, "pathLength") ?? NaN);
+    const own = Number(attribute(this.file.tree, element, "pathLength") ?? NaN);
     const unit = own > 0 ? (scale * new MeasuredPath(this.geometry.shape).length) / own : scale;
     const measure = isNonScaling ? null : unstretched(context.map);
     return {
@@ -206,19 +196,6 @@ export class SvgPainter {
       offset: dashOffset * unit,
       ...(measure === null ? {} : { measure }),
     };
-  }
-
-  private warnOfServer(
-    id: string,
-    gradient: "gradient-stroke" | "gradient-fill",
-    color: string | null,
-    context: Context,
-  ): void {
-    if (color === null) return;
-    const place = this.geometry.firstPoint(context);
-    if (!this.servers.isPattern(id)) this.warnings.add(gradient, place);
-    else
-      this.warnings.add(gradient === "gradient-fill" ? "pattern-fill" : "pattern-stroke", place, `"${id}"`);
   }
 
   /** The colour without its transparency; null if nothing is visible. */
@@ -229,12 +206,7 @@ export class SvgPainter {
   }
 
   /** "#rrggbb", or null if nothing is painted. */
-  private colorOf(
-    paint: Paint,
-    opacity: number,
-    context: Context,
-    serverWarning: "gradient-stroke" | "gradient-fill",
-  ): string | null {
+  private colorOf(paint: Paint, opacity: number, context: Context, part: "stroke" | "fill"): string | null {
     if (opacity === 0) return null;
     switch (paint.kind) {
       case "none":
@@ -248,18 +220,22 @@ export class SvgPainter {
           paint.of === "fill" ? context.contextFill : context.contextStroke,
           opacity,
           { ...context, contextFill: NO_PAINT, contextStroke: NO_PAINT },
-          serverWarning,
+          part,
         );
       case "server": {
-        const isFlat = this.servers.isOfBox(paint.id) && isFlatBox(curveBox(this.geometry.shape));
-        const color = isFlat ? undefined : this.servers.serverColor(paint.id, context);
-        if (color !== undefined) {
-          this.warnOfServer(paint.id, serverWarning, color, context);
-          return color;
+        const { servers, warnings } = this;
+        const isFlat = servers.isOfBox(paint.id) && isFlatBox(curveBox(this.geometry.shape));
+        const color = isFlat ? undefined : servers.serverColor(paint.id, context);
+        if (color === undefined) {
+          if (paint.fallback.kind === "none" && !isFlat)
+            warnings.add("paint-missing", undefined, `#${paint.id}`);
+          return this.colorOf(paint.fallback, opacity, context, part);
         }
-        if (paint.fallback.kind === "none" && !isFlat)
-          this.warnings.add("paint-missing", undefined, `#${paint.id}`);
-        return this.colorOf(paint.fallback, opacity, context, serverWarning);
+        if (color === null) return null;
+        const place = this.geometry.firstPoint(context);
+        if (servers.isPattern(paint.id)) warnings.add(`pattern-${part}`, place, `"${paint.id}"`);
+        else warnings.add(`gradient-${part}`, place);
+        return color;
       }
     }
   }

@@ -1,14 +1,14 @@
 /** The path of a `textPath`'s letters (SVG 2, §11.8). */
-import type { Cascade } from "./cascade.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { drawPathData } from "../path-data.js";
-import { elementTransform } from "./element-transform.js";
+import { elementTransform } from "./transform.js";
 import { splitLength, lengthPx } from "./length.js";
 import { MeasuredPath, type PathPlace } from "./measured-path.js";
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
 import type { SvgGeometry } from "./svg-geometry.js";
-import { attribute, HREF, tagOf, type SvgTree } from "./svg-tree.js";
+import type { SvgFile } from "./svg-file.js";
+import { attribute, HREF, tagOf } from "./svg-tree.js";
 import { IDENTITY } from "../../geometry/affine.js";
 
 /** Max error of an arc that letters are placed on, in em. */
@@ -47,8 +47,7 @@ export class TextPath {
 
 export class SvgTextPaths {
   constructor(
-    private readonly tree: SvgTree,
-    private readonly cascade: Cascade,
+    private readonly file: SvgFile,
     private readonly geometry: SvgGeometry,
   ) {}
 
@@ -60,18 +59,22 @@ export class SvgTextPaths {
   /** The path in its own `path` attribute, which applies before a reference. */
   private ownPath(element: number, context: Context): TextPath | null {
     const shape = new ShapeBuffer();
-    drawPathData(shape, attribute(this.tree, element, "path") ?? "", ARC_TOLERANCE * context.style.fontSize);
+    drawPathData(
+      shape,
+      attribute(this.file.tree, element, "path") ?? "",
+      ARC_TOLERANCE * context.style.fontSize,
+    );
     shape.finish();
     const path = new MeasuredPath(shape);
     return path.length > 0 ? new TextPath(path, this.startOffset(element, null, path, context)) : null;
   }
 
   private referredPath(element: number, context: Context): TextPath | null {
-    const { tree } = this;
+    const { tree } = this.file;
     const href = attribute(tree, element, HREF)?.trim() ?? "";
     const target = href.startsWith("#") ? tree.elementById.get(href.slice(1)) : undefined;
     if (target === undefined || !SHAPE_TAGS.has(tagOf(tree, target))) return null;
-    const declared = this.cascade.declaredOf(target);
+    const declared = this.file.cascade.declaredOf(target);
     const outline = this.geometry.geometryOf(target, tagOf(tree, target), declared, context);
     // The shape's own transform applies, but not that of its ancestors.
     const map = elementTransform(context.style, declared, context.basis, () => curveBox(outline)) ?? IDENTITY;
@@ -89,7 +92,7 @@ export class SvgTextPaths {
     path: MeasuredPath,
     context: Context,
   ): number {
-    const text = attribute(this.tree, element, "startOffset") ?? "0";
+    const text = attribute(this.file.tree, element, "startOffset") ?? "0";
     const parts = splitLength(text);
     if (parts?.unit === "%") return (parts.value / 100) * path.length;
     const offset = lengthPx(text, context.basis, "width") ?? 0;

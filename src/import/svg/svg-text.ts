@@ -2,15 +2,15 @@
  * SVG text to positioned letters (SVG 2, chapter 11): collects the characters with their style, path and x,
  * y, dx, dy, rotate values, then lays them out.
  */
-import type { Cascade } from "./cascade.js";
-import type { Declared } from "./declared.js";
-import { lengthPx, type LengthBasis, type Side } from "./length.js";
-import { attribute, tagOf, textOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import type { Declared } from "./properties.js";
+import { lengthPx, listIn, type LengthBasis, type Side } from "./length.js";
+import { attribute, childrenOf, tagOf, textOf, TEXT_NODE } from "./svg-tree.js";
 import { effectsOf, type Effects } from "./svg-effects.js";
 import { computeStyle, declaredValue, type Style } from "./style.js";
+import { getOrAdd } from "../get-or-add.js";
 import { withoutAlignment, withoutShift } from "./text-style.js";
 import type { Context } from "./svg-context.js";
-import type { SvgConditions } from "./svg-conditions.js";
+import type { SvgFile } from "./svg-file.js";
 import { layOutText, type Char, type LaidOutText, type Stretch } from "./svg-text-layout.js";
 import type { SvgTextPaths } from "./svg-text-path.js";
 import type { TextFont } from "../text/text-font.js";
@@ -40,15 +40,13 @@ const MAX_DEPTH = 64;
 const SMALL_CAPS = 0.7;
 
 export function placeText(
-  tree: SvgTree,
-  cascade: Cascade,
+  file: SvgFile,
   paths: SvgTextPaths,
   element: number,
   context: Context,
   font: TextFont,
-  conditions: SvgConditions,
 ): PlacedText {
-  const gatherer = new Gatherer(tree, cascade, paths, context, conditions, font.hasSmallCaps ?? false);
+  const gatherer = new Gatherer(file, paths, context, font.hasSmallCaps ?? false);
   gatherer.gather(element);
   const chars = collapseBlanks(gatherer.chars);
   gatherer.assignPositions(chars);
@@ -66,11 +64,9 @@ class Gatherer {
   private readonly smallCaps = new Map<Style, Style>();
 
   constructor(
-    private readonly tree: SvgTree,
-    private readonly cascade: Cascade,
+    private readonly file: SvgFile,
     private readonly paths: SvgTextPaths,
     private readonly context: Context,
-    private readonly conditions: SvgConditions,
     private readonly fontHasSmallCaps: boolean,
   ) {}
 
@@ -83,7 +79,7 @@ class Gatherer {
 
   /** `outside` has the element's own style and path already. */
   private gatherChildren(element: number, outside: Inside): void {
-    const { tree } = this;
+    const { tree } = this.file;
     const { style } = outside;
     const space = attribute(tree, element, "xml:space");
     const inside = {
@@ -94,12 +90,11 @@ class Gatherer {
       stretch: this.stretchOf(element, style) ?? outside.stretch,
     };
     this.spans.push({ element, style, chars: [] });
-    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child])
-      this.gatherNode(child, inside);
+    for (const child of childrenOf(tree, element)) this.gatherNode(child, inside);
   }
 
   private gatherNode(node: number, inside: Inside): void {
-    const { tree } = this;
+    const { tree } = this.file;
     const tag = tagOf(tree, node);
     if (tag === TEXT_NODE) {
       if (STACKED_ACCENTS.test(textOf(tree, node)))
@@ -114,8 +109,8 @@ class Gatherer {
       this.unsupported.push(tag);
       return;
     }
-    if (!["tspan", "a", "textPath"].includes(tag) || !this.conditions.areMet(node)) return;
-    const declared = this.cascade.declaredOf(node);
+    if (!["tspan", "a", "textPath"].includes(tag) || !this.file.meetsConditions(node)) return;
+    const declared = this.file.cascade.declaredOf(node);
     const style = this.styleInside(inside.style, declared);
     // No real file nests spans deeper than this: deeper ones are not laid out.
     if (declaredValue(style, declared, "display") === "none" || inside.open.length >= MAX_DEPTH) return;
@@ -142,8 +137,8 @@ class Gatherer {
   }
 
   private keepsBlanksAround(root: number): boolean {
-    for (let at = this.tree.parents[root]; at >= 0; at = this.tree.parents[at]) {
-      const space = attribute(this.tree, at, "xml:space");
+    for (let at = this.file.tree.parents[root]; at >= 0; at = this.file.tree.parents[at]) {
+      const space = attribute(this.file.tree, at, "xml:space");
       if (space !== undefined) return space === "preserve";
     }
     return false;
@@ -151,10 +146,10 @@ class Gatherer {
 
   /** The `textLength` of the characters in an element. */
   private stretchOf(element: number, style: Style): Stretch | null {
-    const text = attribute(this.tree, element, "textLength");
+    const text = attribute(this.file.tree, element, "textLength");
     const length = text === undefined ? null : lengthPx(text, this.basisOf(style), "width");
     if (length === null || length <= 0) return null;
-    return { length, ofGlyphs: attribute(this.tree, element, "lengthAdjust") === "spacingAndGlyphs" };
+    return { length, ofGlyphs: attribute(this.file.tree, element, "lengthAdjust") === "spacingAndGlyphs" };
   }
 
   private addText(text: string, { open, ...common }: Inside): void {
@@ -171,12 +166,7 @@ class Gatherer {
   }
 
   private smallCapsOf(style: Style): Style {
-    let small = this.smallCaps.get(style);
-    if (small === undefined) {
-      small = { ...style, fontSize: SMALL_CAPS * style.fontSize };
-      this.smallCaps.set(style, small);
-    }
-    return small;
+    return getOrAdd(this.smallCaps, style, () => ({ ...style, fontSize: SMALL_CAPS * style.fontSize }));
   }
 
   /**
@@ -187,22 +177,16 @@ class Gatherer {
     const isKept = new Set(kept);
     for (const { element, style, chars } of this.spans) {
       // Its letters are placed along the path.
-      if (tagOf(this.tree, element) === "textPath") continue;
+      if (tagOf(this.file.tree, element) === "textPath") continue;
       const left = chars.filter((char) => isKept.has(char));
       const basis = this.basisOf(style);
       const list = (name: string, side: Side): (number | null)[] =>
-        (attribute(this.tree, element, name) ?? "")
-          .split(/[\s,]+/)
-          .filter((part) => part !== "")
-          .map((part) => lengthPx(part, basis, side));
+        listIn(attribute(this.file.tree, element, name) ?? "").map((part) => lengthPx(part, basis, side));
       list("x", "width").forEach((x, i) => i < left.length && x !== null && (left[i].x = x));
       list("y", "height").forEach((y, i) => i < left.length && y !== null && (left[i].y = y));
       list("dx", "width").forEach((dx, i) => i < left.length && (left[i].dx = dx ?? 0));
       list("dy", "height").forEach((dy, i) => i < left.length && (left[i].dy = dy ?? 0));
-      const angles = (attribute(this.tree, element, "rotate") ?? "")
-        .split(/[\s,]+/)
-        .filter((part) => part !== "")
-        .map(Number);
+      const angles = listIn(attribute(this.file.tree, element, "rotate") ?? "").map(Number);
       // The last angle applies to all following characters.
       if (angles.length > 0 && !angles.some(Number.isNaN)) {
         left.forEach((char, i) => (char.angle = angles[Math.min(i, angles.length - 1)] * RAD_PER_DEG));

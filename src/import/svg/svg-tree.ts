@@ -11,6 +11,7 @@
 import { SaxesParser } from "saxes";
 import { PlotwrightError } from "../../errors.js";
 import { ColumnBuffer } from "../../geometry/growable.js";
+import { getOrAdd } from "../get-or-add.js";
 import { expandEntities } from "./xml-entities.js";
 import { XmlNames } from "./xml-names.js";
 import { notAnSvg, rejectOtherFormats } from "./not-an-svg.js";
@@ -71,6 +72,11 @@ export function attribute(tree: SvgTree, element: number, name: string): string 
   return undefined;
 }
 
+/** The children of an element, texts included, in document order. */
+export function* childrenOf(tree: SvgTree, element: number): Generator<number> {
+  for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) yield child;
+}
+
 export const tagOf = (tree: SvgTree, element: number): string => tree.names[tree.tags[element]];
 
 /** The characters of a "#text" element. */
@@ -79,22 +85,11 @@ export const textOf = (tree: SvgTree, element: number): string =>
 
 /** Throws PlotwrightError("bad-file"). */
 export function parseSvgTree(source: string): SvgTree {
-  const start = skipBlank(source);
+  const visible = source.search(/[^\0-\x20\ufeff]/);
+  const start = visible < 0 ? source.length : visible;
   rejectOtherFormats(source, start);
   const text = expandEntities(source);
   return new TreeBuilder(text, start).build();
-}
-
-function skipBlank(text: string): number {
-  let start = 0;
-  while (start < text.length && (text.charCodeAt(start) <= 32 || text.charCodeAt(start) === 0xfeff)) start++;
-  return start;
-}
-
-function countLines(text: string, end: number): number {
-  let lines = 0;
-  for (let i = 0; i < end; i++) if (text.charCodeAt(i) === 10) lines++;
-  return lines;
 }
 
 interface Written {
@@ -141,7 +136,7 @@ class TreeBuilder {
     private readonly start: number,
   ) {
     const { parser } = this;
-    this.lineOffset = countLines(text, start);
+    this.lineOffset = text.slice(0, start).split("\n").length - 1;
     parser.on("error", (error) => this.onError(error));
     parser.on("processinginstruction", ({ target }) => {
       if (target === "xml-stylesheet") this.hasStylesheetLink = true;
@@ -281,12 +276,6 @@ class TreeBuilder {
   }
 
   private nameId(name: string): number {
-    let id = this.nameIds.get(name);
-    if (id === undefined) {
-      id = this.names.length;
-      this.names.push(name);
-      this.nameIds.set(name, id);
-    }
-    return id;
+    return getOrAdd(this.nameIds, name, () => this.names.push(name) - 1);
   }
 }

@@ -11,22 +11,20 @@ import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
-import { Cascade } from "./cascade.js";
-import { isSameDeclared, type Declared } from "./declared.js";
-import { elementTransform } from "./element-transform.js";
+import { isSameDeclared, type Declared } from "./properties.js";
+import { elementTransform } from "./transform.js";
 import { lengthPx, type Side } from "./length.js";
 import { contextPaints, isInsideUseOf, MAX_COPY_DEPTH, withStyle, type Context } from "./svg-context.js";
 import { backgroundOf, effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
-import type { SvgConditions } from "./svg-conditions.js";
+import type { SvgFile } from "./svg-file.js";
 import type { SvgClips } from "./svg-clips.js";
 import type { SvgGeometry } from "./svg-geometry.js";
 import { isMarked, markerPlaces } from "./markers.js";
 import { SvgMarkers } from "./svg-markers.js";
 import { SvgMasks, type DrawApart } from "./svg-masks.js";
 import { LayerGroups } from "./svg-layer-groups.js";
-import type { LayerPlan } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
-import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { attribute, childrenOf, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity, type Style } from "./style.js";
 import { withoutAlignment, withoutShift } from "./text-style.js";
 import { viewportInside } from "./svg-viewport.js";
@@ -78,21 +76,18 @@ export class SvgWalk {
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
-    private readonly tree: SvgTree,
-    private readonly cascade: Cascade,
-    layers: LayerPlan,
+    private readonly file: SvgFile,
     private readonly svgGeometry: SvgGeometry,
     private readonly clips: SvgClips,
     private readonly painter: SvgPainter,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
-    private readonly conditions: SvgConditions,
     masks: SvgMasks | null = null,
   ) {
-    this.markers = new SvgMarkers(tree, cascade, clips);
-    this.layerGroups = new LayerGroups(tree, layers, builder, warnings);
-    const drawApart: DrawApart = (element, context, work) => this.drawApart(element, context, work, layers);
-    this.masks = masks ?? new SvgMasks(tree, cascade, clips, drawApart);
+    this.markers = new SvgMarkers(file, clips);
+    this.layerGroups = new LayerGroups(file, builder, warnings);
+    const drawApart: DrawApart = (element, context, work) => this.drawApart(element, context, work);
+    this.masks = masks ?? new SvgMasks(file, clips, drawApart);
   }
 
   /** Draws everything below the root. */
@@ -103,7 +98,8 @@ export class SvgWalk {
 
   /** Visits the next element; false at the end. */
   private step(): boolean {
-    const { tree, stack } = this;
+    const { stack } = this;
+    const { tree } = this.file;
     const frame = stack.at(-1);
     if (frame === undefined) return false;
     const element = frame.next;
@@ -119,19 +115,13 @@ export class SvgWalk {
   }
 
   /** Draws the content of `element` into a separate drawing, whose warnings include its errors and effects. */
-  private drawApart(
-    element: number,
-    context: Context,
-    work: { left: number },
-    layers: LayerPlan,
-  ): Drawing | null {
-    const { tree, cascade, svgGeometry, clips, conditions, masks } = this;
+  private drawApart(element: number, context: Context, work: { left: number }): Drawing | null {
+    const { file, svgGeometry, clips, masks } = this;
     const warnings = new Warnings();
     const builder = new DrawingBuilder(warnings);
     const painter = this.painter.forMask(builder, warnings);
-    const parts = [layers, svgGeometry, clips, painter, builder, warnings, conditions, masks] as const;
-    const walk = new SvgWalk(tree, cascade, ...parts);
-    walk.push(context, tree.firstChildren[element], false, []);
+    const walk = new SvgWalk(file, svgGeometry, clips, painter, builder, warnings, masks);
+    walk.push(context, file.tree.firstChildren[element], false, []);
     while (work.left-- > 0 && walk.step());
     if (work.left < 0) return null;
     work.left -= builder.coordCount;
@@ -141,11 +131,11 @@ export class SvgWalk {
   /** The root element may have a clip, effects and a speed, too. */
   private enterRoot(outer: Context): void {
     const context = this.withSpeed(0, outer);
-    const declared = this.cascade.declaredOf(0);
+    const declared = this.file.cascade.declaredOf(0);
     const value = declaredValue(context.style, declared, "clip-path");
     const effects = [...effectsOf(context.style, declared), ...backgroundOf(context.style, declared)];
     const clip = this.clips.clipOf(0, value, context);
-    if (clip !== "empty") this.push({ ...context, clip }, this.tree.firstChildren[0], false, effects);
+    if (clip !== "empty") this.push({ ...context, clip }, this.file.tree.firstChildren[0], false, effects);
   }
 
   private push(context: Context, next: number, isSingle: boolean, effects: Effects): void {
@@ -164,7 +154,7 @@ export class SvgWalk {
   }
 
   private visit(element: number, outer: Context): void {
-    const tag = tagOf(this.tree, element);
+    const tag = tagOf(this.file.tree, element);
     if (tag === TEXT_NODE) return;
     const isContainer = CONTAINERS.has(tag);
     if (!isContainer && !SHAPE_TAGS.has(tag) && tag !== "text") {
@@ -172,17 +162,13 @@ export class SvgWalk {
       return;
     }
     if (tag === "symbol" && outer.uses?.target !== element) return;
-    if (!this.conditions.areMet(element)) return;
+    if (!this.file.meetsConditions(element)) return;
     this.spendCopy(outer);
-    const declared = this.cascade.declaredOf(element);
+    const declared = this.file.cascade.declaredOf(element);
     const styled = this.styled(outer, declared);
     const { style } = styled;
     const group = this.layerGroups.groupOf(element, tag, outer);
-    if (declaredValue(style, declared, "display") === "none") {
-      if (group !== outer.group) this.layerGroups.hide(group);
-      return;
-    }
-    if (isTransparent(style, declared)) {
+    if (declaredValue(style, declared, "display") === "none" || isTransparent(style, declared)) {
       if (group !== outer.group) this.layerGroups.hide(group);
       return;
     }
@@ -191,7 +177,7 @@ export class SvgWalk {
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
     let effects = effectsOf(style, declared);
-    if (isErased(this.tree, style, declared)) return;
+    if (isErased(this.file.tree, style, declared)) return;
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
@@ -241,7 +227,7 @@ export class SvgWalk {
   }
 
   private enter(element: number, tag: string, declared: Declared, context: Context, effects: Effects): void {
-    const { tree } = this;
+    const { tree } = this.file;
     switch (tag) {
       case "use":
         this.enterUse(element, declared, context, effects);
@@ -254,7 +240,7 @@ export class SvgWalk {
       }
       case "switch": {
         const child = this.chosenChild(element);
-        if (child >= 0) this.push(context, child, true, effects);
+        if (child !== undefined) this.push(context, child, true, effects);
         return;
       }
       default:
@@ -263,7 +249,8 @@ export class SvgWalk {
   }
 
   private enterUse(element: number, declared: Declared, context: Context, effects: Effects): void {
-    const { tree, warnings } = this;
+    const { warnings } = this;
+    const { tree } = this.file;
     const href = attribute(tree, element, HREF)?.trim() ?? "";
     const line = `line ${tree.lines[element]}`;
     if (!href.startsWith("#")) {
@@ -288,23 +275,14 @@ export class SvgWalk {
     const side = (name: "width" | "height"): number | null =>
       lengthPx(attribute(tree, element, name) ?? "", context.basis, name);
     const size = { width: side("width"), height: side("height") };
-    const map = x === 0 && y === 0 ? context.map : compose(context.map, translation(x, y));
-    this.push(
-      {
-        ...context,
-        ...contextPaints(context),
-        map,
-        uses: { element, target, size, outer: context.uses, depth },
-      },
-      target,
-      true,
-      effects,
-    );
+    const map = compose(context.map, translation(x, y));
+    const uses = { element, target, size, outer: context.uses, depth };
+    this.push({ ...context, ...contextPaints(context), map, uses }, target, true, effects);
   }
 
   /** Pushes the markers of the shape just drawn as frames: their content is drawn like any other elements. */
   private pushMarkers(context: Context): void {
-    const { tree } = this;
+    const { tree } = this.file;
     const { style } = context;
     if (!style.isVisible) return;
     const ids = { start: style.markerStart, mid: style.markerMid, end: style.markerEnd };
@@ -322,7 +300,7 @@ export class SvgWalk {
   }
 
   private isAncestor(candidate: number, element: number): boolean {
-    this.subtreeEnds ??= subtreeEndsOf(this.tree);
+    this.subtreeEnds ??= subtreeEndsOf(this.file.tree);
     return candidate <= element && element < this.subtreeEnds[candidate];
   }
 
@@ -331,8 +309,8 @@ export class SvgWalk {
       this.warnings.add("animation-ignored");
       return;
     }
-    if (INVISIBLE.has(tag) || !this.conditions.areMet(element)) return;
-    const declared = this.cascade.declaredOf(element);
+    if (INVISIBLE.has(tag) || !this.file.meetsConditions(element)) return;
+    const declared = this.file.cascade.declaredOf(element);
     const style = computeStyle(outer.style, declared, outer.basis);
     if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;
     if (isTransparent(style, declared)) return;
@@ -354,31 +332,30 @@ export class SvgWalk {
     const boxOf = (): Box | null => this.clips.boxOf(element, { ...outer, style });
     const map = elementTransform(style, declared, outer.basis, boxOf);
     if (map === null) {
-      this.warnings.add("attribute-fault", undefined, `transform at line ${this.tree.lines[element]}`);
+      this.warnings.add("attribute-fault", undefined, `transform at line ${this.file.tree.lines[element]}`);
     }
     return map ?? IDENTITY;
   }
 
-  private chosenChild(element: number): number {
-    const { tree } = this;
-    for (let child = tree.firstChildren[element]; child >= 0; child = tree.nextSiblings[child]) {
+  private chosenChild(element: number): number | undefined {
+    const { tree } = this.file;
+    return [...childrenOf(tree, element)].find((child) => {
       const tag = tagOf(tree, child);
       const isKnown = CONTAINERS.has(tag) || SHAPE_TAGS.has(tag) || tag === "text" || EMBEDDED.has(tag);
-      if (isKnown && this.conditions.areMet(child)) return child;
-    }
-    return -1;
+      return isKnown && this.file.meetsConditions(child);
+    });
   }
 
   /** With the element's own speed, if it has one. */
   private withSpeed(element: number, context: Context): Context {
-    const text = attribute(this.tree, element, SPEED_ATTRIBUTE)?.trim();
+    const text = attribute(this.file.tree, element, SPEED_ATTRIBUTE)?.trim();
     if (text === undefined) return context;
     const speedFactor = text === "" ? NaN : Number(text);
     if (isSpeedFactor(speedFactor)) return { ...context, speedFactor };
     this.warnings.add(
       "speed-factor",
       undefined,
-      `"${text.slice(0, 40)}" at line ${this.tree.lines[element]}`,
+      `"${text.slice(0, 40)}" at line ${this.file.tree.lines[element]}`,
     );
     return context;
   }
@@ -390,7 +367,7 @@ export class SvgWalk {
     throw new PlotwrightError(
       "bad-file",
       `The copies (<use>) in this SVG add more than ${MAX_COPIED_ELEMENTS} elements (reached at line ${
-        this.tree.lines[context.uses.element]
+        this.file.tree.lines[context.uses.element]
       }). Remove copies of copies, or export with copies resolved.`,
     );
   }

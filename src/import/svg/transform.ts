@@ -1,7 +1,18 @@
-/** Parses the `transform` attribute and CSS property to one affine map, in user units. */
-import { compose, IDENTITY, isFiniteAffine, rotation, scaling, translation } from "../../geometry/affine.js";
-import type { Affine } from "../../geometry/affine.js";
-import { absolutePx, lengthPx, splitLength, type LengthBasis } from "./length.js";
+/** Transforms of elements, from the `transform` attribute and CSS properties, as one affine map in user units. */
+import {
+  compose,
+  IDENTITY,
+  isFiniteAffine,
+  mapAround,
+  rotation,
+  scaling,
+  translation,
+  type Affine,
+} from "../../geometry/affine.js";
+import type { Box } from "../../geometry/box.js";
+import type { Declared } from "./properties.js";
+import { absolutePx, basisOfBox, lengthPx, splitLength, type LengthBasis } from "./length.js";
+import { declaredValue, type Style } from "./style.js";
 import { RAD_PER_DEG } from "../../units.js";
 
 const FUNCTION = /\s*,?\s*([a-zA-Z]+)\s*\(([^()]*)\)\s*/y;
@@ -76,10 +87,37 @@ export function aroundOrigin(
 ): Affine {
   const place = originOf(origin, basis);
   if (place === null) return map;
-  const x = corner.x + place.x;
-  const y = corner.y + place.y;
-  const moved = compose(translation(x, y), compose(map, translation(-x, -y)));
+  const moved = mapAround(corner.x + place.x, corner.y + place.y, map);
   return isFiniteAffine(moved) ? moved : map;
+}
+
+/**
+ * An element's own transform: the attribute or CSS property, CSS's individual transforms, and their origin.
+ * Null if it is malformed. `boxOf` gives the shape's own box in user units; null for none. Percentages refer
+ * to that box if `transform-box` asks for it, otherwise to the viewport.
+ */
+export function elementTransform(
+  style: Style,
+  declared: Declared,
+  outer: LengthBasis,
+  boxOf: () => Box | null,
+): Affine | null {
+  const steps = (["translate", "rotate", "scale"] as const).flatMap((name) => {
+    const value = declaredValue(style, declared, name);
+    return value === undefined || value === "none" ? [] : [`${name}(${value.trim().replace(/\s+/g, ",")})`];
+  });
+  const text = declaredValue(style, declared, "transform");
+  if (text === undefined && steps.length === 0) return IDENTITY;
+  const boxName = declaredValue(style, declared, "transform-box");
+  const box = boxName === undefined || boxName === "view-box" ? null : boxOf();
+  const basis = box === null ? outer : basisOfBox(outer, box);
+  const separate = parseTransform(steps.join(" "), basis);
+  const own = parseTransform(text ?? "", basis);
+  if (separate === null || own === null) return null;
+  const map = compose(separate, own);
+  const origin = declaredValue(style, declared, "transform-origin");
+  if (origin === undefined && box === null) return map;
+  return aroundOrigin(map, origin ?? "0 0", basis, { x: box?.x0 ?? 0, y: box?.y0 ?? 0 });
 }
 
 /** Numbers may be written without separators, as in path data: "1-2.5.5". */
@@ -144,9 +182,7 @@ function rotate(args: readonly string[]): Affine | null {
   const angle = angleRad(args[0]);
   if (angle === null) return null;
   if (args.length === 1) return rotation(angle);
-  return lengths(args.slice(1), (x, y = 0) =>
-    compose(translation(x, y), compose(rotation(angle), translation(-x, -y))),
-  );
+  return lengths(args.slice(1), (x, y = 0) => mapAround(x, y, rotation(angle)));
 }
 
 function skew(x: string, y: string): Affine | null {
