@@ -18,7 +18,7 @@ import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 
 /** One kilometre: far beyond any plotter, and small enough that calculations still resolve µm. */
-const MAX_COORDINATE_MM = 1e6;
+export const MAX_COORDINATE_MM = 1e6;
 
 /**
  * 400 MB. Even a file of 200 MB seldom needs more, but a few bytes of blocks and copies can expand to any

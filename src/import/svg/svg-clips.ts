@@ -9,6 +9,7 @@ import { compose, IDENTITY, scaling, translation, type Affine } from "../../geom
 import { EMPTY_BOX, isEmptyBox, mapBox, mappedCorners, uniteBoxes, type Box } from "../../geometry/box.js";
 import { SHAPE_TAGS } from "./basic-shapes.js";
 import { cssClipShape, splitReferenceBox } from "./css-clip-shape.js";
+import { MAX_COORDINATE_MM } from "../drawing-builder.js";
 import { clippedShape } from "./clip-shapes.js";
 import { ClipNode, type ClipShapes } from "../clip-node.js";
 import { getOrAdd } from "../get-or-add.js";
@@ -290,9 +291,13 @@ class ClipCollector {
     if (isEmpty) return null;
     return {
       verbs: verbs.toArray(),
-      coords: coords.toArray().map((mm) => (Number.isFinite(mm) ? mm : 0)),
+      coords: coords.toArray().map(withinRange),
       rule: Uint8Array.from(this.rules),
       shape: Uint32Array.from(this.shapes),
     };
   }
 }
+
+/** A larger clip hides the same of the page, and a curve of that size would be flattened into millions of pieces. */
+const withinRange = (mm: number): number =>
+  Number.isNaN(mm) ? 0 : Math.max(-MAX_COORDINATE_MM, Math.min(MAX_COORDINATE_MM, mm));

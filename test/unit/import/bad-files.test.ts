@@ -1,6 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
 import { importSvg } from "../../../src/import/svg/import-svg.js";
+import { prepare } from "../../../src/prepare/prepare.js";
+import { DEFAULT_PREPARE } from "../../../src/settings/prepare.js";
 
 /** The error that importing `text` throws. */
 function failure(text: string): PlotwrightError {
@@ -72,6 +74,15 @@ describe("importSvg on bad files", () => {
     expect(codes(text)).toEqual(["coordinates-out-of-range"]);
     expect(isFinite(text)).toBe(true);
   });
+
+  it.each(["1e7", "1e12", "1e300"])(
+    "cuts nothing off by a clip of radius %s, and does not hang",
+    (radius) => {
+      const text = `<svg width="96" height="96"><clipPath id="c"><circle r="${radius}"/></clipPath><path stroke="red" d="M10 10H80V80" clip-path="url(#c)"/></svg>`;
+      const { strokes } = prepare(importSvg(text), { ...DEFAULT_PREPARE, marginMm: 0 });
+      expect([strokes.offsets.length - 1, strokes.xy.length / 2]).toEqual([1, 3]);
+    },
+  );
 
   it("stays finite however large nested transforms become", () => {
     const text = `<svg width="96" height="96">${'<g transform="scale(1e9)">'.repeat(60)}<path stroke="red" d="M0 0L1 1"/>${"</g>".repeat(60)}</svg>`;
