@@ -210,6 +210,18 @@ describe("a plot that asks for more than the motors can step", () => {
       expect(fast.board.state()).toMatchObject({ steps1: 0, steps2: 0 });
     }
   });
+
+  it("is delayed only once by a command that is too fast and is then cut where a motor reverses", () => {
+    const draw = { ...DEFAULT_MOTION.draw, speedMmPerS: 400, accelMmPerS2: 8_000 };
+    const bend: Point[] = [
+      [52.7, 97],
+      [60.3, 87.6],
+      [77.1, 72.8],
+    ];
+    const trajectory = plan(strokeSetOf([bend]), { ...DEFAULT_MOTION, mode: "blend", draw }, DEFAULT_PEN);
+    const stream = new FastBoard("2.6.5", MACHINE, DEFAULT_PEN).compile(trajectory);
+    expect(stream.boardS[stream.count]).toBeCloseTo(2.478, 2);
+  });
 });
 
 describe("a plot on other machines", () => {

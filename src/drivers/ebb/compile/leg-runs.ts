@@ -84,7 +84,7 @@ export class LegRuns implements RunWriter {
         cut = beforeTurn;
         leg = this.legTo(cut, tick, block);
       }
-      if (this.writeLeg(leg)) {
+      if (this.writeLeg(this.slowedDown(leg, cut.isRunEnd))) {
         notBefore = 0;
         block = walk.blockAt(columns.boardTicks, Math.max(block, cut.block));
       } else {
@@ -210,19 +210,18 @@ export class LegRuns implements RunWriter {
     return { tick: end, block: walk.blockTo(end, block), isRunEnd: false };
   }
 
-  /** The leg from `tick`, which is in `block`, to a cut. It may take longer than planned. */
+  /** The leg from `tick`, which is in `block`, to a cut, as planned. */
   private legTo(cut: Cut, tick: number, block: number): Leg {
     const { walk } = this;
     const start = walk.pointAt(tick, block);
     const end = cut.isRunEnd ? walk.endOf(cut.block) : walk.pointAt(cut.tick, cut.block);
-    const planned: Leg = {
+    return {
       ticks: cut.tick - tick,
       m1: legBetween(start.m1, end.m1),
       m2: legBetween(start.m2, end.m2),
       isParabola: block === cut.block && walk.jerk(block) === 0,
       isLast: cut.isRunEnd && this.runIndex === this.trajectory.runs.count - 1,
     };
-    return this.slowedDown(planned, cut.isRunEnd);
   }
 
   /**
