@@ -13,12 +13,8 @@
 import { PlotwrightError, type Place, type StrokeSet } from "../../src/index.js";
 import {
   movedPlace,
-  landingMm,
-  leavesLineMm,
   moveStopped,
-  placeBehindSent,
   pointOfPlace,
-  stoppedPlace,
   type Machine,
   type MachineRun,
   type MachineState,
@@ -27,19 +23,13 @@ import {
   strokeCount,
 } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
+import { isSamePlace, JOURNAL_S, placeLeft, PROGRESS_S } from "./place-left.js";
 import { PenStops } from "./pen-stops.js";
 import { RunSettings } from "./run-settings.js";
 import type { PlannedPlot, PlotPlanner } from "../planning/plot-planner.js";
 import type { JournalEntry, LivePlotRun, PlotChange, PlotOutcome, PlotProgress, PlotStart } from "./types.js";
 import { Waiters } from "./waiters.js";
 
-/** Time between two progress reports, and between two journal entries, in real seconds. */
-const PROGRESS_S = 0.06;
-const JOURNAL_S = 0.25;
-/** Max time between the last journal entry and the end of what was sent to the board, in real seconds. */
-const LEFT_S = 1.5;
-/** Max time between two journal entries, plus the motion sent ahead in that time. */
-const UNTIL_NEXT_ENTRY_S = JOURNAL_S + 2 * PROGRESS_S;
 /** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
@@ -74,7 +64,7 @@ export class MachinePlot implements LivePlotRun {
   #stopTicking: () => void = () => undefined;
   #wakeHold: (() => void) | null = null;
   #cancelPlanning: ((error: PlotwrightError) => void) | null = null;
-  /** The last request was an emergency stop: the carriage stays where it is until the next one. */
+  /** The carriage stays where it is until the next request: after an emergency stop, or when a held plot is left. */
   #staysPut = false;
   readonly #heldListeners: HeldListener[] = [];
   readonly #progressListeners: ((progress: PlotProgress) => void)[] = [];
@@ -99,7 +89,8 @@ export class MachinePlot implements LivePlotRun {
         ended: (place) => this.#streamEnded(place),
       },
     });
-    this.holdPlace = start.from ? this.#placeLeft(start.from) : null;
+    const { from = null, sent } = start;
+    this.holdPlace = from && placeLeft(machine, this.#strokes, settings, this.#stops.strokes, { from, sent });
     if (start.held ?? this.holdPlace !== null) this.#requested = "hold";
     this.finished = this.#run().then(
       (outcome) => {
@@ -146,6 +137,13 @@ export class MachinePlot implements LivePlotRun {
     return this.#waiters.until(() => false);
   }
 
+  leave(): Promise<void> {
+    const staysPut = this.#requested === "hold" || this.#staysPut;
+    const ended = this.cancel();
+    this.#staysPut = staysPut;
+    return ended;
+  }
+
   emergencyStop(): Promise<void> {
     if (this.#requested === "run") this.#requested = "hold";
     this.#staysPut = true;
@@ -176,7 +174,7 @@ export class MachinePlot implements LivePlotRun {
     const moved = this.#stream.progress.movedTo(this.holdPlace, this.#initialProgress());
     if (moved) this.#report(moved);
     if (wait?.layerName !== this.#wait?.layerName) this.#setHeld(true, wait);
-    this.#writeJournal(this.holdPlace);
+    this.#writeJournal(this.holdPlace, this.holdPlace);
     return this.holdPlace;
   }
 
@@ -192,30 +190,6 @@ export class MachinePlot implements LivePlotRun {
       if (!this.#machine.state && error instanceof PlotwrightError) this.fail(error);
     });
     await walk;
-  }
-
-  /** Where an interrupted plot stopped, from the board's step counters if it still has them. */
-  #placeLeft(from: Place): Place {
-    const { left, speed } = this.#machine;
-    const at = this.#machine.place(machineOf(this.#settings.current));
-    if (!left || !at) return from;
-    const { motion } = this.#settings.current;
-    const { draw, travel } = motion;
-    const drawMmPerS = speed * draw.speedMmPerS;
-    const maxMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
-    const pen = { ...at, up: left.penUp };
-    const { sent } = this.#start;
-    const since = {
-      aheadMm: LEFT_S * maxMmPerS,
-      stops: this.#stops.strokes,
-      leavesMm: leavesLineMm(motion, machineOf(this.#settings.current).springs ?? null),
-      landingMm: landingMm(this.#settings.current.pen, travel.accelMmPerS2),
-    };
-    const sentSince = { ...since, aheadMm: UNTIL_NEXT_ENTRY_S * drawMmPerS, stops: [] };
-    return (
-      (sent && placeBehindSent(this.#strokes, sent, pen, sentSince)) ??
-      stoppedPlace(this.#strokes, from, pen, since)
-    );
   }
 
   #heldPlace(): Place {
@@ -347,7 +321,7 @@ export class MachinePlot implements LivePlotRun {
 
   async #hold(): Promise<void> {
     this.#setHeld(true, this.#stops.due(this.holdPlace));
-    if (this.#wait) this.#writeJournal(this.holdPlace);
+    if (this.holdPlace) this.#writeJournal(this.holdPlace, this.holdPlace);
     this.holdPlace ??= { stroke: 0, alongMm: 0 };
     while (this.#requested === "hold" && !this.#failure) {
       await new Promise<void>((resolve) => {
@@ -397,12 +371,16 @@ export class MachinePlot implements LivePlotRun {
   #streamBegun(): void {
     // A request that came before the stream existed.
     if (this.#requested !== "run") this.#stream.slowToRest();
+    // From now on the plot no longer rests at the journal's place.
+    this.#journalDueS = -Infinity;
     this.#stopTicking = this.#tick();
   }
 
   #streamEnded(place: Place | null): void {
     this.#stopTicking();
-    this.#writeJournal(place ?? this.#stream.progress.place);
+    const left = place ?? this.#stream.progress.place;
+    // A board that still knows its position is at rest there.
+    this.#writeJournal(left, this.#machine.state && left ? left : undefined);
   }
 
   #tick(): () => void {
@@ -413,7 +391,8 @@ export class MachinePlot implements LivePlotRun {
       if (now) {
         this.#report(now);
         if (clock.nowS() >= this.#journalDueS) {
-          this.#writeJournal(this.#stream.progress.place, this.#stream.sentPlace);
+          const [{ place }, { sentPlace }] = [this.#stream.progress, this.#stream];
+          this.#writeJournal(place, isSamePlace(place, sentPlace) ? undefined : sentPlace);
         }
       }
       cancel = clock.after(PROGRESS_S * speed, next);

@@ -34,6 +34,8 @@ export interface PlotChange {
 
 /** All operations on a running plot. */
 export interface LivePlotRun extends PlotRun {
+  /** Ends the plot because the server stops. Like `cancel`, but nothing moves if the plot is held or was stopped at once. */
+  leave(): Promise<void>;
   /** Stops at once, without slowing down (ES), then reads back the motor positions; the plot is then held. */
   emergencyStop(): Promise<void>;
   /**
@@ -58,7 +60,10 @@ export interface LivePlotRun extends PlotRun {
 export interface JournalEntry {
   /** The first place not yet drawn, at most half a second old. */
   readonly place: Place;
-  /** While drawing: the end of what was sent to the board, which the board draws even if the server stops. */
+  /**
+   * The end of what was sent to the board, which the board draws even if the server stops. The same as `place` if the
+   * plot is at rest: it has then drawn nothing after `place`.
+   */
   readonly sent?: Place | undefined;
   readonly xMm: number;
   readonly yMm: number;
@@ -73,7 +78,7 @@ interface PlotJournal {
 export interface PlotStart {
   /** Where in the drawing to start; after a crash, the journal's place. Default: the beginning. */
   readonly from?: Place | null | undefined;
-  /** `sent` of the same journal entry. */
+  /** `sent` of the same journal entry; the same as `from` if nothing after it was drawn. */
   readonly sent?: Place | undefined;
   /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */
   readonly held?: boolean | undefined;

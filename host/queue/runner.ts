@@ -37,8 +37,9 @@ export interface RunPlan {
 export class Runner {
   readonly #plan: RunPlan;
   readonly #reports: RunReports;
-  /** Aborted when the plot is cancelled. */
+  /** Aborted when the plot is cancelled or left. */
   readonly #abort = new AbortController();
+  #isLeft = false;
   #run: LivePlotRun | null = null;
   #pauseWanted: boolean;
   /** Settles after `ended` has been reported; never rejects. */
@@ -66,6 +67,14 @@ export class Runner {
     if (this.#run !== null) this.#ask(this.#run.cancel());
   }
 
+  /** Ends the plot because the server stops. A cancelled one is already about to end. */
+  leave(): void {
+    if (this.isCancelling) return;
+    this.#isLeft = true;
+    this.#abort.abort();
+    if (this.#run !== null) this.#ask(this.#run.leave());
+  }
+
   /** Stops without slowing down. While the plot is still being planned nothing moves, and it is paused. */
   async emergencyStop(): Promise<void> {
     if (this.#run === null) this.pause();
@@ -76,6 +85,10 @@ export class Runner {
   get live(): LivePlotRun {
     if (this.#run !== null) return this.#run;
     throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
+  }
+
+  get isLeft(): boolean {
+    return this.#isLeft;
   }
 
   get isCancelling(): boolean {
@@ -119,7 +132,7 @@ export class Runner {
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held, wait = null) => this.#reports.held(held, wait));
       // Requests that came before the run existed.
-      if (this.isCancelling) this.#ask(run.cancel());
+      if (this.isCancelling) this.#ask(this.#isLeft ? run.leave() : run.cancel());
       else if (this.#pauseWanted) this.#ask(this.#hold(run));
       else if (from !== null) this.#ask(this.#resume(run));
       if (speedPct !== 100) this.#ask(run.change({ speedPct }));

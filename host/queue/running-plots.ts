@@ -149,11 +149,14 @@ export class RunningPlots {
     return this.#jobs.note(id, "Cancelling: the pen lifts and goes home.");
   }
 
-  /** Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. */
+  /**
+   * Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. A held plot stays
+   * where it is: it must not move until the user resumes it.
+   */
   async close(): Promise<void> {
     this.#closing = true;
     const running = [...this.#running.values()];
-    for (const { runner } of running) runner.cancel();
+    for (const { runner } of running) runner.leave();
     await Promise.all(running.map(({ runner }) => runner.finished));
     this.#jobs.close();
   }
@@ -162,7 +165,7 @@ export class RunningPlots {
     const drawing = this.#parts.store.drawingOf(job.id);
     const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
     const entry = this.#journal(job.id);
-    // `sent` belongs to the journal's place. The user may have moved the job's place since.
+    // `sent` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     const runner = new Runner(
       {
@@ -170,7 +173,7 @@ export class RunningPlots {
         settings: job.settings,
         open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
         from,
-        sent: isJournalPlace ? entry?.sent : undefined,
+        sent: isJournalPlace ? entry?.sent : (from ?? undefined),
         speedPct: job.speedPct,
       },
       {
@@ -189,7 +192,7 @@ export class RunningPlots {
   /**
    * Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed.
    */
-  #saveJournal(id: string, entry: Pick<JournalEntry, "place">): void {
+  #saveJournal(id: string, entry: Pick<JournalEntry, "place" | "sent">): void {
     const { progress, elapsedS, remainingS } = this.#jobs.get(id);
     this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
@@ -245,11 +248,12 @@ export class RunningPlots {
    */
   #keepPlace({ id, place }: Pick<Job, "id" | "place">): void {
     if (place === null || this.#journal(id) !== null) return;
-    this.#saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
+    const kept = { stroke: place.strokeIndex, alongMm: place.alongMm };
+    this.#saveJournal(id, { place: kept, sent: kept });
   }
 
   #ended(id: string, plotterId: string, end: RunEnd): void {
-    const timer = this.#running.get(plotterId)?.timer;
+    const { timer, runner } = this.#running.get(plotterId) ?? {};
     this.#running.delete(plotterId);
     const { store, nowIso } = this.#parts;
     // A plot that is partly on paper must stay recoverable, whatever the error.
@@ -257,7 +261,7 @@ export class RunningPlots {
       this.#interrupt(id, end.error.message);
     } else if (end.kind === "failed") {
       this.#jobs.apply(id, { type: "fail", message: end.error.message });
-    } else if (end.kind === "cancelled" && this.#closing) this.#interrupt(id, this.#stopped);
+    } else if (end.kind === "cancelled" && runner?.isLeft === true) this.#interrupt(id, this.#stopped);
     else if (end.kind === "cancelled") this.#cancelled(id);
     else {
       // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.

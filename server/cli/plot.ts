@@ -38,6 +38,8 @@ interface Plot {
   readonly only: readonly string[] | undefined;
   readonly from: InterruptedPlot["from"] | null;
   readonly sent: InterruptedPlot["sent"];
+  /** Before it begins, 0 … 1. */
+  readonly progress: number;
 }
 
 /** Returns the exit code: 0, or 5 when it was cancelled. Failures are thrown. */
@@ -63,7 +65,15 @@ export async function runPlot(
     if (index > 0 && !(await waitForPaper(nameOf(file), options, io))) return cancelled(io);
     const code = await withDrawingFile(file, (path) => {
       const { only } = options;
-      const plot: Plot = { name: basename(nameOf(file)), path, settings, only, from: null, sent: undefined };
+      const plot: Plot = {
+        name: basename(nameOf(file)),
+        path,
+        settings,
+        only,
+        from: null,
+        sent: undefined,
+        progress: 0,
+      };
       return plotOne(plot, { begin: () => record.begin(path, plot), record }, options, io);
     });
     if (code !== 0) return code;
@@ -155,13 +165,13 @@ function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): 
 async function onPlotter(
   plotter: PlotterPort,
   planner: OpenPlanner,
-  { name, settings, from, sent }: Plot,
+  { name, settings, from, sent, progress: before }: Plot,
   { begin, record }: { readonly begin: () => void; readonly record: PlotRecord },
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
   const isLost = plotter.snapshot().xMm === null;
-  let progress = 0;
+  let progress = before;
   begin();
   const journal = journalIn(record, () => progress, io);
   // A resumed plot waits for the user, unless there is no keyboard to start it with.

@@ -97,13 +97,16 @@ export interface Machine {
   /** The pen is still moving to that state. */
   readonly penMoving: boolean;
   readonly motorsOn: boolean | null;
-  /** How the machine was found, if it still knew its position when it was connected; null after the first move. */
+  /**
+   * How the machine was found, if it still knew its position when it was connected. Null after the first move, and for
+   * a carriage that may have been brought home by hand.
+   */
   readonly left: { readonly penUp: boolean } | null;
   /** Where and how the next job begins; null while the position is unknown. */
   readonly state: MachineState | null;
   place(profile: MachineProfile): { readonly x: number; readonly y: number } | null;
 
-  /** Called after connecting: reads the state that the machine kept. Lifts a pen that was left on the paper. */
+  /** Called after connecting: reads the state that the machine kept. Lifts a pen that was left on the paper, if the board reports it. */
   takeOver(): Promise<void>;
   /** Switches the motors on if they are off. If the position is unknown, the current position becomes home. */
   ready(settings: MachineSettings): Promise<MachineState>;

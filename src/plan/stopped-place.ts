@@ -6,7 +6,8 @@
  *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: travelling to a stroke, which is drawn next, or going home,
  *                         (x, y)       after the last stroke or before a change of pens
  *
- * The first match after the journal's place is used: a part drawn twice does less harm than a missing one.
+ * The first match after the journal's place is used: a part drawn twice does less harm than a missing one. For the same
+ * reason a pen that is up on a stroke counts as lifted there by a stop, and the plot resumes from the journal's place.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { nearestShare } from "../geometry/polyline.js";
@@ -23,6 +24,10 @@ const NEAR_MM = 0.08;
 const LANDING_MM = 0.15;
 /** Error of a position that is rounded to whole steps, mm. */
 const STEP_MM = 0.01;
+/** A place nearer than this to the end of a stroke counts as its end, mm. */
+const END_MM = 0.05;
+/** A carriage that was stopped at once may be this far before the place that its pen reached (swung-place.ts), mm. */
+const SWING_MM = 1;
 /** Max distance of the carriage from the drawing: `leavesMm` by shaping (shapers.ts), plus NEAR_MM for all else. */
 const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
 
@@ -51,7 +56,7 @@ export interface SinceThen {
 export const stoppedPlace = (strokes: StrokeSet, journal: Place, pen: PenPlace, since: SinceThen): Place =>
   firstMatch(strokes, journal, pen, since) ?? journal;
 
-/** The first place after `journal` that fits the pen; null if there is none. */
+/** The first place after `journal` that fits the pen; null if there is none, or if the journal's place may be right. */
 function firstMatch(
   strokes: StrokeSet,
   journal: Place,
@@ -61,26 +66,33 @@ function firstMatch(
   const nearMm = nearMmOf(leavesMm);
   const { xy, offsets } = strokes;
   const count = offsets.length - 1;
-  // The carriage at home with no stroke drawn since may simply not have started yet.
-  const hasSetOut = journal.alongMm > 0 || (journal.stroke > 0 && !stops.includes(journal.stroke));
+  const goesHomeAfter = (stroke: number): boolean => stroke + 1 === count || stops.includes(stroke + 1);
+  // The driver does not report a carriage that may have been brought home by hand.
+  const isHome = Math.hypot(pen.x, pen.y) <= STEP_MM;
+  const mayBeBack = isHome && journal.alongMm > 0 && goesHomeAfter(journal.stroke);
+  if (pen.up && !mayBeBack && isSettingOut(strokes, journal, pen, nearMm)) return null;
   let leftMm = aheadMm + journal.alongMm;
   for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
     const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
-    if (!pen.up) {
+    const lengthMm = strokeLengthMm(strokes, stroke);
+    if (pen.up) {
+      const alongMm = alongOf(strokes, stroke, fromMm - SWING_MM, pen, nearMm);
+      // At its end, the pen is lifted to travel on. Before that, it may have been lifted by a stop.
+      if (alongMm !== null && (alongMm === 0 || alongMm < lengthMm - END_MM)) return null;
+    } else {
       const alongMm = alongOf(strokes, stroke, fromMm, pen, nearMm);
       const isBefore = fromMm === 0 && isLanding(strokes, stroke, pen, { landingMm, nearMm, alongMm });
       if (isBefore) return { stroke, alongMm: 0 };
       if (alongMm !== null) return { stroke, alongMm };
     }
-    const lengthMm = strokeLengthMm(strokes, stroke);
     leftMm -= lengthMm;
     const next = 2 * offsets[stroke + 1];
     const [endX, endY] = [xy[next - 2], xy[next - 1]];
+    const isWithinReach = Math.hypot(pen.x - endX, pen.y - endY) <= leftMm;
     const isTravellingTo = (x: number, y: number): boolean =>
-      pen.up && nearest(endX, endY, x, y, pen).awayMm <= nearMm;
+      pen.up && isWithinReach && nearest(endX, endY, x, y, pen).awayMm <= nearMm;
     const isLast = stroke + 1 === count;
-    const goesHome = isLast || stops.includes(stroke + 1);
-    if (hasSetOut && goesHome && isTravellingTo(0, 0)) {
+    if (goesHomeAfter(stroke) && isTravellingTo(0, 0)) {
       return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
     }
     if (isLast) break;
@@ -89,6 +101,17 @@ function firstMatch(
     leftMm -= Math.hypot(nextX - endX, nextY - endY);
   }
   return null;
+}
+
+/** Whether a pen that is up may be on its way to the journal's place, from home or from the stroke before. */
+function isSettingOut(strokes: StrokeSet, journal: Place, pen: PenPlace, nearMm: number): boolean {
+  const { xy, offsets } = strokes;
+  const { x, y } = pointOfPlace(strokes, journal);
+  const isTravellingFrom = (fromX: number, fromY: number): boolean =>
+    nearest(fromX, fromY, x, y, pen).awayMm <= nearMm;
+  if (isTravellingFrom(0, 0)) return true;
+  const start = 2 * offsets[journal.stroke];
+  return journal.alongMm === 0 && journal.stroke > 0 && isTravellingFrom(xy[start - 2], xy[start - 1]);
 }
 
 /**

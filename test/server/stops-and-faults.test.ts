@@ -7,6 +7,7 @@ import {
   machineById,
   VirtualBoard,
   type PlotwrightError,
+  type StrokeSet,
   type VirtualBoardOptions,
 } from "../../src/index.js";
 import { driverOf } from "../../src/internal.js";
@@ -212,6 +213,72 @@ describe.each(["2.8.1", "3.0.3"])("an emergency stop on firmware %s leaves nothi
       });
     });
     expect(gapMm).toBeLessThan(0.05);
+  });
+});
+
+describe.each(["2.8.1", "3.0.3"])("a board on firmware %s that is lost in a plot", (firmware) => {
+  /** The travel to the last line passes along the first one. */
+  const PASSED_AGAIN = strokesOf([10, 10, 110, 10], [112, 20, 118, 20], [125, 10, 115, 10], [5, 10, 5, 20]);
+  const ONE_STROKE = strokesOf([10, 10, 110, 10, 110, 50, 20, 50]);
+
+  /** The pieces missing on the paper when the plot is resumed, by the time when the board was lost. */
+  async function gaps(
+    strokes: StrokeSet,
+    happen: (plot: LivePlot, lose: () => Promise<void>) => Promise<void>,
+  ): Promise<[lostS: number, gapMm: number][]> {
+    const found: [number, number][] = [];
+    for (let afterS = 0.7; afterS < 5; afterS += 0.4) {
+      const { world, driver, board } = await newPlotter(firmware);
+      const journal: JournalEntry[] = [];
+      const record = (entry: JournalEntry): void => void journal.push(entry);
+      const plot = (start: PlotStart): Promise<LivePlotRun> =>
+        world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, { ...start, journal: { record } }));
+      const run = await plot({});
+      const ended = outcome(run.finished);
+      const isIdle = (): boolean => driver.state.connection === "idle";
+      await world.advance(afterS);
+      await happen({ world, driver, board, run }, async () => {
+        board.unplug();
+        await world.run(ended);
+        while (isIdle()) await world.advance(0.1);
+        while (!isIdle()) await world.advance(0.1);
+      });
+      const again = await plot({ from: journal.at(-1)?.place });
+      await world.run(again.resume());
+      expect(await world.run(again.finished)).toEqual({ kind: "done" });
+      const { gapMm } = compareDrawn(strokes, board.drawn());
+      if (gapMm > 0.05) found.push([afterS, gapMm]);
+      await world.run(driver.close());
+    }
+    return found;
+  }
+
+  it("after an emergency stop, leaves nothing out", async () => {
+    const found = await gaps(PASSED_AGAIN, async ({ world, run }, lose) => {
+      await world.run(run.emergencyStop());
+      await lose();
+    });
+    expect(found).toEqual([]);
+  });
+
+  it("twice, the second time with its pen lifted where it was, leaves nothing out", async () => {
+    const found = await gaps(PASSED_AGAIN, async (_, lose) => {
+      await lose();
+      await lose();
+    });
+    expect(found).toEqual([]);
+  });
+
+  it.each([
+    ["several strokes", FAULT_DRAWING],
+    ["one stroke", ONE_STROKE],
+  ])("and then brought home leaves nothing out: %s", async (_, strokes) => {
+    const found = await gaps(strokes, async ({ world, driver }, lose) => {
+      await lose();
+      await world.run(driver.home());
+      await lose();
+    });
+    expect(found).toEqual([]);
   });
 });
 

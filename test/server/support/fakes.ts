@@ -86,6 +86,12 @@ export class LedRun implements LivePlotRun {
     this.end({ kind: "cancelled" });
     return Promise.resolve();
   }
+
+  leave(): Promise<void> {
+    this.asked.push("leave");
+    this.end({ kind: "cancelled" });
+    return Promise.resolve();
+  }
 }
 
 export class LedPlotter implements ManagedPlotter {

@@ -20,6 +20,9 @@ function drawnMm(strokes: ReturnType<typeof strokesOf>, from: Place, to: Place):
   return mm;
 }
 
+const endOf = (strokes: ReturnType<typeof strokesOf>, stroke: number) =>
+  pointOfPlace(strokes, { stroke, alongMm: strokeLengthMm(strokes, stroke) });
+
 describe("the place where a plot was interrupted", () => {
   it("is after the journal's place and never beyond the pen, so that nothing is left out", () => {
     fc.assert(
@@ -43,6 +46,43 @@ describe("the place where a plot was interrupted", () => {
         expect(drawnMm(strokes, found, pen)).toBeGreaterThan(-0.1);
         const [a, b] = [pointOfPlace(strokes, found), pointOfPlace(strokes, pen)];
         expect(Math.hypot(a.x - b.x, a.y - b.y)).toBeLessThan(0.17);
+      }),
+      { numRuns: cases() },
+    );
+  });
+
+  it("is never beyond a pen that is up, in the middle of a stroke or on the way to one", () => {
+    // On a grid, so that travels often pass along strokes or cross them.
+    const onGrid = fc.array(fc.tuple(fc.nat(4), fc.nat(4)), { minLength: 2, maxLength: 4 });
+    const inParts = fc.nat(4).map((parts) => parts / 4);
+    const gridLines = fc.array(
+      onGrid.map((points) => points.flat().map((one) => 10 + 10 * one)),
+      { minLength: 2, maxLength: 6 },
+    );
+    fc.assert(
+      fc.property(gridLines, fc.nat(5), inParts, inParts, fc.nat(3), fc.boolean(), (...drawn) => {
+        const [xys, at, journalShare, penShare, ahead, isTravelling] = drawn;
+        const strokes = strokesOf(...xys);
+        const first = at % xys.length;
+        const stroke = Math.min(xys.length - 1, first + ahead);
+        const journal = { stroke: first, alongMm: journalShare * strokeLengthMm(strokes, first) };
+        const fromMm = stroke === first ? journal.alongMm : 0;
+        // A pen that is up at the end of a stroke has drawn it.
+        const endMm = 0.99 * strokeLengthMm(strokes, stroke);
+        const alongMm = isTravelling ? fromMm : Math.max(fromMm, penShare * endMm);
+        const place: Place = { stroke, alongMm };
+        const to = pointOfPlace(strokes, place);
+        const from = stroke === first ? { x: 0, y: 0 } : endOf(strokes, stroke - 1);
+        // At home itself, the driver tells whether the carriage was left there by the plot.
+        const share = isTravelling ? Math.max(0.1, penShare) : 1;
+        const pen = {
+          x: from.x + share * (to.x - from.x),
+          y: from.y + share * (to.y - from.y),
+          up: true,
+        };
+        const found = stoppedPlace(strokes, journal, pen, { aheadMm: 1e6 });
+        expect(drawnMm(strokes, journal, found)).toBeGreaterThan(-0.1);
+        expect(drawnMm(strokes, found, place)).toBeGreaterThan(-0.1);
       }),
       { numRuns: cases() },
     );
@@ -140,6 +180,46 @@ describe("the place where a plot was interrupted", () => {
     expect(stoppedPlace(two, other, { x: 0, y: 0, up: true }, { aheadMm: 500, stops: [1, 2] })).toEqual(
       other,
     );
+  });
+
+  it("is the journal's place if a stop lifted the pen in the middle of a stroke that a later travel crosses", () => {
+    const crossed = strokesOf([10, 10, 10, 60], [5, 20, 2, 20], [18, 52, 25, 52]);
+    const lifted = { x: 10, y: 36, up: true };
+    // Exact; a quarter of a second old; where a swinging pen came to rest.
+    for (const alongMm of [26, 16, 26.9]) {
+      const stopped = { stroke: 0, alongMm };
+      expect(stoppedPlace(crossed, stopped, lifted, { aheadMm: 500 })).toEqual(stopped);
+    }
+    const drawn = { stroke: 1, alongMm: 1 };
+    expect(stoppedPlace(crossed, drawn, lifted, { aheadMm: 500 })).toEqual({ stroke: 2, alongMm: 0 });
+  });
+
+  it("is the journal's place if the pen is up on the way to it", () => {
+    const strokes = strokesOf([5, 0, 10, 0], [40, 0, 50, 0, 50, 5, 40, 0], [35, 5, 36, 5], [15, -5, 10, -5]);
+    const begun = { stroke: 1, alongMm: 0 };
+    // The travel to the last stroke passes there too; the closed stroke ends where it begins.
+    for (const x of [25, 40]) {
+      expect(stoppedPlace(strokes, begun, { x, y: 0, up: true }, { aheadMm: 500 })).toEqual(begun);
+    }
+    const ended = { x: 40, y: 0, up: true };
+    expect(stoppedPlace(strokes, { stroke: 1, alongMm: 12 }, ended, { aheadMm: 500 })).toEqual({
+      stroke: 2,
+      alongMm: 0,
+    });
+  });
+
+  it("is the journal's place if the carriage was brought home, or is on its way from there", () => {
+    for (const share of [0, 0.3]) {
+      const pen = { x: 20 * share, y: 0, up: true };
+      expect(stoppedPlace(two, journal, pen, { aheadMm: 500 })).toEqual(journal);
+    }
+  });
+
+  it("is the journal's place if the way home is longer than the carriage can have come", () => {
+    const late = { stroke: 2, alongMm: 1 };
+    const goingHome = { x: 5, y: 40, up: true };
+    expect(stoppedPlace(two, late, goingHome, { aheadMm: 45 })).toEqual(late);
+    expect(stoppedPlace(two, late, goingHome, { aheadMm: 55 })).toEqual({ stroke: 2, alongMm: 10 });
   });
 
   it("is the journal's place if the pen is somewhere else, or further than possible", () => {

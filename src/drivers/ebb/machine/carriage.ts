@@ -85,11 +85,15 @@ export class Carriage {
     await this.liftWhereLeft();
   }
 
-  /** Lifts a pen that was left on the paper, where it would bleed. The board still has the plot's up height. */
+  /**
+   * Lifts a pen that was left on the paper, where it would bleed. The board still has the plot's up height. A carriage at
+   * home may have been brought there by hand since the plot, so its place says nothing about the plot.
+   */
   private async liftWhereLeft(): Promise<void> {
     const { session } = this.connection;
     const penUp = Number(await session.query("QP")) === 1;
-    if (this.state) this.left = { penUp };
+    const isHome = this.state?.steps1 === 0 && this.state.steps2 === 0;
+    if (this.state && !(penUp && isHome)) this.left = { penUp };
     if (!penUp) await session.send(`SP,1,${SERVO_MS}`, SERVO_MS / 1000);
   }
 
