@@ -77,6 +77,22 @@ async function newPlotter(firmware: string) {
   return { world, driver, board: virtualBoardOf(driver) };
 }
 
+/** A plot on a new plotter. `resumedGapMm` resumes it from its journal, and returns the longest piece missing on the paper. */
+async function newPlot(firmware: string, strokes: StrokeSet) {
+  const { world, driver, board } = await newPlotter(firmware);
+  const journal: JournalEntry[] = [];
+  const record = (entry: JournalEntry): void => void journal.push(entry);
+  const plot = (start: PlotStart): Promise<LivePlotRun> =>
+    world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, { ...start, journal: { record } }));
+  const resumedGapMm = async (): Promise<number> => {
+    const again = await plot({ from: journal.at(-1)?.place });
+    await world.run(again.resume());
+    expect(await world.run(again.finished)).toEqual({ kind: "done" });
+    return compareDrawn(strokes, board.drawn()).gapMm;
+  };
+  return { world, driver, board, run: await plot({}), resumedGapMm };
+}
+
 /** A machine on a virtual board, without a plotter. */
 async function newMachine(options: Partial<VirtualBoardOptions> = {}) {
   const clock = new ManualClock();
@@ -99,12 +115,7 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
   "a stop just after a restart, on firmware %s",
   (firmware) => {
     it.each([0, 0.1])("of a plot leaves no known position, after %s s", async (afterS) => {
-      const { world, driver, board } = await newPlotter(firmware);
-      const journal: JournalEntry[] = [];
-      const record = (entry: JournalEntry): void => void journal.push(entry);
-      const plot = (start: PlotStart): Promise<LivePlotRun> =>
-        world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), SETTINGS, { ...start, journal: { record } }));
-      const run = await plot({});
+      const { world, driver, board, run, resumedGapMm } = await newPlot(firmware, FAULT_DRAWING);
       await world.advance(3);
       board.restart();
       await world.advance(afterS);
@@ -113,10 +124,7 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
       await stopped;
       expect(board.state()).toMatchObject({ penUp: true, motorsOn: false });
       expect(driver.state).toMatchObject({ connection: "idle", xMm: null, yMm: null, motorsOn: false });
-      const again = await plot({ from: journal.at(-1)?.place });
-      await world.run(again.resume());
-      expect(await world.run(again.finished)).toEqual({ kind: "done" });
-      expect(compareDrawn(FAULT_DRAWING, board.drawn()).gapMm).toBeLessThan(0.05);
+      expect(await resumedGapMm()).toBeLessThan(0.05);
     });
 
     it("of a manual move leaves no known position", async () => {
@@ -172,26 +180,19 @@ describe.each(["2.8.1", "3.0.3"])("a held plot on firmware %s whose board restar
 
 describe.each(["2.8.1", "3.0.3"])("an emergency stop on firmware %s leaves nothing out", (firmware) => {
   /** Resumes the plot from its journal when the plotter is ready again, and looks for what is missing on the paper. */
-  async function resumedGapMm(happen: (plot: LivePlot) => Promise<void>): Promise<number> {
-    const { world, driver, board } = await newPlotter(firmware);
-    const journal: JournalEntry[] = [];
-    const record = (entry: JournalEntry): void => void journal.push(entry);
-    const plot = (start: PlotStart): Promise<LivePlotRun> =>
-      world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), SETTINGS, { ...start, journal: { record } }));
-    const run = await plot({});
+  async function gapAfter(happen: (plot: LivePlot) => Promise<void>): Promise<number> {
+    const { resumedGapMm, ...plot } = await newPlot(firmware, FAULT_DRAWING);
+    const { world, driver, run } = plot;
     await world.advance(3);
     const ended = outcome(run.finished);
-    await happen({ world, driver, board, run });
+    await happen(plot);
     expect(await world.run(ended, 20)).toMatch(/^board-/);
     while (driver.state.connection !== "idle") await world.advance(0.1);
-    const again = await plot({ from: journal.at(-1)?.place });
-    await world.run(again.resume());
-    expect(await world.run(again.finished)).toEqual({ kind: "done" });
-    return compareDrawn(FAULT_DRAWING, board.drawn()).gapMm;
+    return resumedGapMm();
   }
 
   it("if the supply fails just after it", async () => {
-    const gapMm = await resumedGapMm(async ({ world, board, run }) => {
+    const gapMm = await gapAfter(async ({ world, board, run }) => {
       const stopped = run.emergencyStop();
       board.setMotorVolts(0);
       await world.run(outcome(stopped));
@@ -202,7 +203,7 @@ describe.each(["2.8.1", "3.0.3"])("an emergency stop on firmware %s leaves nothi
   });
 
   it("if the board does not answer it any more, and then restarts", async () => {
-    const gapMm = await resumedGapMm(async ({ world, board, run }) => {
+    const gapMm = await gapAfter(async ({ world, board, run }) => {
       board.setFrozen(true);
       await world.advance(0.3);
       board.setMute(true);
@@ -228,25 +229,18 @@ describe.each(["2.8.1", "3.0.3"])("a board on firmware %s that is lost in a plot
   ): Promise<[lostS: number, gapMm: number][]> {
     const found: [number, number][] = [];
     for (let afterS = 0.7; afterS < 5; afterS += 0.4) {
-      const { world, driver, board } = await newPlotter(firmware);
-      const journal: JournalEntry[] = [];
-      const record = (entry: JournalEntry): void => void journal.push(entry);
-      const plot = (start: PlotStart): Promise<LivePlotRun> =>
-        world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, { ...start, journal: { record } }));
-      const run = await plot({});
+      const { resumedGapMm, ...plot } = await newPlot(firmware, strokes);
+      const { world, driver, board, run } = plot;
       const ended = outcome(run.finished);
       const isIdle = (): boolean => driver.state.connection === "idle";
       await world.advance(afterS);
-      await happen({ world, driver, board, run }, async () => {
+      await happen(plot, async () => {
         board.unplug();
         await world.run(ended);
         while (isIdle()) await world.advance(0.1);
         while (!isIdle()) await world.advance(0.1);
       });
-      const again = await plot({ from: journal.at(-1)?.place });
-      await world.run(again.resume());
-      expect(await world.run(again.finished)).toEqual({ kind: "done" });
-      const { gapMm } = compareDrawn(strokes, board.drawn());
+      const gapMm = await resumedGapMm();
       if (gapMm > 0.05) found.push([afterS, gapMm]);
       await world.run(driver.close());
     }
