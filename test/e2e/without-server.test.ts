@@ -7,7 +7,7 @@ const startPages = useSerialPages();
 
 describe("the page without a server", () => {
   it("recovers after a reload in the middle of a plot", { timeout: 300_000 }, async () => {
-    const pages = await startPages(1);
+    const pages = await startPages(3);
     const page = await pages.openPage();
     await pages.plotComb(page, 4);
     await expect.poll(() => pages.board.statistics().movingS).toBeGreaterThan(2);

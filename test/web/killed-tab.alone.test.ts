@@ -11,6 +11,8 @@ import { seeded } from "../support/live-plot.js";
 import { SerialPages } from "../support/serial-page.js";
 
 const KILLS = countFor("PLOTWRIGHT_KILLS", 20, 1);
+/** Seconds of the board per second. */
+const BOARD_SPEED = 3;
 
 let browser: Browser;
 
@@ -23,7 +25,7 @@ describe("the page without a server", () => {
   it("loses and doubles nothing when a tab is killed", { timeout: 60_000 + KILLS * 120_000 }, async () => {
     const random = seeded(22);
     for (let kill = 0; kill < KILLS; kill++) {
-      const pages = await SerialPages.start(browser, 1);
+      const pages = await SerialPages.start(browser, BOARD_SPEED);
       try {
         const page = await pages.openPage();
         await pages.plotComb(page, 3);
