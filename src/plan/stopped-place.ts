@@ -67,7 +67,7 @@ function firstMatch(
   const { xy, offsets } = strokes;
   const count = offsets.length - 1;
   const goesHomeAfter = (stroke: number): boolean => stroke + 1 === count || stops.includes(stroke + 1);
-  // The driver does not report a carriage that may have been brought home by hand.
+  // At home, a pen that had drawn is back rather than setting out: drivers leave out a carriage that may have been moved by hand.
   const isHome = Math.hypot(pen.x, pen.y) <= STEP_MM;
   const mayBeBack = isHome && journal.alongMm > 0 && goesHomeAfter(journal.stroke);
   if (pen.up && !mayBeBack && isSettingOut(strokes, journal, pen, nearMm)) return null;

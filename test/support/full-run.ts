@@ -1,6 +1,6 @@
 /**
  * How much the tests do: `npm test` runs a part that takes minutes; PLOTWRIGHT_FULL=1, set by `npm run
- * test:full`, runs all of it. Only counts differ: every test runs in both cases.
+ * test:full`, runs all of it. Counts differ, and some tests take only one of their variants in the short run.
  */
 export const IS_FULL = process.env["PLOTWRIGHT_FULL"] === "1";
 
