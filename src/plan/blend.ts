@@ -30,7 +30,6 @@
  * and both limits are convex.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { lesser } from "./choose.js";
 import { CornerSpeeds } from "./corner-speeds.js";
 import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
@@ -74,7 +73,7 @@ export class BlendPlanner {
       const s = Math.sqrt(bx * bx + by * by) / 2;
       const cap = Math.min(cap2[i - 1], cap2[i]);
       if (s > STRAIGHT) {
-        const half = lesser(length[i - 1], length[i]) / 2;
+        const half = Math.min(length[i - 1], length[i]) / 2;
         tangent[i] = line.reach(i, bx, by, s, half);
         sine[i] = s;
         maxSpeed[i] = Math.sqrt(Math.min(cap, (accel * tangent[i]) / s));

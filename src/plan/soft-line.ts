@@ -25,7 +25,6 @@
  *     room = −d·b + √(δ² − |d|² + (d·b)²)       d = P' − P
  */
 import { capSegments, type RunLimits } from "./limits.js";
-import { lesser } from "./choose.js";
 import { LeastBending } from "./least-bending.js";
 import { RunPath } from "./run-path.js";
 
@@ -116,7 +115,7 @@ export class SoftLine {
       const s = Math.sqrt(dx * dx + dy * dy) / 2;
       // Positive: to the left. Where the line goes straight back, to neither side.
       const side = Math.sign(ux[i - 1] * uy[i] - uy[i - 1] * ux[i]);
-      const half = lesser(length[i - 1], length[i]) / 2;
+      const half = Math.min(length[i - 1], length[i]) / 2;
       // How far the longest curve passes inside its point.
       const depth = (half * s) / 2;
       const v2 = Math.min(cap2[i - 1], cap2[i]);
