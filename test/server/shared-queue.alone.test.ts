@@ -25,7 +25,7 @@ const LIMIT_MS = 30_000 * JOB_COUNT;
 const LINES = 8;
 /** The second job of the left server: long enough that the kill meets it in the middle. */
 const LONG_INDEX = 4;
-const MANY_LINES = 60;
+const MANY_LINES = 120;
 
 const jobsOf = async (server: AtUrl): Promise<Job[]> => (await stateOf(server)).jobs;
 const countOf = (jobs: readonly Job[], ...states: Job["state"][]): number =>
@@ -53,7 +53,7 @@ describe("two servers that share a queue", { timeout: LIMIT_MS }, () => {
   const start = (side: 0 | 1): Promise<ServerProcess> =>
     startServerProcess({
       dataDir: folders[side].path,
-      virtualSpeed: 20,
+      virtualSpeed: 40,
       args: ["--shared-queue", database.url],
     });
   beforeAll(async () => {
