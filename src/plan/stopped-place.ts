@@ -67,10 +67,7 @@ function firstMatch(
   const { xy, offsets } = strokes;
   const count = offsets.length - 1;
   const goesHomeAfter = (stroke: number): boolean => stroke + 1 === count || stops.includes(stroke + 1);
-  // At home, a pen that had drawn is back rather than setting out: drivers leave out a carriage that may have been moved by hand.
-  const isHome = Math.hypot(pen.x, pen.y) <= STEP_MM;
-  const mayBeBack = isHome && journal.alongMm > 0 && goesHomeAfter(journal.stroke);
-  if (pen.up && !mayBeBack && isSettingOut(strokes, journal, pen, nearMm)) return null;
+  if (pen.up && isSettingOut(strokes, journal, pen, nearMm)) return null;
   let leftMm = aheadMm + journal.alongMm;
   for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
     const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
@@ -103,7 +100,10 @@ function firstMatch(
   return null;
 }
 
-/** Whether a pen that is up may be on its way to the journal's place, from home or from the stroke before. */
+/**
+ * Whether a pen that is up may be on its way to the journal's place, from home or from the stroke before. At home itself
+ * it may also be back from the plot, but then drivers do not tell where it is: it may have been moved there by hand.
+ */
 function isSettingOut(strokes: StrokeSet, journal: Place, pen: PenPlace, nearMm: number): boolean {
   const { xy, offsets } = strokes;
   const { x, y } = pointOfPlace(strokes, journal);

@@ -73,7 +73,7 @@ describe("the place where a plot was interrupted", () => {
         const place: Place = { stroke, alongMm };
         const to = pointOfPlace(strokes, place);
         const from = stroke === first ? { x: 0, y: 0 } : endOf(strokes, stroke - 1);
-        // At home itself, the driver tells whether the carriage was left there by the plot.
+        // At home itself, the driver does not tell where the carriage is.
         const share = isTravelling ? Math.max(0.1, penShare) : 1;
         const pen = {
           x: from.x + share * (to.x - from.x),
@@ -160,7 +160,6 @@ describe("the place where a plot was interrupted", () => {
     for (const [x, y] of [
       [10, 80],
       [5, 40],
-      [0, 0],
     ] as const) {
       expect(stoppedPlace(two, late, { x, y, up: true }, { aheadMm: 500 })).toEqual(end);
     }
@@ -168,8 +167,10 @@ describe("the place where a plot was interrupted", () => {
   });
 
   it("is the stroke after a change of pens if the pen is up on the way home to it", () => {
-    const home = { x: 0, y: 0, up: true };
-    expect(stoppedPlace(two, journal, home, { aheadMm: 500, stops: [1] })).toEqual({ stroke: 1, alongMm: 0 });
+    const nearlyDrawn = { stroke: 1, alongMm: 90 };
+    const goingHome = { x: 0, y: 25, up: true };
+    const since = { aheadMm: 500, stops: [2] };
+    expect(stoppedPlace(two, nearlyDrawn, goingHome, since)).toEqual({ stroke: 2, alongMm: 0 });
   });
 
   it("is the journal's place if the carriage is at home and nothing was drawn since it left home", () => {
