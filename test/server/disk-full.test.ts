@@ -37,7 +37,12 @@ const job = async (): Promise<Job> =>
   jobSchema.parse(await (await fetch(`${app.url}/api/v1/jobs/${id}`)).json());
 const stored = (): Job => app.store.jobs().find((one) => one.id === id)!;
 
+/** The next try to store a job comes soon, not only after 5 s. */
 function fillDisk(store = app.store): void {
+  const later = setTimeout;
+  vi.spyOn(globalThis, "setTimeout").mockImplementation((act: () => void, ms?: number) =>
+    later(act, ms === 5_000 ? 100 : ms),
+  );
   const writes = ["saveJob", "addJob", "moveJob", "saveJournal", "clearJournal", "saveSetting"] as const;
   for (const name of writes) {
     vi.spyOn(store, name).mockImplementation(() => {

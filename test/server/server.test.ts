@@ -52,9 +52,9 @@ async function add(text: string): Promise<Job> {
 
 describe("a server", () => {
   it("plans, plots and finishes a drawing, and still knows it after a restart", async () => {
-    const drawn = lines(60);
+    const drawn = lines(30);
     const { id, stats } = await add(drawn);
-    expect(stats).toMatchObject({ strokeCount: 60, pointCount: 120 });
+    expect(stats).toMatchObject({ strokeCount: 30, pointCount: 60 });
     const events = await EventStream.open(server.url);
     expect((await post(`/jobs/${id}/start`)).status).toBe(200);
     await events.find("progress", (event) => event.jobId === id && !event.penUp);
@@ -75,7 +75,7 @@ describe("a server", () => {
   });
 
   it("pauses with the pen up, continues to the end, and cancels another", async () => {
-    const many = lines(120);
+    const many = lines(80);
     const { id } = await add(many);
     const events = await EventStream.open(server.url);
     await post(`/jobs/${id}/start`);
