@@ -40,8 +40,8 @@ const COMMON = { pool: "forks" as const, execArgv: EXEC_ARGV, setupFiles: ["test
 /** These tests leave nothing behind, so they share workers that have loaded the product once. */
 const SHARED = { isolate: false };
 
-/** Tests that also wait (for a board, a browser, a process) keep two cores busy only with more workers. */
-const WAITING = { maxWorkers: 4 };
+/** Tests that also wait (for a board, a browser, a process) keep two cores busy only with a third worker. */
+const WAITING = { maxWorkers: 3 };
 
 /** Tests on a board in real time need little processor time: 80 s for all. With 5 workers they take 60 s, with 3 90 s. */
 const MOSTLY_WAITING = { maxWorkers: 5 };

@@ -3,6 +3,7 @@ import type { Browser, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { BACKENDS, startPage, type StartedPage } from "../support/backends.js";
 import { launchBrowser } from "../support/browser.js";
+import { IS_FULL } from "../support/full-run.js";
 import {
   dropFile,
   historyPanel,
@@ -56,7 +57,10 @@ async function choose(page: Page, name: string, what: string): Promise<void> {
   await page.getByRole("button", { name: `${what} ${name}` }).click();
 }
 
-describe.each(BACKENDS)("the page's backend %s", (backend) => {
+/** Other tests of `npm test` (story, machine, interrupted) have a server. */
+const CHECKED = IS_FULL ? BACKENDS : (["browser"] as const);
+
+describe.each(CHECKED)("the page's backend %s", (backend) => {
   let started: StartedPage;
   beforeEach(async () => {
     started = await startPage(backend, browser);
