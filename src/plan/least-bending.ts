@@ -16,7 +16,7 @@
 
 const ROUNDS = 6;
 /** Penalty weight of the bounds, as a share of the diagonal. */
-const BOUND_WEIGHT = 0.3;
+const PENALTY_SHARE = 0.3;
 const RELAXATION = 1.8;
 
 /**
@@ -32,9 +32,9 @@ const CARRY = 1;
 const INVERSE = 2;
 const BELOW1 = 3;
 const BELOW2 = 4;
-/** The right-hand side, and the weight of the bounds; both 0 for a fixed point. */
+/** The right-hand side, and the penalty weight of the bounds; both 0 for a fixed point. */
 const RIGHT = 5;
-const WEIGHT = 6;
+const PENALTY = 6;
 const LOW = 7;
 const HIGH = 8;
 
@@ -99,10 +99,10 @@ export class LeastBending {
     }
   }
 
-  /** Fills the rows. */
+  /** Fills the rows: the factors of the system, and the state before the first round. */
   private factor(n: number): void {
     const { low, high, weight, bending, perLength, isFree, rows } = this;
-    // Of the previous point, and of the one before: the subdiagonals of L in their column, and these times D.
+    // Of the previous points: the subdiagonals of L, and these times D (first, second).
     let below1 = 0;
     let below2 = 0;
     let below2Before = 0;
@@ -114,7 +114,7 @@ export class LeastBending {
       let first = 0;
       let second = 0;
       let right = 0;
-      let boundWeight = 0;
+      let penalty = 0;
       if (isFree[i] === 1) {
         const a = perLength[i - 1];
         const c = perLength[i];
@@ -123,8 +123,8 @@ export class LeastBending {
         const after = weight[i + 1] * c;
         const diagonal = before * a + own * (a + c) + after * c;
         right = bending[i] * (a + c) - bending[i - 1] * a - bending[i + 1] * c;
-        boundWeight = BOUND_WEIGHT * diagonal;
-        d = diagonal + boundWeight - below2Before * second2 - below1 * first1;
+        penalty = PENALTY_SHARE * diagonal;
+        d = diagonal + penalty - below2Before * second2 - below1 * first1;
         // The last point is fixed, so these read no segment beyond it.
         if (isFree[i + 1] === 1) first = -own * c - after * (c + perLength[i + 1]) - below1 * second1;
         if (i + 2 < n && isFree[i + 2] === 1) second = after * perLength[i + 1];
@@ -141,7 +141,7 @@ export class LeastBending {
       rows[r + INVERSE] = 1 / d;
       rows[r + BELOW1] = below1;
       rows[r + BELOW2] = below2;
-      rows[r + WEIGHT] = boundWeight;
+      rows[r + PENALTY] = penalty;
       rows[r + LOW] = low[i];
       rows[r + HIGH] = high[i];
     }
@@ -182,7 +182,7 @@ export class LeastBending {
       const bounded = (Math.abs(free - low) - Math.abs(free - high) + (low + high)) / 2;
       y[i] = bounded;
       rows[r + CARRY] = free - RELAXATION * bounded;
-      rows[r + HALFWAY] = rows[r + RIGHT] + rows[r + WEIGHT] * (2 * bounded - free);
+      rows[r + HALFWAY] = rows[r + RIGHT] + rows[r + PENALTY] * (2 * bounded - free);
     }
   }
 }
