@@ -26,7 +26,12 @@ const LICENCE_FILE = /^(licen[cs]e|copying)/i;
 export function licencePlugins() {
   const folders = new Set();
   const gather = (bundle) => {
-    for (const { moduleIds = [] } of Object.values(bundle)) addPackageFolders(moduleIds, folders);
+    for (const { moduleIds = [], originalFileNames = [] } of Object.values(bundle)) {
+      addPackageFolders(moduleIds, folders);
+      // A font is a file that a style sheet names, not a module. Its name is relative to web/.
+      const files = originalFileNames.map((name) => path.resolve(HERE, "..", "web", name));
+      addPackageFolders(files, folders);
+    }
   };
   return {
     inWorkers: () => ({

@@ -40,7 +40,9 @@ const serviceWorker = (): Plugin => ({
   generateBundle: {
     order: "post",
     handler(_options, bundle) {
-      const built = Object.keys(bundle).filter((name) => /^assets\/.*\.(js|css|svg)$/.test(name));
+      const isNeededOffline = (name: string) =>
+        /^assets\/.*\.(js|css|svg)$/.test(name) || /^assets\/inter-latin-wght-normal-.*\.woff2$/.test(name);
+      const built = Object.keys(bundle).filter(isNeededOffline);
       // Relative to the service worker, because the static page may be in any folder of a site.
       const files = ["./", ...PUBLIC_FILES, ...built].sort();
       // Each of these two names the hashes of all other files, so its own hash changes with any of them.

@@ -19,11 +19,15 @@ import {
 } from "../support/page-actions.js";
 import {
   DESK,
+  FONTS,
   inStates,
   LOOKS,
   PHONE,
   planned,
   SCHEMES,
+  SHIPPED_FONT,
+  useFont,
+  type Font,
   type Look,
   type Scheme,
 } from "../support/in-states.js";
@@ -47,20 +51,21 @@ afterAll(async () => {
   data.remove();
 });
 
-async function firstVisit({ width, height }: Look = DESK): Promise<Page> {
+async function firstVisit({ width, height }: Look = DESK, font: Font = SHIPPED_FONT): Promise<Page> {
   const context = await browser.newContext({
     viewport: { width, height },
     hasTouch: width < 760,
     ...PLAIN,
   });
+  await useFont(context, font);
   const page = await context.newPage();
   await page.goto(server.url);
   await waitForSamples(page);
   return page;
 }
 
-async function openPage(look: Look = DESK): Promise<Page> {
-  const page = await firstVisit(look);
+async function openPage(look: Look = DESK, font: Font = SHIPPED_FONT): Promise<Page> {
+  const page = await firstVisit(look, font);
   await chooseSample(page);
   return page;
 }
@@ -131,14 +136,19 @@ describe("axe finds nothing serious, light and dark", () => {
     await page.context().close();
   });
 
-  it.each(FIRST_LOOKS)("with a sample on the paper and every group of settings open, $name", async (look) => {
-    const page = await openPage(look);
-    await unfold(page);
-    for (const colorScheme of SCHEMES) {
-      await page.emulateMedia({ colorScheme });
-      expect(await seriousFindings(page)).toEqual([]);
-    }
-    await page.context().close();
+  describe.each(FONTS)("in $name", (font) => {
+    it.each(FIRST_LOOKS)(
+      "with a sample on the paper and every group of settings open, $name",
+      async (look) => {
+        const page = await openPage(look, font);
+        await unfold(page);
+        for (const colorScheme of SCHEMES) {
+          await page.emulateMedia({ colorScheme });
+          expect(await seriousFindings(page)).toEqual([]);
+        }
+        await page.context().close();
+      },
+    );
   });
 
   it("with a file that cannot be read, a queue, a running plot, and the question before cancelling", async () => {
@@ -175,29 +185,42 @@ const GROUPS: readonly (readonly [string, readonly PageState[]])[] = [
   ...LASTING.map((state) => [state.name, [state]] as const),
 ];
 
-describe.each(LOOKED_AT)("axe finds nothing serious at $width × $height, and nothing overflows", (look) => {
-  it.each(GROUPS)("%s", { timeout: 240_000 }, async (_name, group) => {
-    const found: string[] = [];
-    let lookedAt = 0;
-    const check = async (page: Page, { name }: PageState, scheme: Scheme): Promise<void> => {
-      lookedAt++;
-      const findings = await seriousFindings(page);
-      found.push(...findings.map((finding) => `${name}, ${scheme}: ${finding}`));
-      const wide = await page.evaluate(() =>
-        [...document.querySelectorAll(".column, .group-body, .card, .status-card, dialog")]
-          .filter(({ scrollWidth, clientWidth }) => scrollWidth > clientWidth + 1)
-          .map(({ className }) => className),
-      );
-      if (wide.length > 0) found.push(`${name}: content is cut off in ${wide.join(", ")}`);
-      const { scrollWidth, scrollHeight } = await page.evaluate(() => ({
-        scrollWidth: document.documentElement.scrollWidth,
-        scrollHeight: document.documentElement.scrollHeight,
-      }));
-      if (scrollWidth > look.width) found.push(`${name}: ${scrollWidth} px wide`);
-      if (look !== PHONE && scrollHeight > look.height) found.push(`${name}: ${scrollHeight} px high`);
-    };
-    await inStates(browser, group, look, check, FULL_SCHEMES);
-    expect(found).toEqual([]);
-    expect(lookedAt).toBe(FULL_SCHEMES.length * group.length);
-  });
-});
+/** The other fonts only in the full run, on a desk. */
+const LOOKS_IN_FONTS = LOOKED_AT.flatMap((look) =>
+  (look === DESK ? FONTS : [SHIPPED_FONT]).map((font) => ({
+    look,
+    font,
+    size: `${look.width} × ${look.height}`,
+    fontName: font.name,
+  })),
+);
+
+describe.each(LOOKS_IN_FONTS)(
+  "axe finds nothing serious at $size in $fontName, and nothing overflows",
+  ({ look, font }) => {
+    it.each(GROUPS)("%s", { timeout: 240_000 }, async (_name, group) => {
+      const found: string[] = [];
+      let lookedAt = 0;
+      const check = async (page: Page, { name }: PageState, scheme: Scheme): Promise<void> => {
+        lookedAt++;
+        const findings = await seriousFindings(page);
+        found.push(...findings.map((finding) => `${name}, ${scheme}: ${finding}`));
+        const wide = await page.evaluate(() =>
+          [...document.querySelectorAll(".column, .group-body, .card, .status-card, dialog")]
+            .filter(({ scrollWidth, clientWidth }) => scrollWidth > clientWidth + 1)
+            .map(({ className }) => className),
+        );
+        if (wide.length > 0) found.push(`${name}: content is cut off in ${wide.join(", ")}`);
+        const { scrollWidth, scrollHeight } = await page.evaluate(() => ({
+          scrollWidth: document.documentElement.scrollWidth,
+          scrollHeight: document.documentElement.scrollHeight,
+        }));
+        if (scrollWidth > look.width) found.push(`${name}: ${scrollWidth} px wide`);
+        if (look !== PHONE && scrollHeight > look.height) found.push(`${name}: ${scrollHeight} px high`);
+      };
+      await inStates(browser, group, look, check, FULL_SCHEMES, font);
+      expect(found).toEqual([]);
+      expect(lookedAt).toBe(FULL_SCHEMES.length * group.length);
+    });
+  },
+);

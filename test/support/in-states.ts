@@ -1,5 +1,6 @@
 /** Brings the page into its states (page-states.ts) for a screen size, light and dark. */
 import type { Browser, BrowserContext, Page } from "playwright-core";
+import { nodeModule } from "../../scripts/setup.mjs";
 import { PLAIN } from "./browser.js";
 import { chooseSample, nextFrames } from "./page-actions.js";
 import type { PageState } from "./page-states/page-state.js";
@@ -20,6 +21,25 @@ export const LOOKS: readonly Look[] = [DESK, WIDE, TABLET, PHONE];
 export const SCHEMES = ["light", "dark"] as const;
 export type Scheme = (typeof SCHEMES)[number];
 
+/** A font of the page: `file` replaces the one that the page ships, as where a browser uses a font of its system. */
+export interface Font {
+  readonly name: string;
+  readonly file: string | null;
+}
+const fontFile = (name: string): string =>
+  nodeModule("@fontsource", name, "files", `${name}-latin-400-normal.woff2`);
+export const SHIPPED_FONT: Font = { name: "the shipped font", file: null };
+/** Arimo has the widths of Arial; DejaVu Sans is among the widest fonts of systems. */
+export const FONTS: readonly Font[] = [
+  SHIPPED_FONT,
+  { name: "Arimo", file: fontFile("arimo") },
+  { name: "DejaVu Sans", file: fontFile("dejavu-sans") },
+];
+
+export async function useFont(context: BrowserContext, { file }: Font): Promise<void> {
+  if (file !== null) await context.route("**/*.woff2", (route) => route.fulfill({ path: file }));
+}
+
 type LookAtIt = (page: Page, state: PageState, scheme: Scheme) => Promise<void>;
 
 /**
@@ -32,11 +52,12 @@ export async function inStates(
   look: Look,
   lookAtIt: LookAtIt,
   schemes: readonly Scheme[] = SCHEMES,
+  font: Font = SHIPPED_FONT,
 ): Promise<void> {
   const passing = states.filter(({ isPassing }) => isPassing);
   const lasting = states.filter(({ isPassing }) => !isPassing);
   const groups = [passing, ...lasting.map((state) => [state])].filter((group) => group.length > 0);
-  for (const group of groups) await inGroup(browser, group, look, lookAtIt, schemes);
+  for (const group of groups) await inGroup(browser, group, look, lookAtIt, schemes, font);
 }
 
 /** Waits until the last change has been planned, if the page shows a plan at all. */
@@ -51,6 +72,7 @@ async function inGroup(
   { width, height }: Look,
   lookAtIt: LookAtIt,
   schemes: readonly Scheme[],
+  font: Font,
 ): Promise<void> {
   const data = temporaryFolder("page-state");
   const { device, isPairing, isFirstVisit, virtualSpeed = 20 } = states[0];
@@ -75,6 +97,7 @@ async function inGroup(
       ...PLAIN,
     });
     contexts.push(context);
+    await useFont(context, font);
     const other = await context.newPage();
     await other.goto(`${server.url}${path}`);
     return other;

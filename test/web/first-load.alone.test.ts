@@ -11,15 +11,19 @@ const read = (file: string): string => readFileSync(path.join(folder, file), "ut
 const gzippedBytes = (file: string): number =>
   gzipSync(readFileSync(path.join(folder, file)), { level: 9 }).length;
 
+const ASSETS = readdirSync(path.join(folder, "assets"));
+const asset = (beginning: string): string => `assets/${ASSETS.find((file) => file.startsWith(beginning))!}`;
+
 /** Scripts and style sheets named by the page, including their static imports. */
 const named = (): string[] =>
   [...read("index.html").matchAll(/assets\/[\w.-]+\.(?:js|css)/g)].map(([file]) => file);
-const worker = (name: "plan" | "draw"): string =>
-  `assets/${readdirSync(path.join(folder, "assets")).find((file) => file.startsWith(`${name}.worker`))!}`;
+const worker = (name: "plan" | "draw"): string => asset(`${name}.worker`);
+/** The letters of English; a browser loads the font's other files only for letters of other scripts. */
+const LETTERS = "inter-latin-wght-normal";
 
 describe("the first load of the built page", () => {
-  it("is at most 320 kB gzipped, workers and style sheet included", () => {
-    const files = ["index.html", ...named(), worker("plan"), worker("draw")];
+  it("is at most 320 kB gzipped, workers, style sheet and font included", () => {
+    const files = ["index.html", ...named(), worker("plan"), worker("draw"), asset(LETTERS)];
     expect(files.filter((file) => file.endsWith(".js")).length).toBeGreaterThanOrEqual(2);
     expect(files.filter((file) => file.endsWith(".css")).length).toBe(1);
     expect(files.reduce((sum, file) => sum + gzippedBytes(file), 0)).toBeLessThanOrEqual(LIMIT_BYTES);
