@@ -152,4 +152,33 @@ describe("a browser's storage", { timeout: 200_000 }, () => {
     await queued("line").waitFor();
     await queued("large").waitFor();
   });
+
+  it("that the user clears is filled again, and says that the drawings are gone", async () => {
+    await openOrigin(browser);
+    const session = await page.context().newCDPSession(page);
+    await openApp();
+    await plotsOnTheVirtualBoard();
+    await lay("waiting", LINE);
+    await addToQueue();
+    await queued("waiting").waitFor();
+    await session.send("Storage.clearDataForOrigin", {
+      origin: String(app?.url),
+      storageTypes: "indexeddb",
+    });
+    await page.getByText(/The data of this site were cleared in the browser/).waitFor();
+
+    await queued("waiting").click();
+    await page
+      .getByText(/The browser no longer has this drawing\. Add it again\./)
+      .first()
+      .waitFor();
+    await lay("later", LINE);
+    await addToQueue();
+    await queued("later").waitFor();
+    expect(await page.getByText(/The last changes are only in this tab/).count()).toBe(0);
+
+    await page.reload();
+    await queued("later").waitFor();
+    await historyPanel(page).getByRole("button", { name: "More for line" }).waitFor();
+  });
 });

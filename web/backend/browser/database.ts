@@ -38,11 +38,16 @@ export interface DatabaseEvents {
   onFault(error: unknown): void;
   /** Called for each transaction that is stored. */
   onWritten(): void;
+  /** Called after the user cleared the site's data: all records but the drawings are stored again. */
+  onCleared(): void;
 }
 
 export class Database implements Records {
-  readonly #db: IDBDatabase;
+  #db!: IDBDatabase;
+  readonly #name: string;
   readonly #events: DatabaseEvents;
+  /** The latest of each record but the drawings, by store and key, to be stored again if the user clears the site's data. */
+  readonly #known = new Map<string, Change>();
   /** Changes that no transaction has taken yet, by store and key. */
   #queued = new Map<string, Change>();
   #running: Promise<void> = Promise.resolve();
@@ -50,26 +55,48 @@ export class Database implements Records {
   #next: Promise<void> | null = null;
   #last: Promise<void> = Promise.resolve();
 
-  private constructor(db: IDBDatabase, events: DatabaseEvents) {
-    this.#db = db;
+  private constructor(name: string, events: DatabaseEvents) {
+    this.#name = name;
     this.#events = events;
   }
 
   /** Rejects if the browser stores nothing for this site, as some do in private windows. */
   static async open(name: string, events: DatabaseEvents): Promise<Database> {
-    const request = indexedDB.open(name, VERSION);
+    const database = new Database(name, events);
+    await database.#connect();
+    return database;
+  }
+
+  async #connect(): Promise<void> {
+    const request = indexedDB.open(this.#name, VERSION);
     request.onupgradeneeded = () => {
       for (const store of STORES) {
         if (!request.result.objectStoreNames.contains(store)) request.result.createObjectStore(store);
       }
     };
-    return new Database(await settled(request), events);
+    this.#db = await settled(request);
+    // Not called for `close`: only if the browser closes it, when the user clears the site's data.
+    this.#db.onclose = () => void this.#connectAgain();
+  }
+
+  async #connectAgain(): Promise<void> {
+    try {
+      await this.#connect();
+    } catch (error) {
+      this.#events.onFault(error);
+      setTimeout(() => void this.#connectAgain(), RETRY_MS);
+      return;
+    }
+    for (const change of this.#known.values()) this.#change(change);
+    this.#events.onCleared();
   }
 
   async read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>> {
     const found = this.#db.transaction(store).objectStore(store);
     const [keys, values] = await Promise.all([settled(found.getAllKeys()), settled(found.getAll())]);
-    return new Map(keys.map((key, index) => [String(key), values[index] as unknown]));
+    const records = new Map(keys.map((key, index) => [String(key), values[index] as unknown]));
+    for (const [key, value] of records) this.#remember({ store, key, value });
+    return records;
   }
 
   async readDrawing(id: string): Promise<unknown> {
@@ -97,7 +124,15 @@ export class Database implements Records {
     this.#db.close();
   }
 
+  #remember(change: Change): void {
+    if (change.store === "drawings") return;
+    const id = `${change.store}/${change.key}`;
+    if (change.value === undefined) this.#known.delete(id);
+    else this.#known.set(id, change);
+  }
+
   #change(change: Change): void {
+    this.#remember(change);
     this.#queued.set(`${change.store}/${change.key}`, change);
     this.#last = this.#nextWrite();
     // Not an unhandled rejection: `events` and every caller of `written` get the error.

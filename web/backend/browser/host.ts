@@ -52,7 +52,12 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
   const nowIso = (): string => new Date().toISOString();
   let onFault = (_error: unknown): void => undefined;
   let onWritten = (): void => undefined;
-  const db = await openRecords({ onFault: (error) => onFault(error), onWritten: () => onWritten() });
+  let onCleared = (): void => undefined;
+  const db = await openRecords({
+    onFault: (error) => onFault(error),
+    onWritten: () => onWritten(),
+    onCleared: () => onCleared(),
+  });
   const [jobs, plotterRows, settings, journals, machineRows] = await Promise.all([
     db.read("jobs"),
     db.read("plotters"),
@@ -108,6 +113,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     faultId = null;
     if (notices.list().some((notice) => notice.id === id)) notices.remove(String(id));
   };
+  onCleared = () => void notices.add(browserText.cleared);
   // On an insecure page the plotter's panel already says so.
   if (db instanceof MemoryRecords && hasLocks()) notices.add(browserText.nothingStored);
   if (store.unreadableCount > 0) {

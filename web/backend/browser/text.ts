@@ -10,6 +10,10 @@ export const browserText = {
   insecure:
     "This page was not opened by https, so the browser does not let it use a plotter. Open it at its https address, or at http://localhost. Until then plots run on the virtual plotter, and the queue is lost when this tab is closed.",
   full: "its storage for this site is full. Remove jobs from the queue and the history, or free space on the disk.",
+  closedStorage: "it closed its storage for this site, as when the data of the site are cleared.",
+  storageSays: (message: string) => `its storage for this site reports “${message}”.`,
+  cleared:
+    "The data of this site were cleared in the browser. Queue, history and settings are stored again, but the drawings are gone: to plot a queued job, add its drawing again.",
   onlyHere: (reason: string) =>
     `The last changes are only in this tab, so keep it open. The browser can’t store them: ${reason}`,
   notAdded: (reason: string) =>
