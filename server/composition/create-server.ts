@@ -14,6 +14,7 @@ import { defaultDataDir, prepareDataDir } from "../storage/data-dir.js";
 import { createApp, type AppParts } from "../http/app.js";
 import { EventHub } from "../http/events.js";
 import { httpServer, listen, urlOf } from "../http/listen.js";
+import { Refusals } from "../http/refusals.js";
 import { LogBook, readLog } from "../storage/log-book.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { createPlanning } from "../planning/planning.js";
@@ -61,16 +62,21 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     options.log?.(line);
   };
   const closing = new Closing(log);
+  const closed = async (): Promise<void> => {
+    await closing.run();
+    await book?.written();
+  };
   try {
     prepareDataDir(dataDir);
     const store = Store.open(dataDir);
     closing.add("the database", () => store.close());
-    book = new LogBook(dataDir);
+    const openBook = new LogBook(dataDir);
+    book = openBook;
     const { repair, copyFault } = store.opened;
     if (repair !== null) log(repair);
     if (copyFault !== null) log(`the database could not be backed up: ${copyFault}`);
     const parts = await openParts(options, dataDir, store, log, closing);
-    const { access, registry, plugins } = parts;
+    const { access, registry, refusals, plugins } = parts;
     const isTls = options.tls !== undefined;
     const paths = { operatePath: access.pairingPath("operate"), watchPath: access.pairingPath("watch") };
     const pairing = (): Promise<Pairing> => {
@@ -83,9 +89,12 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
       plugins: plugins.flatMap(({ routes }) => routes ?? []),
       pairing,
       log,
-      serverLog: () => readLog(dataDir),
+      serverLog: async () => {
+        await openBook.written();
+        return readLog(dataDir);
+      },
     });
-    const http = httpServer(options.tls, app, access, log);
+    const http = httpServer(options.tls, app, access, refusals);
     await listen(
       http,
       options.port ?? DEFAULT_PORT,
@@ -95,9 +104,9 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     const { port } = http.address() as AddressInfo;
     for (const plugin of plugins) plugin.listening?.({ port, isTls });
     log(`plotwright ${parts.version} listens on port ${port}, plotters: ${registry.list().length}`);
-    return { url: urlOf(http, isTls), pairing: paths, close: () => closing.run() };
+    return { url: urlOf(http, isTls), pairing: paths, close: closed };
   } catch (error) {
-    await closing.run();
+    await closed();
     throw error;
   }
 }
@@ -175,6 +184,8 @@ async function openParts(
     announce: (operator) => announce({ type: "operator", operator }),
   });
   closing.add("the operator lock", () => operatorLock.close());
+  const refusals = new Refusals(log);
+  closing.add("the count of refusals", () => refusals.close());
   return {
     version: packageVersion(),
     machines,
@@ -188,6 +199,7 @@ async function openParts(
     plugins: running,
     localName: () => localName,
     access,
+    refusals,
     allowedHosts: allowedHosts(options),
     webDir: packagePath("dist/web"),
     samplesDir: packagePath("samples"),

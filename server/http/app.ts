@@ -1,4 +1,7 @@
-/** Assembles the express app: guards first, then the API, then the page. */
+/**
+ * Assembles the express app: guards first, then the API, then the page. The limit of requests is the first guard, so that
+ * also those that the others refuse are counted.
+ */
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
 import { PlotwrightError } from "../../src/index.js";
@@ -27,6 +30,7 @@ import { MACHINE_ROUTES, machineRoutes } from "./machine-routes.js";
 import { openApiText } from "./openapi.js";
 import { OPERATOR_ROUTES, operatorRoutes } from "./operator-routes.js";
 import { PLOTTER_ROUTES, plotterRoutes } from "./plotter-routes.js";
+import type { Refusals } from "./refusals.js";
 import { SAMPLE_ROUTES, sampleRoutes } from "./sample-routes.js";
 import { STATE_ROUTES, stateRoutes } from "./state-routes.js";
 
@@ -44,7 +48,7 @@ export interface AppParts {
   /** Links that pair a device. */
   readonly pairing: () => Promise<Pairing>;
   /** The server's log so far. */
-  readonly serverLog: () => string;
+  readonly serverLog: () => Promise<string>;
   /** Built-in and custom machine profiles. */
   readonly machines: MachineFiles;
   readonly allowedHosts: readonly string[];
@@ -56,27 +60,28 @@ export interface AppParts {
   /** Sessions and keys; normally required only of clients on other computers. */
   readonly access: Access;
   readonly log: (line: string) => void;
+  readonly refusals: Refusals;
 }
 
 export function createApp(parts: AppParts): Express {
-  const { access, queue, log } = parts;
+  const { access, queue, log, refusals } = parts;
   const browsers = new Browsers(access, parts.operatorLock.operator);
   const isRunning = (jobId: string): boolean => queue.isRunning(jobId);
   const app = express();
   app.disable("x-powered-by");
   app.use(securityHeaders());
-  app.use(guardHosts(parts.allowedHosts, parts.localName, log));
-  app.use(guardPaths(log));
-  app.use(limitRequests(access));
-  app.use(pairRoutes(access, log));
+  app.use(limitRequests(access, isRunning, refusals));
+  app.use(guardHosts(parts.allowedHosts, parts.localName, refusals));
+  app.use(guardPaths(refusals));
+  app.use(pairRoutes(access, refusals, log));
   app.use(browsers.routes());
-  app.use("/api", requireRole(access, isRunning, log));
+  app.use("/api", requireRole(access, isRunning, refusals));
   app.use("/api", requireOperator(browsers, parts.operatorLock, isRunning));
   app.use("/api/v1", apiRoutes(parts, browsers));
   app.use("/api", notFound);
   app.use(pageRoutes(parts.webDir));
   app.use(notFound);
-  app.use(errorResponder(parts.log));
+  app.use(errorResponder(log, refusals));
   return app;
 }
 

@@ -1,49 +1,57 @@
 /**
- * Authenticates requests by their address, session or key, and enforces roles. Also the pairing route.
+ * Authenticates requests by their address, session or key, limits their rate, and enforces roles. Also the pairing
+ * route.
  */
 import type { IncomingMessage } from "node:http";
 import { Router, type Request, type RequestHandler } from "express";
-import { rateLimit } from "express-rate-limit";
+import { ipKeyGenerator, rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
 import type { Role } from "../../src/schema/index.js";
 import { SESSION_DAYS, type Access } from "../security/access.js";
+import type { Refusals } from "./refusals.js";
 
 export const SESSION_COOKIE = "plotwright_session";
 const LOOPBACK = /^(::1|(::ffff:)?127(\.\d{1,3}){3})$/;
 const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 
-/** Requests per minute from one address of the network; a page makes at most about one per second. */
+/** Requests per minute of one session, key or unknown address; a page makes at most about one per second. */
 const MAX_REQUESTS = 600;
 /**
- * Requests for the page's own files per minute from one address. A first visit fetches about 100, since the service
+ * Requests for the page's own files per minute, counted in the same way. A first visit fetches about 100, since the service
  * worker stores all of them; if one is refused, it is not installed. Behind a proxy all visitors have one address.
  */
 const MAX_FILES = 6_000;
+/** Pairings per minute of an address, also of its paired devices. Its other requests do not use them up. */
 const MAX_PAIRINGS = 10;
 
-export function roleOf(request: IncomingMessage, access: Access): Role | null {
-  if (isTrusted(request, access)) return "operate";
+/** Who sent a request: a session or key by its id, or this computer. */
+export interface Caller {
+  readonly id: string;
+  readonly role: Role;
+  readonly isLocal: boolean;
+}
+
+/** Null for a client that has not identified itself. */
+export function callerOf(request: IncomingMessage, access: Access): Caller | null {
+  if (isTrusted(request, access)) return { id: "this computer", role: "operate", isLocal: true };
   const secret = bearerOf(request) ?? cookieOf(request, SESSION_COOKIE);
-  return secret === null ? null : access.roleOf(secret);
+  const entry = secret === null ? null : access.entryOf(secret);
+  return entry === null ? null : { id: entry.id, role: entry.role, isLocal: false };
 }
 
 /**
  * For everything under /api: requires a role, and the role "operate" for everything that changes something.
  */
-export function requireRole(
-  access: Access,
-  isRunning: IsRunning,
-  log: (line: string) => void,
-): RequestHandler {
+export function requireRole(access: Access, isRunning: IsRunning, refusals: Refusals): RequestHandler {
   return (request, _response, next) => {
-    const role = roleOf(request, access);
+    const role = callerOf(request, access)?.role ?? null;
     const isAllowed =
       role === "operate" || (role === "watch" && (isStop(request, isRunning) || maySee(request)));
     if (isAllowed) {
       next();
       return;
     }
-    log(`refused ${request.method} ${request.path} from ${request.socket.remoteAddress ?? "?"}`);
+    refusals.note(request, role === null ? "not paired" : "may only watch");
     throw new PlotwrightError("not-allowed", whyNot(request, role));
   };
 }
@@ -58,9 +66,9 @@ function whyNot({ headers }: Request, role: Role | null): string {
 /** Whether a job is on a plotter now. */
 export type IsRunning = (jobId: string) => boolean;
 
-/** Stopping a plot needs no operator role: the person closest to the plotter must be able to do it. `path` is below /api. */
-export function isStop({ method, path }: Request, isRunning: IsRunning): boolean {
-  const match = /^\/v1\/jobs\/([^/]+)\/(pause|cancel|emergency-stop)$/.exec(path);
+/** Stopping a plot needs no operator role: the person closest to the plotter must be able to do it. */
+export function isStop({ method, baseUrl, path }: Request, isRunning: IsRunning): boolean {
+  const match = /^\/api\/v1\/jobs\/([^/]+)\/(pause|cancel|emergency-stop)$/i.exec(baseUrl + path);
   // Cancelling a job that is only queued is not a stop.
   return method === "POST" && match !== null && (match[2] !== "cancel" || isRunning(match[1] ?? ""));
 }
@@ -70,9 +78,9 @@ const maySee = ({ method, path }: Request): boolean =>
   SAFE_METHODS.has(method) && !/^\/v1\/(access|webhooks|logs)(\/|$)/i.test(path);
 
 /** GET /pair?token=…: sets a session cookie, then forwards to the page. */
-export function pairRoutes(access: Access, log: (line: string) => void): Router {
+export function pairRoutes(access: Access, refusals: Refusals, log: (line: string) => void): Router {
   const router = Router();
-  router.get("/pair", limitBy(MAX_PAIRINGS, access), (request, response) => {
+  router.get("/pair", (request, response) => {
     const { token } = request.query;
     const name = request.headers["user-agent"] ?? "browser";
     try {
@@ -86,7 +94,7 @@ export function pairRoutes(access: Access, log: (line: string) => void): Router 
       });
       log(`paired ${request.socket.remoteAddress ?? "?"}`);
     } catch (error) {
-      log(`refused pairing of ${request.socket.remoteAddress ?? "?"}`);
+      refusals.note(request, "not a valid pairing link");
       throw error;
     }
     // Not a redirect: browsers do not send a Strict cookie after a redirect that another site started.
@@ -98,21 +106,34 @@ export function pairRoutes(access: Access, log: (line: string) => void): Router 
   return router;
 }
 
-/** Limits requests from the network; this computer is not limited. */
-export const limitRequests = (access: Access): RequestHandler => {
-  const [ofFiles, ofRest] = [limitBy(MAX_FILES, access), limitBy(MAX_REQUESTS, access)];
-  return (request, response, next) =>
-    (request.path.startsWith("/assets/") ? ofFiles : ofRest)(request, response, next);
-};
+/**
+ * Limits requests from the network; this computer is not limited. Each session and key has its own limit, so that other
+ * clients at the same address can't use it up. Stops of paired devices are not limited.
+ */
+export function limitRequests(access: Access, isRunning: IsRunning, refusals: Refusals): RequestHandler {
+  const addressOf = ({ socket }: Request): string => ipKeyGenerator(socket.remoteAddress ?? "");
+  const callerKey = (request: Request): string => callerOf(request, access)?.id ?? addressOf(request);
+  const ofPairings = limitBy(MAX_PAIRINGS, addressOf, refusals);
+  const ofFiles = limitBy(MAX_FILES, callerKey, refusals);
+  const ofRest = limitBy(MAX_REQUESTS, callerKey, refusals);
+  return (request, response, next) => {
+    const caller = callerOf(request, access);
+    if (caller !== null && (caller.isLocal || isStop(request, isRunning))) next();
+    else if (/^\/pair\/?$/i.test(request.path)) ofPairings(request, response, next);
+    else if (request.path.startsWith("/assets/")) ofFiles(request, response, next);
+    else ofRest(request, response, next);
+  };
+}
 
-function limitBy(limit: number, access: Access): RequestHandler {
+function limitBy(limit: number, keyGenerator: (request: Request) => string, refusals: Refusals) {
   return rateLimit({
     windowMs: 60_000,
     limit,
     standardHeaders: "draft-8",
     legacyHeaders: false,
-    skip: (request) => isTrusted(request, access),
-    handler: (_request, response) => {
+    keyGenerator,
+    handler: (request, response) => {
+      refusals.note(request, "too many requests");
       response
         .status(429)
         .json({ error: { code: "busy", message: "Too many requests: wait a minute, then try again." } });

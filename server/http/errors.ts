@@ -3,19 +3,23 @@ import type { ErrorRequestHandler, RequestHandler } from "express";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { ERROR_TABLE } from "../../src/internal.js";
 import { isDiskFault } from "../../host/disk-fault.js";
+import type { Refusals } from "./refusals.js";
+
+/** Longer paths are cut in the log. */
+const MAX_PATH = 200;
 
 export const notFound: RequestHandler = (request) => {
   throw new PlotwrightError("not-found", `There is nothing at ${request.method} ${request.path}.`);
 };
 
-export function errorResponder(log: (line: string) => void): ErrorRequestHandler {
+export function errorResponder(log: (line: string) => void, refusals: Refusals): ErrorRequestHandler {
   return (error: unknown, request, response, next) => {
     // The client disconnected during its request: there is no one to answer.
     if (request.destroyed && !request.complete) return;
     const { code, message, status } = describe(error);
     if (code === "internal" || code === "disk-full")
-      log(`${request.method} ${request.path}: ${detail(error)}`);
-    if (code === "too-large") log(`refused ${request.method} ${request.path}: ${message}`);
+      log(`${request.method} ${request.path.slice(0, MAX_PATH)}: ${detail(error)}`);
+    if (code === "too-large") refusals.note(request, message);
     if (response.headersSent) {
       next(error);
       return;

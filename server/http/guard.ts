@@ -10,15 +10,16 @@
 import type { RequestHandler } from "express";
 import { isIP } from "node:net";
 import { PlotwrightError } from "../../src/index.js";
+import type { Refusals } from "./refusals.js";
+
+const MAX_LOGGED = 150;
 
 /** Refuses paths that contain "..", in any encoding. */
-export function guardPaths(log: (line: string) => void): RequestHandler {
+export function guardPaths(refusals: Refusals): RequestHandler {
   return (request, _response, next) => {
     const path = request.url.split("?", 1)[0] ?? "";
     if (/(^|[/\\])\.\.+([/\\]|$)|\0/.test(decoded(decoded(path)))) {
-      log(
-        `refused ${request.method} ${JSON.stringify(path.slice(0, 200))} from ${request.socket.remoteAddress ?? "?"}`,
-      );
+      refusals.note(request, "not a path of this server");
       throw new PlotwrightError("not-found", "There is nothing at this path.");
     }
     next();
@@ -36,14 +37,14 @@ function decoded(path: string): string {
 export function guardHosts(
   extraNames: readonly string[],
   localName: () => string | null,
-  log: (line: string) => void,
+  refusals: Refusals,
 ): RequestHandler {
   const names = new Set(["localhost", ...extraNames.map((name) => name.toLowerCase())]);
-  return (request, _response, next) => {
+  return (request, response, next) => {
     const refuse = (message: string): never => {
-      log(
-        `refused ${request.method} ${request.path} from ${request.socket.remoteAddress ?? "?"}: ${message}`,
-      );
+      refusals.note(request, message.slice(0, MAX_LOGGED));
+      // These pages use the connections of a browser that may be paired, or is on this computer.
+      response.setHeader("Connection", "close");
       throw new PlotwrightError("not-allowed", message);
     };
     const host = hostName(request.headers.host);

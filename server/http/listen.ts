@@ -1,12 +1,19 @@
 /** The HTTP server, plain or TLS: its limits, and the errors when its port can't be opened. */
-import { createServer as createHttpServer, type RequestListener, type Server } from "node:http";
+import {
+  createServer as createHttpServer,
+  type IncomingMessage,
+  type RequestListener,
+  type Server,
+  type ServerResponse,
+} from "node:http";
 import { createServer as createHttpsServer } from "node:https";
-import type { AddressInfo } from "node:net";
+import type { AddressInfo, Socket } from "node:net";
 import type { Duplex } from "node:stream";
 import { PlotwrightError } from "../../src/index.js";
 import type { Access } from "../security/access.js";
-import { isTrustedAddress, roleOf } from "./auth.js";
-import { ConnectionLimits } from "./connection-limits.js";
+import { callerOf, isTrustedAddress } from "./auth.js";
+import { ConnectionLimits, MAX_CONNECTIONS } from "./connection-limits.js";
+import type { Refusals } from "./refusals.js";
 
 /** PEM texts. */
 export interface TlsFiles {
@@ -25,7 +32,10 @@ const TIMES = {
   keepAliveTimeout: 75_000,
   connectionsCheckingInterval: 10_000,
 };
-const MAX_CONNECTIONS = 1_000;
+/** A client that does not read the answer or the events that it asked for is disconnected after this time. */
+const NOT_READING_MS = 30_000;
+/** Requests of a known client that may wait on a connection for the answers to earlier ones. */
+const MAX_WAITING = 10;
 
 /**
  * Answers and closes the socket. A connection left half open by the client would keep the port from closing.
@@ -39,38 +49,87 @@ export function httpServer(
   tls: TlsFiles | undefined,
   app: RequestListener,
   access: Access,
-  log: (line: string) => void,
+  refusals: Refusals,
   times: Partial<typeof TIMES> = {},
 ): Server {
   const limits = new ConnectionLimits((address) => isTrustedAddress(address, access));
+  const turns = new Turns(app);
   const listener: RequestListener = (request, response) => {
-    if (roleOf(request, access) !== null) limits.identified(request);
+    // Closed by the rules below, while Node still passes on requests that it has already parsed.
+    if (request.socket.destroyed) return;
+    const caller = callerOf(request, access);
+    if (caller !== null) limits.identified(request.socket, caller);
     // Connections of unknown clients end with the answer, so that refused connections cannot pile up.
     else response.setHeader("Connection", "close");
-    app(request, response);
+    turns.take(request, response, caller === null ? 0 : MAX_WAITING);
   };
   const server =
     tls === undefined
       ? createHttpServer({ ...TIMES, ...times }, listener)
       : secureServer(tls, listener, times);
+  // Otherwise Node would answer these by itself, past the rules above.
+  server.on("checkExpectation", listener);
   server.maxConnections = MAX_CONNECTIONS;
   server.on("connection", (socket) => limits.opened(socket));
+  server.setTimeout(NOT_READING_MS, (socket) => {
+    // Nothing was sent or received for some time. That is as it should be only while an answer is being prepared.
+    if (!turns.isBusy(socket) || socket.writableLength > 0) socket.destroy();
+  });
   // The server supports no other protocol: refuse all upgrades (such as WebSockets, perhaps from another
   // site).
   server.on("upgrade", (request, socket) => {
     // Node has removed its own listener. Without one, a client that resets the connection would end the process.
     socket.on("error", () => socket.destroy());
-    log(`refused upgrade to ${request.headers.upgrade ?? "?"} from ${request.socket.remoteAddress ?? "?"}`);
+    refusals.note(request, "no upgrade to another protocol");
     hangUp(socket, "403 Forbidden");
   });
   server.on("clientError", (error: NodeJS.ErrnoException, socket) => {
     const isSlow = error.code === "ERR_HTTP_REQUEST_TIMEOUT";
-    if (isSlow) log("refused a request that arrived too slowly");
+    if (isSlow) refusals.note({ socket: socket as Socket }, "it arrived too slowly");
     if (socket.writable && error.code !== "ECONNRESET") {
       hangUp(socket, isSlow ? "408 Request Timeout" : "400 Bad Request");
     } else socket.destroy();
   });
   return server;
+}
+
+/**
+ * Passes on one request of each connection at a time. Node itself parses all requests of a received block at once, and
+ * would start hundreds of them together.
+ */
+class Turns {
+  readonly #app: RequestListener;
+  /** The requests that wait behind the current one, by connection. */
+  readonly #waiting = new WeakMap<Socket, [IncomingMessage, ServerResponse][]>();
+
+  constructor(app: RequestListener) {
+    this.#app = app;
+  }
+
+  isBusy(socket: Socket): boolean {
+    return this.#waiting.has(socket);
+  }
+
+  /** Starts a request, or lets it wait; closes the connection when more than `maxWaiting` would wait. */
+  take(request: IncomingMessage, response: ServerResponse, maxWaiting: number): void {
+    const { socket } = request;
+    const waiting = this.#waiting.get(socket);
+    if (waiting === undefined) {
+      this.#waiting.set(socket, []);
+      this.#start(request, response);
+    } else if (waiting.length < maxWaiting) waiting.push([request, response]);
+    else socket.destroy();
+  }
+
+  #start(request: IncomingMessage, response: ServerResponse): void {
+    const { socket } = request;
+    response.once("close", () => {
+      const next = this.#waiting.get(socket)?.shift();
+      if (next === undefined || socket.destroyed) this.#waiting.delete(socket);
+      else this.#start(...next);
+    });
+    this.#app(request, response);
+  }
 }
 
 function secureServer(tls: TlsFiles, app: RequestListener, times: Partial<typeof TIMES>): Server {

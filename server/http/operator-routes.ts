@@ -12,6 +12,7 @@ import type { OperatorLock } from "../security/operator-lock.js";
 import { okSchema, route, type ApiRoute } from "./api-route.js";
 import { isTrusted } from "./auth.js";
 import type { Browsers } from "./browser.js";
+import type { Refusals } from "./refusals.js";
 
 export interface OperatorParts {
   readonly version: string;
@@ -22,8 +23,8 @@ export interface OperatorParts {
   readonly queue: JobQueue;
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly pairing: () => Promise<Pairing>;
-  readonly serverLog: () => string;
-  readonly log: (line: string) => void;
+  readonly serverLog: () => Promise<string>;
+  readonly refusals: Refusals;
 }
 
 export const OPERATOR_ROUTES: readonly ApiRoute[] = [
@@ -44,7 +45,7 @@ export const OPERATOR_ROUTES: readonly ApiRoute[] = [
 ];
 
 export function operatorRoutes(parts: OperatorParts): Router {
-  const { access, operatorLock, browsers, notices, log } = parts;
+  const { access, operatorLock, browsers, notices, refusals } = parts;
   const router = Router();
 
   router.post("/operator/take", (request, response) => {
@@ -63,7 +64,7 @@ export function operatorRoutes(parts: OperatorParts): Router {
   // Anyone with such a link gets access, so only users at this computer may see them.
   router.post("/pairing", async (request, response) => {
     if (!isTrusted(request, access)) {
-      log(`refused pairing links to ${request.socket.remoteAddress ?? "?"}`);
+      refusals.note(request, "pairing links are only for this computer");
       throw new PlotwrightError(
         "not-allowed",
         "Pairing links are shown only on the computer where the server runs, and in its terminal.",
@@ -72,10 +73,10 @@ export function operatorRoutes(parts: OperatorParts): Router {
     response.json(await parts.pairing());
   });
 
-  router.get("/logs", (_request, response) => {
+  router.get("/logs", async (_request, response) => {
     const text = bundleText({
       version: parts.version,
-      serverLog: parts.serverLog(),
+      serverLog: await parts.serverLog(),
       jobs: parts.queue.list(),
       plotters: [...parts.plotters.values()].map((port) => ({ plotter: port.snapshot(), log: port.log() })),
     });

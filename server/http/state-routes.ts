@@ -9,7 +9,7 @@ import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import type { MachineFiles } from "../storage/machine-files.js";
 import { route, type ApiRoute } from "./api-route.js";
-import { roleOf } from "./auth.js";
+import { callerOf } from "./auth.js";
 import type { Browsers } from "./browser.js";
 import { parseWith } from "../../host/parse-with.js";
 import type { EventHub } from "./events.js";
@@ -67,7 +67,7 @@ export function stateRoutes(parts: StateParts, browsers: Browsers, openApi: () =
   });
   router.get("/me", (request, response) => {
     const { id = null, name = null } = browsers.of(request) ?? {};
-    response.json({ role: roleOf(request, parts.access), id, name });
+    response.json({ role: callerOf(request, parts.access)?.role, id, name });
   });
   router.get("/queue", (_request, response) => {
     response.json(queue.settings());

@@ -1,18 +1,25 @@
 /**
  * The server's log in the data folder, for bug reports: two files of at most 1 MB each. Callers must keep
  * secrets out of the log. As a second safeguard, secrets of a known form are masked when the log is read for
- * a report.
+ * a report. Lines are written in the background, because the thread also streams to the board.
  */
-import { appendFileSync, readFileSync, renameSync, statSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
+import { appendFile, rename } from "node:fs/promises";
 import { arch, homedir, release } from "node:os";
 import { join } from "node:path";
 import type { Job, Plotter } from "../../src/schema/index.js";
 
 const MAX_BYTES = 1_000_000;
+/** Longer lines are cut. */
+const MAX_LINE = 4_000;
+/** Lines that wait for a slow disk. Beyond that they are left out. */
+const MAX_WAITING = 200_000;
 
 export class LogBook {
   readonly #path: string;
   #bytes: number;
+  #waiting = "";
+  #writing: Promise<void> | null = null;
 
   constructor(dataDir: string) {
     this.#path = logPath(dataDir);
@@ -20,16 +27,34 @@ export class LogBook {
   }
 
   write(line: string): void {
-    const text = `${new Date().toISOString()} ${line.replace(/\s*\n\s*/g, " | ")}\n`;
-    try {
-      if (this.#bytes > MAX_BYTES) {
-        renameSync(this.#path, `${this.#path}.1`);
-        this.#bytes = 0;
+    if (this.#waiting.length > MAX_WAITING) return;
+    const text = line.replace(/\s*\n\s*/g, " | ");
+    const cut = text.length > MAX_LINE ? `${text.slice(0, MAX_LINE)}…` : text;
+    this.#waiting += `${new Date().toISOString()} ${cut}\n`;
+    this.#writing ??= this.#writeWaiting().finally(() => {
+      this.#writing = null;
+    });
+  }
+
+  /** Resolves when all lines so far are in the file. */
+  async written(): Promise<void> {
+    await this.#writing;
+  }
+
+  async #writeWaiting(): Promise<void> {
+    while (this.#waiting !== "") {
+      const text = this.#waiting;
+      this.#waiting = "";
+      try {
+        if (this.#bytes > MAX_BYTES) {
+          await rename(this.#path, `${this.#path}.1`);
+          this.#bytes = 0;
+        }
+        await appendFile(this.#path, text, { mode: 0o600 });
+        this.#bytes += Buffer.byteLength(text);
+      } catch {
+        // A full disk must not stop a plot. The line is also printed to the terminal.
       }
-      appendFileSync(this.#path, text, { mode: 0o600 });
-      this.#bytes += Buffer.byteLength(text);
-    } catch {
-      // A full disk must not stop a plot. The line is also printed to the terminal.
     }
   }
 }

@@ -112,6 +112,46 @@ describe("while a stranger holds a thousand connections", () => {
   );
 });
 
+describe("while a paired watcher holds a thousand connections", () => {
+  const events = (secret: string): string =>
+    `GET /api/v1/events HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer ${secret}\r\n\r\n`;
+
+  it(
+    "it keeps a few, and an emergency stop is answered",
+    async () => {
+      const { secret } = app.access.createKey("wall", "watch");
+      await hold(COUNT, "127.0.0.2", events(secret));
+      expect((await post(`/jobs/${job.id}/emergency-stop`)).status).toBe(200);
+      await expect.poll(open).toBeLessThanOrEqual(50);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "with many keys, the watchers together keep their share, and an emergency stop is answered",
+    async () => {
+      for (let i = 0; i < 20; i++) {
+        const { secret } = app.access.createKey(`wall ${i}`, "watch");
+        await hold(COUNT / 20, `127.0.0.${i + 2}`, events(secret));
+      }
+      expect((await post(`/jobs/${job.id}/emergency-stop`)).status).toBe(200);
+      await expect.poll(open).toBeLessThanOrEqual(300);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "a device whose connections were closed gets a new one at once",
+    async () => {
+      const { secret } = app.access.createKey("wall", "watch");
+      await hold(200, "127.0.0.2", events(secret));
+      const headers = { Authorization: `Bearer ${secret}` };
+      expect((await send(`/api/v1/jobs/${job.id}/pause`, "POST", headers)).status).toBe(200);
+    },
+    LIMIT_MS,
+  );
+});
+
 describe("a connection", () => {
   it("ends with the answer for a stranger, and stays open for a paired device", async () => {
     const stranger = await send("/api/v1/state", "GET", { Connection: "keep-alive" });

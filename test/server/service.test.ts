@@ -203,14 +203,23 @@ describe("plotwright service", () => {
 });
 
 describe("the logs", () => {
-  it("are kept over restarts, at most two files, one line per entry", () => {
-    new LogBook(home).write("first\nline");
+  it("are kept over restarts, at most two files, one line per entry, long lines cut", async () => {
+    const before = new LogBook(home);
+    before.write("first\nline");
+    await before.written();
+    expect(readLog(home)).toMatch(/ first \| line\n$/);
     const book = new LogBook(home);
-    for (let line = 0; line < 30; line++) book.write("x".repeat(100_000));
+    for (let line = 0; line < 1_000; line++) {
+      book.write("x".repeat(100_000));
+      await book.written();
+    }
     book.write("last line");
+    await book.written();
     const text = readLog(home);
     expect(text).toMatch(/ last line\n$/);
     expect(text.length).toBeLessThan(2_300_000);
+    expect(text.length).toBeGreaterThan(1_000_000);
+    expect(Math.max(...text.split("\n").map(({ length }) => length))).toBeLessThan(5_000);
     expect(
       text
         .split("\n")
@@ -219,10 +228,23 @@ describe("the logs", () => {
     ).toBe(true);
   });
 
+  it("keep the lines of one moment in their order, and leave out what a slow disk can't take", async () => {
+    const book = new LogBook(home);
+    for (let line = 0; line < 100_000; line++) book.write(`line ${line}`);
+    await book.written();
+    const numbers = [...readLog(home).matchAll(/ line (\d+)\n/g)].map(([, number]) => Number(number));
+    expect(numbers.slice(0, 1_000)).toEqual(Array.from({ length: 1_000 }, (_, index) => index));
+    expect(readLog(home).length).toBeLessThan(300_000);
+    book.write("later");
+    await book.written();
+    expect(readLog(home)).toMatch(/ later\n$/);
+  });
+
   it("are printed with versions, without secrets, also if no server runs", async () => {
     const book = new LogBook(home);
     book.write("paired 192.168.1.7");
     book.write("GET /pair?token=SECRETTOKEN with Bearer SECRETKEY at https://ada:SECRETWORD@example.org/x");
+    await book.written();
     await runLogs({ data: home, port: 1 }, io, "1.2.3");
     expect(out).toMatch(new RegExp(`^plotwright 1\\.2\\.3, Node ${process.version.replace(/\./g, "\\.")}, `));
     expect(out).toContain("paired 192.168.1.7");
@@ -236,7 +258,9 @@ describe("the logs", () => {
     expect(withoutSecrets(`${join(homedir(), "plots/a.svg")} is torn`)).toBe("~/plots/a.svg is torn");
   });
 
-  it("do not stop the server if they can't be written", () => {
-    expect(() => new LogBook(join(home, "none")).write("x")).not.toThrow();
+  it("do not stop the server if they can't be written", async () => {
+    const book = new LogBook(join(home, "none"));
+    book.write("x");
+    await expect(book.written()).resolves.toBeUndefined();
   });
 });

@@ -10,6 +10,7 @@ import { apiParts, createApp, type AppParts } from "../../../server/http/app.js"
 import { EventHub } from "../../../server/http/events.js";
 import { MachineFiles } from "../../../server/storage/machine-files.js";
 import { httpServer, type TlsFiles } from "../../../server/http/listen.js";
+import { Refusals } from "../../../server/http/refusals.js";
 import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { Notices } from "../../../host/queue/notices.js";
 import { OperatorLock } from "../../../server/security/operator-lock.js";
@@ -39,6 +40,7 @@ export interface TestApp {
   /** Plotters added while it runs. */
   readonly more: readonly LedPlotter[];
   readonly logged: string[];
+  readonly refusals: Refusals;
   /** "method path" of every route below /api/v1. */
   routes(): string[];
   /** What the OpenAPI document is made of. */
@@ -113,6 +115,7 @@ export async function startApp(
   });
   const access = new Access(store, { trustsLoopback: options.trustsLoopback });
   access.onRevoke(() => hub.dropAll());
+  const refusals = new Refusals(log);
   const parts: AppParts = {
     version: "0.0.0",
     queue,
@@ -125,7 +128,7 @@ export async function startApp(
     plugins: [{ path: "/webhooks", router: webhookRoutes(webhooks, log), routes: WEBHOOK_ROUTES }],
     pairing: () =>
       pairingLinks("http://192.168.1.4:9080", true, { operatePath: "/pair?a", watchPath: "/pair?b" }),
-    serverLog: () => logged.join("\n"),
+    serverLog: () => Promise.resolve(logged.join("\n")),
     machines: new MachineFiles(dir, announce),
     allowedHosts: ["plotter.lan"],
     localName: () => "plotwright-2.local",
@@ -133,9 +136,10 @@ export async function startApp(
     samplesDir: fileURLToPath(new URL("../../../samples", import.meta.url)),
     access,
     log,
+    refusals,
   };
   const app = createApp(parts);
-  const http: Server = httpServer(options.tls, app, access, log, options.times);
+  const http: Server = httpServer(options.tls, app, access, refusals, options.times);
   await new Promise<void>((resolve) => http.listen(0, "127.0.0.1", resolve));
   return {
     url: `${options.tls === undefined ? "http" : "https"}://127.0.0.1:${(http.address() as AddressInfo).port}`,
@@ -156,6 +160,7 @@ export async function startApp(
       ),
     documented: () => apiParts(parts).flatMap(({ routes }) => routes),
     logged,
+    refusals,
     drawingsOnDisk: () => readdirSync(join(dir, "drawings")),
     hurry: (headersMs, wholeMs) => {
       http.headersTimeout = headersMs;
@@ -163,6 +168,7 @@ export async function startApp(
     },
     close: async () => {
       hub.close();
+      refusals.close();
       http.closeAllConnections();
       await new Promise((resolve) => http.close(resolve));
       await queue.close();
