@@ -144,6 +144,13 @@ export class MachinePlot implements LivePlotRun {
     return ended;
   }
 
+  async interrupt(): Promise<void> {
+    const held = this.pause();
+    this.#cancelPlanning?.(cancelled());
+    await held;
+    await this.leave();
+  }
+
   emergencyStop(): Promise<void> {
     if (this.#requested === "run") this.#requested = "hold";
     this.#staysPut = true;
@@ -221,10 +228,10 @@ export class MachinePlot implements LivePlotRun {
       const until = this.#stops.nextAfter(this.holdPlace);
       const { changeCount } = this.#settings;
       const plot = await this.#planFromRest().catch((error: unknown) => {
-        if (this.#requested === "cancel") return null;
+        if (this.#requested !== "run") return null;
         throw error;
       });
-      if (!plot) return this.#goHome();
+      if (!plot) continue;
       // Lift before the check: a request during the lift must be seen before anything moves.
       if (this.#machine.penUp !== true) await this.#machine.movePen(true, this.#settings.current);
       if (this.#requested !== "run" || this.#settings.changeCount !== changeCount) continue;
@@ -249,6 +256,8 @@ export class MachinePlot implements LivePlotRun {
   async #planFromRest(): Promise<PlannedPlot> {
     const settings = this.#settings.current;
     const board = await this.#machine.ready(settings);
+    // A request meanwhile, when there was no planning to cancel yet.
+    if (this.#requested !== "run") throw cancelled();
     const { x, y } = this.#machine.place(machineOf(settings))!;
     const planning = this.#plan(this.holdPlace, x, y, board);
     const cancel = new Promise<never>((_, reject) => {

@@ -22,6 +22,11 @@ export interface PlotRun {
   resume(): Promise<void>;
   /** Lifts the pen and goes home; `finished` then resolves with "cancelled". */
   cancel(): Promise<void>;
+  /**
+   * Ends the plot where it is, so that it can be resumed later: slows down, lifts the pen, and writes the place to the
+   * journal. Nothing else moves, and no planning is waited for. `finished` then resolves with "cancelled".
+   */
+  interrupt(): Promise<void>;
 }
 
 /** Changes to a plot that is running or held; omitted fields stay the same. */

@@ -1,4 +1,5 @@
 /** The process, as a command uses it. An interface, so that tests can run commands without a process. */
+import { closeSync } from "node:fs";
 import { isatty } from "node:tty";
 
 export interface CliIo {
@@ -24,9 +25,14 @@ export interface CliIo {
 /** "disconnect": the parent that opened a channel to this process, as `npm start` does, has ended. */
 const ENDS = ["SIGTERM", "SIGHUP", "disconnect"] as const;
 
+const STDIO = [0, 1, 2];
+
 export function processIo(): CliIo {
   // The reader may stop ("| head"), the terminal may close, the disk may be full: a plot continues regardless.
   for (const stream of [process.stdout, process.stderr]) stream.on("error", () => undefined);
+  const terminals = STDIO.filter((fd) => isatty(fd));
+  // At exit Node.js restores the modes of its terminals, and aborts if one of them is gone, unless that one is closed.
+  process.once("exit", () => terminals.filter((fd) => !isatty(fd)).forEach((fd) => closeSync(fd)));
   return {
     out: (text) => void process.stdout.write(text),
     err: (text) => void process.stderr.write(text),
@@ -56,6 +62,8 @@ export function processIo(): CliIo {
     onLine: (listener) => {
       if (!isatty(0)) return () => undefined;
       const take = (data: Buffer): void => listener(data.toString("utf8").trim());
+      // Reading from a closed terminal fails, usually before its SIGHUP arrives. Only the signal ends a command.
+      if (process.stdin.listenerCount("error") === 0) process.stdin.on("error", () => undefined);
       process.stdin.on("data", take);
       // A listener alone does not start a stream again that the last one paused.
       process.stdin.resume();

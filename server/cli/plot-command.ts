@@ -17,7 +17,7 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
       "time to wait for new paper between two plots, instead of waiting for Enter",
       seconds,
     )
-    .option("--resume", "resume the plot that a crash interrupted")
+    .option("--resume", "resume a plot that was interrupted")
     .option("--restart", "discard an interrupted plot and start from the beginning")
     .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {

@@ -8,17 +8,30 @@ import { minutes } from "./plan.js";
 export interface Watched {
   readonly name: string;
   readonly isQuiet: boolean;
-  /** Resumed after a crash. `isLost`: the board no longer knows its position. */
+  /** Resumed after an interruption. `isLost`: the board no longer knows its position. */
   readonly resumed: { readonly isLost: boolean } | null;
+  /** Aborted when the process must end: the plot is then interrupted. */
+  readonly end: AbortSignal;
 }
 
-/** Runs until the plot ends. Returns the exit code: 0, or 5 when it was cancelled. */
-export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, io: CliIo): Promise<number> {
+/** Runs until the plot ends. */
+export async function watch(
+  run: PlotRun,
+  { name, isQuiet, resumed, end }: Watched,
+  io: CliIo,
+): Promise<"done" | "cancelled" | "interrupted"> {
   const say = isQuiet ? () => undefined : (text: string) => io.err(text);
   const isHeld = resumed !== null && io.hasKeyboard;
   const bar = io.isTerminal && !isQuiet ? progressBar() : null;
   const control = new Control(run, io, isHeld);
-  const forget = [io.onInterrupt((isFinal) => control.interrupt(isFinal)), io.onLine(() => control.resume())];
+  const mustEnd = (): void => control.mustEnd();
+  end.addEventListener("abort", mustEnd);
+  if (end.aborted) mustEnd();
+  const forget = [
+    io.onInterrupt((isFinal) => isFinal || control.interrupt()),
+    io.onLine(() => control.resume()),
+    () => end.removeEventListener("abort", mustEnd),
+  ];
   let elapsedS = 0;
   run.onProgress((progress) => {
     elapsedS = progress.elapsedS;
@@ -32,10 +45,10 @@ export async function watch(run: PlotRun, { name, isQuiet, resumed }: Watched, i
   if (isHeld) io.err(`${resumed.isLost ? LOST : KNOWN} Enter resumes, Ctrl-C cancels.\n`);
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
-    if (outcome.kind === "cancelled") return cancelled(io);
+    if (outcome.kind === "cancelled") return control.isInterrupted ? "interrupted" : "cancelled";
     bar?.update(100);
     if (bar === null) say(`Done: ${name}, after ${minutes(elapsedS)}.\n`);
-    return 0;
+    return "done";
   } finally {
     bar?.stop();
     forget.forEach((stop) => stop());
@@ -80,6 +93,7 @@ class Control {
   readonly #io: CliIo;
   #held: boolean;
   #cancelling = false;
+  isInterrupted = false;
   /** Rejects if a request fails. */
   readonly failed: Promise<never>;
   #fail: (error: unknown) => void = () => undefined;
@@ -92,9 +106,9 @@ class Control {
     this.failed.catch(() => undefined);
   }
 
-  interrupt(isFinal: boolean): void {
-    if (this.#cancelling) return;
-    if (this.#held || isFinal || !this.#io.hasKeyboard) {
+  interrupt(): void {
+    if (this.#isEnding) return;
+    if (this.#held || !this.#io.hasKeyboard) {
       this.#cancelling = true;
       this.#io.err("\nCancelling: the pen lifts and goes home.\n");
       this.#run.cancel().catch(this.#fail);
@@ -105,22 +119,34 @@ class Control {
     }
   }
 
+  mustEnd(): void {
+    if (this.#isEnding) return;
+    this.isInterrupted = true;
+    this.#io.err("\nInterrupted: the pen lifts.\n");
+    this.#run.interrupt().catch(this.#fail);
+  }
+
+  get #isEnding(): boolean {
+    return this.#cancelling || this.isInterrupted;
+  }
+
   /** The plot is held: by the user's key, or by the button on the machine. */
   paused(): void {
-    if (this.#held || this.#cancelling) return;
+    if (this.#held || this.#isEnding) return;
     this.#held = true;
     this.#io.err(`\nPaused. ${this.#io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
   }
 
   /** A planned stop, for another pen. */
   waitsFor({ penName, layerName }: PlotWait): void {
+    if (this.#isEnding) return;
     this.#held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
     this.#io.err(`\nPut in ${what}. Enter resumes, Ctrl-C cancels.\n`);
   }
 
   resume(): void {
-    if (!this.#held || this.#cancelling) return;
+    if (!this.#held || this.#isEnding) return;
     this.#held = false;
     this.#run.resume().catch(this.#fail);
   }

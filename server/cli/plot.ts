@@ -1,6 +1,7 @@
 /**
  * `plotwright plot FILE…`: plots without a server. The first Ctrl-C pauses (Enter resumes), a second one
  * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
+ * When the process must end (SIGTERM, or its terminal is closed), the pen lifts, and the plot can be resumed.
  */
 import { basename } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
@@ -42,7 +43,16 @@ interface Plot {
   readonly progress: number;
 }
 
-/** Returns the exit code: 0, or 5 when it was cancelled. Failures are thrown. */
+/** What a plot on the plotter needs besides its drawing. */
+interface Course {
+  /** Stores that the plot begins or resumes. */
+  readonly begin: () => void;
+  readonly record: PlotRecord;
+  /** Aborted when the process must end. */
+  readonly end: AbortSignal;
+}
+
+/** Returns the exit code: 0, or 5 when it was cancelled or interrupted. Failures are thrown. */
 export async function runPlot(
   files: readonly string[],
   settings: PlotSettings,
@@ -61,27 +71,44 @@ export async function runPlot(
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   mustHaveEnded(record, options);
   mustBeReadable(files);
-  for (const [index, file] of jobs.entries()) {
-    if (index > 0 && !(await waitForPaper(nameOf(file), options, io))) return cancelled(io);
-    const code = await withDrawingFile(file, (path) => {
-      const { only } = options;
-      const plot: Plot = {
-        name: basename(nameOf(file)),
-        path,
-        settings,
-        only,
-        from: null,
-        sent: undefined,
-        progress: 0,
-      };
-      return plotOne(plot, { begin: () => record.begin(path, plot), record }, options, io);
-    });
-    if (code !== 0) return code;
-  }
-  return 0;
+  return untilEnd(io, async (end) => {
+    for (const [index, file] of jobs.entries()) {
+      if (index > 0 && (end.aborted || !(await waitForPaper(nameOf(file), options, io))))
+        return cancelled(io);
+      const code = await withDrawingFile(file, (path) => {
+        const { only } = options;
+        const plot: Plot = {
+          name: basename(nameOf(file)),
+          path,
+          settings,
+          only,
+          from: null,
+          sent: undefined,
+          progress: 0,
+        };
+        return plotOne(plot, { begin: () => record.begin(path, plot), record, end }, options, io);
+      });
+      if (code !== 0) return code;
+    }
+    return 0;
+  });
 }
 
-/** Resumes the plot that a crash interrupted, from its position at most half a second before. */
+/**
+ * Listens to the signals that end the process until everything is stored. No second one, as at the end of an ssh
+ * session, may end it before.
+ */
+async function untilEnd(io: CliIo, use: (end: AbortSignal) => Promise<number>): Promise<number> {
+  const end = new AbortController();
+  const forget = io.onInterrupt((isFinal) => isFinal && end.abort());
+  try {
+    return await use(end.signal);
+  } finally {
+    forget();
+  }
+}
+
+/** Resumes an interrupted plot: where it stopped, or after a crash from at most half a second before. */
 export async function resumePlot(
   files: readonly string[],
   options: PlotCommandOptions,
@@ -96,7 +123,9 @@ export async function resumePlot(
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   const found = record.mustFind();
   const plot: Plot = { ...found, path: record.drawingPath };
-  return plotOne(plot, { begin: () => record.takeOver(found), record }, options, io);
+  return untilEnd(io, (end) =>
+    plotOne(plot, { begin: () => record.takeOver(found), record, end }, options, io),
+  );
 }
 
 /** Refuses a new plot after an interrupted one: the carriage is in the middle of that drawing, so it is rarely intended. */
@@ -105,16 +134,11 @@ function mustHaveEnded(record: PlotRecord, { restart }: PlotCommandOptions): voi
   if (found === null || restart === true) return;
   throw new PlotwrightError(
     "conflict",
-    `The plot of ${found.name} was interrupted at ${Math.round(100 * found.progress)} %. Use plotwright plot --resume to resume it, or add --restart to discard it and plot from the beginning.`,
+    `${wasInterrupted(found)} Use plotwright plot --resume to resume it, or add --restart to discard it and plot from the beginning.`,
   );
 }
 
-async function plotOne(
-  plot: Plot,
-  keep: { readonly begin: () => void; readonly record: PlotRecord },
-  options: PlotCommandOptions,
-  io: CliIo,
-): Promise<number> {
+async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, io: CliIo): Promise<number> {
   const { path, settings, only } = plot;
   const say = options.quiet === true ? () => undefined : (text: string) => io.err(text);
   const stop = new AbortController();
@@ -131,14 +155,14 @@ async function plotOne(
         // Ctrl-C while the board was being connected.
         if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
         forget();
-        return onPlotter(plotter, planner, plot, keep, options, io);
+        return onPlotter(plotter, planner, plot, course, options, io);
       });
     } finally {
       await planner.close();
     }
   } catch (error) {
     if (error instanceof PlotwrightError && error.code === "cancelled" && stop.signal.aborted) {
-      return cancelled(io);
+      return course.end.aborted ? interrupted(course.record, io) : cancelled(io);
     }
     throw error;
   } finally {
@@ -166,7 +190,7 @@ async function onPlotter(
   plotter: PlotterPort,
   planner: OpenPlanner,
   { name, settings, from, sent, progress: before }: Plot,
-  { begin, record }: { readonly begin: () => void; readonly record: PlotRecord },
+  { begin, record, end }: Course,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
@@ -179,14 +203,27 @@ async function onPlotter(
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : { isLost };
-  const code = await watch(run, { name, isQuiet: options.quiet === true, resumed }, io);
+  const ended = await watch(run, { name, isQuiet: options.quiet === true, resumed, end }, io);
+  // The motors stay on, so that the carriage stays where the plot is to be resumed.
+  if (ended === "interrupted") return interrupted(record, io);
   try {
     await plotter.motorsOff();
   } finally {
     record.end();
   }
-  return code;
+  return ended === "done" ? 0 : cancelled(io);
 }
+
+/** The process must end. Says whether the plot can be resumed. */
+function interrupted(record: PlotRecord, io: CliIo): number {
+  const found = record.find();
+  if (found === null) return cancelled(io);
+  io.err(`plotwright: ${wasInterrupted(found)} Use plotwright plot --resume to resume it.\n`);
+  return 5;
+}
+
+const wasInterrupted = ({ name, progress }: InterruptedPlot): string =>
+  `The plot of ${name} was interrupted at ${Math.round(100 * progress)} %.`;
 
 /** A full disk must not stop the pen in mid-stroke: each entry is tried, as the disk may soon have room again. */
 function journalIn(record: PlotRecord, progress: () => number, io: CliIo): NonNullable<PlotStart["journal"]> {

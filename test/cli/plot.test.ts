@@ -169,6 +169,50 @@ describe("plotwright plot", () => {
   );
 
   it(
+    "ended while the drawing is planned, draws nothing; an interrupted plot stays interrupted",
+    async () => {
+      const endPlanning = async (...args: string[]): Promise<CliRun> => {
+        const io = new CaughtIo();
+        const plotted = plot(io, ...args);
+        await expect.poll(() => io.listens).toBe(true);
+        io.end();
+        return plotted;
+      };
+      expect(await endPlanning(file)).toEqual({
+        code: 5,
+        out: "",
+        err: "plotwright: the plot was cancelled.\n",
+      });
+      const record = new PlotRecord(dir, "virtual");
+      expect(record.find()).toBeNull();
+      record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
+      record.save({ place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
+      const interrupted =
+        "plotwright: The plot of b.svg was interrupted at 40 %. Use plotwright plot --resume to resume it.\n";
+      expect(await endPlanning("--resume")).toEqual({ code: 5, out: "", err: interrupted });
+      expect(record.find()).toMatchObject({ progress: 0.4 });
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "ended while a resumed plot waits for Enter, stays interrupted",
+    async () => {
+      const record = new PlotRecord(dir, "virtual");
+      record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
+      record.save({ place: { stroke: 0, alongMm: 3 }, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
+      const io = new CaughtIo();
+      const plotted = plot(io, "--resume");
+      await expect.poll(() => io.errText).toMatch(/Enter resumes/);
+      io.end();
+      expect((await plotted).code).toBe(5);
+      expect(io.errText).toMatch(/b\.svg was interrupted at 40 %/);
+      expect(record.find()).toMatchObject({ from: { stroke: 0, alongMm: 3 }, progress: 0.4 });
+    },
+    LIMIT_MS,
+  );
+
+  it(
     "with a keyboard, a resumed plot waits for Enter",
     async () => {
       const record = new PlotRecord(dir, "virtual");

@@ -45,6 +45,11 @@ export class CaughtIo implements CliIo {
     [...this.#interrupt].forEach((listener) => listener(false));
   }
 
+  /** The process is asked to end: SIGTERM, or its terminal is closed. */
+  end(): void {
+    [...this.#interrupt].forEach((listener) => listener(true));
+  }
+
   line(text = ""): void {
     [...this.#line].forEach((listener) => listener(text));
   }

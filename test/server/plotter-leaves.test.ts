@@ -1,8 +1,10 @@
 /** Closing a plotter: in the middle of an action, with its board lost, or with two requests at once. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import type { JournalEntry } from "../../host/plotter/types.js";
 import type { PlotwrightError } from "../../src/index.js";
-import { DRAWING, expectDrawn, plotting } from "../support/live-plot.js";
+import { DRAWING, expectDrawn, plotting, settingsOf } from "../support/live-plot.js";
+import { LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
 
@@ -14,6 +16,16 @@ async function idle() {
   const driver = new PlotterDriver({ device: "virtual", clock: world });
   await world.run(driver.start());
   return { world, driver, board: virtualBoardOf(driver) };
+}
+
+/** A plot with its journal. */
+async function recorded() {
+  const { world, driver, board } = await idle();
+  const journal: JournalEntry[] = [];
+  const record = (entry: JournalEntry): void => void journal.push(entry);
+  const settings = settingsOf("scurve");
+  const run = await world.run(driver.plot(new LocalPlanner(DRAWING), settings, { journal: { record } }));
+  return { world, driver, board, run, journal };
 }
 
 describe("a plotter that is closed", () => {
@@ -99,6 +111,62 @@ describe("a plotter that is closed", () => {
     expect(await world.run(moved)).toMatch(/^disconnected/);
     await world.run(driver.close());
     expect(world.timerCount).toBe(0);
+  });
+});
+
+describe("a plot that is interrupted", () => {
+  it.each([0, 0.4, 1.9, 3.3, 5.2, 9.7])(
+    "after %s s lifts its pen, stays there, and is resumed from there",
+    async (afterS) => {
+      const { world, driver, board, run, journal } = await recorded();
+      await world.advance(afterS);
+      await world.run(run.interrupt());
+      expect(await world.run(run.finished)).toEqual({ kind: "cancelled" });
+      expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
+      const { xMm, yMm } = board.state();
+      const { place: from, sent } = journal.at(-1) ?? { place: null };
+      expect(sent ?? null).toEqual(from);
+      const begun = board.drawn().length;
+      await world.advance(5);
+      expect([board.drawn().length, board.state()]).toEqual([begun, expect.objectContaining({ xMm, yMm })]);
+      const resumed = await world.run(
+        driver.plot(new LocalPlanner(DRAWING), settingsOf("scurve"), { from, sent, held: false }),
+      );
+      expect(await world.run(resumed.finished)).toEqual({ kind: "done" });
+      expectDrawn(board, DRAWING, 0.05);
+    },
+  );
+
+  it("while its next part is planned does not wait for that", async () => {
+    const { world, driver, board, run, journal } = await recorded();
+    await world.advance(3);
+    await world.run(run.pause());
+    const { place } = journal.at(-1)!;
+    const endless = new LocalPlanner(DRAWING);
+    endless.plan = () => new Promise(() => undefined);
+    await world.run(run.interrupt());
+    const next = await world.run(
+      driver.plot(endless, settingsOf("scurve"), {
+        from: place,
+        sent: place,
+        held: false,
+        journal: { record: (entry) => journal.push(entry) },
+      }),
+    );
+    await world.advance(2);
+    await world.run(next.interrupt());
+    expect(await world.run(next.finished)).toEqual({ kind: "cancelled" });
+    expect(journal.at(-1)).toMatchObject({ place, sent: place });
+    expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
+  });
+
+  it("goes home if it was being cancelled", async () => {
+    const { world, board, run } = await recorded();
+    await world.advance(3);
+    const cancelled = run.cancel();
+    await world.run(run.interrupt());
+    await world.run(cancelled);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 });
 

@@ -87,6 +87,12 @@ export class LedRun implements LivePlotRun {
     return Promise.resolve();
   }
 
+  interrupt(): Promise<void> {
+    this.asked.push("interrupt");
+    this.end({ kind: "cancelled" });
+    return Promise.resolve();
+  }
+
   leave(): Promise<void> {
     this.asked.push("leave");
     this.end({ kind: "cancelled" });
