@@ -4,7 +4,8 @@
  */
 import type { Drawing } from "../drawing/drawing.js";
 import { LineBuilder, tagRanges, totalLength, type Lines } from "../geometry/polyline.js";
-import { addPath, cutLine, type Region } from "../geometry/region.js";
+import { cutLine } from "../geometry/cut-line.js";
+import { addPath, type Region } from "../geometry/region.js";
 import { filledAreas } from "./areas.js";
 import type { Work } from "./work.js";
 

@@ -7,7 +7,8 @@
  */
 import Flatbush from "flatbush";
 import { LineBuilder, lineBox, lineCount, type Lines } from "../geometry/polyline.js";
-import { cutLine, type Region } from "../geometry/region.js";
+import { cutLine } from "../geometry/cut-line.js";
+import type { Region } from "../geometry/region.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**

@@ -19,7 +19,8 @@ import {
   totalLength,
   type Lines,
 } from "../geometry/polyline.js";
-import { cutLines, regionOf, ringOf, type Region } from "../geometry/region.js";
+import { cutLines } from "../geometry/cut-line.js";
+import { regionOf, ringOf, type Region } from "../geometry/region.js";
 import { patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";

@@ -1,10 +1,12 @@
-/** Cutting a line by a region, checked against cutting each of its segments by itself. */
+/** Cutting a line by a region, checked against cutting each of its segments by itself, and point by point. */
 import { FillRule } from "clipper2-ts";
 import fc from "fast-check";
 import { expect, it } from "vitest";
-import { LineBuilder, totalLength } from "../../../src/geometry/polyline.js";
-import { SCALE, cleanRings, cutLine, regionOf, type Region } from "../../../src/geometry/region.js";
+import { LineBuilder, lineCount, totalLength, type Lines } from "../../../src/geometry/polyline.js";
+import { cutLine } from "../../../src/geometry/cut-line.js";
+import { SCALE, cleanRings, regionOf, type Region } from "../../../src/geometry/region.js";
 import { cases } from "../../support/full-run.js";
+import { distanceToRings, distanceToSegment, isInside, type Ring } from "../../support/shapes-by-sampling.js";
 
 type Point = readonly [number, number];
 
@@ -34,14 +36,18 @@ const line = fc
     return isClosed ? [...points, points[0]] : points;
   });
 
-function cutLength(points: readonly Point[], region: Region, keepOutside: boolean): number {
+function cut(points: readonly Point[], region: Region, keepOutside: boolean): Lines {
   const whole = new LineBuilder();
   for (const [x, y] of points) whole.point(x, y);
-  if (whole.openPoints < 2) return 0;
   whole.end(0);
   const parts = new LineBuilder();
   cutLine(whole.finish(), 0, region, keepOutside, parts);
-  return totalLength(parts.finish());
+  return parts.finish();
+}
+
+function cutLength(points: readonly Point[], region: Region, keepOutside: boolean): number {
+  const isDot = points.every(([x, y]) => x === points[0][0] && y === points[0][1]);
+  return isDot ? 0 : totalLength(cut(points, region, keepOutside));
 }
 
 it("cuts a line like its segments, also where it goes back over itself", () => {
@@ -61,5 +67,111 @@ it("cuts a line like its segments, also where it goes back over itself", () => {
       },
     ),
     { numRuns: cases(300) },
+  );
+});
+
+/** Rings with corners on the line's own places: most lines touch corners and run along edges. */
+const ringOnGrid = fc.array(fc.tuple(coordinate, coordinate), { minLength: 3, maxLength: 9 });
+
+function distanceToLines({ xy, offsets }: Lines, x: number, y: number): number {
+  let nearest = Infinity;
+  for (let i = 0; i + 1 < offsets.length; i++) {
+    for (let p = offsets[i]; p + 1 < offsets[i + 1]; p++) {
+      const [x0, y0, x1, y1] = xy.subarray(2 * p, 2 * p + 4);
+      nearest = Math.min(nearest, distanceToSegment([x, y], [x0, y0], [x1, y1]));
+    }
+  }
+  return nearest;
+}
+
+it("keeps what is inside, or outside, and what runs along an edge, also where a line meets corners", () => {
+  fc.assert(
+    fc.property(
+      fc.array(ringOnGrid, { minLength: 1, maxLength: 4 }),
+      line,
+      fc.boolean(),
+      fc.double({ min: 0.05, max: 0.95, noNaN: true }),
+      (rings, points, outside, t) => {
+        const scaled = rings.map((ring) => ring.map(([x, y]) => ({ x: x * SCALE, y: y * SCALE })));
+        const clean = cleanRings(scaled, FillRule.EvenOdd);
+        const inMm: Ring[] = clean.map((ring) => ring.map(({ x, y }) => [x / SCALE, y / SCALE]));
+        fc.pre(new Set(points.map(String)).size > 1);
+        const kept = cut(points, regionOf(clean), outside);
+        for (let k = 1; k < points.length; k++) {
+          const [[x0, y0], [x1, y1]] = [points[k - 1], points[k]];
+          const [x, y] = [x0 + t * (x1 - x0), y0 + t * (y1 - y0)];
+          const isFar = distanceToRings(inMm, x, y) > 0.01;
+          const length = Math.hypot(x1 - x0, y1 - y0);
+          if (length === 0) continue;
+          const isOnEdge = [-0.02, 0.02].every((by) => {
+            const share = by / length;
+            return distanceToRings(inMm, x + share * (x1 - x0), y + share * (y1 - y0)) < 1e-4;
+          });
+          const isKept = isFar ? isInside(inMm, false, x, y) !== outside : isOnEdge ? true : null;
+          if (isKept === true) expect(distanceToLines(kept, x, y)).toBeLessThan(1e-3);
+          // Another part of the line may pass here, and is not asked about.
+          const passes = points.slice(1).filter((p, n) => distanceToSegment([x, y], points[n], p) < 1e-3);
+          if (isKept === false && passes.length === 1)
+            expect(distanceToLines(kept, x, y)).toBeGreaterThan(5e-3);
+        }
+      },
+    ),
+    { numRuns: cases(1_000) },
+  );
+});
+
+it("cuts many lines by a region with many edges, each at the edges near it", () => {
+  const teeth = 20_000;
+  const comb = Array.from({ length: teeth }, (_, k) => [
+    { x: 10 * k * 10, y: 0 },
+    { x: (10 * k + 5) * 10, y: 0 },
+    { x: (10 * k + 5) * 10, y: 10 * SCALE },
+    { x: 10 * k * 10, y: 10 * SCALE },
+  ]);
+  const region = regionOf(comb);
+  const across = Array.from({ length: teeth }, (_, k): Point[] => [
+    [(k * 10 * 10) / SCALE, 5],
+    [(k * 10 * 10) / SCALE + 0.1, 5],
+  ]);
+  // Each line crosses ten teeth of 5 µm, one apart. What is on an edge counts too, by less than 0.3 µm.
+  for (const points of across.slice(0, teeth - 10)) {
+    const parts = cut(points, region, false);
+    expect(lineCount(parts)).toBe(10);
+    expect(totalLength(parts)).toBeCloseTo(0.05, 6);
+  }
+});
+
+it("keeps a line on the edge of its own region whole, in one piece, whichever side is kept", () => {
+  fc.assert(
+    fc.property(
+      fc.double({ min: 5, max: 80, noNaN: true }),
+      fc.double({ min: 0, max: 7, noNaN: true }),
+      fc.integer({ min: 5, max: 300 }),
+      fc.constantFrom(1, 2),
+      fc.integer({ min: 0, max: 299 }),
+      fc.boolean(),
+      fc.boolean(),
+      (radius, turn, count, step, start, isReversed, outside) => {
+        // A star if step is 2: its line crosses itself.
+        fc.pre(step === 1 || count % 2 === 1);
+        const corner = (k: number): Point => {
+          const angle = turn + (k * step * 2 * Math.PI) / count;
+          return [100 + radius * Math.cos(angle), 100 + 0.6 * radius * Math.sin(angle)];
+        };
+        const corners = Array.from({ length: count }, (_, k) => corner(k));
+        const rings = [corners.map(([x, y]) => ({ x: Math.round(x * SCALE), y: Math.round(y * SCALE) }))];
+        const region = regionOf(cleanRings(rings, FillRule.EvenOdd));
+        const begun = [...corners.slice(start % count), ...corners.slice(0, start % count)];
+        const points = [...begun, begun[0]];
+        if (isReversed) points.reverse();
+        const kept = cut(points, region, outside);
+        expect(lineCount(kept)).toBe(1);
+        const whole = points
+          .slice(1)
+          .reduce((sum, p, k) => sum + Math.hypot(p[0] - points[k][0], p[1] - points[k][1]), 0);
+        expect(totalLength(kept)).toBeCloseTo(whole, 4);
+      },
+    ),
+    { numRuns: cases(500) },
   );
 });

@@ -1,0 +1,94 @@
+/** The parts of lines inside or outside a region. A line on the region's edge belongs to both. */
+import { boxContains, boxesTouch, grownBox } from "./box.js";
+import { clipLine } from "./clip.js";
+import { LineBuilder, isClosedLine, lineBox, lineCount, mix, type Lines } from "./polyline.js";
+import { regionContains, type Region } from "./region.js";
+import { ON_EDGE, type Part } from "./region-edges.js";
+
+/** Adds the parts of line `i` inside the region (or outside, with `keepOutside`) to `builder`, and those on its edge. */
+export function cutLine(
+  lines: Lines,
+  i: number,
+  region: Region,
+  keepOutside: boolean,
+  builder: LineBuilder,
+): void {
+  const { xy, offsets } = lines;
+  const tag = lines.tag[i];
+  const bounds = lineBox(lines, i);
+  if (region.rings.length === 0 || !boxesTouch(bounds, region.box)) {
+    if (keepOutside) builder.copy(lines, i, tag);
+    return;
+  }
+  if (region.isBox && !keepOutside) return clipLine(lines, i, region.box, builder);
+  if (region.isBox && boxContains(grownBox(region.box, -ON_EDGE), bounds)) return;
+  if (offsets[i + 1] - offsets[i] < 2) {
+    if (regionContains(region, xy[2 * offsets[i]], xy[2 * offsets[i] + 1]) !== keepOutside)
+      builder.copy(lines, i, tag);
+    return;
+  }
+  const edges = region.edges();
+  const kept: Part[] = [];
+  let winding: number | null = null;
+  for (let p = offsets[i]; p + 1 < offsets[i + 1]; p++) {
+    const cut = edges.partsOf(xy[2 * p], xy[2 * p + 1], xy[2 * p + 2], xy[2 * p + 3], keepOutside, winding);
+    winding = cut.windingAtEnd;
+    addParts(cut.parts, p - offsets[i], kept);
+  }
+  addPieces(lines, i, kept, builder);
+}
+
+/** Adds parts of segment number `segment` to those of its line, which count its segments: 2.5 is the middle of the third. */
+export function addParts(parts: readonly Part[], segment: number, toLine: Part[]): void {
+  for (const [from, to] of parts) {
+    const last = toLine.at(-1);
+    if (last !== undefined && from === 0 && last[1] === segment) last[1] = segment + to;
+    else toLine.push([segment + from, segment + to]);
+  }
+}
+
+/** Adds these parts of line `i`. Parts of a closed line that meet at its start are one piece. */
+export function addPieces(lines: Lines, i: number, parts: readonly Part[], builder: LineBuilder): void {
+  const segments = lines.offsets[i + 1] - lines.offsets[i] - 1;
+  const pieces = [...parts];
+  const [first, last] = [pieces[0], pieces[pieces.length - 1]];
+  if (pieces.length > 1 && first[0] === 0 && last[1] === segments && isClosedLine(lines, i)) {
+    pieces.shift();
+    pieces[pieces.length - 1] = [last[0], segments + first[1]];
+  }
+  for (const [from, to] of pieces) addPiece(lines, i, from, to, builder);
+}
+
+function addPiece(
+  { xy, offsets, tag }: Lines,
+  i: number,
+  from: number,
+  to: number,
+  builder: LineBuilder,
+): void {
+  const first = offsets[i];
+  const segments = offsets[i + 1] - first - 1;
+  const addPoint = (at: number): void => {
+    const segment = Math.min(Math.floor(at), at === segments ? segments - 1 : Infinity);
+    const p = first + (segment % segments);
+    const t = at - segment;
+    builder.point(mix(xy[2 * p], xy[2 * p + 2], t), mix(xy[2 * p + 1], xy[2 * p + 3], t));
+  };
+  addPoint(from);
+  for (let at = Math.floor(from) + 1; at < to; at++) addPoint(at);
+  addPoint(to);
+  // A line that only touches the region would become a dot, which is not in the drawing.
+  if (builder.openPoints < 2) builder.drop();
+  else builder.end(tag[i]);
+}
+
+/** Clips every line to the region of its tag; null leaves the line unchanged. */
+export function cutLines(lines: Lines, regionOfTag: (tag: number) => Region | null): Lines {
+  const builder = new LineBuilder();
+  for (let i = 0; i < lineCount(lines); i++) {
+    const region = regionOfTag(lines.tag[i]);
+    if (region === null) builder.copy(lines, i, lines.tag[i]);
+    else cutLine(lines, i, region, false, builder);
+  }
+  return builder.finish();
+}
