@@ -105,13 +105,12 @@ export type { TrajectoryStats } from "./plan/stats.js";
 export { landingMm } from "./plan/pen-flight.js";
 export { penOfLayer } from "./plan/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
-export { leavesLineMm } from "./plan/shapers.js";
 export { motionOfQuality, qualityOf } from "./plan/quality.js";
 export { penError, type PenError } from "./plan/pen-error.js";
 export { swingPen, type PenPoint } from "./plan/spring-pen.js";
 export { comeToRest } from "./plan/come-to-rest.js";
 export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
-export { placeBehindSent, stoppedPlace } from "./plan/stopped-place.js";
+export { leavesDrawingMm, stoppedPlace } from "./plan/stopped-place.js";
 
 // machines
 export type { Springs } from "./machines/profile.js";

@@ -1,13 +1,6 @@
 /** Where an interrupted plot stopped: the journal's place, or what the board still knows about the time after it. */
 import type { Place, StrokeSet } from "../../src/index.js";
-import {
-  landingMm,
-  leavesLineMm,
-  machineOf,
-  placeBehindSent,
-  stoppedPlace,
-  type Machine,
-} from "../../src/internal.js";
+import { landingMm, leavesDrawingMm, machineOf, stoppedPlace, type Machine } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { JournalEntry } from "./types.js";
 
@@ -15,13 +8,11 @@ import type { JournalEntry } from "./types.js";
 export const JOURNAL_S = 0.25;
 /** Time between two progress reports, in real seconds. */
 export const PROGRESS_S = 0.06;
-/** Max time between the last journal entry and the end of what was sent to the board, in real seconds. */
+/**
+ * Max time from the place that the board had received at the last journal entry to the end of what was sent, beside the
+ * motion that is always sent ahead. In real seconds, also for a host that is busy for a while.
+ */
 const LEFT_S = 1.5;
-/** Max time between two journal entries, plus the motion sent ahead in that time. */
-const UNTIL_NEXT_ENTRY_S = JOURNAL_S + 2 * PROGRESS_S;
-
-export const isSamePlace = (a: Place | null | undefined, b: Place | null | undefined): boolean =>
-  a?.stroke === b?.stroke && a?.alongMm === b?.alongMm;
 
 /** `penStops`: the strokes before which the plot goes home and waits. */
 export function placeLeft(
@@ -29,24 +20,20 @@ export function placeLeft(
   strokes: StrokeSet,
   settings: PlotSettings,
   penStops: readonly number[],
-  { from, sent }: { readonly from: Place } & Pick<JournalEntry, "sent">,
+  { from, received }: { readonly from: Place } & Pick<JournalEntry, "received">,
 ): Place {
-  // The plot was at rest. Wherever the carriage is now, it has drawn nothing since.
-  if (isSamePlace(from, sent)) return from;
+  const profile = machineOf(settings);
   const { left, speed } = machine;
-  const at = machine.place(machineOf(settings));
-  if (!left || !at) return from;
-  const { motion } = settings;
+  const at = machine.place(profile);
+  if (!received || !left || !at) return from;
+  const { motion, pen, sendAheadMs } = settings;
   const { draw, travel } = motion;
-  const drawMmPerS = speed * draw.speedMmPerS;
-  const maxMmPerS = Math.max(drawMmPerS, speed * travel.speedMmPerS);
-  const pen = { ...at, up: left.penUp };
+  const aheadS = (LEFT_S + sendAheadMs / 1_000) * speed;
   const since = {
-    aheadMm: LEFT_S * maxMmPerS,
+    aheadMm: aheadS * Math.max(draw.speedMmPerS, travel.speedMmPerS),
+    nearMm: leavesDrawingMm(motion, profile),
     stops: penStops,
-    leavesMm: leavesLineMm(motion, machineOf(settings).springs ?? null),
-    landingMm: landingMm(settings.pen, travel.accelMmPerS2),
+    landingMm: landingMm(pen, travel.accelMmPerS2),
   };
-  const sentSince = { ...since, aheadMm: UNTIL_NEXT_ENTRY_S * drawMmPerS, stops: [] };
-  return (sent && placeBehindSent(strokes, sent, pen, sentSince)) ?? stoppedPlace(strokes, from, pen, since);
+  return stoppedPlace(strokes, received, { ...at, up: left.penUp }, since) ?? from;
 }

@@ -23,7 +23,7 @@ import {
   strokeCount,
 } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
-import { isSamePlace, JOURNAL_S, placeLeft, PROGRESS_S } from "./place-left.js";
+import { JOURNAL_S, placeLeft, PROGRESS_S } from "./place-left.js";
 import { PenStops } from "./pen-stops.js";
 import { RunSettings } from "./run-settings.js";
 import type { PlannedPlot, PlotPlanner } from "../planning/plot-planner.js";
@@ -89,8 +89,9 @@ export class MachinePlot implements LivePlotRun {
         ended: (place) => this.#streamEnded(place),
       },
     });
-    const { from = null, sent } = start;
-    this.holdPlace = from && placeLeft(machine, this.#strokes, settings, this.#stops.strokes, { from, sent });
+    const { from = null, received } = start;
+    this.holdPlace =
+      from && placeLeft(machine, this.#strokes, settings, this.#stops.strokes, { from, received });
     if (start.held ?? this.holdPlace !== null) this.#requested = "hold";
     this.finished = this.#run().then(
       (outcome) => {
@@ -154,8 +155,11 @@ export class MachinePlot implements LivePlotRun {
   emergencyStop(): Promise<void> {
     if (this.#requested === "run") this.#requested = "hold";
     this.#staysPut = true;
-    if (this.#stream.playing) this.#stream.stopAtOnce();
-    else this.#machine.stopAtOnce();
+    if (this.#stream.playing) {
+      this.#stream.stopAtOnce();
+      // The board no longer draws everything that it had received.
+      this.#writeJournal(this.#stream.progress.place);
+    } else this.#machine.stopAtOnce();
     return this.#waiters.until(() => this.#held || this.#requested === "cancel");
   }
 
@@ -181,7 +185,7 @@ export class MachinePlot implements LivePlotRun {
     const moved = this.#stream.progress.movedTo(this.holdPlace, this.#initialProgress());
     if (moved) this.#report(moved);
     if (wait?.layerName !== this.#wait?.layerName) this.#setHeld(true, wait);
-    this.#writeJournal(this.holdPlace, this.holdPlace);
+    this.#writeJournal(this.holdPlace);
     return this.holdPlace;
   }
 
@@ -330,7 +334,7 @@ export class MachinePlot implements LivePlotRun {
 
   async #hold(): Promise<void> {
     this.#setHeld(true, this.#stops.due(this.holdPlace));
-    if (this.holdPlace) this.#writeJournal(this.holdPlace, this.holdPlace);
+    if (this.holdPlace) this.#writeJournal(this.holdPlace);
     this.holdPlace ??= { stroke: 0, alongMm: 0 };
     while (this.#requested === "hold" && !this.#failure) {
       await new Promise<void>((resolve) => {
@@ -389,7 +393,7 @@ export class MachinePlot implements LivePlotRun {
     this.#stopTicking();
     const left = place ?? this.#stream.progress.place;
     // A board that still knows its position is at rest there.
-    this.#writeJournal(left, this.#machine.state && left ? left : undefined);
+    this.#writeJournal(left, this.#machine.state ? undefined : this.#stream.receivedPlace);
   }
 
   #tick(): () => void {
@@ -400,8 +404,7 @@ export class MachinePlot implements LivePlotRun {
       if (now) {
         this.#report(now);
         if (clock.nowS() >= this.#journalDueS) {
-          const [{ place }, { sentPlace }] = [this.#stream.progress, this.#stream];
-          this.#writeJournal(place, isSamePlace(place, sentPlace) ? undefined : sentPlace);
+          this.#writeJournal(this.#stream.progress.place, this.#stream.receivedPlace);
         }
       }
       cancel = clock.after(PROGRESS_S * speed, next);
@@ -414,13 +417,13 @@ export class MachinePlot implements LivePlotRun {
     for (const listener of this.#progressListeners) listener(progress);
   }
 
-  #writeJournal(left: Place | null, sent?: Place): void {
+  #writeJournal(left: Place | null, received?: Place): void {
     const { latest } = this.#stream.progress;
     const { clock, speed } = this.#machine;
     this.#journalDueS = clock.nowS() + JOURNAL_S * speed;
     if (!left) return;
     const { xMm, yMm, penUp, elapsedS } = latest ?? this.#initialProgress();
-    this.#start.journal?.record({ place: left, sent, xMm, yMm, penUp, elapsedS });
+    this.#start.journal?.record({ place: left, received, xMm, yMm, penUp, elapsedS });
   }
 
   /** The progress before anything has been streamed. */

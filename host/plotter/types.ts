@@ -66,10 +66,10 @@ export interface JournalEntry {
   /** The first place not yet drawn, at most half a second old. */
   readonly place: Place;
   /**
-   * The end of what was sent to the board, which the board draws even if the server stops. The same as `place` if the
-   * plot is at rest: it has then drawn nothing after `place`.
+   * The end of what the board had received, and draws even if this program ends. Undefined if the plot is at rest, or is
+   * still on its way to `place`: then it has drawn nothing after `place`.
    */
-  readonly sent?: Place | undefined;
+  readonly received?: Place | undefined;
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
@@ -83,8 +83,8 @@ interface PlotJournal {
 export interface PlotStart {
   /** Where in the drawing to start; after a crash, the journal's place. Default: the beginning. */
   readonly from?: Place | null | undefined;
-  /** `sent` of the same journal entry; the same as `from` if nothing after it was drawn. */
-  readonly sent?: Place | undefined;
+  /** `received` of the same journal entry. Default: nothing was drawn after `from`. */
+  readonly received?: Place | undefined;
   /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */
   readonly held?: boolean | undefined;
   readonly journal?: PlotJournal | undefined;

@@ -28,8 +28,8 @@ export interface RunPlan {
    * Where to start; null: at the beginning of the drawing. A run that starts in the middle is held at first.
    */
   readonly from: Place | null;
-  /** The end of what was sent to the board when that place was stored. */
-  readonly sent: Place | undefined;
+  /** The end of what the board had received when that place was stored; undefined if it had drawn nothing more. */
+  readonly received: Place | undefined;
   /** Percent of the speeds in the settings, as it was before an interruption. */
   readonly speedPct: number;
 }
@@ -121,13 +121,13 @@ export class Runner {
   }
 
   async #plot(): Promise<PlotOutcome> {
-    const { plotter, settings, open, from, sent, speedPct } = this.#plan;
+    const { plotter, settings, open, from, received, speedPct } = this.#plan;
     // An interrupted plot may have left the pen on the paper. So its planner is opened even after a cancel: cancelling
     // the run then lifts the pen.
     const planner = await open(from === null ? this.#abort.signal : new AbortController().signal);
     try {
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
-      const run = await plotter.plot(planner, settings, { from, sent, journal });
+      const run = await plotter.plot(planner, settings, { from, received, journal });
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held, wait = null) => this.#reports.held(held, wait));

@@ -165,7 +165,7 @@ export class RunningPlots {
     const drawing = this.#parts.store.drawingOf(job.id);
     const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
     const entry = this.#journal(job.id);
-    // `sent` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
+    // `received` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     const runner = new Runner(
       {
@@ -173,7 +173,7 @@ export class RunningPlots {
         settings: job.settings,
         open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
         from,
-        sent: isJournalPlace ? entry?.sent : (from ?? undefined),
+        received: isJournalPlace ? entry?.received : undefined,
         speedPct: job.speedPct,
       },
       {
@@ -192,7 +192,7 @@ export class RunningPlots {
   /**
    * Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed.
    */
-  #saveJournal(id: string, entry: Pick<JournalEntry, "place" | "sent">): void {
+  #saveJournal(id: string, entry: Pick<JournalEntry, "place" | "received">): void {
     const { progress, elapsedS, remainingS } = this.#jobs.get(id);
     this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
@@ -248,8 +248,7 @@ export class RunningPlots {
    */
   #keepPlace({ id, place }: Pick<Job, "id" | "place">): void {
     if (place === null || this.#journal(id) !== null) return;
-    const kept = { stroke: place.strokeIndex, alongMm: place.alongMm };
-    this.#saveJournal(id, { place: kept, sent: kept });
+    this.#saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
   }
 
   #ended(id: string, plotterId: string, end: RunEnd): void {
@@ -335,7 +334,7 @@ const canContinue = (error: Error): boolean =>
 
 /** What Store.journal returns. It may have been written by another version of this program. */
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
-const journalSchema = z.object({ place: placeSchema, sent: placeSchema.optional() });
+const journalSchema = z.object({ place: placeSchema, received: placeSchema.optional() });
 const journalProgressSchema = z.object({
   progress: z.number().min(0).max(1),
   elapsedS: z.number().min(0),

@@ -22,7 +22,7 @@ const plotSchema = ownerSchema.extend({
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
 const entrySchema = z.object({
   place: placeSchema,
-  sent: placeSchema.optional(),
+  received: placeSchema.optional(),
   progress: z.number(),
 });
 
@@ -37,7 +37,7 @@ export interface StoredPlot {
 /** An interrupted plot. */
 export interface InterruptedPlot extends StoredPlot {
   readonly from: JournalEntry["place"];
-  readonly sent: JournalEntry["sent"];
+  readonly received: JournalEntry["received"];
   /** 0 … 1. */
   readonly progress: number;
 }
@@ -99,8 +99,8 @@ export class PlotRecord {
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
     if (this.#isPlottingElsewhere()) return null;
     const { name, settings, only } = plot.data;
-    const { place, sent, progress } = entry.data;
-    return { name, settings, only, from: place, sent, progress };
+    const { place, received, progress } = entry.data;
+    return { name, settings, only, from: place, received, progress };
   }
 
   /** Throws `not-found`. */

@@ -38,7 +38,7 @@ interface Plot {
   readonly settings: PlotSettings;
   readonly only: readonly string[] | undefined;
   readonly from: InterruptedPlot["from"] | null;
-  readonly sent: InterruptedPlot["sent"];
+  readonly received: InterruptedPlot["received"];
   /** Before it begins, 0 … 1. */
   readonly progress: number;
 }
@@ -83,7 +83,7 @@ export async function runPlot(
           settings,
           only,
           from: null,
-          sent: undefined,
+          received: undefined,
           progress: 0,
         };
         return plotOne(plot, { begin: () => record.begin(path, plot), record, end }, options, io);
@@ -189,7 +189,7 @@ function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): 
 async function onPlotter(
   plotter: PlotterPort,
   planner: OpenPlanner,
-  { name, settings, from, sent, progress: before }: Plot,
+  { name, settings, from, received, progress: before }: Plot,
   { begin, record, end }: Course,
   options: PlotCommandOptions,
   io: CliIo,
@@ -199,7 +199,7 @@ async function onPlotter(
   begin();
   const journal = journalIn(record, () => progress, io);
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
-  const start: PlotStart = { from, sent, journal, held: from !== null && io.hasKeyboard };
+  const start: PlotStart = { from, received, journal, held: from !== null && io.hasKeyboard };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : { isLost };

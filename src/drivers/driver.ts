@@ -178,8 +178,12 @@ export interface MachineRun {
   readonly playing: object | null;
   /** Set when a play was stopped on purpose: the first place still to be drawn, null if everything is drawn. */
   readonly stopped: { readonly place: Place | null } | null;
-  /** The machine has received everything before this place and will draw it. */
-  readonly sentPlace: Place | undefined;
+  /**
+   * The machine has acknowledged everything before this place, and draws it even if nothing more is sent. Still known when
+   * a play ends because the connection is lost. Undefined before the first stroke of a play, and if the machine may have
+   * been stopped on the way to the place.
+   */
+  readonly receivedPlace: Place | undefined;
   /** Plays a plan to its end, or to a hold; the pen must be up. `afterS`: time of the plot after the end of this plan. */
   play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void>;
   /** Current position of the pen; null at rest. */

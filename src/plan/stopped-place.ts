@@ -1,21 +1,22 @@
 /**
- * Finds where an interrupted plot really stopped. The journal is up to half a second old, but a board that still has
- * its step counters reports the position, and whether the pen is down.
+ * Finds where an interrupted plot stopped: the connection was lost, or the program ended while the board kept running.
+ * A board that still has its step counters reports its position, and whether the pen is down.
  *
- *    journal ──drawn since──┐         pen down: on a stroke, so the plot resumes from exactly that point
- *       o━━━━━━━━━━━━━━━━━━━┿╌╌╌╌     pen up: travelling to a stroke, which is drawn next, or going home,
- *                         (x, y)       after the last stroke or before a change of pens
+ *    received ────── may have been sent ──────┐    pen down: on a stroke
+ *       o━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━━┿╌╌  pen up: lifted on a stroke by a pause, travelling to the next stroke,
+ *                            (x, y)                or going home, after the last stroke or before a change of pens
  *
- * The first match after the journal's place is used: a part drawn twice does less harm than a missing one. For the same
- * reason a pen that is up on a stroke counts as lifted there by a stop, and the plot resumes from the journal's place.
+ * A board draws everything that it has received, so it did not stop before `received`. From there on, the line may pass
+ * its position several times. The first pass counts: a part drawn twice does less harm than a missing one, and no more
+ * is drawn twice than what may have been sent after `received`.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { nearestShare } from "../geometry/polyline.js";
+import type { MachineProfile } from "../machines/profile.js";
+import type { MotionSettings } from "../settings/motion.js";
 import { pointOfPlace, strokeLengthMm } from "./place-on-drawing.js";
+import { leavesLineMm } from "./shapers.js";
 import type { Place } from "./trajectory.js";
-
-/** Tolerance for rounded corners, merged blocks and whole steps, mm. */
-const NEAR_MM = 0.08;
 
 /**
  * If the pen is down this close to a stroke's start, the carriage may still be on its way to it, because of rounding or
@@ -26,92 +27,86 @@ const LANDING_MM = 0.15;
 const STEP_MM = 0.01;
 /** A place nearer than this to the end of a stroke counts as its end, mm. */
 const END_MM = 0.05;
-/** A carriage that was stopped at once may be this far before the place that its pen reached (swung-place.ts), mm. */
-const SWING_MM = 1;
-/** Max distance of the carriage from the drawing: `leavesMm` by shaping (shapers.ts), plus NEAR_MM for all else. */
-const nearMmOf = (leavesMm: number): number => NEAR_MM + leavesMm;
+
+/** Rounding of a position to whole steps of both motors. */
+const ROUNDED_STEPS = 2;
+/** Allowance for arithmetic, and for the difference between mm along the plan and along the drawing, mm. */
+const SLACK_MM = 0.02;
+
+/** Max distance of the carriage from the drawing while the pen is down: rounding, merged blocks, steps and shaping; mm. */
+export function leavesDrawingMm(
+  motion: MotionSettings,
+  { springs, stepsPerMm }: Pick<MachineProfile, "springs" | "stepsPerMm">,
+): number {
+  const ownCornersMm = Object.values(motion.layers ?? {}).map(({ cornerMm }) => cornerMm ?? 0);
+  const roundedMm = Math.max(motion.draw.cornerMm, ...ownCornersMm) + ROUNDED_STEPS / stepsPerMm;
+  return roundedMm + (motion.fit?.toleranceMm ?? 0) + leavesLineMm(motion, springs ?? null) + SLACK_MM;
+}
 
 interface Point {
   readonly x: number;
   readonly y: number;
 }
 
+const HOME: Point = { x: 0, y: 0 };
+
 export interface PenPlace extends Point {
   readonly up: boolean;
 }
 
-/** How the carriage may have moved since the journal's entry. */
+/** How the carriage may have moved after the received place. */
 export interface SinceThen {
   /** How far, mm, including travel. */
   readonly aheadMm: number;
+  /** Max distance of the carriage from the drawing (`leavesDrawingMm`). */
+  readonly nearMm: number;
   /** Strokes before which it goes home. */
   readonly stops?: readonly number[];
-  /** Max deviation from the line by shaping (`leavesLineMm`). */
-  readonly leavesMm?: number;
   /** How far before a stroke the pen may begin to come down (`landingMm`). */
   readonly landingMm?: number;
 }
 
-/** If nothing matches, the journal's place; if everything is drawn, the end of the last stroke. */
-export const stoppedPlace = (strokes: StrokeSet, journal: Place, pen: PenPlace, since: SinceThen): Place =>
-  firstMatch(strokes, journal, pen, since) ?? journal;
-
-/** The first place after `journal` that fits the pen; null if there is none, or if the journal's place may be right. */
-function firstMatch(
+/** The first place from `received` on that fits the pen; if everything is drawn, the end. Null if there is none. */
+export function stoppedPlace(
   strokes: StrokeSet,
-  journal: Place,
+  received: Place,
   pen: PenPlace,
-  { aheadMm, stops = [], leavesMm = 0, landingMm = 0 }: SinceThen,
+  { aheadMm, nearMm, stops = [], landingMm = 0 }: SinceThen,
 ): Place | null {
-  const nearMm = nearMmOf(leavesMm);
-  const { xy, offsets } = strokes;
-  const count = offsets.length - 1;
-  const goesHomeAfter = (stroke: number): boolean => stroke + 1 === count || stops.includes(stroke + 1);
-  if (pen.up && isSettingOut(strokes, journal, pen, nearMm)) return null;
-  let leftMm = aheadMm + journal.alongMm;
-  for (let stroke = journal.stroke; stroke < count && leftMm > 0; stroke++) {
-    const fromMm = stroke === journal.stroke ? journal.alongMm : 0;
+  const count = strokes.offsets.length - 1;
+  const startOf = (stroke: number): Point => pointOfPlace(strokes, { stroke, alongMm: 0 });
+  const endOf = (stroke: number): Point => pointOfPlace(strokes, { stroke, alongMm: Infinity });
+  const goesHomeBefore = (stroke: number): boolean => stroke === count || stops.includes(stroke);
+  const isBetween = (from: Point, to: Point): boolean => nearest(from, to, pen).awayMm <= nearMm;
+
+  // mm and places along the plan differ slightly from those along the drawing.
+  let fromMm = received.alongMm - 2 * nearMm;
+  // On its way to the stroke. At the end of the stroke before, the pen may still be down.
+  const start = { stroke: received.stroke, alongMm: 0 };
+  const cameFromHome = received.stroke === 0 || goesHomeBefore(received.stroke);
+  const cameFrom = cameFromHome ? HOME : endOf(received.stroke - 1);
+  if (fromMm < 0 && isBetween(cameFrom, pointOfPlace(strokes, start))) return start;
+
+  let leftMm = received.alongMm + aheadMm;
+  for (let stroke = received.stroke; stroke < count && leftMm > 0; stroke++) {
     const lengthMm = strokeLengthMm(strokes, stroke);
-    if (pen.up) {
-      const alongMm = alongOf(strokes, stroke, fromMm - SWING_MM, pen, nearMm);
-      // At its end, the pen is lifted to travel on. Before that, it may have been lifted by a stop.
-      if (alongMm !== null && (alongMm === 0 || alongMm < lengthMm - END_MM)) return null;
-    } else {
-      const alongMm = alongOf(strokes, stroke, fromMm, pen, nearMm);
-      const isBefore = fromMm === 0 && isLanding(strokes, stroke, pen, { landingMm, nearMm, alongMm });
-      if (isBefore) return { stroke, alongMm: 0 };
-      if (alongMm !== null) return { stroke, alongMm };
+    const alongMm = firstPass(strokes, stroke, [fromMm, leftMm], pen, nearMm);
+    const mayLand = !pen.up && fromMm < 0;
+    if (mayLand && isLanding(strokes, stroke, pen, { landingMm, nearMm, alongMm })) {
+      return { stroke, alongMm: 0 };
     }
+    // A pen that is up at the end of a stroke was lifted to travel on.
+    if (alongMm !== null && !(pen.up && alongMm >= lengthMm - END_MM)) return { stroke, alongMm };
     leftMm -= lengthMm;
-    const next = 2 * offsets[stroke + 1];
-    const [endX, endY] = [xy[next - 2], xy[next - 1]];
-    const isWithinReach = Math.hypot(pen.x - endX, pen.y - endY) <= leftMm;
-    const isTravellingTo = (x: number, y: number): boolean =>
-      pen.up && isWithinReach && nearest(endX, endY, x, y, pen).awayMm <= nearMm;
-    const isLast = stroke + 1 === count;
-    if (goesHomeAfter(stroke) && isTravellingTo(0, 0)) {
-      return isLast ? { stroke, alongMm: lengthMm } : { stroke: stroke + 1, alongMm: 0 };
+    const [end, next] = [endOf(stroke), stroke + 1];
+    const goal = goesHomeBefore(next) ? HOME : startOf(next);
+    if (pen.up && distance(end, pen) <= leftMm && isBetween(end, goal)) {
+      return next === count ? { stroke, alongMm: lengthMm } : { stroke: next, alongMm: 0 };
     }
-    if (isLast) break;
-    const [nextX, nextY] = [xy[next], xy[next + 1]];
-    if (isTravellingTo(nextX, nextY)) return { stroke: stroke + 1, alongMm: 0 };
-    leftMm -= Math.hypot(nextX - endX, nextY - endY);
+    leftMm -= distance(end, goal);
+    fromMm = -2 * nearMm;
   }
   return null;
-}
-
-/**
- * Whether a pen that is up may be on its way to the journal's place, from home or from the stroke before. At home itself
- * it may also be back from the plot, but then drivers do not tell where it is: it may have been moved there by hand.
- */
-function isSettingOut(strokes: StrokeSet, journal: Place, pen: PenPlace, nearMm: number): boolean {
-  const { xy, offsets } = strokes;
-  const { x, y } = pointOfPlace(strokes, journal);
-  const isTravellingFrom = (fromX: number, fromY: number): boolean =>
-    nearest(fromX, fromY, x, y, pen).awayMm <= nearMm;
-  if (isTravellingFrom(0, 0)) return true;
-  const start = 2 * offsets[journal.stroke];
-  return journal.alongMm === 0 && journal.stroke > 0 && isTravellingFrom(xy[start - 2], xy[start - 1]);
 }
 
 /**
@@ -126,70 +121,52 @@ function isLanding(
   pen: PenPlace,
   { landingMm, nearMm, alongMm }: { landingMm: number; nearMm: number; alongMm: number | null },
 ): boolean {
-  const { xy, offsets } = strokes;
-  const start = 2 * offsets[stroke];
-  const awayMm = Math.hypot(xy[start] - pen.x, xy[start + 1] - pen.y);
-  const travel = [xy[start - 2], xy[start - 1], xy[start], xy[start + 1]] as const;
-  const travelMm = stroke === 0 ? Infinity : nearest(...travel, pen).awayMm;
+  const start = pointOfPlace(strokes, { stroke, alongMm: 0 });
+  const awayMm = distance(start, pen);
+  const before = stroke === 0 ? null : pointOfPlace(strokes, { stroke: stroke - 1, alongMm: Infinity });
+  const travelMm = before ? nearest(before, start, pen).awayMm : Infinity;
   if (awayMm > LANDING_MM) return awayMm <= landingMm && travelMm <= nearMm;
   if (alongMm === null) return true;
-  const { x, y } = pointOfPlace(strokes, { stroke, alongMm });
-  return travelMm <= Math.hypot(x - pen.x, y - pen.y) + STEP_MM;
+  return travelMm <= distance(pointOfPlace(strokes, { stroke, alongMm }), pen) + STEP_MM;
 }
 
 /**
- * The same if the server ended while the board kept running. The board has played everything that it received. So it
- * stopped after `sent`, the place up to which commands had been sent at the journal's last entry, and earlier places
- * where the line crosses itself are excluded. Null if the pen is up, or if nothing matches because not everything that
- * was sent has arrived.
+ * Where a stroke first passes within `nearMm` of a point, mm along the stroke, between two places; null if it does not.
+ * Of a pass, the first point counts at which the distance no longer falls.
  */
-export function placeBehindSent(
-  strokes: StrokeSet,
-  sent: Place,
-  pen: PenPlace,
-  since: Omit<SinceThen, "stops">,
-): Place | null {
-  if (pen.up) return null;
-  const fromHere = { ...sent, alongMm: Math.max(0, sent.alongMm - nearMmOf(since.leavesMm ?? 0)) };
-  return firstMatch(strokes, fromHere, pen, since);
-}
-
-/** Where a stroke first passes within `nearMm` of a point after `fromMm`, mm along the stroke; null if it does not. */
-function alongOf(
+function firstPass(
   { xy, offsets }: StrokeSet,
   stroke: number,
-  fromMm: number,
+  [fromMm, toMm]: readonly [number, number],
   point: Point,
   nearMm: number,
 ): number | null {
+  const last = offsets[stroke + 1] - 1;
+  const at = (i: number): Point => ({ x: xy[2 * i], y: xy[2 * i + 1] });
   let startMm = 0;
   let passMm: number | null = null;
-  let gapMm = nearMm;
-  const last = offsets[stroke + 1] - 1;
   // A dot is a piece of zero length.
-  for (let i = offsets[stroke]; i < Math.max(last, offsets[stroke] + 1); i++) {
-    const j = Math.min(i + 1, last);
-    const piece = [xy[2 * i], xy[2 * i + 1], xy[2 * j], xy[2 * j + 1]] as const;
-    const lengthMm = Math.hypot(piece[2] - piece[0], piece[3] - piece[1]);
-    const { share, awayMm } = nearest(...piece, point);
-    const isAfter = startMm + share * lengthMm >= fromMm - nearMm;
-    if (isAfter && awayMm <= gapMm) {
-      passMm = startMm + share * lengthMm;
-      gapMm = awayMm;
+  for (let i = offsets[stroke]; i < Math.max(last, offsets[stroke] + 1) && startMm <= toMm; i++) {
+    const [from, to] = [at(i), at(Math.min(i + 1, last))];
+    const lengthMm = distance(from, to);
+    const { share, awayMm } = nearest(from, to, point);
+    const alongMm = startMm + share * lengthMm;
+    // At the start of a piece the distance was already reached at the end of the piece before.
+    if (passMm !== null && share === 0) return passMm;
+    if (awayMm <= nearMm && alongMm >= fromMm && alongMm <= toMm) {
+      if (share < 1) return alongMm;
+      passMm = alongMm;
     } else if (passMm !== null) return passMm;
     startMm += lengthMm;
   }
   return passMm;
 }
 
+const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
+
 /** The nearest point of a segment as a share of its length, and its distance. */
-function nearest(
-  x0: number,
-  y0: number,
-  x1: number,
-  y1: number,
-  { x, y }: Point,
-): { share: number; awayMm: number } {
-  const share = nearestShare(x0, y0, x1, y1, x, y);
-  return { share, awayMm: Math.hypot(x0 + share * (x1 - x0) - x, y0 + share * (y1 - y0) - y) };
+function nearest(from: Point, to: Point, { x, y }: Point): { share: number; awayMm: number } {
+  const share = nearestShare(from.x, from.y, to.x, to.y, x, y);
+  const awayMm = Math.hypot(from.x + share * (to.x - from.x) - x, from.y + share * (to.y - from.y) - y);
+  return { share, awayMm };
 }

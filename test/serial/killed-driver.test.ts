@@ -59,10 +59,10 @@ async function killedAfter(firmware: string, afterS: number): Promise<number> {
     await waitS(afterS);
     child.kill("SIGKILL");
     await once(child, "exit");
-    const { place: from, sent } = journal[journal.length - 1];
+    const { place: from, received } = journal[journal.length - 1];
     await driver.start();
     await untilIdle(driver);
-    const run = await driver.plot(new LocalPlanner(STROKES), DEFAULT_PLOT_SETTINGS, { from, sent });
+    const run = await driver.plot(new LocalPlanner(STROKES), DEFAULT_PLOT_SETTINGS, { from, received });
     await run.resume();
     expect(await run.finished).toEqual({ kind: "done" });
     const { drawn } = await board.report();

@@ -62,6 +62,7 @@ async function plotWith(fault: Fault, firmware: string, atCommand: number) {
     for (let s = 0; s < LIMIT_S && driver.state.connection !== "idle"; s += 0.05) await world.advance(0.05);
     const plotting = driver.plot(new LocalPlanner(STROKES), DEFAULT_PLOT_SETTINGS, {
       from: journal.at(-1)?.place,
+      received: journal.at(-1)?.received,
       held: false,
       journal: { record: (entry) => journal.push(entry) },
     });

@@ -206,8 +206,8 @@ describe("an interrupted plot", () => {
     await world.advance(5);
     expect(driver.state.connection).toBe("idle");
     expect(driver.state.xMm).not.toBeNull();
-    const { place } = journal[journal.length - 1];
-    const run = await world.run(driver.plot(planner, SETTINGS, { from: place }));
+    const { place, received } = journal[journal.length - 1];
+    const run = await world.run(driver.plot(planner, SETTINGS, { from: place, received }));
     await world.advance(2);
     const linesBefore = drawn(board).length;
     await world.advance(2);

@@ -85,7 +85,7 @@ async function newPlot(firmware: string, strokes: StrokeSet) {
   const plot = (start: PlotStart): Promise<LivePlotRun> =>
     world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, { ...start, journal: { record } }));
   const resumedGapMm = async (): Promise<number> => {
-    const again = await plot({ from: journal.at(-1)?.place });
+    const again = await plot({ from: journal.at(-1)?.place, received: journal.at(-1)?.received });
     await world.run(again.resume());
     expect(await world.run(again.finished)).toEqual({ kind: "done" });
     return compareDrawn(strokes, board.drawn()).gapMm;

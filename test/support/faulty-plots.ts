@@ -60,7 +60,8 @@ export async function plotWithFault(
     const journal: JournalEntry[] = [];
     const start = (): Promise<LivePlotRun> =>
       driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, {
-        from: journal[journal.length - 1]?.place,
+        from: journal.at(-1)?.place,
+        received: journal.at(-1)?.received,
         journal: { record: (entry) => journal.push(entry) },
       });
     const { sleptS: sleptBeforeS } = await board.report();

@@ -54,6 +54,8 @@ export class EbbRun implements MachineRun {
   readonly progress = new RunProgress<EbbPart>();
 
   private streamer: Streamer | null = null;
+  /** The part with which the current play began. */
+  private firstPart: EbbPart | null = null;
   private readonly strokes: StrokeSet;
   private readonly events: RunEvents;
   /** The error with which an emergency stop ends the current play. */
@@ -89,12 +91,12 @@ export class EbbRun implements MachineRun {
     return this.streamer?.isSwitching ?? false;
   }
 
-  /** The place where the next command to be sent begins. */
-  get sentPlace(): Place | undefined {
-    const { streamer } = this;
-    if (!streamer?.playing) return undefined;
-    const { trajectory, commands, next } = this.progress.partOf(streamer.nextStream);
-    return placeAt(trajectory, commands.planS[streamer.nextIndex]) ?? next ?? undefined;
+  get receivedPlace(): Place | undefined {
+    const at = this.streamer?.receivedPlace();
+    if (!at || !this.progress.knows(at.stream)) return undefined;
+    const { trajectory, next } = this.progress.partOf(at.stream);
+    const isFirstTravel = at.stream === this.firstPart?.commands && at.planS <= firstStrokeS(trajectory);
+    return isFirstTravel ? undefined : (placeAt(trajectory, at.planS) ?? next ?? undefined);
   }
 
   /** Plays a plan to its end, or to a hold, with the pen up at first; `afterS`: time of the plot after this plan. */
@@ -106,7 +108,8 @@ export class EbbRun implements MachineRun {
     if (this.failure) throw this.failure;
     const { trajectory: whole } = plot;
     const commands = streamOf(plot.commands);
-    this.progress.add({ trajectory: whole, commands, start: carriage.state!, afterS });
+    this.firstPart = { trajectory: whole, commands, start: carriage.state!, afterS };
+    this.progress.add(this.firstPart);
     this.certain = placeAt(whole, commands.planS[0]);
     const streamer = carriage.streamer(this.settings, (at) => this.reached(at));
     const played = carriage.play(streamer, plot, this.settings);
@@ -141,8 +144,8 @@ export class EbbRun implements MachineRun {
         throw error;
       }
     } finally {
-      this.streamer = null;
       this.events.ended(left);
+      this.streamer = null;
     }
     if (this.wasStopped() && carriage.penUp !== true) await carriage.movePen(true, this.settings);
   }
@@ -170,8 +173,8 @@ export class EbbRun implements MachineRun {
   /** Stops the motors for good: the current play, or the next one, fails with the error. */
   fail(error: PlotwrightError): void {
     this.failure = error;
-    this.carriage.connection.session.write([{ line: "ES" }]);
-    this.streamer?.abandon(error);
+    if (this.streamer) this.streamer.halt(error);
+    else this.carriage.connection.session.write([{ line: "ES" }]);
   }
 
   /**
@@ -365,6 +368,12 @@ function downPctAt({ penMoves }: Trajectory, tS: number): number {
   let drop = up.indexOf(0);
   for (let i = drop + 1; i < count && startS[i] < tS; i++) if (up[i] === 0) drop = i;
   return heightPct[drop];
+}
+
+/** When the first stroke begins. */
+function firstStrokeS({ runs }: Trajectory): number {
+  const run = runs.stroke.findIndex((stroke) => stroke >= 0);
+  return run < 0 ? Infinity : runs.startS[run];
 }
 
 const isWithinStroke = (strokes: StrokeSet, { stroke, alongMm }: Place): boolean =>

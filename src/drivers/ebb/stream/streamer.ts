@@ -64,6 +64,8 @@ export class Streamer {
   private cancelPoll: (() => void) | null = null;
   private ending = false;
   private failure: PlotwrightError | null = null;
+  /** The board's queue was cleared. */
+  private isStopped = false;
   private stop: StopNotes | null = null;
   private settle: { resolve(report: StreamReport): void; reject(error: PlotwrightError): void } | null = null;
 
@@ -144,7 +146,17 @@ export class Streamer {
   place(): StreamPlace {
     const boardS = this.timeline.boardS();
     const entry = this.timeline.at(boardS);
-    if (entry) return placeIn(entry, boardS);
+    return entry ? placeIn(entry, boardS) : this.endOfWritten();
+  }
+
+  /** The end of what the board has acknowledged and plays unless it is stopped; null after a stop at once. */
+  receivedPlace(): StreamPlace | null {
+    if (this.isStopped) return null;
+    const entry = this.timeline.unacknowledged;
+    return entry ? placeIn(entry, entry.startS) : this.endOfWritten();
+  }
+
+  private endOfWritten(): StreamPlace {
     if (this.lastWritten) {
       const { stream, commandIndex } = this.lastWritten;
       return { stream, commandIndex, planS: stream.planS[commandIndex + 1] };
@@ -169,17 +181,19 @@ export class Streamer {
         if (!failed) take(reply);
       },
     });
-    this.session.write([
+    this.clearQueue([
       note(query, (reply) => (stop.waitingCount = waitingCount(query, reply))),
       note("ES", (reply) => (stop.stepsLeft = stepsLeft(reply))),
-      ...this.lift(),
     ]);
     this.abandon(error);
   }
 
-  private lift(): Outgoing[] {
+  /** Writes lines that clear the board's queue, and lifts the pen. A lost connection carries them no more. */
+  private clearQueue(lines: readonly Outgoing[]): void {
+    this.isStopped ||= this.session.failure === null;
     const { liftLine: line } = this.options;
-    return line === undefined ? [] : [{ line, waitS: this.timeline.longestS() }];
+    const lift = line === undefined ? [] : [{ line, waitS: this.timeline.longestS() }];
+    this.session.write([...lines, ...lift]);
   }
 
   /** Where the board was at the emergency stop; null if no command had run. */
@@ -414,7 +428,7 @@ export class Streamer {
 
   /** `abandon`, and clears the board's queue: its commands must not be drawn if the board recovers. */
   halt(error: PlotwrightError): void {
-    this.session.write([{ line: "ES" }, ...this.lift()]);
+    this.clearQueue([{ line: "ES" }]);
     this.abandon(error);
   }
 

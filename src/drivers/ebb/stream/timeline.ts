@@ -96,6 +96,11 @@ export class BoardTimeline {
     return this.recent().find((entry) => boardS < entry.endS);
   }
 
+  /** The first command that the board has not acknowledged. */
+  get unacknowledged(): InFlight | undefined {
+    return this.entry(this.ackedCount);
+  }
+
   /** Max time that the board may take to reply: its queue frees a slot when a command ends. */
   longestS(): number {
     let longestS = 0;

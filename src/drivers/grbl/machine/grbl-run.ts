@@ -61,10 +61,8 @@ export class GrblRun implements MachineRun {
     return this.current;
   }
 
-  get sentPlace(): Place | undefined {
-    if (!this.current || this.current.stream.isOver) return undefined;
-    return placeAt(this.current.plot.trajectory, this.current.stream.sentS) ?? undefined;
-  }
+  /** A Grbl that is connected again has lost its position, so a later place than the journal's is of no use. */
+  readonly receivedPlace = undefined;
 
   now(): PlotProgress | null {
     if (!this.current) return null;

@@ -55,11 +55,6 @@ export class LineStream {
     });
   }
 
-  /** Start of the next line to send, seconds along the plan. */
-  get sentS(): number {
-    return this.commands.planS[this.next];
-  }
-
   /** Estimated position, seconds along the plan: no further than the accepted lines. */
   get planS(): number {
     const { planS } = this.commands;

@@ -1,0 +1,88 @@
+/**
+ * An interruption at any instant of a plot: by a kill, or by a lost connection after which the board may have received
+ * any part of what was sent. Nothing is left out, and no more is drawn twice than what the board had not yet
+ * acknowledged, as far as the host knew. In the full run at 4 000 instants on each firmware.
+ */
+import { describe, expect, it } from "vitest";
+import { JOURNAL_S, PROGRESS_S } from "../../host/plotter/place-left.js";
+import type { StrokeSet } from "../../src/index.js";
+import { leavesDrawingMm, machineOf } from "../../src/internal.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { cases, IS_FULL } from "../support/full-run.js";
+import { InterruptiblePlot, type Resumption } from "../support/interruptions.js";
+import { seeded } from "../support/live-plot.js";
+import { RETRACED_DRAWINGS } from "../support/retraced-drawings.js";
+import { sampleStrokes } from "../support/sample-strokes.js";
+import { inQuality, SPRINGS, swinging } from "../support/swinging.js";
+
+const SAMPLES = [
+  "flower-meadow",
+  "harmonograph",
+  "hello-paper",
+  "moonrise",
+  "three-colour-hills",
+  "whirling-triangles",
+];
+const DRAWINGS: readonly (readonly [string, () => StrokeSet])[] = [
+  ...Object.entries(RETRACED_DRAWINGS).map(([name, strokes]) => [name, () => strokes] as const),
+  ...SAMPLES.map((name) => [name, () => sampleStrokes(name)] as const),
+];
+/** On each drawing. */
+const INSTANTS = cases(250, 12);
+/** The short run plots only the beginning. */
+const LONGEST_S = IS_FULL ? Infinity : 10;
+
+/** Rounded corners, and a pen that is lifted just before the end of a stroke. */
+const UNSEEN_MM = 0.1;
+
+const SHAPED: PlotSettings = {
+  ...DEFAULT_PLOT_SETTINGS,
+  motion: inQuality("fast", SPRINGS[0]),
+  machine: "axidraw-v3",
+  customMachine: swinging(SPRINGS[0]),
+};
+/** The place of a shaped carriage along the line differs by up to as much from the pen's. */
+const SHAPED_MM = 0.3;
+
+async function interruptedAnywhere(strokes: StrokeSet, settings: PlotSettings, firmware: string) {
+  const random = seeded(strokes.xy.length);
+  const plot = await InterruptiblePlot.begin(strokes, settings, firmware);
+  const spanS = Math.min(plot.totalS, LONGEST_S);
+  const instants = Array.from({ length: INSTANTS }, () => random() * spanS).sort((a, b) => a - b);
+  const found: Resumption[] = [];
+  let nowS = 0;
+  for (const atS of instants) {
+    await plot.advance(atS - nowS);
+    nowS = atS;
+    if (plot.isDone) break;
+    found.push(plot.killed(), ...plot.disconnected());
+  }
+  return found;
+}
+
+const overlapOf = ({ missingMm }: Resumption): number => Math.max(0, -missingMm);
+
+function check(found: readonly Resumption[], settings: PlotSettings, unseenMm: number): void {
+  const { motion, sendAheadMs } = settings;
+  const unsureS = sendAheadMs / 1_000 + JOURNAL_S + PROGRESS_S;
+  const mostMm = motion.draw.speedMmPerS * unsureS + unseenMm;
+  // Two passes as near to each other as the carriage may leave the line count as one.
+  const alikeMm = unseenMm + 2 * leavesDrawingMm(motion, machineOf(settings));
+  expect(found.length).toBeGreaterThanOrEqual(INSTANTS);
+  expect(found.filter(({ missingMm }) => missingMm > unseenMm)).toEqual([]);
+  expect(found.filter((one) => overlapOf(one) > one.unsureMm + alikeMm)).toEqual([]);
+  expect(found.filter((one) => overlapOf(one) > mostMm)).toEqual([]);
+}
+
+describe.each(["2.8.1", "3.0.3"])("a plot on firmware %s that is interrupted at any instant", (firmware) => {
+  it.each(DRAWINGS)("leaves out nothing of %s", { timeout: 300_000 }, async (_, strokes) => {
+    const found = await interruptedAnywhere(strokes(), DEFAULT_PLOT_SETTINGS, firmware);
+    check(found, DEFAULT_PLOT_SETTINGS, UNSEEN_MM);
+  });
+
+  it.each(DRAWINGS.slice(0, IS_FULL ? undefined : 3))(
+    "leaves out nothing of %s in shaped motion",
+    { timeout: 300_000 },
+    async (_, strokes) => check(await interruptedAnywhere(strokes(), SHAPED, firmware), SHAPED, SHAPED_MM),
+  );
+});
