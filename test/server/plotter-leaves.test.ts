@@ -124,13 +124,13 @@ describe("a plot that is interrupted", () => {
       expect(await world.run(run.finished)).toEqual({ kind: "cancelled" });
       expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
       const { xMm, yMm } = board.state();
-      const { place: from, sent } = journal.at(-1) ?? { place: null };
-      expect(sent ?? null).toEqual(from);
+      const { place: from, received } = journal.at(-1) ?? { place: null, received: undefined };
+      expect(received).toBeUndefined();
       const begun = board.drawn().length;
       await world.advance(5);
       expect([board.drawn().length, board.state()]).toEqual([begun, expect.objectContaining({ xMm, yMm })]);
       const resumed = await world.run(
-        driver.plot(new LocalPlanner(DRAWING), settingsOf("scurve"), { from, sent, held: false }),
+        driver.plot(new LocalPlanner(DRAWING), settingsOf("scurve"), { from, held: false }),
       );
       expect(await world.run(resumed.finished)).toEqual({ kind: "done" });
       expectDrawn(board, DRAWING, 0.05);
@@ -148,7 +148,6 @@ describe("a plot that is interrupted", () => {
     const next = await world.run(
       driver.plot(endless, settingsOf("scurve"), {
         from: place,
-        sent: place,
         held: false,
         journal: { record: (entry) => journal.push(entry) },
       }),
@@ -156,7 +155,7 @@ describe("a plot that is interrupted", () => {
     await world.advance(2);
     await world.run(next.interrupt());
     expect(await world.run(next.finished)).toEqual({ kind: "cancelled" });
-    expect(journal.at(-1)).toMatchObject({ place, sent: place });
+    expect(journal.at(-1)).toMatchObject({ place, received: undefined });
     expect(board.state()).toMatchObject({ penUp: true, isBusy: false });
   });
 
