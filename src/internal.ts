@@ -135,8 +135,16 @@ export type { StreamOptions } from "./drivers/ebb/stream/stream-types.js";
 export { controllerOf, driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
 export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";
-export type { Driver, Machine, MachineEvents, MachineRun, UsbId, VirtualMachine } from "./drivers/driver.js";
-export { moveStopped, powerLost, powerLow } from "./drivers/faults.js";
+export type {
+  Driver,
+  Machine,
+  MachineEvents,
+  MachineRun,
+  SupplyState,
+  UsbId,
+  VirtualMachine,
+} from "./drivers/driver.js";
+export { moveStopped, powerFailed, powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
 

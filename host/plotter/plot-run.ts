@@ -368,8 +368,10 @@ export class MachinePlot implements LivePlotRun {
     try {
       await this.#machine.walk(0, 0, this.#settings.current);
     } catch (error) {
-      // An emergency stop on the way home: the carriage stays where it is.
-      if (!(error instanceof PlotwrightError && error.code === "conflict")) throw error;
+      // After an emergency stop, and if home is lost, the carriage stays where it is.
+      if (!(error instanceof PlotwrightError)) throw error;
+      const isHomeLost = error.code === "board-error" && !this.#machine.state;
+      if (error.code !== "conflict" && !isHomeLost) throw error;
     }
     return { kind: "cancelled" };
   }

@@ -10,6 +10,7 @@ import { PlotwrightError, type Clock } from "../../src/index.js";
 import {
   controllerOf,
   driverOf,
+  powerFailed,
   powerLost,
   powerLow,
   type Machine,
@@ -60,7 +61,7 @@ export class PlotterDriver {
     this.#clock = options.clock;
     this.#supply = new SupplyWatch(options.clock, {
       mayAsk: () => !this.#movingByHand && (this.#run === null || this.#run.isHeld),
-      lost: () => this.#powerLost(),
+      lost: (isBack) => this.#powerLost(isBack),
       restored: () => {
         if (this.#closed) return;
         this.#setState({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) });
@@ -276,7 +277,7 @@ export class PlotterDriver {
         events: {
           changed: () => this.#machineChanged(),
           buttonPressed: () => void this.#run?.pause().catch(() => undefined),
-          supplyRead: (isLow) => this.#supply.read(isLow),
+          supplyRead: (state) => this.#supply.read(state),
           lost: (error) => this.#lost(error),
         },
       });
@@ -351,10 +352,10 @@ export class PlotterDriver {
     this.#machineChanged();
   }
 
-  /** Resolves when the motors are released. */
-  async #powerLost(): Promise<void> {
-    this.#run?.fail(powerLost());
-    this.#setState({ connection: "fault", message: powerLow().message });
+  /** Resolves when the motors are released. `isBack`: the supply failed only for a moment. */
+  async #powerLost(isBack: boolean): Promise<void> {
+    this.#run?.fail(isBack ? powerFailed() : powerLost());
+    this.#setState({ connection: "fault", message: (isBack ? powerFailed() : powerLow()).message });
     const settings = this.#settings;
     const machine = this.#machine;
     // A manual move, or the way home of a cancelled plot.

@@ -1,14 +1,17 @@
 /** Watches the motor supply of a connected machine. Asking also detects a board that no longer answers. */
 import type { Clock } from "../../src/index.js";
-import type { Machine } from "../../src/internal.js";
+import type { Machine, SupplyState } from "../../src/internal.js";
 
 const ASK_EVERY_S = 2;
 
 interface SupplyEvents {
   /** Whether the machine is free to be asked. */
   mayAsk(): boolean;
-  /** Resolves when the motors are released. Before that the supply does not count as restored. */
-  lost(): Promise<void>;
+  /**
+   * Resolves when the motors are released. Before that the supply does not count as restored. `isBack`: it failed only
+   * for a moment.
+   */
+  lost(isBack: boolean): Promise<void>;
   restored(): void;
 }
 
@@ -47,8 +50,9 @@ export class SupplyWatch {
    * A reading that came during a plot. Only two low ones in a row count: with a second program on the port, an answer
    * may be mistaken.
    */
-  read(isLow: boolean): void {
-    if (isLow && this.#wasReadLow) this.#lost();
+  read(state: SupplyState): void {
+    const isLow = state === "low";
+    if (state === "failed" || (isLow && this.#wasReadLow)) this.#lost(!isLow);
     this.#wasReadLow = isLow;
   }
 
@@ -66,17 +70,19 @@ export class SupplyWatch {
 
   async #ask(machine: Machine): Promise<void> {
     await this.#released;
-    const isLow = (await machine.isSupplyLow()) && (await machine.isSupplyLow());
-    if (isLow) this.#lost();
+    let state = await machine.supply();
+    if (state === "low") state = await machine.supply();
+    // After a failure that is known, the board also reports that the supply was low until now.
+    if (state === "low" || (state === "failed" && !this.#isLow)) this.#lost(state === "failed");
     else if (this.#isLow) {
       this.#isLow = false;
       this.#events.restored();
     }
   }
 
-  #lost(): void {
+  #lost(isBack: boolean): void {
     if (this.#isLow) return;
     this.#isLow = true;
-    this.#released = this.#events.lost();
+    this.#released = this.#events.lost(isBack);
   }
 }

@@ -62,11 +62,14 @@ export interface MachineEvents {
   changed(): void;
   /** The button on the machine was pressed during a plot. */
   buttonPressed(): void;
-  /** One reading of the motors' supply during a plot. A single reading may be wrong. */
-  supplyRead(isLow: boolean): void;
+  /** One reading of the motors' supply during a plot. A single "low" may be wrong. */
+  supplyRead(state: SupplyState): void;
   /** The connection or the controller has failed; this object cannot be used any more. */
   lost(error: PlotwrightError): void;
 }
+
+/** The motors' supply. "failed": it is good, but has failed since the last reading, as far as the board notices that. */
+export type SupplyState = "good" | "low" | "failed";
 
 export interface VirtualMachineOptions {
   readonly clock: Clock;
@@ -138,8 +141,8 @@ export interface Machine {
    */
   readonly stopCount: number;
 
-  /** Queries the machine; false if it cannot measure its supply. */
-  isSupplyLow(): Promise<boolean>;
+  /** Queries the machine; "good" if it cannot measure its supply. */
+  supply(): Promise<SupplyState>;
   /** How long the motors may keep running after an emergency stop. */
   emergencyStopMs(settings: MachineSettings): number;
   /** Sends a line that the user typed. Rejects with `bad-setting` for a line that would break the communication. */

@@ -28,6 +28,12 @@ export const silent = (waitingFor: string): PlotwrightError =>
     `The board has stopped answering (waiting on ${waitingFor}): check its USB cable and power, and that no other program uses the port.`,
   );
 
+export const stuck = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "The board answers but does not finish its motion: press its reset button or unplug it, set home and plot again.",
+  );
+
 /**
  * Added to a message if the plot resumes from the last good reading: part of the line after it may already be drawn.
  */
@@ -35,6 +41,13 @@ const MAY_OVERLAP = "Its line may overlap a little where it resumes.";
 
 export const powerLost = (): PlotwrightError =>
   new PlotwrightError("board-error", `${powerLow().message} ${MAY_OVERLAP}`);
+
+export const powerFailed = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "The motors had no power, or too little, for a moment: check the plotter's power supply, its plug and its switch. " +
+      `The carriage is no longer where the board counts it, so push it to home before you resume. ${MAY_OVERLAP}`,
+  );
 
 export const boardRestarted = (): PlotwrightError =>
   new PlotwrightError(

@@ -151,3 +151,29 @@ describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
     },
   );
 });
+
+it(
+  "a supply that fails for 0.1 to 0.3 s on firmware 3.0.3 is always found, and leaves no gap",
+  { timeout: 60_000 + 60_000 * COUNT },
+  async () => {
+    const random = seeded(4_000_037);
+    const brief: Fault = {
+      name: "the motors' supply off for a moment",
+      happen: async (board) => {
+        board.tell({ type: "volts", volts: 0 });
+        await waitS(0.1 + 0.2 * random());
+        board.tell({ type: "volts", volts: 9.1 });
+      },
+    };
+    const wrong: unknown[] = [];
+    for (let i = 0; i < COUNT; i++) {
+      const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
+      const { gapMm, overlapMm, outcomes } = await plotWithFault(brief, "3.0.3", afterS, random);
+      const isFound = /no power, or too little/.test(outcomes[0]) && outcomes[1] === "done";
+      if (!isFound || gapMm > MOST_MM || overlapMm > SUPPLY_MM) {
+        wrong.push({ afterS, gapMm, overlapMm, outcomes });
+      }
+    }
+    expect(wrong).toEqual([]);
+  },
+);

@@ -10,6 +10,7 @@ describe("a line for the board", () => {
         "changes how it answers",
         ["CU,1,0", "CU,01,0", "cu,001,0", "CU,10,1", "CU,0010,1", "CU,54,1", "CU,251,1"],
       ],
+      ["changes how the board watches its supply", ["CU,60,0", "cu,060,250"]],
       ["sets its queue", ["CU,4,0", "CU,4", "CU,04,-1", "CU,004,32"]],
       [
         "has numbers that may be read differently",
@@ -37,7 +38,6 @@ describe("a line for the board", () => {
     "sp,0",
     "SM,1000,80,-80",
     "EM,1,1",
-    "CU,60,250",
     "CU,3,1",
     "ST,My plotter",
     "LM,85899346,100,0,85899346,-100,0",

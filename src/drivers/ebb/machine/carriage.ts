@@ -10,8 +10,8 @@ import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { sFromTicks } from "../../../units.js";
-import type { MachineEvents } from "../../driver.js";
-import { boardRestarted, moveStopped } from "../../faults.js";
+import type { MachineEvents, SupplyState } from "../../driver.js";
+import { boardRestarted, moveStopped, powerFailed, powerLost, stuck } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { delay } from "../../transport.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
@@ -23,17 +23,26 @@ import { queueDepthOf } from "../protocol/firmware.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
-import { maxAheadS, Streamer, stuck } from "../stream/streamer.js";
+import { maxAheadS, Streamer } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
 import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
 import { PlaceMark } from "./place-mark.js";
-import { isButtonPressed, isPowerLow, pollLines } from "./readings.js";
+import {
+  isButtonPressed,
+  isPowerLow,
+  MotorSupply,
+  pollLines,
+  SUPPLY_LINES,
+  SupplyPolls,
+} from "./readings.js";
 
 /** Allowance for the connection, the board and this computer. */
 const ANSWER_MS = 30;
 /** Interval at which the board's button and queue are polled during a plot. */
 const POLL_S = 0.25;
+/** The same for the supply, if the board does not notice its failures by itself. */
+const SUPPLY_S = 0.05;
 /** Tolerated overrun of the planned time, seconds of this computer. */
 const STUCK_S = 2;
 /** How long a newly connected board may keep moving. */
@@ -62,27 +71,39 @@ export class Carriage {
   /** The motors' microsteps while their position is known. */
   private microstepMode = 0;
   private readonly mark: PlaceMark;
+  readonly motorSupply: MotorSupply;
   private readonly queueDepth: number;
 
   constructor(
     readonly connection: Connection,
     private readonly events: MachineEvents,
   ) {
-    this.mark = new PlaceMark(connection.session, connection.features);
-    this.queueDepth = queueDepthOf(connection.features);
+    const { session, features } = connection;
+    this.mark = new PlaceMark(session, features);
+    this.motorSupply = new MotorSupply(session, features, (state) => this.events.supplyRead(state));
+    this.queueDepth = queueDepthOf(features);
   }
 
   /** Called after connecting. A board that was not restarted still has the position in its counters. */
   async takeOver(): Promise<void> {
-    const { session, features } = this.connection;
-    if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
+    const { features } = this.connection;
     if (features.hasStepQuery) await this.untilStill();
+    // Before `configure`, which begins a new watch.
+    if (features.hasSupplyLatch && (await this.motorSupply.hasFailed())) await this.mark.clear();
+    await this.configure();
     this.microstepMode = await this.mark.markedMode();
     if (this.microstepMode !== 0) {
       await this.findPlace();
       this.motorsOn = true;
     }
     await this.liftWhereLeft();
+  }
+
+  /** Sets what the board forgets when it restarts. */
+  private async configure(): Promise<void> {
+    const { session, features } = this.connection;
+    if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
+    if (features.hasSupplyLatch) await this.motorSupply.watch();
   }
 
   /**
@@ -154,10 +175,14 @@ export class Carriage {
     const machine = machineOf(settings);
     const { state, microstepMode } = this;
     const wanted = ebbOf(machine).microstepMode;
-    // It may have restarted while it was at rest, when nothing is polled.
-    if (state && (await this.mark.isGone())) return this.restarted(settings);
-    if (state && microstepMode === wanted) return state;
+    // It may have restarted, or its supply may have failed, while it was at rest, when nothing is polled.
+    if (state && (await this.mark.isGone())) return this.placeLost(boardRestarted(), settings);
     const { session, features } = this.connection;
+    // Asked also while the position is unknown: a failure before this does not concern the motion after it.
+    const supply = features.hasSupplyLatch ? await this.motorSupply.state() : "good";
+    const why = supply === "low" ? powerLost() : powerFailed();
+    if (state && supply !== "good") return this.placeLost(why, settings);
+    if (state && microstepMode === wanted) return state;
     for (const line of setUpCommands(machine, settings.pen, features.version)) await session.send(line);
     // Each mode has half as many steps as the one before.
     const share = state ? 2 ** (microstepMode - wanted) : 0;
@@ -201,21 +226,26 @@ export class Carriage {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
     const lines = pollLines(features, this.mark.query);
-    const places = new CertainPlace(features, this.origin, lines[lines.length - 1]);
+    const lastLine = lines[lines.length - 1];
+    const places = new CertainPlace(features, this.origin, lastLine);
+    const supply = new SupplyPolls(session, features, lastLine);
     const streamer = new Streamer(session, {
       clock: boardClock,
       windowS: (settings.sendAheadMs / 1_000) * speed,
       queueDepth: this.queueDepth,
       poll: { lines, everyS: POLL_S * speed },
+      between: features.hasSupplyLatch ? undefined : { lines: SUPPLY_LINES, everyS: SUPPLY_S * speed },
       stuckS: STUCK_S * waitSpeed,
       liftLine: penCommand(machineOf(settings), penMoveOf(settings.pen, true), 0),
       origin: this.origin,
       onPoll: (line, reply, asked) => {
+        const failure = supply.answered(line, reply);
         if (line === this.mark.query && Number(reply) === 0) void this.checkRestart(streamer);
         else {
           const at = places.answered(line, reply, asked, streamer);
-          if (at) certain(at);
+          if (at && !failure) certain(at);
         }
+        if (failure === "failed") this.events.supplyRead(failure);
         if (line !== "QS") this.polled(line, reply);
         else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) streamer.halt(stuck());
       },
@@ -234,15 +264,15 @@ export class Carriage {
   /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed home. */
   async release(settings: MachineSettings): Promise<void> {
     await this.untilStill();
-    if (this.queueDepth > 1) await this.connection.session.send(`CU,4,${this.queueDepth}`);
+    await this.configure();
     await this.movePen(true, settings);
     await this.motorsOff();
   }
 
-  private async restarted(settings: MachineSettings): Promise<never> {
+  private async placeLost(why: PlotwrightError, settings: MachineSettings): Promise<never> {
     this.state = null;
     await this.release(settings).catch(() => undefined);
-    throw boardRestarted();
+    throw why;
   }
 
   /** Plays a plan on a streamer of this carriage, to its end or to a cut. */
@@ -262,7 +292,7 @@ export class Carriage {
       else if (this.state && (await this.mark.isGone().catch(() => false))) this.hasRestarted = true;
       if (!this.hasRestarted) throw error;
       this.hasRestarted = false;
-      return await this.restarted(settings);
+      return await this.placeLost(boardRestarted(), settings);
     } finally {
       this.playing = null;
       this.underrunCount += streamer.underrunCount;
@@ -380,21 +410,14 @@ export class Carriage {
     this.events.changed();
   }
 
-  async isSupplyLow(): Promise<boolean> {
-    return isPowerLow("QC", await this.connection.session.query("QC"));
-  }
-
-  /** Reads the supply as a poll during a plot does. */
-  async pollSupply(): Promise<boolean> {
-    const isLow = await this.isSupplyLow();
-    this.events.supplyRead(isLow);
-    return isLow;
+  supply(): Promise<SupplyState> {
+    return this.motorSupply.state();
   }
 
   /** Handles the answers that arrive while a stream plays. */
   private polled(line: string, reply: string): void {
     if (isButtonPressed(line, reply)) this.events.buttonPressed();
-    if (line === "QC") this.events.supplyRead(isPowerLow(line, reply));
+    if (line === "QC") this.events.supplyRead(isPowerLow(line, reply) ? "low" : "good");
   }
 
   private misplaced(report: StreamReport): never {

@@ -10,8 +10,8 @@ export const LONGEST_S = 120;
 
 const TOO_LONG = `it would move for more than ${LONGEST_S} s`;
 
-/** First numbers of CU that are allowed; all others change how the board answers, counts or moves. */
-const HARMLESS_SWITCHES = [3, 60];
+/** First numbers of CU that are allowed; all others change how the board answers, counts, moves or watches its supply. */
+const HARMLESS_SWITCHES = [3];
 
 type Rule = (numbers: readonly number[]) => string | null;
 
@@ -28,7 +28,9 @@ const RULES: Readonly<Record<string, Rule>> = {
   C: never("it would change the pins that drive the motors"),
   MW: never("it would write to the board's memory"),
   CU: ([which = 0]) =>
-    HARMLESS_SWITCHES.includes(which) ? null : "it would change how the board answers or moves",
+    HARMLESS_SWITCHES.includes(which)
+      ? null
+      : "it would change how the board answers, moves or watches its supply",
   EM: (numbers) =>
     numbers.length < 2 ? "not every firmware answers it. Give both motors, as in EM,1,1" : null,
   SM: longerMs,

@@ -8,6 +8,7 @@ import type { ConsoleAnswer } from "../../driver.js";
 import { commandName } from "../protocol/replies.js";
 import { LONGEST_S, whyRefused } from "./console-lines.js";
 import type { Carriage } from "./carriage.js";
+import { hasSupplyFailed } from "./readings.js";
 
 const MOVES = new Set(["SM", "XM", "LM", "LT", "L3", "T3", "TD", "TR", "HM", "ES"]);
 const ZEROES = new Set(["EM", "CS"]);
@@ -19,7 +20,7 @@ export async function sendLine(carriage: Carriage, line: string): Promise<Consol
   if (why !== null) throw new PlotwrightError("bad-setting", `${JSON.stringify(line)} was not sent: ${why}.`);
   const name = commandName(line);
   const answer = await answerTo(carriage, line);
-  return { ...answer, note: await noteOn(carriage, name) };
+  return { ...answer, note: await noteOn(carriage, name, answer.replies) };
 }
 
 /** Some commands answer with several lines. A query is sent after the line; all lines before its reply are returned. */
@@ -43,7 +44,13 @@ async function answerTo(carriage: Carriage, line: string): Promise<Omit<ConsoleA
   return { replies, refused };
 }
 
-async function noteOn(carriage: Carriage, name: string): Promise<string | null> {
+async function noteOn(carriage: Carriage, name: string, replies: readonly string[]): Promise<string | null> {
+  const { features } = carriage.connection;
+  // The board reports a failure only once: without this, the next move would not learn of it.
+  if (name === "QG" && features.hasSupplyLatch && replies.some(hasSupplyFailed)) {
+    await carriage.forgetPlace();
+    return "The motors' supply has failed for a moment, so the position is unknown. The next move starts from here as home.";
+  }
   if (PEN.has(name)) {
     carriage.penIs(null);
     return "The line may have moved the pen or changed its settings. The next move sets heights and speeds again.";

@@ -112,8 +112,9 @@ export class EbbRun implements MachineRun {
     this.progress.add(this.firstPart);
     this.certain = placeAt(whole, commands.planS[0]);
     const streamer = carriage.streamer(this.settings, (at) => this.reached(at));
-    const played = carriage.play(streamer, plot, this.settings);
+    // First, because a reply that comes at once may call `fail`.
     this.streamer = streamer;
+    const played = carriage.play(streamer, plot, this.settings);
     begun();
     let left: Place | null = null;
     try {
@@ -290,9 +291,8 @@ export class EbbRun implements MachineRun {
     const { steps1, steps2 } = carriage.state!;
     const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2) ?? streamer.place();
     const { x, y } = carriage.place(machineOf(this.settings))!;
-    // The board counts on if the supply fails just before or after the stop. A single reading may be wrong.
-    const isUnpowered = (await carriage.pollSupply()) && (await carriage.pollSupply());
-    const place = isUnpowered ? this.certain : this.afterSwing(at, x, y);
+    // The board counts on if the supply fails just before or after the stop.
+    const place = (await carriage.motorSupply.wasLow()) ? this.certain : this.afterSwing(at, x, y);
     this.stopped = { place };
     carriage.penUp = null;
     return place;

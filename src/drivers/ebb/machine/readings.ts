@@ -1,5 +1,7 @@
 /** The queries polled during a stream. Reads the motors' supply and the button from the board's replies. */
+import type { SupplyState } from "../../driver.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
+import type { BoardSession } from "../stream/session.js";
 
 /**
  * The second value of `QC` is the motor supply through a divider: about 300 for 9 V. Below this the supply is
@@ -7,6 +9,13 @@ import type { FirmwareFeatures } from "../protocol/firmware.js";
  */
 const LOW_SUPPLY = 250;
 const BUTTON_BIT = 1 << 5;
+const SUPPLY_FAILED_BIT = 1 << 6;
+
+/**
+ * Measures the supply twice, because only two low readings in a row count. So one poll is enough to detect a supply that
+ * fails for a moment, and the motors lose steps at once.
+ */
+export const SUPPLY_LINES = ["QC", "QC"];
 
 export function isPowerLow(line: string, reply: string): boolean {
   const reading = line === "QC" ? Number(reply.split(",")[1]) : Infinity;
@@ -18,15 +27,86 @@ export function isButtonPressed(line: string, reply: string): boolean {
   return line === "QB" && Number(reply) === 1;
 }
 
+/** Whether the supply has failed since the last QG, for firmware with the latch. */
+export const hasSupplyFailed = (generalReply: string): boolean =>
+  (Number.parseInt(generalReply, 16) & SUPPLY_FAILED_BIT) !== 0;
+
+/** The motors' supply of a board at rest. `watch` and `hasFailed`: only if the firmware has the latch. */
+export class MotorSupply {
+  constructor(
+    private readonly session: BoardSession,
+    private readonly features: FirmwareFeatures,
+    private readonly report: (state: SupplyState) => void,
+  ) {}
+
+  /** The board then compares the supply with this every 2 ms, and QG reports if it was ever below. */
+  async watch(): Promise<void> {
+    await this.session.send(`CU,60,${LOW_SUPPLY}`);
+  }
+
+  /** Whether it has failed since the last QG. */
+  async hasFailed(): Promise<boolean> {
+    return hasSupplyFailed(await this.session.query("QG"));
+  }
+
+  async state(): Promise<SupplyState> {
+    const { hasSupplyLatch } = this.features;
+    if (hasSupplyLatch && !(await this.hasFailed())) return "good";
+    if (isPowerLow("QC", await this.session.query("QC"))) return "low";
+    return hasSupplyLatch ? "failed" : "good";
+  }
+
+  /** Whether it is low, or was since the last poll. Reports it as a poll during a plot does. */
+  async wasLow(): Promise<boolean> {
+    const state = await this.reported();
+    // A single low reading may be wrong.
+    return state === "failed" || (state === "low" && (await this.reported()) !== "good");
+  }
+
+  private async reported(): Promise<SupplyState> {
+    const state = await this.state();
+    this.report(state);
+    return state;
+  }
+}
+
+/**
+ * Finds in the polls of a stream that the supply has failed. A stray line may be taken for the reply to QG; then the
+ * true reply follows and is stray. So a failure counts only at the end of a poll without stray lines.
+ */
+export class SupplyPolls {
+  private strayCount: number | null = null;
+
+  constructor(
+    private readonly session: Pick<BoardSession, "strayCount">,
+    private readonly features: FirmwareFeatures,
+    /** The poll's last line. */
+    private readonly lastLine: string,
+  ) {}
+
+  /** Call with each reply of a poll, in order. Null: no failure so far in this poll. */
+  answered(line: string, reply: string): "failed" | "doubtful" | null {
+    const { session, features } = this;
+    if (features.hasSupplyLatch && line === "QG" && hasSupplyFailed(reply)) {
+      this.strayCount = session.strayCount;
+    }
+    if (this.strayCount === null) return null;
+    if (line !== this.lastLine) return "doubtful";
+    const isSure = this.strayCount === session.strayCount;
+    this.strayCount = null;
+    return isSure ? "failed" : "doubtful";
+  }
+}
+
 /**
  * The queries polled during a stream: for the board's time, its button, its position, the motors' supply, and whether it
- * has restarted. The supply is measured twice, because only two low readings in a row count: so one poll is enough to
- * detect a supply that fails for a moment, and the motors lose steps at once.
+ * has restarted. QG comes after QS: it reports every failure
+ * before it, so without one the position of QS is certain.
  */
 export function pollLines(features: FirmwareFeatures, markQuery: string): readonly string[] {
-  const supply = ["QC", "QC"];
-  if (!features.hasStepQuery) return ["QM", "QB", ...supply];
-  if (!features.hasGeneralQuery) return ["QM", "QB", "QS", ...supply];
-  if (!features.hasClear) return ["QG", "QS", ...supply];
-  return [...(features.hasImmediateLift ? ["QU,6"] : []), "QG", "QS", ...supply, markQuery];
+  if (!features.hasStepQuery) return ["QM", "QB", ...SUPPLY_LINES];
+  if (!features.hasGeneralQuery) return ["QM", "QB", "QS", ...SUPPLY_LINES];
+  if (!features.hasClear) return ["QG", "QS", ...SUPPLY_LINES];
+  if (!features.hasSupplyLatch) return ["QG", "QS", ...SUPPLY_LINES, markQuery];
+  return [features.hasImmediateLift ? "QU,6" : "QM", "QS", "QG", ...SUPPLY_LINES, markQuery];
 }

@@ -35,6 +35,8 @@ export interface FirmwareFeatures {
   readonly hasImmediateLift: boolean;
   /** ES also stops a running LT. */
   readonly stopEndsTimed: boolean;
+  /** The board notices a failure of the motors' supply by itself (CU,60), and reports it in QG. */
+  readonly hasSupplyLatch: boolean;
   /** Replies can be switched to one line each, `NAME,values` (CU,10,1). */
   readonly hasFutureSyntax: boolean;
 }
@@ -56,6 +58,7 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
       hasGeneralQuery: false,
       hasImmediateLift: false,
       stopEndsTimed: true,
+      hasSupplyLatch: false,
       hasFutureSyntax: false,
     },
   ],
@@ -83,6 +86,7 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
       idleTicksTimed: 1,
       maxFifoDepth: 32,
       stopEndsTimed: true,
+      hasSupplyLatch: true,
       hasFutureSyntax: true,
     },
   ],

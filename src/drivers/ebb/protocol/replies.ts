@@ -62,6 +62,9 @@ export function commandName(line: string): string {
   return (comma < 0 ? line : line.slice(0, comma)).trim().toUpperCase();
 }
 
+/** Whether a command with this name only returns values, so that it may be repeated. */
+export const isQuery = (name: string): boolean => /^(Q|PI|V)/.test(name);
+
 /** The counters in the reply `m1,m2` of `QS`, counted from `origin`. */
 export function parseSteps(
   reply: string,

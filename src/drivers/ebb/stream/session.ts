@@ -10,7 +10,7 @@ import { checkObject } from "../../../check-arguments.js";
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
 import { lineClosed, lineLost, silent } from "../../faults.js";
 import { asciiBytes, LineSplitter } from "../../line-splitter.js";
-import { commandName, replyShape } from "../protocol/replies.js";
+import { commandName, isQuery, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
 import { SessionLog } from "../../session-log.js";
@@ -166,8 +166,7 @@ export class BoardSession {
    * repeated if its reply is lost.
    */
   query(line: string, waitS = 0): Promise<string> {
-    const isRepeatable = /^(Q|PI|V)/.test(commandName(line));
-    return this.ask(line, waitS, false, isRepeatable ? QUERY_TRIES : 1);
+    return this.ask(line, waitS, false, isQuery(commandName(line)) ? QUERY_TRIES : 1);
   }
 
   /** Sends a command that is answered by OK. Resolves at the reply: the command is then queued or done. */

@@ -17,6 +17,11 @@ export interface StreamOptions {
    * board time stays accurate.
    */
   readonly poll?: { readonly lines: readonly string[]; readonly everyS: number };
+  /**
+   * Queries written with the commands, so that the board answers them between two commands: at most every `everyS` board
+   * seconds. Their replies go to `onPoll` too.
+   */
+  readonly between?: { readonly lines: readonly string[]; readonly everyS: number } | undefined;
   /** Board seconds beyond the plan after which a board that makes no progress counts as stuck. Default 2. */
   readonly stuckS?: number;
   readonly onPoll?: (line: string, reply: string, asked: PollTime) => void;

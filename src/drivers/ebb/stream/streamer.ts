@@ -19,6 +19,7 @@ import type { CommandStream } from "../compile/command-stream.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import { parseSteps, stepsLeft, waitingCount } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
+import { stuck } from "../../faults.js";
 import { delay } from "../../transport.js";
 import { endOfLanding } from "./cut-streams.js";
 import type { BoardSession, Outgoing } from "./session.js";
@@ -62,6 +63,7 @@ export class Streamer {
   private lastWritten: StreamPlace | null = null;
   private cancelWake: (() => void) | null = null;
   private cancelPoll: (() => void) | null = null;
+  private betweenDueS = -Infinity;
   private ending = false;
   private failure: PlotwrightError | null = null;
   /** The board's queue was cleared. */
@@ -236,12 +238,22 @@ export class Streamer {
     while (this.next < endIndex) {
       const end = Math.min(endIndex, endOfLanding(stream, this.next));
       if (!this.mayWrite(stream, boardS, end - this.next)) break;
-      for (; this.next < end; this.next++) batch.push(this.outgoing(stream, this.next));
+      for (; this.next < end; this.next++) {
+        batch.push(...this.queriesBefore(stream.boardS[this.next]), this.outgoing(stream, this.next));
+      }
     }
     if (batch.length > 0) this.session.write(batch);
     if (this.next < endIndex) this.sleep(this.wakeInS(stream, boardS));
     else if (this.limit && this.limit.then.length > 0) this.take(this.limit.then);
     else this.awaitEnd(boardS);
+  }
+
+  /** The queries between two commands, if they are due. */
+  private queriesBefore(commandS: number): Outgoing[] {
+    const { between } = this.options;
+    if (!between || this.offsetS + commandS < this.betweenDueS) return [];
+    this.betweenDueS = this.offsetS + commandS + between.everyS;
+    return this.queries(between.lines);
   }
 
   /** @param count of commands that belong together */
@@ -335,22 +347,22 @@ export class Streamer {
   }
 
   /** `done` is called with the reply to the last line, also if it is an error. */
-  private poll(done: () => void): void {
-    const { poll, clock } = this.options;
-    if (!poll) return;
-    const { lines } = poll;
+  private poll(done?: () => void): void {
+    this.session.write(this.queries(this.options.poll?.lines ?? [], done));
+  }
+
+  private queries(lines: readonly string[], done: () => void = () => undefined): Outgoing[] {
+    const { clock } = this.options;
     const waitS = this.timeline.longestS();
     const asked: PollTime = { clockS: clock.nowS(), boardS: this.timeline.boardS(), place: this.place() };
-    this.session.write(
-      lines.map((line, i) => ({
-        line,
-        waitS,
-        onReply: (error, reply) => {
-          if (!error) this.polled(line, reply, asked, i === 0);
-          if (i === lines.length - 1) done();
-        },
-      })),
-    );
+    return lines.map((line, i) => ({
+      line,
+      waitS,
+      onReply: (error, reply) => {
+        if (!error) this.polled(line, reply, asked, i === 0);
+        if (i === lines.length - 1) done();
+      },
+    }));
   }
 
   private polled(line: string, reply: string, asked: PollTime, isFirst: boolean): void {
@@ -381,7 +393,7 @@ export class Streamer {
     try {
       await this.untilIdle();
       // The motors' supply may have failed since the last poll. The board answers this one before the report.
-      this.poll(() => undefined);
+      this.poll();
       const report = await this.report();
       this.ending = false;
       const settle = this.settle;
@@ -443,12 +455,6 @@ export class Streamer {
     settle?.reject(error);
   }
 }
-
-export const stuck = (): PlotwrightError =>
-  new PlotwrightError(
-    "board-error",
-    "The board answers but does not finish its motion: press its reset button or unplug it, set home and plot again.",
-  );
 
 const internal = (cause: unknown): PlotwrightError =>
   new PlotwrightError(

@@ -73,6 +73,9 @@ export class BoardCore {
   private makesSteps = true;
   /** False: steps are counted, but the motors do not turn (no motor supply), so nothing is drawn. */
   private turnsMotors = true;
+  /** Steps that were counted while the motors did not turn: the carriage is this far behind the counters. */
+  private missed1 = 0;
+  private missed2 = 0;
   /** End tick and end rates of the last move; null if any other order came after it. */
   private lastMove: { endTick: number; v1: number; v2: number } | null = null;
 
@@ -147,12 +150,18 @@ export class BoardCore {
     this.makesSteps = makesSteps;
   }
 
-  /** Sets whether the motors follow the counted steps. */
+  /** Sets whether the motors follow the counted steps. Steps that they miss displace the rest of the line. */
   setTurnsMotors(turnsMotors: boolean): void {
     if (turnsMotors === this.turnsMotors) return;
     this.splitRunning();
     this.turnsMotors = turnsMotors;
-    this.line?.begin(!this.isLifted, ...this.stepsNow(), this.nowTick);
+    this.beginLine();
+  }
+
+  /** A new polyline begins where the carriage is. */
+  private beginLine(): void {
+    const [steps1, steps2] = this.stepsNow();
+    this.line?.begin(!this.isLifted, steps1 - this.missed1, steps2 - this.missed2, this.nowTick);
   }
 
   /** The current tick for the running order; stands still while frozen. */
@@ -211,6 +220,7 @@ export class BoardCore {
   clearSteps(clearAccumulators: boolean): void {
     this.splitRunning(() => {
       this.steps1 = this.steps2 = 0;
+      this.missed1 = this.missed2 = 0;
       if (clearAccumulators) this.acc1 = this.acc2 = 0;
     });
     this.line?.begin(!this.isLifted, 0, 0, this.nowTick);
@@ -251,8 +261,7 @@ export class BoardCore {
     this.splitRunning();
     this.isLifted = !this.isLifted;
     this.totals.penMoveCount++;
-    const [steps1, steps2] = this.stepsNow();
-    this.line?.begin(!this.isLifted, steps1, steps2, this.nowTick);
+    this.beginLine();
   }
 
   enableMotors(mode1: number, mode2: number | null): void {
@@ -355,9 +364,14 @@ export class BoardCore {
       return;
     }
     const done = Math.floor(ticks);
-    if (this.turnsMotors) this.line?.addMove(move, done, this.steps1, this.steps2, running.startTick);
     const place1 = move.motion1.placeAt(done);
     const place2 = move.motion2.placeAt(done);
+    const [from1, from2] = [this.steps1 - this.missed1, this.steps2 - this.missed2];
+    if (this.turnsMotors) this.line?.addMove(move, done, from1, from2, running.startTick);
+    else {
+      this.missed1 += place1.net;
+      this.missed2 += place2.net;
+    }
     this.steps1 += place1.net;
     this.steps2 += place2.net;
     this.acc1 = place1.acc;

@@ -329,6 +329,7 @@ export class Interpreter {
       2: core.features.maxFifoDepth,
       3: core.fifoDepth,
       6: core.fifo.length,
+      60: this.inputs.powerThreshold,
     };
     const answer = answers[which];
     if (answer === undefined) throw invalidValue();

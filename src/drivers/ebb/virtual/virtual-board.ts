@@ -14,6 +14,7 @@ import { firmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
 import { machineById } from "../../../machines/profiles.js";
+import { commandName, isQuery } from "../protocol/replies.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
 import { sFromTicks, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
 import { asciiBytes } from "../../line-splitter.js";
@@ -274,7 +275,7 @@ export class VirtualBoard {
     this.repliesToLose += count;
   }
 
-  /** Corrupts one character of the next command, so that the board refuses it. */
+  /** Corrupts one character of the next command that is not a query, so that the board refuses it. */
   refuseNext(): void {
     this.refusesNext = true;
   }
@@ -405,7 +406,7 @@ export class VirtualBoard {
 
   private takeLine(): string {
     const line = this.input.take();
-    if (!this.refusesNext || line === "") return line;
+    if (!this.refusesNext || line === "" || isQuery(commandName(line))) return line;
     this.refusesNext = false;
     return `#${line.slice(1)}`;
   }

@@ -7,7 +7,14 @@ import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { ConnectOptions, ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
+import type {
+  ConnectOptions,
+  ConsoleAnswer,
+  Machine,
+  MachineRun,
+  RunRequest,
+  SupplyState,
+} from "../../driver.js";
 import { moveStopped } from "../../faults.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
 import type { Clock } from "../../transport.js";
@@ -181,9 +188,9 @@ export class GrblMachine implements Machine {
   }
 
   /** Grbl does not report the motors' supply. The query detects a board that does not answer. */
-  async isSupplyLow(): Promise<boolean> {
+  async supply(): Promise<SupplyState> {
     await this.session.status();
-    return false;
+    return "good";
   }
 
   emergencyStopMs(): number {
