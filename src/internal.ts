@@ -140,6 +140,7 @@ export type {
   Machine,
   MachineEvents,
   MachineRun,
+  PenBefore,
   SupplyState,
   UsbId,
   VirtualMachine,

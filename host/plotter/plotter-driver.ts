@@ -14,6 +14,7 @@ import {
   powerLost,
   powerLow,
   type Machine,
+  type PenBefore,
   type VirtualMachine,
   machineOf,
 } from "../../src/internal.js";
@@ -40,6 +41,8 @@ export class PlotterDriver {
   readonly #listeners: ((state: PlotterState) => void)[] = [];
   #connection: Connection | null = null;
   #machine: Machine | null = null;
+  /** The pen when the connection was lost. */
+  #penBefore: PenBefore | null = null;
   /** Why there is no connection. */
   #trouble: PlotwrightError | null = null;
   #connecting: Promise<void> | null = null;
@@ -246,6 +249,7 @@ export class PlotterDriver {
     const connection = this.#connection;
     const virtual = this.#virtual;
     this.#supply.stop();
+    this.#penBefore = null;
     this.#machine = this.#connection = this.#virtual = null;
     this.#setState({ connection: "connecting", message: null, ...UNKNOWN });
     await connection?.machine.close().catch(() => undefined);
@@ -307,7 +311,7 @@ export class PlotterDriver {
     this.#connection = connection;
     this.#hadSerial ||= connection.kind === "serial";
     const { machine } = connection;
-    await machine.takeOver();
+    await machine.takeOver(this.#settings, this.#penBefore);
     // close() closes the connection.
     if (this.#closed) return;
     this.#machine = machine;
@@ -335,6 +339,7 @@ export class PlotterDriver {
     if (this.#closed) return;
     this.#trouble = error;
     this.#supply.stop();
+    if (this.#machine) this.#penBefore = { penUp: this.#machine.penMoving ? null : this.#machine.penUp };
     this.#machine = null;
     this.#connection?.machine.close().catch(() => undefined);
     this.#connection = null;

@@ -87,6 +87,11 @@ export interface VirtualMachine {
   close(): void;
 }
 
+/** The pen when a connection was lost; null: it may have been on the paper. */
+export interface PenBefore {
+  readonly penUp: boolean | null;
+}
+
 /** One connected machine. Positions are mm from home; null if unknown. */
 export interface Machine {
   readonly firmware: string;
@@ -109,8 +114,11 @@ export interface Machine {
   readonly state: MachineState | null;
   place(profile: MachineProfile): { readonly x: number; readonly y: number } | null;
 
-  /** Called after connecting: reads the state that the machine kept. Lifts a pen that was left on the paper, if the board reports it. */
-  takeOver(): Promise<void>;
+  /**
+   * Called after connecting: reads the state that the machine kept, and lifts a pen that was left on the paper. `before`:
+   * the pen when an earlier connection to the machine was lost; null: there was none.
+   */
+  takeOver(settings: MachineSettings, before: PenBefore | null): Promise<void>;
   /** Switches the motors on if they are off. If the position is unknown, the current position becomes home. */
   ready(settings: MachineSettings): Promise<MachineState>;
   /** Resolves when the pen has arrived. */

@@ -1,122 +1,14 @@
 /** A plotter with a Grbl that fails, or is stopped, at an awkward moment: nothing waits forever, and it works again. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
-import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/types.js";
-import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
-import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
-import { PlotwrightError, type Clock, type Place, type StrokeSet, type Transport } from "../../src/index.js";
+import type { JournalEntry, LivePlotRun } from "../../host/plotter/types.js";
+import type { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
+import type { Place, StrokeSet } from "../../src/index.js";
 import { pointOfPlace } from "../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
-import { GRBL } from "../support/grbl-machine.js";
+import { LIMIT_S, newMachine, newPlotter, SETTINGS } from "../support/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
 
-const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
-/** Longer than any of these takes, s. */
-const LIMIT_S = 60;
-
-/** A connection that a test can cut, or keep from being heard. */
-class WeakLine implements Transport {
-  isMute = false;
-  /** Nothing reaches the board. */
-  isDeaf = false;
-  /** Time until a reply is read, s. */
-  lateS = 0;
-  private lost: (error?: Error) => void = () => undefined;
-  private isLost = false;
-
-  constructor(
-    private readonly line: Transport,
-    private readonly clock: Clock,
-  ) {}
-
-  write(bytes: Uint8Array): Promise<void> {
-    if (this.isDeaf) return Promise.resolve();
-    if (!this.isLost) return this.line.write(bytes);
-    return Promise.reject(new PlotwrightError("disconnected", "The cable is unplugged."));
-  }
-
-  onData(listener: (bytes: Uint8Array) => void): void {
-    this.line.onData((bytes) => {
-      if (this.isMute || this.isLost) return;
-      if (this.lateS > 0) this.clock.after(this.lateS, () => listener(bytes));
-      else listener(bytes);
-    });
-  }
-
-  onClose(listener: (error?: Error) => void): void {
-    this.lost = listener;
-    this.line.onClose(listener);
-  }
-
-  close(): Promise<void> {
-    return this.line.close();
-  }
-
-  unplug(): void {
-    this.isLost = true;
-    this.lost(new Error("unplugged"));
-  }
-}
-
-async function newPlotter() {
-  const world = new ManualClock();
-  const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
-  const lines: WeakLine[] = [];
-  const open = (): Promise<Transport> => {
-    lines.push(new WeakLine(board.transport(), world));
-    return Promise.resolve(lines[lines.length - 1]);
-  };
-  const driver = new PlotterDriver({
-    device: "a port",
-    clock: world,
-    settings: SETTINGS,
-    devices: { find: () => Promise.resolve([]), open },
-  });
-  await world.run(driver.start());
-  const begin = async (planner = new LocalPlanner(DRAWING), start: PlotStart = {}) =>
-    world.run(driver.plot(planner, SETTINGS, start));
-  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
-  const line = (): WeakLine => lines[lines.length - 1];
-  /** It is connected again if necessary, and still works. */
-  const mustWork = async (): Promise<void> => {
-    await world.advance(5);
-    expect(driver.state).toMatchObject({ connection: "idle", activity: "none" });
-    expect(await within(driver.walkTo(12, 13))).toBeUndefined();
-    const { xMm, yMm, ...rest } = board.state();
-    expect(rest).toMatchObject({ state: "Idle", penUp: true, lostCount: 0 });
-    // A stop leaves it between two steps.
-    expect([xMm, yMm].map((mm) => Math.round(100 * mm))).toEqual([1_200, 1_300]);
-    expect(driver.state.penUp).toBe(true);
-  };
-  return { world, board, driver, begin, within, line, mustWork };
-}
-
-async function newMachine() {
-  const world = new ManualClock();
-  const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
-  const line = new WeakLine(board.transport(), world);
-  const lost: string[] = [];
-  const events = {
-    changed: () => undefined,
-    buttonPressed: () => undefined,
-    supplyRead: () => undefined,
-    lost: ({ code }: PlotwrightError) => void lost.push(code),
-  };
-  const machine = await world.run(
-    grblDriver.identify(line, { clock: world, machineClock: world, speed: 1, events }),
-  );
-  await world.run(machine.takeOver());
-  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
-  return { world, board, line, machine, lost, within };
-}
-
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: unknown) =>
-    error instanceof PlotwrightError ? `${error.code}: ${error.message}` : String(error),
-  );
 
 /** Its plans have one line that the Grbl refuses. */
 class RefusedPlanner extends LocalPlanner {

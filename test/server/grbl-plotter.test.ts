@@ -208,7 +208,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     };
     const options = { clock: world, machineClock: world, speed: 1, events };
     const machine = await world.run(grblDriver.identify(board.transport(), options));
-    await world.run(machine.takeOver());
+    await world.run(machine.takeOver(SETTINGS, null));
     expect(machine.firmware).toBe("Grbl 1.1h");
     expect(board.state().state).toBe("Idle");
     await world.run(machine.walk(10, 20, SETTINGS));

@@ -107,7 +107,7 @@ async function newMachine(options: Partial<VirtualBoardOptions> = {}) {
   const machine = await clock.run(
     driver.identify(board.transport(), { clock, machineClock: clock, speed: 1, events }),
   );
-  await clock.run(machine.takeOver());
+  await clock.run(machine.takeOver(DEFAULT_PLOT_SETTINGS, null));
   return { clock, board, machine };
 }
 

@@ -1,12 +1,16 @@
 /** Grbl's replies and real-time commands. */
 import { PlotwrightError } from "../../errors.js";
-import { difference, type Axes } from "./model/planner.js";
+import { difference, sum, type Axes } from "./model/planner.js";
 
 /** Real-time commands: single bytes that act at once, need no line end and no room in the buffer, and get no `ok`. */
 export const NOW = { status: "?", hold: "!", reset: "\x18" } as const;
 
-/** Max unanswered characters, including line ends: the buffer of an Arduino. */
+/** The receive buffer of an Arduino, in characters, including line ends. */
 export const RX_BYTES = 128;
+
+/** Reports the parser's modes, as a line that begins with MODES_REPORT, and changes nothing. */
+export const CHECK = "$G";
+export const MODES_REPORT = "[GC:";
 
 export const isGreeting = (line: string): boolean => /^Grbl(HAL)? /.test(line);
 
@@ -29,24 +33,39 @@ export interface Status {
   readonly state: string;
   /** Work position, mm. */
   readonly at: Axes;
+  /** The same in machine coordinates, which begin at 0 with each start. */
+  readonly machineAt: Axes;
 }
 
-/** Work offset of a report; not every report has one. */
-export const offsetOf = (line: string): Axes | null => axesOf(/\|WCO:([^|>]+)/.exec(line)?.[1]);
+/** Whether the machine comes to rest by itself from this state. */
+export const isMoving = (state: string): boolean => /^(Run|Jog|Home|Hold:1|Door:[23])/.test(state);
 
-/** A status report; null for another line. `offset`: the last reported work offset. */
-export function statusOf(line: string, offset: Axes): Status | null {
-  const state = /^<([^|>]+)/.exec(line)?.[1];
+/** Somebody has pressed a button of the machine that holds it. */
+export const isHeld = (state: string): boolean => /^(Hold|Door)/.test(state);
+
+export const isLocked = (state: string): boolean => state.startsWith("Alarm");
+
+/** A status report that arrived whole. */
+const REPORT = /^<([^|<>]+)\|[^<>]*>$/;
+
+/** Work offset of a report, in the board's units; not every report has one. */
+export const offsetOf = (line: string): Axes | null => (REPORT.test(line) ? axesOf(line, "WCO", 1) : null);
+
+/** A status report; null for another line, or a damaged one. `offset`: the last reported work offset, mm. */
+export function statusOf(line: string, offset: Axes, mmPerUnit: number): Status | null {
+  const state = REPORT.exec(line)?.[1];
   if (state === undefined) return null;
-  const work = axesOf(/\|WPos:([^|>]+)/.exec(line)?.[1]);
-  const machine = axesOf(/\|MPos:([^|>]+)/.exec(line)?.[1]);
-  if (work) return { state, at: work };
-  return machine && { state, at: difference(machine, offset) };
+  const work = axesOf(line, "WPos", mmPerUnit);
+  if (work) return { state, at: work, machineAt: sum(work, offset) };
+  const machineAt = axesOf(line, "MPos", mmPerUnit);
+  return machineAt && { state, at: difference(machineAt, offset), machineAt };
 }
 
-function axesOf(text: string | undefined): Axes | null {
-  const [x, y, z] = (text ?? "").split(",").map(Number);
-  return Number.isFinite(x) && Number.isFinite(y) && Number.isFinite(z) ? [x, y, z] : null;
+function axesOf(report: string, name: string, mmPerUnit: number): Axes | null {
+  const field = new RegExp(`\\|${name}:([-\\d.]+),([-\\d.]+),([-\\d.]+)[|,>]`).exec(report);
+  if (!field) return null;
+  const [x, y, z] = field.slice(1).map((value) => Number(value) * mmPerUnit);
+  return Number.isFinite(x + y + z) ? [x, y, z] : null;
 }
 
 const ERRORS: Readonly<Record<number, string>> = {
@@ -55,15 +74,20 @@ const ERRORS: Readonly<Record<number, string>> = {
   11: "the line is too long",
   15: "the target is outside the machine's travel",
   20: "Grbl does not know that command",
+  21: "two commands exclude each other",
   22: "no feed rate was set",
+  25: "a word is repeated",
   33: "the target is invalid",
 };
 
-export const refusal = (line: string, code: number): PlotwrightError =>
-  new PlotwrightError(
+/** `reply`: "error:20", for example. */
+export function refusal(line: string, reply: string): PlotwrightError {
+  const why = ERRORS[Number(reply.slice(6))];
+  return new PlotwrightError(
     "board-error",
-    `The Grbl refused ${line} with error:${code}${ERRORS[code] ? ` (${ERRORS[code]})` : ""}: check the machine's profile against its settings ($$).`,
+    `The Grbl refused ${line} with ${reply}${why ? ` (${why})` : ""}. If that happens again, check the machine's profile against its settings ($$).`,
   );
+}
 
 const ALARMS: Readonly<Record<number, string>> = {
   1: "a limit switch was hit",
@@ -71,14 +95,47 @@ const ALARMS: Readonly<Record<number, string>> = {
   3: "the machine was reset during a motion",
 };
 
-export const alarm = (code: number): PlotwrightError =>
+export const alarm = (code: number | null): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The Grbl has stopped with ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}. Check the carriage's position, and push it to home before you resume.`,
+    `The Grbl has stopped with ${named(code)}. Check the carriage's position, and push it to home before you resume.`,
   );
+
+function named(code: number | null): string {
+  if (code === null) return "an alarm";
+  return `ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}`;
+}
 
 export const restarted = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "The Grbl has restarted: its reset button was pressed, or its supply failed. Push the carriage to home before you resume.",
+    "The Grbl has restarted: its reset button was pressed, or its supply failed. Its pen is lifted first. " +
+      "Push the carriage to home before you resume.",
   );
+
+/** A lock that only the user may remove, because the Grbl wants to be homed. */
+export const locked = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "The Grbl is locked until it is homed ($22=1), and nothing unlocks it without you. Lift the pen and push the " +
+      "carriage to home by hand, then send $X in the console; or home it with another program.",
+  );
+
+const CABLE = "Check the USB cable and its distance from motors and mains.";
+
+/** `line`: the first line without an answer. */
+export const unanswered = (line: string, state: string): PlotwrightError =>
+  new PlotwrightError(
+    "board-timeout",
+    `The Grbl has not confirmed ${line}, and is ${state}: the line or its answer was lost on the way. ${CABLE}`,
+  );
+
+export const outOfStep = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "An answer of the Grbl was lost, damaged or doubled on its way, so a line may not have been drawn. The plot " +
+      `was stopped. When it is resumed, it draws again from the last place that is certain. ${CABLE}`,
+  );
+
+/** Added to an error after which the pen could not be lifted. */
+export const NOT_LIFTED = "The pen could not be lifted: lift it by hand.";

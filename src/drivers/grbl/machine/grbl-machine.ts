@@ -12,6 +12,7 @@ import type {
   ConsoleAnswer,
   Machine,
   MachineRun,
+  PenBefore,
   RunRequest,
   SupplyState,
 } from "../../driver.js";
@@ -21,7 +22,7 @@ import type { Clock } from "../../transport.js";
 import { grblCommandsOf, MODES, penLines, planGrblJob, SYNC, type GrblCommands } from "../grbl-job.js";
 import { grblOf } from "../model/grbl-controller.js";
 import type { Axes } from "../model/planner.js";
-import type { Status } from "../protocol.js";
+import { isLocked, locked, NOT_LIFTED, type Status } from "../protocol.js";
 import { whyRefused } from "./console-lines.js";
 import { GrblRun } from "./grbl-run.js";
 import { LineStream } from "./line-stream.js";
@@ -31,6 +32,10 @@ import type { GrblSession } from "./session.js";
 const STOP_MS = 30;
 /** Makes the current position home. It stays home after a reset. */
 const SET_HOME = "G10L20P1X0Y0";
+/** Share of the pen's travel below its lowest height up to which a height counts as one of the pen's. */
+const BELOW = 0.25;
+/** A share of the pen's travel from which the pen counts as up. */
+const UP = 0.99;
 
 export class GrblMachine implements Machine {
   readonly name = null;
@@ -41,6 +46,8 @@ export class GrblMachine implements Machine {
   /** Work position, mm; null if its origin is unknown. */
   private at: Axes | null = null;
   private isAsleep = false;
+  /** Only the user may unlock it. */
+  private isLocked = false;
   private byHand: LineStream | null = null;
   stopCount = 0;
 
@@ -67,17 +74,30 @@ export class GrblMachine implements Machine {
     return this.at && placeFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
   }
 
-  /** Stops motion that another program started. */
-  async takeOver(): Promise<void> {
-    const { state } = await this.session.status();
-    if (state === "Idle") await this.session.send(MODES);
-    else await this.recovered(await this.session.reset());
+  /** Stops motion that was left, reads the Grbl's settings, and lifts the pen if it may be on the paper. */
+  async takeOver(settings: MachineSettings, before: PenBefore | null): Promise<void> {
+    const { session } = this;
+    const { state } = await session.status();
+    if (state !== "Idle" && !isLocked(state)) {
+      await session.brake();
+      await session.reset();
+    }
+    await session.readSettings();
+    await session.tryCheck();
+    // Again, because only now the units are known.
+    const status = await session.status();
+    await this.recovered(status);
+    if (!this.isLocked) await this.liftLeft(status, settings, before);
   }
 
   async ready(settings: MachineSettings): Promise<MachineState> {
-    grblOf(machineOf(settings));
-    if (this.isAsleep) await this.recovered(await this.session.reset());
+    const profile = machineOf(settings);
+    grblOf(profile);
+    // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
+    if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
+    await this.mustBeUnlocked();
+    this.session.settings.mustMatch(profile);
     if (!this.at) await this.homeIsHere();
     this.motorsOn = true;
     this.options.events.changed();
@@ -91,17 +111,33 @@ export class GrblMachine implements Machine {
     const share = Math.min(1, Math.max(0, (pct - downPct) / (upPct - downPct)));
     const zMm = grbl.penDownZMm + share * (grbl.penUpZMm - grbl.penDownZMm);
     if (this.isAsleep) await this.ready(settings);
+    await this.mustBeUnlocked();
+    const lines = [SYNC, ...penLines(grbl, zMm)];
+    this.session.settings.mustReach(lines, this.session.offset);
     this.penUp = up;
     this.penMoving = true;
     this.options.events.changed();
     try {
-      for (const line of [SYNC, ...penLines(grbl, zMm)]) await this.session.send(line);
+      for (const line of lines) await this.session.sendSurely(line);
     } catch (error) {
       this.penUp = null;
       throw error;
     } finally {
       this.penMoving = false;
       this.options.events.changed();
+    }
+  }
+
+  /** Lifts the pen after a fault; returns the error to report. */
+  async liftAfter(error: PlotwrightError, settings: MachineSettings): Promise<PlotwrightError> {
+    try {
+      await this.movePen(true, settings);
+      return error;
+    } catch (failure) {
+      // The pen is lifted when the machine is connected again.
+      if (this.session.hasFailed) return error;
+      const why = failure instanceof PlotwrightError ? ` ${failure.message}` : "";
+      return new PlotwrightError(error.code, `${error.message} ${NOT_LIFTED}${why}`, { cause: error });
     }
   }
 
@@ -134,9 +170,8 @@ export class GrblMachine implements Machine {
       await stream.play();
       await this.arrived();
     } catch (error) {
-      await this.recover(stream);
-      await this.movePen(true, settings).catch(() => undefined);
-      throw error;
+      await this.recover(stream, settings, false);
+      throw error instanceof PlotwrightError ? await this.liftAfter(error, settings) : error;
     } finally {
       this.byHand = null;
     }
@@ -209,6 +244,7 @@ export class GrblMachine implements Machine {
       refused = true;
     });
     const replies = log.receivedSince(entryCount);
+    if (/^\$(\d+=|RST)/i.test(line)) await this.session.readSettings();
     if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, refused, note: null };
     await this.session.send(SYNC).catch(() => undefined);
     this.penUp = null;
@@ -233,30 +269,80 @@ export class GrblMachine implements Machine {
   }
 
   stream(commands: GrblCommands): LineStream {
+    this.session.settings.mustReach(commands.lines, this.session.offset);
     this.motorsOn = true;
     this.penUp = null;
-    return new LineStream(this.session, commands, this.clock);
+    return new LineStream(this.session, commands, this.clock, () => this.options.events.buttonPressed());
   }
 
-  /** Call after a play that did not reach its end: Grbl then accepts moves again. */
-  async recover(stream: LineStream): Promise<void> {
+  /**
+   * Call after a play that did not reach its end: Grbl then accepts moves again. `penUp`: the pen was certainly up.
+   */
+  async recover(stream: LineStream, settings: MachineSettings, penUp: boolean): Promise<void> {
     const status = await stream.cleared();
     if (stream.isBroken) this.at = null;
     await this.recovered(status);
+    if (stream.isBroken && !this.isLocked && hasRestarted(status)) await this.setHeight(penUp, settings);
   }
 
-  /** Call after a reset: unlocks Grbl, restores the modes that the lines need, and takes over the reported position. */
-  private async recovered({ state, at }: Status): Promise<void> {
-    if (state.startsWith("Alarm")) await this.session.send("$X");
-    await this.session.send(MODES);
+  /** Without homing, a lock has no other purpose than to be acknowledged. */
+  private get mayUnlock(): boolean {
+    return this.session.isLockOurs || !this.session.settings.hasHoming;
+  }
+
+  /** Call after a reset: restores the modes that the lines need, and takes over the reported position. */
+  private async recovered({ state, at }: Status, mayUnlock = this.mayUnlock): Promise<void> {
     this.penUp = null;
     if (this.at) this.at = at;
+    this.isLocked = isLocked(state) && !mayUnlock;
     this.options.events.changed();
+    if (this.isLocked) return;
+    // If they are refused, so is the next move.
+    if (isLocked(state)) await this.session.attempt("$X");
+    await this.session.attempt(MODES);
+  }
+
+  /** Throws if the Grbl is still locked; the user may have unlocked it meanwhile. */
+  private async mustBeUnlocked(): Promise<void> {
+    if (!this.isLocked) return;
+    await this.recovered(await this.session.status());
+    if (this.isLocked) throw locked();
+  }
+
+  /**
+   * Lifts a pen that may have been left on the paper. A Grbl that was not restarted still knows the pen's height. One that
+   * was counts from 0 wherever the pen is, so the pen is lifted by its travel; at the first connection nothing moves then,
+   * because it is probably up.
+   */
+  private async liftLeft(status: Status, settings: MachineSettings, before: PenBefore | null): Promise<void> {
+    const grbl = grblOf(machineOf(settings));
+    if (hasRestarted(status)) {
+      if (!before) return;
+      const penUp = before.penUp === true;
+      await this.setHeight(penUp, settings);
+      if (penUp) this.penUp = true;
+      else await this.movePen(true, settings);
+      return;
+    }
+    const share = (status.at[2] - grbl.penDownZMm) / (grbl.penUpZMm - grbl.penDownZMm);
+    if (share > UP) this.penUp = true;
+    else if (share > -BELOW || before) await this.movePen(true, settings);
+  }
+
+  /** After a restart: the pen's current height is that of a pen that is up, or down. */
+  private async setHeight(penUp: boolean, settings: MachineSettings): Promise<void> {
+    const { penUpZMm, penDownZMm } = grblOf(machineOf(settings));
+    await this.session.sendSurely(`G10L20P1Z${penUp ? penUpZMm : penDownZMm}`);
   }
 
   private async homeIsHere(): Promise<void> {
-    await this.session.send(SET_HOME);
+    await this.session.sendSurely(SET_HOME);
+    // Reads the new offset.
+    await this.session.status();
     this.at = [0, 0, 0];
     this.options.events.changed();
   }
 }
+
+/** Machine coordinates begin at 0 with each start. */
+const hasRestarted = ({ machineAt }: Status): boolean => machineAt.every((mm) => mm === 0);

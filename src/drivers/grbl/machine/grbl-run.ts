@@ -9,12 +9,12 @@ import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js"
 import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
 import { stateAt, type Place } from "../../../plan/trajectory.js";
 import type { Machine, MachineRun, RunEvents, RunRequest } from "../../driver.js";
-import type { PlannedPlot } from "../../machine-job.js";
+import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { RunProgress, type PlotProgress } from "../../run-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
 import { restarted } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
-import { stopPlace } from "./stop-place.js";
+import { awayFromCut, isPenUpThroughout, stopPlace } from "./stop-place.js";
 
 /** Tolerance between mm along the plan and mm along the drawing; the plan rounds to whole steps. */
 const SNAP_MM = 0.5;
@@ -23,11 +23,14 @@ const LOST_MM = 2;
 
 /** The parts of the machine that a run uses. */
 interface Carriage extends Pick<Machine, "penUp" | "movePen" | "place" | "forgetPlace"> {
+  /** Throws if the lines cannot be played. */
   stream(commands: GrblCommands): LineStream;
   /** Called after a job has been played to its end. */
   arrived(): Promise<void>;
-  /** Called after a play that did not reach its end. */
-  recover(stream: LineStream): Promise<void>;
+  /** Called after a play that did not reach its end. `penUp`: the pen was certainly up at the end. */
+  recover(stream: LineStream, settings: MachineSettings, penUp: boolean): Promise<void>;
+  /** Lifts the pen after a fault; returns the error, which also says if that failed. */
+  liftAfter(error: PlotwrightError, settings: MachineSettings): Promise<PlotwrightError>;
 }
 
 interface Playing {
@@ -78,8 +81,8 @@ export class GrblRun implements MachineRun {
     // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
     const commands = grblCommandsOf(plot.commands);
-    progress.add({ commands, trajectory: plot.trajectory, afterS });
     const stream = machine.stream(commands);
+    progress.add({ commands, trajectory: plot.trajectory, afterS });
     this.current = { plot, commands, stream };
     const played = stream.play();
     begun();
@@ -90,16 +93,15 @@ export class GrblRun implements MachineRun {
       this.events.progressed(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
       left = progress.place;
     } catch (error) {
-      left = progress.place;
+      left = certainPlace(this.current) ?? progress.place;
       // The caller of `fail` takes care of the machine.
-      if (this.failure) throw error;
+      if (this.failure || !(error instanceof PlotwrightError)) throw error;
       left = await this.whereStopped(this.current);
       const settings = this.request.settings();
       const isLost = machine.place(machineOf(settings)) === null;
       // The Grbl may have failed before the stop was requested.
       if (isLost || error !== this.requested) {
-        await machine.movePen(true, settings).catch(() => undefined);
-        throw error === this.requested ? restarted() : error;
+        throw await machine.liftAfter(error === this.requested ? restarted() : error, settings);
       }
       this.stopped = { place: left };
     } finally {
@@ -128,22 +130,30 @@ export class GrblRun implements MachineRun {
   }
 
   /** Clears Grbl's queue. Its position shows how far it drew; if that is lost, the place is forgotten. */
-  private async whereStopped({ plot, commands, stream }: Playing): Promise<Place | null> {
+  private async whereStopped(current: Playing): Promise<Place | null> {
     const { machine, progress, strokes } = this;
-    await machine.recover(stream);
-    const at = machine.place(machineOf(this.request.settings()));
+    const { plot, commands, stream } = current;
+    const settings = this.request.settings();
+    await machine.recover(stream, settings, isPenUpThroughout(plot.trajectory, stream.boundsS));
+    const at = machine.place(machineOf(settings));
     const { trajectory } = plot;
     const found = at && stopPlace(trajectory, at, stream.boundsS, stream.planS);
-    if (!at || (found && found.awayMm > LOST_MM)) {
+    const cut = stream.shortCutS;
+    const isAway = found !== null && found.awayMm > LOST_MM;
+    if (!at || (isAway && !(cut && awayFromCut(trajectory, at, cut) <= LOST_MM))) {
       await machine.forgetPlace();
-      // Everything before it is certainly drawn. The line may overlap where it resumes.
-      return placeAt(trajectory, stream.boundsS[0]) ?? progress.place;
+      return certainPlace(current) ?? progress.place;
     }
-    const planS = found?.atS ?? stream.planS;
+    const stoppedS = found?.atS ?? stream.planS;
+    const planS = Math.min(stoppedS, stream.missedS ?? Infinity);
     this.events.progressed({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
-    const { stroke, alongMm, vx, vy } = stateAt(trajectory, planS);
-    if (stroke < 0) return nextPlace(trajectory, planS) ?? (this.isEmergency ? this.endOfDrawing() : null);
-    return snappedPlace(strokes, { stroke, alongMm }, { ...at, vx, vy }, SNAP_MM);
+    const state = stateAt(trajectory, planS);
+    if (state.stroke < 0)
+      return nextPlace(trajectory, planS) ?? (this.isEmergency ? this.endOfDrawing() : null);
+    // After missed lines the carriage is not at the place from which to draw.
+    const { x, y } = planS < stoppedS ? state : at;
+    const { stroke, alongMm, vx, vy } = state;
+    return snappedPlace(strokes, { stroke, alongMm }, { x, y, vx, vy }, SNAP_MM);
   }
 
   /** The end of the last stroke: for an emergency stop when only the travel home is left. */
@@ -157,5 +167,9 @@ export class GrblRun implements MachineRun {
     return this.stopped !== null;
   }
 }
+
+/** Everything before it is certainly drawn. The line may overlap where it resumes. */
+const certainPlace = ({ plot, stream }: Playing): Place | null =>
+  placeAt(plot.trajectory, Math.min(stream.boundsS[0], stream.missedS ?? Infinity));
 
 const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The plot was stopped.");

@@ -1,18 +1,25 @@
-/** Plays the lines of one job: sends as many ahead as fit into Grbl's buffer. */
+/**
+ * Plays the lines of one job: sends as many ahead as fit into Grbl's buffer, and a check after each run, so that a lost
+ * or doubled answer is found while little of the drawing depends on it.
+ */
 import { PlotwrightError } from "../../../errors.js";
-import { delay, type Clock } from "../../transport.js";
-import type { GrblCommands } from "../grbl-job.js";
-import { NOW, type Status } from "../protocol.js";
+import type { Clock } from "../../transport.js";
+import { SYNC, type GrblCommands } from "../grbl-job.js";
+import { CHECK, type Status } from "../protocol.js";
 import type { GrblSession } from "./session.js";
-
-/** Interval of status queries while waiting for rest, s. */
-const POLL_S = 0.05;
-const REST_TRIES = 200;
 
 export class LineStream {
   /** Index of the next line to send. */
   private next = 0;
   private answeredCount = 0;
+  /** This many lines were sent before the check that is due; 0: none is due. */
+  private checkDue = 0;
+  /** The last time up to which everything is certainly done, seconds along the plan. */
+  private certainS: number;
+  /** Seconds along the plan from which lines may not have been executed; null: all were, as far as they are answered. */
+  missedS: number | null = null;
+  /** The line that Grbl refused; -1: none. */
+  private refused = -1;
   /** Nothing more is sent. */
   isOver = false;
   /** Grbl restarted or stopped by itself, so its position is lost. */
@@ -30,8 +37,11 @@ export class LineStream {
     private readonly commands: GrblCommands,
     /** Counts the machine's seconds. */
     private readonly clock: Clock,
+    /** A button of the machine holds it. */
+    private readonly onHeld: () => void,
   ) {
-    this.known = { planS: commands.planS[0], clockS: clock.nowS() };
+    this.certainS = commands.planS[0];
+    this.known = { planS: this.certainS, clockS: clock.nowS() };
   }
 
   /**
@@ -43,13 +53,19 @@ export class LineStream {
       this.settle = (error) => {
         if (this.isSettled) return;
         this.isOver = this.isSettled = true;
-        this.session.onBreak = null;
+        this.session.playing = null;
         if (error) reject(error);
         else resolve();
       };
-      this.session.onBreak = (error) => {
-        this.isBroken = true;
-        this.settle(error);
+      this.session.playing = {
+        broken: (error) => {
+          this.isBroken = true;
+          this.settle(error);
+        },
+        outOfStep: (error) => this.miss(this.certainS, error),
+        held: () => {
+          if (!this.isOver) this.onHeld();
+        },
       };
       this.feed();
     });
@@ -68,8 +84,16 @@ export class LineStream {
   /** Bounds of the position, seconds along the plan. */
   get boundsS(): readonly [fromS: number, toS: number] {
     const { planS, count } = this.commands;
+    // Which lines were executed after a missed one is unknown.
+    if (this.missedS !== null) return [this.certainS, planS[this.next]];
     const from = Math.max(0, this.answeredCount - this.session.queueMoves - 1);
     return [Math.max(planS[from], this.known.planS), planS[Math.min(count, this.answeredCount + 2)]];
+  }
+
+  /** The ends of the straight line that replaces a refused line and the next one, seconds along the plan. */
+  get shortCutS(): readonly [fromS: number, toS: number] | null {
+    const { planS, count } = this.commands;
+    return this.refused < 0 ? null : [planS[this.refused], planS[Math.min(count, this.refused + 2)]];
   }
 
   /** Slows down along the path, then clears Grbl's queue. `play` rejects with the error. */
@@ -77,9 +101,9 @@ export class LineStream {
     if (this.isOver) return;
     this.isOver = true;
     this.stopS = this.clock.nowS();
-    this.session.now(NOW.hold);
     // Without an answer, clearing the queue fails too.
-    void this.rest()
+    void this.session
+      .brake()
       .catch(() => undefined)
       .then(() => this.stop(error));
   }
@@ -110,32 +134,60 @@ export class LineStream {
     return this.commands.planS[this.answeredCount];
   }
 
-  private async rest(): Promise<void> {
-    for (let i = 0; i < REST_TRIES && !this.clearing; i++) {
-      const { state } = await this.session.status();
-      if (state === "Hold:0" || state === "Idle" || state.startsWith("Alarm")) return;
-      await delay(this.clock, POLL_S);
-    }
-  }
-
   private feed(): void {
     const { lines, count } = this.commands;
-    while (!this.isOver && this.next < count && this.session.hasRoom(lines[this.next])) {
-      const index = this.next++;
-      this.session.write(lines[index], (error) => this.answered(index, error));
+    while (!this.isOver) {
+      const end = this.checkDue;
+      if (end === 0 && this.next === count) return;
+      const line = end > 0 ? CHECK : lines[this.next];
+      if (!this.session.hasRoom(line)) return;
+      if (end > 0) {
+        this.checkDue = 0;
+        this.session.write(line, (error) => this.checked(end, error));
+      } else {
+        const index = this.next++;
+        const isDue = line === SYNC || this.next === count;
+        if (isDue && this.session.canCheck) this.checkDue = this.next;
+        this.session.write(line, (error) => this.answered(index, error));
+      }
     }
   }
 
   private answered(index: number, error: PlotwrightError | null): void {
-    // The line was refused, since all other errors come after `onBreak`. Grbl would execute the lines after it.
-    if (error) return this.slowDown(error);
+    // The line was refused, since all other errors come after `broken`. Grbl would execute the lines after it.
+    if (error) {
+      if (!this.isOver) this.refused = index;
+      return this.miss(this.commands.planS[index], error);
+    }
     this.answeredCount = index + 1;
+    if (this.session.canCheck) {
+      if (!this.isOver) this.feed();
+    } else this.done(this.answeredCount);
+  }
+
+  /** The answer to a check: the lines before `end` were all answered. */
+  private checked(end: number, error: PlotwrightError | null): void {
+    if (error) return this.miss(this.certainS, error);
+    if (this.missedS === null) this.done(end);
+  }
+
+  /** The lines before `end` are accepted, and no answer is missing. */
+  private done(end: number): void {
+    const { planS, count, lines } = this.commands;
     // The reply to a wait comes when the wait and everything before it are done.
-    if (this.commands.lines[index].startsWith("G4")) {
-      this.known = { planS: this.takenS, clockS: this.clock.nowS() };
+    if (lines[end - 1].startsWith("G4")) {
+      this.certainS = planS[end];
+      this.known = { planS: this.certainS, clockS: this.clock.nowS() };
     }
     if (this.isOver) return;
-    if (this.answeredCount === this.commands.count) this.settle(null);
+    if (end === count) this.settle(null);
     else this.feed();
+  }
+
+  /** Lines from `planS` on may not have been executed. */
+  private miss(planS: number, error: PlotwrightError): void {
+    if (this.isOver) return;
+    this.missedS = planS;
+    this.slowDown(error);
   }
 }

@@ -1,6 +1,10 @@
 /**
- * One Grbl over one transport: counts the unanswered characters, matches each `ok` or `error:n` to its line,
- * and detects a silent board. Knows nothing about motion.
+ * One Grbl over one transport: counts the unanswered characters, matches each `ok` or `error:n` to its line, and detects
+ * a silent board and answers that are missing or doubled.
+ *
+ * Answers carry no numbers, so one that is lost or doubled shifts all later ones. A check (CHECK) reveals that: its own
+ * report comes when all lines before it are read, so exactly those must have been answered then. What is lost at the very
+ * end is noticed when the machine rests and still has not answered.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { lineClosed, lineLost, silent } from "../../faults.js";
@@ -12,46 +16,81 @@ import { QUEUE_MOVES, type Axes } from "../model/planner.js";
 import {
   alarm,
   buffersOf,
+  CHECK,
   isGreeting,
+  isHeld,
+  isLocked,
+  isMoving,
+  MODES_REPORT,
   NOW,
   offsetOf,
+  outOfStep,
   refusal,
   restarted,
   RX_BYTES,
   statusOf,
+  unanswered,
   versionOf,
   type Status,
 } from "../protocol.js";
+import { BoardSettings } from "./board-settings.js";
 
 type Settle = (error: PlotwrightError | null) => void;
 
 interface SentLine {
   readonly line: string;
   readonly settle: Settle;
+  /** A check whose report has come. */
+  isReported: boolean;
+}
+
+/** What a job that is being played learns from the session. */
+export interface PlayListener {
+  /** The board restarted, stopped by itself or is lost. Called before the unanswered lines are settled. */
+  broken(error: PlotwrightError): void;
+  /** Answers do not fit the lines, so it is unknown which lines were refused. */
+  outOfStep(error: PlotwrightError): void;
+  /** A button of the machine holds it. */
+  held(): void;
 }
 
 /** Silence after which the board counts as gone, s; its status is polled meanwhile. */
 const PATIENCE_S = 3;
+/** The same for a machine that says it runs, but whose position does not change: it may be very slow. */
+const SLOW_S = 30;
+/**
+ * Characters of the board's buffer that stay free: some boards have one less than they report, and a doubled answer lets
+ * one more line be sent.
+ */
+const SPARE_BYTES = 32;
+const REFUSED_TRIES = 10;
+const REST_TRIES = 200;
+const REST_POLL_S = 0.05;
 const POLL_S = 0.5;
 /** Reported by a reset during motion. */
 const RESET_ALARM = 3;
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
+/** Time for braking. */
+const HOLD_S = 0.5;
 
 export class GrblSession {
   readonly log: SessionLog;
   version: string | null = null;
-  /**
-   * Set while a job is played: called when the board restarts, stops by itself or is lost, before the unanswered lines
-   * are settled.
-   */
-  onBreak: ((error: PlotwrightError) => void) | null = null;
+  readonly settings = new BoardSettings();
+  /** Set while a job is played. */
+  playing: PlayListener | null = null;
+  /** The board is locked because `reset` stopped it in motion. */
+  isLockOurs = false;
+  /** The board knows the command of a check. */
+  canCheck = false;
 
   private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
   private sentBytes = 0;
   private sent: SentLine[] = [];
-  private offset: Axes = [0, 0, 0];
+  /** Work zero in machine coordinates, in the board's units, which may be known only later. */
+  private reportedOffset: Axes = [0, 0, 0];
   private statusWaiters: ((status: Status) => void)[] = [];
   private greetingWaiters: (() => void)[] = [];
   private failures: ((error: PlotwrightError) => void)[] = [];
@@ -61,6 +100,10 @@ export class GrblSession {
   private resetting: Promise<Status> | null = null;
   private closed = false;
   private readonly silence: SilenceWatch;
+  /** Notices a board that reports its state, but does not answer its lines. */
+  private readonly missing: SilenceWatch;
+  private lastStatus: Status | null = null;
+  private progressS = 0;
   private cancelPoll: (() => void) | null = null;
 
   constructor(
@@ -70,6 +113,7 @@ export class GrblSession {
   ) {
     this.log = new SessionLog(clock);
     this.silence = new SilenceWatch(clock, () => this.noAnswer());
+    this.missing = new SilenceWatch(clock, () => this.answerMissing());
     transport.onData((bytes) => this.lines.push(bytes, (line) => this.take(line)));
     transport.onClose(() => this.fail(lineLost()));
   }
@@ -77,11 +121,18 @@ export class GrblSession {
   /** Resolves with the version. Rejects with `no-board` if another device answers, `board-timeout` if nothing does. */
   async identify(): Promise<string> {
     for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
-      // A Grbl that sleeps, holds or works for another program answers only after a reset.
+      // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
+      if (this.lastStatus && isMoving(this.lastStatus.state)) {
+        this.now(NOW.hold);
+        await delay(this.clock, HOLD_S);
+      }
       if (i > 0) this.now(NOW.reset);
+      this.now(NOW.status);
       const tooLate = delay(this.clock, IDENTIFY_S);
-      // The empty line ends a line that another program may have left unfinished.
-      const answered = Promise.allSettled([this.send(""), this.send("$I")]).then(() => undefined);
+      // "$" asks for help. It spoils a line that was left unfinished, such as G1X1 of G1X100, so that it is refused.
+      const answered = Promise.allSettled(["$", "", "$I"].map((line) => this.send(line))).then(
+        () => undefined,
+      );
       await Promise.race([answered, tooLate]);
       this.dropSent(silent("$I"));
       // A reply to an earlier attempt must not count for a later line.
@@ -95,7 +146,19 @@ export class GrblSession {
 
   /** Whether the buffer has room for another line now. */
   hasRoom(line: string): boolean {
-    return this.sent.length === 0 || this.sentBytes + line.length + 1 <= this.buffers.rxBytes;
+    return this.sent.length === 0 || this.sentBytes + line.length + 1 <= this.buffers.rxBytes - SPARE_BYTES;
+  }
+
+  /** Work zero in machine coordinates, mm. */
+  get offset(): Axes {
+    const { mmPerUnit } = this.settings;
+    const [x, y, z] = this.reportedOffset;
+    return [x * mmPerUnit, y * mmPerUnit, z * mmPerUnit];
+  }
+
+  /** The connection is lost or closed. */
+  get hasFailed(): boolean {
+    return this.failure !== null;
   }
 
   /** Max accepted moves that are not done. */
@@ -106,18 +169,63 @@ export class GrblSession {
   /** Sends one line; `settle` is called once, with its reply or an error. */
   write(line: string, settle: Settle): void {
     if (this.failure) return settle(this.failure);
-    this.sent.push({ line, settle });
+    this.sent.push({ line, settle, isReported: false });
     this.sentBytes += line.length + 1;
     this.log.add("sent", line);
     this.put(`${line}\n`);
     // Not measured from an old reply.
-    if (this.sent.length === 1) this.silence.expect(PATIENCE_S);
-    if (!this.cancelPoll) this.poll();
+    if (this.sent.length === 1) {
+      this.silence.expect(PATIENCE_S);
+      this.expectAnswer();
+    }
+    this.poll();
   }
 
   /** Resolves when the line is accepted; for `G4` when everything before it is done. */
   send(line: string): Promise<void> {
     return new Promise((resolve, reject) => this.write(line, (error) => (error ? reject(error) : resolve())));
+  }
+
+  /** The same for lines that may be sent again if they are refused, as when the connection is disturbed. */
+  async sendSurely(line: string): Promise<void> {
+    for (let i = 1; ; i++) {
+      try {
+        return await this.send(line);
+      } catch (error) {
+        const isRefused = error instanceof PlotwrightError && error.code === "board-error";
+        if (this.failure || !isRefused || i === REFUSED_TRIES) throw error;
+      }
+      // After an error, a grblHAL refuses all lines up to an empty one.
+      await this.send("").catch(() => undefined);
+    }
+  }
+
+  /** The same, also if the board does not know the line. Rejects if the connection is lost. */
+  async attempt(line: string): Promise<void> {
+    await this.sendSurely(line).catch(() => undefined);
+    if (this.failure) throw this.failure;
+  }
+
+  /** Reads the Grbl's own settings; it must be at rest. One that does not list them has none. */
+  async readSettings(): Promise<void> {
+    this.settings.forget();
+    await this.attempt("$$");
+  }
+
+  /** Finds out whether the board knows the command of a check. */
+  async tryCheck(): Promise<void> {
+    const entryCount = this.log.count;
+    await this.attempt(CHECK);
+    this.canCheck = this.log.receivedSince(entryCount).some((line) => line.startsWith(MODES_REPORT));
+  }
+
+  /** Brakes along the path. Resolves at rest, or when it has waited long enough. */
+  async brake(): Promise<void> {
+    this.now(NOW.hold);
+    for (let i = 0; i < REST_TRIES && !this.resetting; i++) {
+      if (!isMoving((await this.status()).state)) return;
+      await delay(this.clock, REST_POLL_S);
+    }
   }
 
   /** Sends a real-time command. */
@@ -130,6 +238,7 @@ export class GrblSession {
     return this.within("its status", (resolve) => {
       this.statusWaiters.push(resolve);
       this.now(NOW.status);
+      this.poll();
     });
   }
 
@@ -150,6 +259,7 @@ export class GrblSession {
   }
 
   private async resetOnce(): Promise<Status> {
+    this.isLockOurs = false;
     const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
     this.now(NOW.reset);
     await greeted;
@@ -182,22 +292,22 @@ export class GrblSession {
 
   private take(line: string): void {
     this.silence.expect(PATIENCE_S);
-    this.offset = offsetOf(line) ?? this.offset;
-    const status = statusOf(line, this.offset);
-    if (status) {
-      for (const waiter of this.statusWaiters.splice(0)) waiter(status);
-      return;
-    }
+    this.reportedOffset = offsetOf(line) ?? this.reportedOffset;
+    const status = statusOf(line, this.offset, this.settings.mmPerUnit);
+    if (status) return this.reported(status);
     this.log.add("received", line);
     this.version = versionOf(line) ?? this.version;
     this.buffers = buffersOf(line) ?? this.buffers;
-    const refused = /^error:(\d+)/.exec(line);
+    this.settings.take(line);
     const alarmed = /^ALARM:(\d+)/.exec(line);
     if (line === "ok") this.settleFirst(null);
-    else if (refused) this.settleFirst(Number(refused[1]));
+    // Old versions write words instead of a number.
+    else if (line.startsWith("error:")) this.settleFirst(line);
+    else if (line.startsWith(MODES_REPORT)) this.checkReported();
     else if (alarmed) {
       const code = Number(alarmed[1]);
-      if (code !== RESET_ALARM || this.greetingWaiters.length === 0) this.broken(alarm(code));
+      if (code === RESET_ALARM && this.greetingWaiters.length > 0) this.isLockOurs = true;
+      else this.broken(alarm(code));
     } else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);
       if (waiters.length === 0) this.broken(restarted());
@@ -205,18 +315,57 @@ export class GrblSession {
     }
   }
 
-  private settleFirst(code: number | null): void {
+  private reported(status: Status): void {
+    const before = this.lastStatus;
+    this.lastStatus = status;
+    const hasMoved = before === null || status.at.some((mm, axis) => mm !== before.at[axis]);
+    if (hasMoved) this.progressS = this.clock.nowS();
+    const isSlow = isMoving(status.state) && this.clock.nowS() - this.progressS < SLOW_S;
+    if (hasMoved || isSlow) this.expectAnswer();
+    for (const waiter of this.statusWaiters.splice(0)) waiter(status);
+    if (!this.playing || this.resetting) return;
+    if (isLocked(status.state)) this.broken(alarm(null));
+    else if (isHeld(status.state)) this.playing.held();
+  }
+
+  private settleFirst(errorReply: string | null): void {
     const first = this.sent.shift();
-    if (!first) return;
+    if (!first) return this.playing?.outOfStep(outOfStep());
     this.sentBytes -= first.line.length + 1;
-    first.settle(code === null ? null : refusal(first.line, code));
+    this.progressS = this.clock.nowS();
+    this.expectAnswer();
+    // The answer was that of another line.
+    if (first.line === CHECK && errorReply === null && !first.isReported)
+      this.playing?.outOfStep(outOfStep());
+    first.settle(errorReply === null ? null : refusal(first.line, errorReply));
+  }
+
+  private checkReported(): void {
+    const first = this.sent.at(0);
+    if (first?.line === CHECK) first.isReported = true;
+    else this.playing?.outOfStep(outOfStep());
+  }
+
+  /** From now on the answer to the first line is due, after the wait that the line asks for. */
+  private expectAnswer(): void {
+    const first = this.sent.at(0);
+    const waitS = Number(/^G4P([\d.]+)/.exec(first?.line ?? "")?.[1] ?? 0);
+    this.missing.expect(first ? PATIENCE_S + waitS : Infinity);
+  }
+
+  private answerMissing(): void {
+    const first = this.sent.at(0);
+    if (!first || this.resetting || !this.isIdentified) return;
+    const error = unanswered(first.line, this.lastStatus?.state ?? "silent");
+    if (this.playing) this.playing.outOfStep(error);
+    else this.fail(error);
   }
 
   private broken(error: PlotwrightError): void {
     if (this.version === null) return;
     // Without a job, the machine would keep a position that is wrong now. Connecting again finds out the board's state.
-    if (this.isIdentified && !this.onBreak) return this.fail(error);
-    this.onBreak?.(error);
+    if (this.isIdentified && !this.playing) return this.fail(error);
+    this.playing?.broken(error);
     this.dropSent(error);
   }
 
@@ -225,12 +374,16 @@ export class GrblSession {
     for (const { settle } of this.sent.splice(0)) settle(error);
   }
 
-  /** While a reply is missing, polls the status: Grbl answers that even if a line waits for motion. */
+  /**
+   * While a reply is missing, asks for the status again and again: Grbl answers that even if a line waits for motion,
+   * and one report may be lost.
+   */
   private poll(): void {
-    this.cancelPoll = null;
-    if (this.failure || this.sent.length === 0) return;
+    const isWaiting = this.sent.length > 0 || this.statusWaiters.length > 0;
+    if (this.failure || this.cancelPoll || !isWaiting) return;
     this.cancelPoll = this.clock.after(POLL_S, () => {
-      this.now(NOW.status);
+      this.cancelPoll = null;
+      if (this.sent.length > 0 || this.statusWaiters.length > 0) this.now(NOW.status);
       this.poll();
     });
   }
@@ -250,9 +403,10 @@ export class GrblSession {
     if (this.failure) return;
     this.failure = error;
     this.silence.stop();
+    this.missing.stop();
     this.cancelPoll?.();
     this.log.add("note", error.message);
-    this.onBreak?.(error);
+    this.playing?.broken(error);
     this.dropSent(error);
     for (const failed of this.failures.splice(0)) failed(error);
     if (!this.closed) this.onLost(error);

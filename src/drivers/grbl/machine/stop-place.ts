@@ -1,6 +1,7 @@
 /** Finds the place on a plan at which a stop left the carriage. */
 import { nearestShare } from "../../../geometry/polyline.js";
-import type { Trajectory } from "../../../plan/trajectory.js";
+import { penMovesOf } from "../../../plan/pen-moves.js";
+import { stateAt, type Trajectory } from "../../../plan/trajectory.js";
 
 /** Blocks within this of the nearest one count as equally near, because the path may cross itself. */
 const SAME_MM = 0.03;
@@ -31,6 +32,26 @@ export function stopPlace(
   const near = found.filter(({ awayMm }) => awayMm <= minMm + SAME_MM);
   near.sort((a, b) => Math.abs(a.atS - nearS) - Math.abs(b.atS - nearS));
   return near[0] ?? null;
+}
+
+/** How far a point is from the straight line between the places at two times of the plan, mm. */
+export function awayFromCut(
+  trajectory: Trajectory,
+  { x, y }: { readonly x: number; readonly y: number },
+  [fromS, toS]: readonly [number, number],
+): number {
+  const from = { ...stateAt(trajectory, fromS) };
+  const to = { ...stateAt(trajectory, toS) };
+  const share = nearestShare(from.x, from.y, to.x, to.y, x, y);
+  return Math.hypot(x - from.x - share * (to.x - from.x), y - from.y - share * (to.y - from.y));
+}
+
+/** Whether the pen is up, and has come to rest, at all times between the two. */
+export function isPenUpThroughout(trajectory: Trajectory, [fromS, toS]: readonly [number, number]): boolean {
+  return !penMovesOf(trajectory).some(
+    ({ up, startS, moveS }, i, all) =>
+      startS <= toS && (all[i + 1]?.startS ?? Infinity) >= fromS && (!up || startS + moveS > fromS),
+  );
 }
 
 function nearestOn(trajectory: Trajectory, k: number, x: number, y: number): StopPlace {

@@ -54,9 +54,12 @@ export class GrblRuns implements WritesRuns {
       const from = points[points.length - 1];
       const to = this.pointAt(path, i + 1, alongMm);
       if (to.steps1 === from.steps1 && to.steps2 === from.steps2) continue;
-      const feed = feedOf(Math.sqrt(path.cap2[i]));
       const before = moves[moves.length - 1] ?? null;
-      moves.push(moveOf([from.x, from.y, 0], [to.x, to.y, 0], feed / 60, this.limits, before));
+      const moveAt = (feed: number): Move =>
+        moveOf([from.x, from.y, 0], [to.x, to.y, 0], feed / 60, this.limits, before);
+      // The profile may limit the speed more than the Grbl itself.
+      const feed = feedOf(moveAt(60 * Math.sqrt(path.cap2[i])).speed);
+      moves.push(moveAt(feed));
       feeds.push(feed);
       points.push(to);
     }

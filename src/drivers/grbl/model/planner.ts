@@ -9,6 +9,8 @@ export type Axes = readonly [x: number, y: number, z: number];
 
 export const difference = (a: Axes, b: Axes): Axes => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 
+export const sum = (a: Axes, b: Axes): Axes => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+
 export interface AxisLimits {
   /** mm/s. */
   readonly speed: Axes;

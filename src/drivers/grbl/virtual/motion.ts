@@ -25,7 +25,8 @@ export class GrblMotion {
   private isHolding = false;
 
   constructor(
-    private readonly limits: AxisLimits,
+    private readonly limits: () => AxisLimits,
+    private readonly onSteps: (at: Axes) => Axes,
     private readonly arrived: (at: Axes) => void,
   ) {}
 
@@ -65,7 +66,7 @@ export class GrblMotion {
   /** Queues a move to `to`, which must differ from the end of the queue. `go` starts the motion. */
   queue(to: Axes, feed: number): void {
     const before = this.moves[this.moves.length - 1] ?? null;
-    this.moves.push(moveOf(this.target, to, feed, this.limits, before));
+    this.moves.push(moveOf(this.target, to, feed, this.limits(), before));
     this.target = to;
     if (this.isMoving && !this.isHolding) this.plan();
   }
@@ -85,7 +86,7 @@ export class GrblMotion {
 
   /** Drops the queue and stops at the current position. */
   stop(): void {
-    this.start = this.target = this.at;
+    this.start = this.target = this.onSteps(this.at);
     this.moves = [];
     this.phases = [];
     this.doneMm = this.speed = 0;

@@ -1,30 +1,45 @@
 /**
  * A small simulated Grbl: a receive buffer of 128 characters, a queue of 15 moves, motion by the planner's model,
- * reports, and real-time commands. It supports the commands that this driver sends, and refuses others as Grbl does.
+ * reports, real-time commands, soft limits and the lock of a machine that wants to be homed. It supports the commands
+ * that this driver sends, and refuses others as Grbl does.
  */
 import { placeFromMotors } from "../../../machines/motors.js";
 import { DrawnPolylines, type DrawnPolyline } from "../../drawn-polylines.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Transport } from "../../transport.js";
-import { axisLimits, dwellS, grblOf } from "../model/grbl-controller.js";
-import { difference, QUEUE_MOVES, type Axes } from "../model/planner.js";
+import { dwellS, grblOf } from "../model/grbl-controller.js";
+import { difference, QUEUE_MOVES, sum, type Axes } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
 import { VirtualLink } from "../../virtual-link.js";
 import { GrblMotion } from "./motion.js";
+import { VirtualSettings, type LineFault, type VirtualGrblOptions } from "./virtual-settings.js";
 
 const VERSION = "1.1h";
 /** How long Grbl waits for more lines before it starts with a queue that is not full. */
 const START_S = 0.005;
 const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
-const ERROR = { number: 2, dollar: 3, locked: 9, unknown: 20, noFeed: 22, unused: 36 } as const;
-/** Modes that are always on. */
-const FIXED_MODES = new Set(["G0", "G1", "G21", "G54", "G90", "G94"]);
+const ERROR = {
+  letter: 1,
+  number: 2,
+  dollar: 3,
+  busy: 8,
+  locked: 9,
+  unknown: 20,
+  sameGroup: 21,
+  noFeed: 22,
+  repeated: 25,
+  noWait: 28,
+  unused: 36,
+} as const;
+/** Supported modes, by group. G4 and G10 are in a group of their own. */
+const GROUPS = [["G0", "G1"], ["G21"], ["G54"], ["G90"], ["G94"], ["G4", "G10"]];
 
 interface VirtualGrblState {
   readonly state: string;
   readonly xMm: number;
   readonly yMm: number;
+  /** The pen's real height, from that of the first start. */
   readonly zMm: number;
   readonly penUp: boolean;
   /** Characters that arrived when the buffer was full: a real Grbl loses them silently. */
@@ -32,6 +47,7 @@ interface VirtualGrblState {
 }
 
 export class VirtualGrbl implements VirtualMachine {
+  private readonly settings: VirtualSettings;
   private readonly motion: GrblMotion;
   private readonly startS: number;
   private link: VirtualLink | null = null;
@@ -46,19 +62,31 @@ export class VirtualGrbl implements VirtualMachine {
   private isRapid = true;
   /** Origin of the work coordinates, mm. */
   private offset: Axes = [0, 0, 0];
+  /** Where the machine coordinates begin since the last start, mm from where they began at the first. */
+  private origin: Axes = [0, 0, 0];
   private isOffsetReported = false;
   /** Machine seconds at which the running G4 ends; null: none is running. */
   private waitUntilS: number | null = null;
+  private afterWait: () => void = () => undefined;
   private startDueS: number | null = null;
   private cancelTimer: () => void = () => undefined;
   private isClosed = false;
   private readonly lines = new DrawnPolylines();
   private isDrawing = false;
 
-  constructor(private readonly options: VirtualMachineOptions) {
+  constructor(
+    private readonly options: VirtualMachineOptions,
+    board: VirtualGrblOptions = {},
+  ) {
     const { clock, machine } = options;
     this.startS = clock.nowS();
-    this.motion = new GrblMotion(axisLimits(grblOf(machine)), () => this.record());
+    this.settings = new VirtualSettings(machine, board);
+    this.motion = new GrblMotion(
+      () => this.settings.limits,
+      (at) => this.onSteps(at),
+      () => this.record(),
+    );
+    this.isLocked = this.settings.hasHoming;
     this.newLine(false);
   }
 
@@ -83,9 +111,10 @@ export class VirtualGrbl implements VirtualMachine {
   restart(): void {
     this.catchUp();
     this.motion.stop();
+    this.origin = sum(this.origin, this.motion.at);
     this.motion.zero();
-    this.newLine(this.isDown(this.workAt()[2]));
-    this.isLocked = false;
+    this.newLine(this.isPenDown);
+    this.isLocked = this.settings.hasHoming;
     this.begin();
     this.schedule();
   }
@@ -93,19 +122,33 @@ export class VirtualGrbl implements VirtualMachine {
   /** As if it has hit a limit switch: it stops, and answers nothing until it is reset. */
   hitSwitch(): void {
     this.catchUp();
-    this.motion.stop();
-    this.waitUntilS = this.startDueS = null;
-    this.isLocked = this.isDeaf = true;
-    this.reply("ALARM:1");
-    this.reply("[MSG:Reset to continue]");
+    this.alarm(1);
     this.schedule();
+  }
+
+  /** As if its hold button was pressed. */
+  pressHold(): void {
+    this.catchUp();
+    this.hold();
+    this.schedule();
+  }
+
+  /** From now on, the next `count` replies or lines suffer this fault. */
+  spoil(fault: LineFault, count = 1): void {
+    this.settings.spoil(fault, count);
+  }
+
+  /** As if this line came from the board. */
+  say(line: string): void {
+    this.reply(line);
   }
 
   state(): VirtualGrblState {
     this.catchUp();
-    const [x, y, z] = this.workAt();
+    const [x, y] = this.workAt();
     const { x: xMm, y: yMm } = this.onPage(x, y);
-    return { state: this.stateName(), xMm, yMm, zMm: z, penUp: !this.isDown(z), lostCount: this.lostCount };
+    const pen = { zMm: this.zMm, penUp: !this.isPenDown };
+    return { state: this.stateName(), xMm, yMm, ...pen, lostCount: this.lostCount };
   }
 
   drawn(): DrawnPolyline[] {
@@ -125,7 +168,8 @@ export class VirtualGrbl implements VirtualMachine {
       else if (character === "!") this.hold();
       else if (character === "~") this.resume();
       else if (character === "\x18") this.reset();
-      else if (this.received.length < RX_BYTES) this.received += character;
+      else if (character === "\n" && this.settings.takes("line-end-lost")) continue;
+      else if (this.received.length < this.settings.rxBytes) this.received += character;
       else this.lostCount++;
     }
     this.work();
@@ -140,7 +184,7 @@ export class VirtualGrbl implements VirtualMachine {
       const answer = this.perform(line.toUpperCase());
       if (answer === null) break;
       this.received = this.received.slice(end + 1);
-      this.reply(answer === 0 ? "ok" : `error:${answer}`);
+      this.answer(answer === 0 ? "ok" : `error:${answer}`);
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
       this.startDueS ??= this.nowS + START_S;
@@ -174,44 +218,72 @@ export class VirtualGrbl implements VirtualMachine {
     this.motion.advance(toS);
     if (this.waitUntilS !== null && this.waitUntilS <= toS) {
       this.waitUntilS = null;
-      this.reply("ok");
+      this.afterWait();
+      this.answer("ok");
     }
   }
 
   /** Returns 0 if the line is done or queued, an error code if it is refused, null if it has to wait. */
   private perform(line: string): number | null {
     if (line === "") return 0;
+    if (this.settings.takes("refused")) return ERROR.unknown;
     if (line.startsWith("$")) return this.system(line);
     if (this.isLocked) return ERROR.locked;
-    if (line.replace(WORDS, "") !== "") return ERROR.number;
+    const rest = line.replace(WORDS, "");
+    if (rest !== "") return /^[A-Z]/.test(rest) ? ERROR.number : ERROR.letter;
     const words = new Map<string, number>();
     const modes: string[] = [];
     for (const [, letter, value] of line.matchAll(WORDS)) {
       if (letter === "G" || letter === "M") modes.push(`${letter}${Number(value)}`);
+      else if (words.has(letter)) return ERROR.repeated;
       else words.set(letter, Number(value));
     }
-    if (modes.includes("G4")) return this.dwell(words.get("P"));
+    const groups = modes.map((mode) => GROUPS.findIndex((group) => group.includes(mode)));
+    if (groups.includes(-1)) return ERROR.unknown;
+    if (new Set(groups).size < groups.length) return ERROR.sameGroup;
+    if (modes.includes("G4")) return this.dwell(modes, words);
     if (modes.includes("G10")) return this.setOffset(words);
-    if (modes.some((mode) => !FIXED_MODES.has(mode))) return ERROR.unknown;
     return this.move(modes, words);
   }
 
   private system(line: string): number {
-    if (line === "$I") {
+    const isAtRest = this.motion.isEmpty || this.isLocked;
+    const [, number, value] = /^\$(\d+)=(-?[\d.]+)$/.exec(line) ?? [];
+    if (line === "$G") {
+      this.reply(`[GC:${this.isRapid ? "G0" : "G1"} G54 G17 G21 G90 G94 M5 M9 T0 F${this.feed} S0]`);
+    } else if (line === "$")
+      this.reply("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]");
+    else if (line === "$X") {
+      if (this.isLocked) this.reply("[MSG:Caution: Unlocked]");
+      this.isLocked = false;
+    } else if (line !== "$I" && line !== "$$" && line !== "$SLP" && number === undefined) {
+      return ERROR.dollar;
+    } else if (!isAtRest) return ERROR.busy;
+    else if (line === "$I") {
       this.reply(`[VER:${VERSION}.20190830:]`);
       this.reply(`[OPT:V,${QUEUE_MOVES},${RX_BYTES}]`);
-    } else if (line === "$X") this.isLocked = false;
+    } else if (line === "$$") for (const setting of this.settings.list()) this.reply(setting);
     else if (line === "$SLP") this.isAsleep = true;
-    else return ERROR.dollar;
+    else {
+      this.isOffsetReported = false;
+      return this.settings.set(Number(number), Number(value)) ? 0 : ERROR.dollar;
+    }
     return 0;
   }
 
-  /** G4 is answered when its wait ends, so the line is removed from the buffer here. */
-  private dwell(seconds: number | undefined): number | null {
-    if (seconds === undefined) return 28;
+  /**
+   * G4 is answered when its wait ends, so the line is removed from the buffer here. A move in the same line, whose line
+   * end was lost, comes after the wait.
+   */
+  private dwell(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
+    const seconds = words.get("P");
+    if (seconds === undefined) return ERROR.noWait;
     if (!this.motion.isEmpty) return null;
-    if (seconds <= 0) return 0;
+    const rest = new Map(words);
+    rest.delete("P");
+    if (seconds <= 0) return this.move(modes, rest);
     this.waitUntilS = this.nowS + dwellS(seconds);
+    this.afterWait = () => this.move(modes, rest);
     this.received = this.received.slice(this.received.indexOf("\n") + 1);
     return null;
   }
@@ -238,22 +310,25 @@ export class VirtualGrbl implements VirtualMachine {
     this.feed = feed;
     if (!isMove) return words.size > (words.has("F") ? 1 : 0) ? ERROR.unused : 0;
     const { end } = this.motion;
-    const to: Axes = [
-      this.target(words.get("X"), 0, end),
-      this.target(words.get("Y"), 1, end),
-      this.target(words.get("Z"), 2, end),
-    ];
+    const target = (letter: string, axis: 0 | 1 | 2): number => {
+      const word = words.get(letter);
+      return word === undefined ? end[axis] : word + this.offset[axis];
+    };
+    const to = this.onSteps([target("X", 0), target("Y", 1), target("Z", 2)]);
+    if (this.settings.isBeyond(to)) {
+      // It comes to rest first; here at once.
+      this.alarm(2);
+      return null;
+    }
     if (to.every((value, i) => value === end[i])) return 0;
     this.motion.queue(to, this.isRapid ? Infinity : feed / 60);
     return 0;
   }
 
   /** X and Y are rounded to whole steps. */
-  private target(word: number | undefined, axis: 0 | 1 | 2, end: Axes): number {
-    if (word === undefined) return end[axis];
-    const mm = word + this.offset[axis];
+  private onSteps([x, y, z]: Axes): Axes {
     const { stepsPerMm } = this.options.machine;
-    return axis === 2 ? mm : Math.round(mm * stepsPerMm) / stepsPerMm;
+    return [Math.round(x * stepsPerMm) / stepsPerMm, Math.round(y * stepsPerMm) / stepsPerMm, z];
   }
 
   private hold(): void {
@@ -274,7 +349,18 @@ export class VirtualGrbl implements VirtualMachine {
       this.reply("ALARM:3");
       this.isLocked = true;
     }
+    // The motors were off, so the carriage may have been pushed.
+    if (this.isAsleep) this.isLocked = true;
     this.begin();
+  }
+
+  /** It stops, and answers nothing until it is reset. */
+  private alarm(code: number): void {
+    this.motion.stop();
+    this.waitUntilS = this.startDueS = null;
+    this.isLocked = this.isDeaf = true;
+    this.reply(`ALARM:${code}`);
+    this.reply("[MSG:Reset to continue]");
   }
 
   private begin(): void {
@@ -291,12 +377,13 @@ export class VirtualGrbl implements VirtualMachine {
 
   private report(): void {
     if (this.isDeaf) return;
-    const mm = (at: Axes): string => at.map((value) => value.toFixed(3)).join(",");
-    const offset = this.isOffsetReported ? "" : `|WCO:${mm(this.offset)}`;
+    const { settings } = this;
+    const offset = this.isOffsetReported ? "" : `|WCO:${settings.reported(this.offset)}`;
     this.isOffsetReported = true;
-    const free = `${this.motion.freeCount},${RX_BYTES - this.received.length}`;
+    const free = `${this.motion.freeCount},${settings.rxBytes - this.received.length}`;
     const feed = Math.round(60 * this.motion.speedMmPerS);
-    this.reply(`<${this.stateName()}|MPos:${mm(this.motion.at)}|Bf:${free}|FS:${feed},0${offset}>`);
+    const at = settings.reported(this.motion.at);
+    this.reply(`<${this.stateName()}|MPos:${at}|Bf:${free}|FS:${feed},0${offset}>`);
   }
 
   private stateName(): string {
@@ -304,6 +391,15 @@ export class VirtualGrbl implements VirtualMachine {
     if (this.isLocked) return "Alarm";
     if (this.isHeld) return this.motion.isMoving ? "Hold:1" : "Hold:0";
     return this.motion.isEmpty ? "Idle" : "Run";
+  }
+
+  /** The reply to a line. */
+  private answer(text: string): void {
+    const { settings } = this;
+    if (settings.takes("reply-lost")) return;
+    if (settings.takes("reply-damaged")) return this.reply(`${text[0]}?`);
+    this.reply(text);
+    if (settings.takes("reply-doubled")) this.reply(text);
   }
 
   private reply(line: string): void {
@@ -314,9 +410,13 @@ export class VirtualGrbl implements VirtualMachine {
     return difference(this.motion.at, this.offset);
   }
 
-  private isDown(z: number): boolean {
+  private get zMm(): number {
+    return this.origin[2] + this.motion.at[2];
+  }
+
+  private get isPenDown(): boolean {
     const { penUpZMm, penDownZMm } = grblOf(this.options.machine);
-    return Math.abs(z - penDownZMm) < Math.abs(z - penUpZMm);
+    return Math.abs(this.zMm - penDownZMm) < Math.abs(this.zMm - penUpZMm);
   }
 
   private onPage(x: number, y: number): { x: number; y: number } {
@@ -325,8 +425,7 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private record(): void {
-    const penDown = this.isDown(this.workAt()[2]);
-    if (this.isDrawing !== penDown) this.newLine(penDown);
+    if (this.isDrawing !== this.isPenDown) this.newLine(this.isPenDown);
     else this.addPoint();
   }
 

@@ -1,0 +1,111 @@
+/** What differs from one virtual Grbl to another: its own settings, its receive buffer, and faults of the connection. */
+import type { MachineProfile } from "../../../machines/profile.js";
+import { grblOf } from "../model/grbl-controller.js";
+import type { Axes, AxisLimits } from "../model/planner.js";
+import { RX_BYTES } from "../protocol.js";
+
+export interface VirtualGrblOptions {
+  /** Characters that its receive buffer really holds; it always reports 128. */
+  readonly rxBytes?: number;
+  /** Settings by number, where they differ from the machine's profile: { 110: 3000 } is $110=3000. */
+  readonly settings?: Readonly<Record<number, number>>;
+}
+
+/**
+ * Faults of the connection: the next replies ("ok" or "error:n") are lost, sent twice or damaged; the next line ends do
+ * not arrive, so that two lines become one; the next lines are refused with error:20.
+ */
+export type LineFault = "reply-lost" | "reply-doubled" | "reply-damaged" | "line-end-lost" | "refused";
+
+export class VirtualSettings {
+  readonly rxBytes: number;
+  private readonly settings = new Map<number, number>();
+  private readonly faults = new Map<LineFault, number>();
+
+  constructor(machine: MachineProfile, { rxBytes = RX_BYTES, settings = {} }: VirtualGrblOptions) {
+    this.rxBytes = rxBytes;
+    const { maxSpeedMmPerS, accelMmPerS2, junctionMm, penSpeedMmPerS, penAccelMmPerS2 } = grblOf(machine);
+    const { stepsPerMm, widthMm, heightMm } = machine;
+    const all: Readonly<Record<number, number>> = {
+      0: 10,
+      1: 25,
+      10: 3,
+      11: junctionMm,
+      13: 0,
+      20: 0,
+      22: 0,
+      23: 0,
+      100: stepsPerMm,
+      101: stepsPerMm,
+      102: stepsPerMm,
+      110: 60 * maxSpeedMmPerS,
+      111: 60 * maxSpeedMmPerS,
+      112: 60 * penSpeedMmPerS,
+      120: accelMmPerS2,
+      121: accelMmPerS2,
+      122: penAccelMmPerS2,
+      130: widthMm,
+      131: heightMm,
+      132: 200,
+      ...settings,
+    };
+    for (const [number, value] of Object.entries(all)) this.settings.set(Number(number), value);
+  }
+
+  get limits(): AxisLimits {
+    const speed = this.axes(110);
+    return {
+      speed: [speed[0] / 60, speed[1] / 60, speed[2] / 60],
+      accel: this.axes(120),
+      junctionMm: this.value(11),
+    };
+  }
+
+  get hasHoming(): boolean {
+    return this.value(22) !== 0;
+  }
+
+  /** A position in the unit and with the decimals of its reports. */
+  reported(at: Axes): string {
+    const inInches = this.value(13) !== 0;
+    return at.map((mm) => (inInches ? (mm / 25.4).toFixed(4) : mm.toFixed(3))).join(",");
+  }
+
+  /** Whether a target in machine coordinates is beyond the soft limits. */
+  isBeyond(target: Axes): boolean {
+    const travel = this.axes(130);
+    return this.value(20) !== 0 && target.some((mm, axis) => mm > 0 || mm < -travel[axis]);
+  }
+
+  list(): string[] {
+    return [...this.settings].map(([number, value]) => {
+      return `$${number}=${number < 11 || (number > 12 && number < 24) ? value : value.toFixed(3)}`;
+    });
+  }
+
+  /** False if there is no such setting. */
+  set(number: number, value: number): boolean {
+    if (!this.settings.has(number)) return false;
+    this.settings.set(number, value);
+    return true;
+  }
+
+  spoil(fault: LineFault, count: number): void {
+    this.faults.set(fault, count);
+  }
+
+  /** Whether the fault happens now. */
+  takes(fault: LineFault): boolean {
+    const count = this.faults.get(fault) ?? 0;
+    if (count > 0) this.faults.set(fault, count - 1);
+    return count > 0;
+  }
+
+  private axes(first: number): Axes {
+    return [this.value(first), this.value(first + 1), this.value(first + 2)];
+  }
+
+  private value(number: number): number {
+    return this.settings.get(number) ?? 0;
+  }
+}

@@ -1,0 +1,121 @@
+/** A plotter whose machine has a virtual Grbl, on a manual clock and over a connection that a test can disturb. */
+import { expect } from "vitest";
+import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import type { PlotStart } from "../../host/plotter/types.js";
+import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
+import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
+import type { VirtualGrblOptions } from "../../src/drivers/grbl/virtual/virtual-settings.js";
+import { PlotwrightError, type Clock, type MachineProfile, type Transport } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { GRBL } from "./grbl-machine.js";
+import { DRAWING } from "./live-plot.js";
+import { LocalPlanner } from "./local-planner.js";
+import { ManualClock } from "./manual-clock.js";
+
+/** Settings for a machine with a Grbl. */
+export const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
+/** Longer than any of these takes, s. */
+export const LIMIT_S = 60;
+
+/** A connection that a test can cut, or keep from being heard. */
+export class WeakLine implements Transport {
+  isMute = false;
+  /** Nothing reaches the board. */
+  isDeaf = false;
+  /** Time until a reply is read, s. */
+  lateS = 0;
+  private lost: (error?: Error) => void = () => undefined;
+  private isLost = false;
+
+  constructor(
+    private readonly line: Transport,
+    private readonly clock: Clock,
+  ) {}
+
+  write(bytes: Uint8Array): Promise<void> {
+    if (this.isDeaf) return Promise.resolve();
+    if (!this.isLost) return this.line.write(bytes);
+    return Promise.reject(new PlotwrightError("disconnected", "The cable is unplugged."));
+  }
+
+  onData(listener: (bytes: Uint8Array) => void): void {
+    this.line.onData((bytes) => {
+      if (this.isMute || this.isLost) return;
+      if (this.lateS > 0) this.clock.after(this.lateS, () => listener(bytes));
+      else listener(bytes);
+    });
+  }
+
+  onClose(listener: (error?: Error) => void): void {
+    this.lost = listener;
+    this.line.onClose(listener);
+  }
+
+  close(): Promise<void> {
+    return this.line.close();
+  }
+
+  unplug(): void {
+    this.isLost = true;
+    this.lost(new Error("unplugged"));
+  }
+}
+
+/** `options`: what differs from an ordinary Grbl. */
+export async function newPlotter(options: VirtualGrblOptions = {}, machine: MachineProfile = GRBL) {
+  const world = new ManualClock();
+  const board = new VirtualGrbl({ clock: world, speed: 1, machine }, options);
+  const lines: WeakLine[] = [];
+  const open = (): Promise<Transport> => {
+    lines.push(new WeakLine(board.transport(), world));
+    return Promise.resolve(lines[lines.length - 1]);
+  };
+  const driver = new PlotterDriver({
+    device: "a port",
+    clock: world,
+    settings: { ...SETTINGS, customMachine: machine },
+    devices: { find: () => Promise.resolve([]), open },
+  });
+  await world.run(driver.start());
+  const begin = async (planner = new LocalPlanner(DRAWING), start: PlotStart = {}, settings = SETTINGS) =>
+    world.run(driver.plot(planner, settings, start));
+  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
+  const line = (): WeakLine => lines[lines.length - 1];
+  /** It is connected again if necessary, and still works. */
+  const mustWork = async (lostCount = 0): Promise<void> => {
+    await world.advance(5);
+    expect(driver.state).toMatchObject({ connection: "idle", activity: "none" });
+    expect(await within(driver.walkTo(12, 13))).toBeUndefined();
+    const { xMm, yMm, ...rest } = board.state();
+    expect(rest).toMatchObject({ state: "Idle", penUp: true, lostCount });
+    // A stop leaves it between two steps.
+    expect([xMm, yMm].map((mm) => Math.round(100 * mm))).toEqual([1_200, 1_300]);
+    expect(driver.state.penUp).toBe(true);
+  };
+  return { world, board, driver, begin, within, line, mustWork };
+}
+
+export async function newMachine(options: VirtualGrblOptions = {}) {
+  const world = new ManualClock();
+  const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL }, options);
+  const line = new WeakLine(board.transport(), world);
+  const lost: string[] = [];
+  const events = {
+    changed: () => undefined,
+    buttonPressed: () => undefined,
+    supplyRead: () => undefined,
+    lost: ({ code }: PlotwrightError) => void lost.push(code),
+  };
+  const machine = await world.run(
+    grblDriver.identify(line, { clock: world, machineClock: world, speed: 1, events }),
+  );
+  await world.run(machine.takeOver(SETTINGS, null));
+  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
+  return { world, board, line, machine, lost, within };
+}
+
+/** The result of a promise, or its error in words. */
+export const outcome = (promise: Promise<unknown>): Promise<unknown> =>
+  promise.catch((error: unknown) =>
+    error instanceof PlotwrightError ? `${error.code}: ${error.message}` : String(error),
+  );
