@@ -5,7 +5,7 @@ import { BaseSequencer, type TestSpecification } from "vitest/node";
 const REAL_TIME = ["test/serial/**/*.test.ts"];
 
 /** Keeps a server as busy as it may be while a board plots: nothing else runs then. */
-const LOAD = ["test/serial/load.test.ts"];
+const LOAD = ["test/serial/load.test.ts", "test/serial/attacks.test.ts"];
 
 /** Tests of the command line that replace modules (vi.mock), so each file has a process of its own. */
 const COMMANDS = ["hand-commands", "plot", "reference", "stdin"].map((name) => `test/cli/${name}.test.ts`);

@@ -8,7 +8,7 @@
  *   disk, and stored as soon as there is room.
  */
 import { PlotwrightError } from "../../src/index.js";
-import { ENDED_STATES, type Job } from "../../src/schema/index.js";
+import { ENDED_STATES, type HistoryRequest, type Job, type JobPage } from "../../src/schema/index.js";
 import { DISK_FULL, isDiskFault } from "../disk-fault.js";
 import { applyJobEvent, isOnPlotter, type JobEvent } from "./job-machine.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
@@ -17,6 +17,8 @@ import type { StoredDrawing } from "../storage.js";
 type ListParts = Pick<QueueParts, "store" | "announce" | "nowIso" | "withChange" | "afterChange">;
 
 const RETRY_MS = 5_000;
+/** Ended jobs in a snapshot, and in each further part of the history. */
+const HISTORY_PAGE = 50;
 
 /** The source of a new job, its place in the queue, and the number of jobs to add. */
 export interface Origin extends Pick<NewQueueJob, "watched" | "sharedId" | "copies"> {
@@ -28,6 +30,8 @@ export class JobList {
   readonly #jobs = new Map<string, Job>();
   /** Jobs whose last change could not be stored, by id, each in its stored state. */
   readonly #unsaved = new Map<string, Job | null>();
+  /** Read from the store when it is needed; null after a change. */
+  #order: readonly string[] | null = null;
   #retry: ReturnType<typeof setTimeout> | null = null;
 
   constructor(parts: ListParts) {
@@ -40,8 +44,33 @@ export class JobList {
     return this.order().map((id) => this.get(id));
   }
 
-  order(): string[] {
-    return this.#parts.store.order();
+  order(): readonly string[] {
+    this.#order ??= this.#parts.store.order();
+    return this.#order;
+  }
+
+  /** The whole queue, and the newest jobs of the history. */
+  recent(): JobPage {
+    let endedCount = 0;
+    const ids = this.order().filter((id) => !this.#isEnded(id) || ++endedCount <= HISTORY_PAGE);
+    return { jobs: ids.map((id) => this.get(id)), hasOlderJobs: endedCount > HISTORY_PAGE };
+  }
+
+  /** The next jobs of the history. Throws `not-found` if there is no job `after`. */
+  older({ after, plotterId }: HistoryRequest): JobPage {
+    const order = this.order();
+    const from = after === undefined ? 0 : order.indexOf(this.get(after).id) + 1;
+    const older = order
+      .slice(from)
+      .filter((id) => this.#isEnded(id) && (plotterId ?? this.get(id).plotterId) === this.get(id).plotterId);
+    return {
+      jobs: older.slice(0, HISTORY_PAGE).map((id) => this.get(id)),
+      hasOlderJobs: older.length > HISTORY_PAGE,
+    };
+  }
+
+  #isEnded(id: string): boolean {
+    return ENDED_STATES.includes(this.get(id).state);
   }
 
   has(id: string): boolean {
@@ -72,6 +101,7 @@ export class JobList {
       if (watched !== undefined) store.saveSeen(watched);
       if (sharedId !== undefined) store.saveShared(sharedId, job.id);
     });
+    this.#order = null;
     for (const each of jobs) {
       this.#jobs.set(each.id, each);
       announce({ type: "job", job: each });
@@ -83,6 +113,7 @@ export class JobList {
   /** Returns the job's drawing if no other job uses it, else null. */
   remove(id: string): string | null {
     const unused = this.#parts.store.removeJob(id);
+    this.#order = null;
     this.#jobs.delete(id);
     this.#unsaved.delete(id);
     this.#parts.announce({ type: "job-removed", id });
@@ -125,6 +156,7 @@ export class JobList {
       store.saveJob(job);
       withChange?.(before, job);
     });
+    this.#order = null;
     this.#unsaved.delete(job.id);
     this.#jobs.set(job.id, job);
     announce({ type: "job", job });
@@ -177,8 +209,10 @@ export class JobList {
     this.#jobs.set(id, { ...this.get(id), ...progress });
   }
 
+  /** Call after the order was changed in the store. */
   announceOrder(): void {
-    this.#parts.announce({ type: "order", ids: this.order() });
+    this.#order = null;
+    this.#parts.announce({ type: "order", ids: this.recent().jobs.map(({ id }) => id) });
   }
 
   /** Throws `conflict` unless the job is queued. `what`: the part to change, as in "Its settings". */

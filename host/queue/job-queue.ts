@@ -4,8 +4,10 @@ import { machineOf, firmwareFor, isPlannedAlike } from "../../src/internal.js";
 import {
   ENDED_STATES,
   queueSettingsSchema,
+  type HistoryRequest,
   type Job,
   type JobChange,
+  type JobPage,
   type JobPatch,
   type MovePlace,
   type PlotSettings,
@@ -19,6 +21,12 @@ import { applyJobEvent, isOnPlotter } from "./job-machine.js";
 import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
 import { queuedJob } from "./queued-job.js";
+
+/**
+ * Each job stores its settings, and every client gets those of all waiting jobs. Only settings of single layers can
+ * become that large: at 100 bytes each, those of a thousand layers.
+ */
+const MAX_SETTINGS_BYTES = 100_000;
 
 export class JobQueue {
   readonly #parts: QueueParts;
@@ -37,6 +45,16 @@ export class JobQueue {
   /** Queue order first, then history, newest first. */
   list(): Job[] {
     return this.#jobs.list();
+  }
+
+  /** The whole queue, and the newest 50 jobs of the history. */
+  recent(): JobPage {
+    return this.#jobs.recent();
+  }
+
+  /** The next 50 jobs of the history. Throws `not-found` if there is no job `after`. */
+  older(wanted: HistoryRequest): JobPage {
+    return this.#jobs.older(wanted);
   }
 
   /** Throws `not-found`. */
@@ -86,6 +104,7 @@ export class JobQueue {
 
   async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
     const { name, settings, drawing, from, plotterId = this.#firstPlotter() } = wanted;
+    mustFit(settings);
     findPlotter(this.#parts.plotters, plotterId);
     const firmware = this.#firmwareOf(plotterId, settings);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
@@ -110,6 +129,7 @@ export class JobQueue {
     const { name, settings, plotterId } = patch;
     if (plotterId !== undefined) this.#jobs.mustBeQueued(id, "Its plotter");
     if (settings !== undefined) {
+      mustFit(settings);
       this.#jobs.mustBeQueued(id, "Its settings");
       mustKeepStrokes(this.get(id), settings);
     }
@@ -225,7 +245,8 @@ export class JobQueue {
     await findPlotter(this.#parts.plotters, this.get(id).plotterId).settled();
   }
 
-  change(id: string, change: JobChange): Promise<Job> {
+  async change(id: string, change: JobChange): Promise<Job> {
+    mustFit(change);
     return this.#runs.change(id, change);
   }
 
@@ -338,6 +359,16 @@ export class JobQueue {
 }
 
 const settingOf = (plotterId: string): string => `queue:${plotterId}`;
+
+/** Throws `too-large`. */
+function mustFit(settings: PlotSettings | JobChange): void {
+  const bytes = JSON.stringify(settings).length;
+  if (bytes <= MAX_SETTINGS_BYTES) return;
+  throw new PlotwrightError(
+    "too-large",
+    `The settings of this job take ${Math.ceil(bytes / 1000)} kB, more than the ${MAX_SETTINGS_BYTES / 1000} kB that a job may have. Set fewer layers one by one.`,
+  );
+}
 
 /** A job stores its first stroke by number. With other preparation settings the number would mean another stroke. */
 function mustKeepStrokes(job: Job, settings: PlotSettings): void {

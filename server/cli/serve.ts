@@ -57,12 +57,16 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...(options.data === undefined ? {} : { dataDir: options.data }),
     ...(options.watch === undefined ? {} : { watchDir: options.watch }),
     ...(options.sharedQueue === undefined ? {} : { sharedQueue: options.sharedQueue }),
+    onNewPairing: () => void showPairing("A device was removed, so the links for pairing are new.\n"),
     log: (line) => io.err(`${line}\n`),
   });
+  const showPairing = async (why: string): Promise<void> => {
+    if (options.lan !== true && options.pairAlways !== true) return;
+    io.out(`${why}${await pairing(server, options.lan === true)}`);
+  };
   isOpen = true;
   io.out(`plotwright is at ${server.url}\n`);
-  if (options.lan === true || options.pairAlways === true)
-    io.out(await pairing(server, options.lan === true));
+  await showPairing("");
   if (options.open === true) openBrowser(server.url, io);
   await stopped;
   await server.close();

@@ -40,7 +40,10 @@ export type { ServerOptions } from "./server-options.js";
 export interface PlotwrightServer {
   /** URL of the page, with the actual port. */
   readonly url: string;
-  /** Paths of the links that pair a device, to append to an address of this computer. */
+  /**
+   * Paths of the links that pair a device, to append to an address of this computer. They are replaced when a device is
+   * removed.
+   */
   readonly pairing: { readonly operatePath: string; readonly watchPath: string };
   /** Stops plotting (the pen lifts), stores the state, and releases port, board and data folder. */
   close(): Promise<void>;
@@ -78,11 +81,14 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     const parts = await openParts(options, dataDir, store, log, closing);
     const { access, registry, refusals, plugins } = parts;
     const isTls = options.tls !== undefined;
-    const paths = { operatePath: access.pairingPath("operate"), watchPath: access.pairingPath("watch") };
+    const paths = (): PlotwrightServer["pairing"] => ({
+      operatePath: access.pairingPath("operate"),
+      watchPath: access.pairingPath("watch"),
+    });
     const pairing = (): Promise<Pairing> => {
       const own = new URL(urlOf(http, isTls));
       const address = options.lan === true ? (lanAddresses()[0] ?? own.hostname) : own.hostname;
-      return pairingLinks(`${own.protocol}//${address}:${own.port}`, options.lan === true, paths);
+      return pairingLinks(`${own.protocol}//${address}:${own.port}`, options.lan === true, paths());
     };
     const app = createApp({
       ...parts,
@@ -104,7 +110,13 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     const { port } = http.address() as AddressInfo;
     for (const plugin of plugins) plugin.listening?.({ port, isTls });
     log(`plotwright ${parts.version} listens on port ${port}, plotters: ${registry.list().length}`);
-    return { url: urlOf(http, isTls), pairing: paths, close: closed };
+    return {
+      url: urlOf(http, isTls),
+      get pairing() {
+        return paths();
+      },
+      close: closed,
+    };
   } catch (error) {
     await closed();
     throw error;
@@ -177,7 +189,8 @@ async function openParts(
     running.push(started);
   }
   const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
-  access.onRevoke(() => hub.dropAll());
+  access.onRevoke((id) => hub.drop(id));
+  access.onNewPairing(() => options.onNewPairing?.());
   const operatorLock = new OperatorLock({
     store,
     log,

@@ -43,6 +43,8 @@ export interface ServerOptions {
   readonly sharedLostAfterMs?: number;
   /** Timeout of the shared database; default 5 s. */
   readonly sharedTimeoutMs?: number;
+  /** Called when the links in `pairing` were replaced, because a device was removed. */
+  readonly onNewPairing?: () => void;
   /** Receives the lines of the log. */
   readonly log?: (line: string) => void;
 }

@@ -69,6 +69,8 @@ export function createApp(parts: AppParts): Express {
   const isRunning = (jobId: string): boolean => queue.isRunning(jobId);
   const app = express();
   app.disable("x-powered-by");
+  // Answers of the API are not cached, so a hash of each would be for nothing.
+  app.disable("etag");
   app.use(securityHeaders());
   app.use(limitRequests(access, isRunning, refusals));
   app.use(guardHosts(parts.allowedHosts, parts.localName, refusals));

@@ -84,7 +84,8 @@ export function pairRoutes(access: Access, refusals: Refusals, log: (line: strin
     const { token } = request.query;
     const name = request.headers["user-agent"] ?? "browser";
     try {
-      const secret = access.pair(typeof token === "string" ? token : "", name);
+      const before = cookieOf(request, SESSION_COOKIE);
+      const secret = access.pair(typeof token === "string" ? token : "", name, before);
       response.cookie(SESSION_COOKIE, secret, {
         httpOnly: true,
         sameSite: "strict",

@@ -31,9 +31,9 @@ const TIMES = {
   requestTimeout: 10 * 60_000,
   keepAliveTimeout: 75_000,
   connectionsCheckingInterval: 10_000,
+  /** A client that does not read the answer or the events that it asked for is disconnected after this time. */
+  unreadTimeout: 30_000,
 };
-/** A client that does not read the answer or the events that it asked for is disconnected after this time. */
-const NOT_READING_MS = 30_000;
 /** Requests of a known client that may wait on a connection for the answers to earlier ones. */
 const MAX_WAITING = 10;
 
@@ -71,7 +71,7 @@ export function httpServer(
   server.on("checkExpectation", listener);
   server.maxConnections = MAX_CONNECTIONS;
   server.on("connection", (socket) => limits.opened(socket));
-  server.setTimeout(NOT_READING_MS, (socket) => {
+  server.setTimeout({ ...TIMES, ...times }.unreadTimeout, (socket) => {
     // Nothing was sent or received for some time. That is as it should be only while an answer is being prepared.
     if (!turns.isBusy(socket) || socket.writableLength > 0) socket.destroy();
   });

@@ -1,7 +1,14 @@
 /** /api/v1: the server's whole state, its event stream, the caller, the queue's settings, the API itself. */
 import express, { Router } from "express";
 import { z } from "zod";
-import { meSchema, queueSettingsSchema, snapshotSchema, type Snapshot } from "../../src/schema/index.js";
+import {
+  historyRequestSchema,
+  jobPageSchema,
+  meSchema,
+  queueSettingsSchema,
+  snapshotSchema,
+  type Snapshot,
+} from "../../src/schema/index.js";
 import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { Notices } from "../../host/queue/notices.js";
@@ -28,7 +35,13 @@ export interface StateParts {
 }
 
 export const STATE_ROUTES: readonly ApiRoute[] = [
-  route("get", "/state", "Returns the whole state of the server", snapshotSchema),
+  route("get", "/state", "Returns the state of the server: everything but older jobs of the history", snapshotSchema),
+  route(
+    "get",
+    "/history",
+    "Returns up to 50 ended jobs: those after the job ?after=ID of the history, or the newest ones, of all plotters or of ?plotterId=ID",
+    jobPageSchema,
+  ),
   route("get", "/events", "Streams a snapshot, then every change", "events"),
   route("get", "/me", "Returns the role and identity of the caller", meSchema),
   route("get", "/openapi.json", "Returns the OpenAPI description of this interface", z.looseObject({})),
@@ -40,7 +53,7 @@ export const STATE_ROUTES: readonly ApiRoute[] = [
 
 /** `openApi`: the text of the OpenAPI document. */
 export function stateRoutes(parts: StateParts, browsers: Browsers, openApi: () => Promise<string>): Router {
-  const { queue, registry, operatorLock } = parts;
+  const { queue, registry, operatorLock, hub } = parts;
   const router = Router();
   const snapshot = (): Snapshot => ({
     version: parts.version,
@@ -52,18 +65,21 @@ export function stateRoutes(parts: StateParts, browsers: Browsers, openApi: () =
     serverNotices: parts.notices.list(),
     localName: parts.localName(),
     machines: parts.machines.list(),
-    jobs: queue.list(),
+    ...queue.recent(),
   });
   router.get("/openapi.json", async (_request, response) => {
     response.type("json").send(await openApi());
   });
   router.get("/state", (_request, response) => {
-    response.json(snapshot());
+    response.type("json").send(hub.snapshotText(snapshot));
+  });
+  router.get("/history", (request, response) => {
+    response.json(queue.older(parseWith(historyRequestSchema, request.query)));
   });
   router.get("/events", (request, response) => {
     const browser = browsers.of(request);
     if (browser !== null) request.on("close", operatorLock.streamOpened(browser.id));
-    parts.hub.open(request, response, snapshot);
+    hub.open(request, response, callerOf(request, parts.access)?.id ?? "", snapshot);
   });
   router.get("/me", (request, response) => {
     const { id = null, name = null } = browsers.of(request) ?? {};

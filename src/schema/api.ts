@@ -121,7 +121,21 @@ export type Notice = z.infer<typeof noticeSchema>;
 
 const queuesSchema = z.record(z.string(), queueSettingsSchema);
 
-/** Jobs: first the queue in order, then the history, newest first. */
+/** A part of the jobs: first those of the queue in its order, then ended ones, newest first. */
+export const jobPageSchema = z.object({
+  jobs: z.array(jobSchema),
+  /** There are older ended jobs: GET /history returns them. */
+  hasOlderJobs: z.boolean().default(false),
+});
+export type JobPage = z.infer<typeof jobPageSchema>;
+
+/** GET /history: up to 50 ended jobs, those after the job `after` or else the newest, of one plotter or of all. */
+export const historyRequestSchema = z
+  .object({ after: z.string().max(100), plotterId: z.string().max(100) })
+  .partial();
+export type HistoryRequest = z.infer<typeof historyRequestSchema>;
+
+/** Contains the whole queue, and the newest 50 jobs of the history. */
 export const snapshotSchema = z.object({
   version: z.string(),
   /** Queue settings of the first plotter. */
@@ -138,7 +152,7 @@ export const snapshotSchema = z.object({
   plotterSettings: z.record(z.string(), plotterSettingsSchema).default({}),
   /** Built-in and custom machines. */
   machines: z.array(listedMachineSchema).default([]),
-  jobs: z.array(jobSchema),
+  ...jobPageSchema.shape,
 });
 export type Snapshot = z.infer<typeof snapshotSchema>;
 
@@ -148,7 +162,7 @@ export const serverEventSchema = z.discriminatedUnion("type", [
   z.object({ type: z.literal("job-removed"), id: z.string() }),
   /** New Job.expectedS of waiting jobs, by id, after a plot of the same plotter has ended. */
   z.object({ type: z.literal("expected"), expectedS: z.record(z.string(), z.number()) }),
-  /** Ids of all jobs, in the order of Snapshot.jobs. */
+  /** Ids of the jobs of a snapshot, in its order. Older jobs of the history follow them. */
   z.object({ type: z.literal("order"), ids: z.array(z.string()) }),
   z.object({ type: z.literal("plotter"), plotter: plotterSchema }),
   /** A plotter was added, renamed or removed; contains all plotters. */

@@ -28,13 +28,14 @@ afterEach(async () => {
 /** A client that does not read yet, after the server has written its snapshot. */
 async function open(snapshotBytes: number): Promise<void> {
   const snapshot: Snapshot = {
-    ...{ version: "x".repeat(snapshotBytes), plotters: [], plotterSettings: {}, jobs: [], localName: null },
+    ...{ version: "x".repeat(snapshotBytes), plotters: [], plotterSettings: {}, localName: null },
+    ...{ jobs: [], hasOlderJobs: false },
     ...{ queue: { runOn: false }, queues: {}, operator: null, serverNotices: [], machines: [] },
   };
   const app = express();
   const opened = new Promise<void>((resolve) => {
     app.get("/", (request, response) => {
-      hub.open(request, response, () => snapshot);
+      hub.open(request, response, "me", () => snapshot);
       isOpen = true;
       response.on("close", () => (isOpen = false));
       resolve();

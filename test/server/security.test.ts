@@ -146,7 +146,7 @@ describe("a server on the network", () => {
     let at = Date.parse("2026-01-01T00:00:00Z");
     const access = new Access(app.store, { now: () => new Date(at) });
     const token = new URLSearchParams(access.pairingPath("operate").split("?")[1]).get("token") ?? "";
-    const session = access.pair(token, "phone");
+    const session = access.pair(token, "phone", null);
     const key = access.createKey("script", "operate").secret;
     at += 89 * 86_400_000;
     expect([access.roleOf(session), access.list().length]).toEqual(["operate", 2]);
@@ -157,6 +157,72 @@ describe("a server on the network", () => {
     }
     access.createKey("other", "watch");
     expect(JSON.stringify(app.store.setting("access"))).not.toContain("phone");
+  });
+
+  it("ends only the streams of a removed device, and replaces the pairing links", async () => {
+    const removedLink = app.access.pairingPath("watch");
+    const [operator, removed, other] = [await pair("operate"), await pair("watch"), await pair("watch")];
+    const [ended, kept] = [
+      await EventStream.open(app.url, { Cookie: removed }),
+      await EventStream.open(app.url, { Cookie: other }),
+    ];
+    let isKept = true;
+    void kept.ended.then(() => (isKept = false));
+    const [, { id = "" } = {}] = app.access.list();
+    expect((await call(`/api/v1/access/${id}`, as(operator, { method: "DELETE" }))).status).toBe(200);
+    await ended.ended;
+    expect((await call(removedLink)).status).toBe(403);
+    expect((await call("/api/v1/state", as(removed))).status).toBe(403);
+    for (const cookie of [operator, other]) {
+      expect((await call("/api/v1/state", as(cookie))).status).toBe(200);
+    }
+    expect(isKept).toBe(true);
+    kept.close();
+    expect((await call("/api/v1/state", as(await pair("watch")))).status).toBe(200);
+  });
+
+  it("keeps the pairing links when a key is revoked, because keys do not come from them", () => {
+    const link = app.access.pairingPath("operate");
+    app.access.revoke(app.access.createKey("cron", "operate").entry.id);
+    expect(app.access.pairingPath("operate")).toBe(link);
+  });
+
+  it("has one session for each device: pairing again replaces the first, with either role", async () => {
+    const first = await pair("operate");
+    const again = await call(app.access.pairingPath("watch"), as(first));
+    const second = (again.headers.get("set-cookie") ?? "").split(";")[0] ?? "";
+    expect(app.access.list().map(({ role }) => role)).toEqual(["watch"]);
+    expect((await call("/api/v1/state", as(first))).status).toBe(403);
+    expect((await call("/api/v1/state", as(second))).status).toBe(200);
+  });
+
+  it("ends the session that was unused longest when there are too many, of the same role only", () => {
+    let at = Date.parse("2026-01-01T00:00:00Z");
+    const access = new Access(app.store, { now: () => new Date((at += 1_000)) });
+    const pairNow = (role: "operate" | "watch"): string =>
+      access.pair(access.pairingPath(role).split("=")[1] ?? "", "phone", null);
+    const ended: string[] = [];
+    access.onRevoke((id) => ended.push(id));
+    const operator = pairNow("operate");
+    const key = access.createKey("script", "watch").secret;
+    const watchers = Array.from({ length: 100 }, () => pairNow("watch"));
+    at += 3_600_000;
+    expect(access.roleOf(watchers[0] ?? "")).toBe("watch");
+    expect(ended).toEqual([]);
+    const second = access.entryOf(watchers[1] ?? "")?.id;
+    at += 3_600_000;
+    expect(access.roleOf(watchers[0] ?? "")).toBe("watch");
+    for (let more = 0; more < 99; more++) pairNow("watch");
+    expect(ended).toHaveLength(99);
+    expect(ended.at(-1)).toBe(second);
+    expect([watchers[0] ?? "", watchers[50] ?? "", operator, key].map((one) => access.roleOf(one))).toEqual([
+      "watch",
+      null,
+      "operate",
+      "watch",
+    ]);
+    expect(access.list()).toHaveLength(102);
+    expect(() => Array.from({ length: 100 }, () => access.createKey("more", "watch"))).toThrow("100 keys");
   });
 
   it("refuses a foreign page even with the browser's cookie, and the plot continues", async () => {

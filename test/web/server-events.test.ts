@@ -24,6 +24,7 @@ const snapshot = (...ids: string[]): ServerEvent => ({
     plotters: [makePlotter("virtual")],
     plotterSettings: {},
     jobs: ids.map((id) => makeJob(id)),
+    hasOlderJobs: false,
   },
 });
 const progress = (jobId: string, share: number): ServerEvent => ({

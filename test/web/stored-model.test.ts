@@ -4,6 +4,7 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import type { JobStore, PlotterStore } from "../../host/storage.js";
+import { JobList } from "../../host/queue/job-list.js";
 import { applyJobEvent, TRANSITIONS, type JobEvent } from "../../host/queue/job-machine.js";
 import { queuedJob } from "../../host/queue/queued-job.js";
 import { Store } from "../../server/storage/store.js";
@@ -139,5 +140,56 @@ describe("the browser's stored model", () => {
     expect(model.unreadableCount).toBe(1);
     expect(model.jobs()).toEqual([]);
     expect(records.jobs.has("x")).toBe(true);
+  });
+});
+
+describe("the history", () => {
+  const ENDED_COUNT = 120;
+  /** Four jobs end at the same moment. */
+  const ended = (index: number): Job => ({
+    ...queuedJob({ plotterId: `plotter-${index % 3}`, name: "a", settings, stats: null, warnings: [] }, NOW),
+    state: "done",
+    endedAt: new Date(Date.parse(NOW) + 1_000 * Math.floor(index / 4)).toISOString(),
+  });
+  const settings = DEFAULT_PLOT_SETTINGS;
+  const NOW = "2026-01-01T00:00:00.000Z";
+
+  const idsOf = (jobs: readonly Job[]): string[] => jobs.map(({ id }) => id);
+
+  /** All parts of the history after the ids that are known, one after the other. */
+  const rest = (list: JobList, known: readonly string[], plotterId?: string): string[] => {
+    const found = [...known];
+    for (;;) {
+      const page = list.older({ after: found.at(-1), plotterId });
+      expect(page.jobs.length).toBeLessThanOrEqual(50);
+      found.push(...idsOf(page.jobs));
+      if (!page.hasOlderJobs) return found;
+    }
+  };
+
+  it("is read in parts of 50 from both stores, in order, of one plotter or of all", () => {
+    for (const store of [server, browser]) {
+      for (let index = 0; index < ENDED_COUNT; index++) store.addJob(ended(index), { id: "d", bytes: 1 });
+      const waiting = { ...ended(0), id: crypto.randomUUID(), state: "queued", endedAt: null } as const;
+      store.addJob(waiting, { id: "d", bytes: 1 });
+      const announced: string[][] = [];
+      const list = new JobList({
+        store,
+        nowIso: () => NOW,
+        announce: (event) => void (event.type === "order" && announced.push(event.ids)),
+      });
+      const { jobs, hasOlderJobs } = list.recent();
+      expect([jobs[0], jobs.length, hasOlderJobs]).toEqual([waiting, 51, true]);
+      list.announceOrder();
+      expect(announced).toEqual([idsOf(jobs)]);
+      const [, ...history] = idsOf(list.list());
+      expect(rest(list, idsOf(jobs).slice(1))).toEqual(history);
+      expect(rest(list, [])).toEqual(history);
+      const own = history.filter((id) => list.get(id).plotterId === "plotter-1");
+      expect(rest(list, [], "plotter-1")).toEqual(own);
+      expect(() => list.older({ after: "none" })).toThrow("There is no job none.");
+      for (const id of history.slice(30)) list.remove(id);
+      expect(list.recent()).toMatchObject({ hasOlderJobs: false, jobs: { length: 31 } });
+    }
   });
 });

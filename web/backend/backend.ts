@@ -8,8 +8,10 @@ import type {
   CommandAnswer,
   Device,
   HandMove,
+  HistoryRequest,
   Job,
   JobChange,
+  JobPage,
   JobPatch,
   Me,
   MovePlace,
@@ -89,6 +91,8 @@ export interface Backend {
   moveJob(id: string, beforeId: string | null): Promise<void>;
   duplicateJob(id: string): Promise<Job>;
   removeJob(id: string): Promise<void>;
+  /** A further part of the history. */
+  olderJobs(wanted: HistoryRequest): Promise<JobPage>;
   jobDrawing(id: string): Promise<DrawingText>;
   setQueue(plotterId: string, settings: QueueSettings): Promise<QueueSettings>;
 

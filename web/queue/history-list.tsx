@@ -1,7 +1,7 @@
 import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { mayOperate } from "../state/store.js";
-import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
+import { useActions, useIsConnected, useOlderJobs, usePageState } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
@@ -17,6 +17,11 @@ const SHOWN_FIRST = 20;
 export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
   const [shownCount, setShownCount] = useState(SHOWN_FIRST);
   const restCount = jobs.length - shownCount;
+  const fetchOlder = useOlderJobs();
+  const showMore = (): void => {
+    if (restCount < SHOWN_FIRST) fetchOlder?.();
+    setShownCount(shownCount + SHOWN_FIRST);
+  };
   return (
     <>
       <ul className="job-list">
@@ -26,9 +31,9 @@ export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
           </li>
         ))}
       </ul>
-      {restCount > 0 && (
-        <Button kind="link" onClick={() => setShownCount(shownCount + SHOWN_FIRST)}>
-          {words.showMore(restCount)}
+      {(restCount > 0 || fetchOlder !== null) && (
+        <Button kind="link" onClick={showMore}>
+          {restCount >= SHOWN_FIRST || fetchOlder === null ? words.showMore(restCount) : words.showOlder}
         </Button>
       )}
     </>

@@ -3,7 +3,7 @@ import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { rowsOf } from "./copies.js";
 import { queueTime } from "./queue-time.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
-import { useActions, useIsConnected, usePageState, usePlotterJobs } from "../state/use-store.js";
+import { useActions, useIsConnected, useOlderJobs, usePageState, usePlotterJobs } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Segments } from "../ui/choice.js";
 import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
@@ -99,10 +99,11 @@ const BetweenJobs = () => {
 
 export const HistoryPanel = () => {
   const jobs = usePlotterJobs().filter((job) => ENDED_STATES.includes(job.state));
+  const isEmpty = useOlderJobs() === null && jobs.length === 0;
   return (
     <section className="card" aria-label={words.history}>
       <h2 className="card-title">{words.history}</h2>
-      {jobs.length === 0 ? <p className="note">{words.historyEmpty}</p> : <HistoryList jobs={jobs} />}
+      {isEmpty ? <p className="note">{words.historyEmpty}</p> : <HistoryList jobs={jobs} />}
     </section>
   );
 };

@@ -74,6 +74,7 @@ export const queueText = {
   goOn: "Go on from where it was cancelled",
   goOnNamed: (name: string) => `Go on from where it was cancelled: ${name}`,
   showMore: (count: number) => `Show ${Math.min(count, 20)} more`,
+  showOlder: "Show older plots",
   took: (duration: string) => `took ${duration}`,
   estimated: (duration: string) => `estimated ${duration}`,
 };

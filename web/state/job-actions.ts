@@ -1,15 +1,16 @@
 /** Requests about jobs, the queue and the plotter, as functions on the store. */
-import type {
-  HandMove,
-  Job,
-  JobChange,
-  JobPatch,
-  JobPlace,
-  MovePlace,
-  NewJob,
-  PlotSettings,
-  Plotter,
-  QueueSettings,
+import {
+  ENDED_STATES,
+  type HandMove,
+  type Job,
+  type JobChange,
+  type JobPatch,
+  type JobPlace,
+  type MovePlace,
+  type NewJob,
+  type PlotSettings,
+  type Plotter,
+  type QueueSettings,
 } from "../../src/schema/index.js";
 import type { Backend, JobAction } from "../backend/backend.js";
 import { activeJob, currentPlotter, penOf, type Notice, type PageStore } from "./store.js";
@@ -69,6 +70,23 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     plotDrawing: async (from: JobPlace | null = null): Promise<void> => {
       const job = await addToQueue(1, from);
       if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
+    },
+    /** Fetches the next part of a plotter's history; "": of all plotters. */
+    fetchOlderJobs: async (plotterId: string): Promise<void> => {
+      const isListed = (job: Job): boolean => plotterId === "" || job.plotterId === plotterId;
+      const ended = store.getState().jobs.filter(({ state }) => ENDED_STATES.includes(state));
+      const last = ended.filter(isListed).at(-1);
+      const page = await attempt("older", () =>
+        backend.olderJobs({ ...(last && { after: last.id }), ...(plotterId && { plotterId }) }),
+      );
+      if (!page) return;
+      store.setState(({ jobs, wholeHistories }) => {
+        const known = new Set(jobs.map(({ id }) => id));
+        return {
+          jobs: [...jobs, ...page.jobs.filter(({ id }) => !known.has(id))],
+          wholeHistories: page.hasOlderJobs ? wholeHistories : [...wholeHistories, plotterId],
+        };
+      });
     },
     saveToJob: async (id: string): Promise<void> => {
       const { settings } = store.getState();

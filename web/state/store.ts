@@ -146,6 +146,10 @@ export interface PageState {
   /** Heights, pens and presets as the server has them, by plotter id. A plotter without settings has no entry. */
   readonly plotterSettings: Readonly<Record<string, PlotterSettings>>;
   readonly jobs: readonly Job[];
+  /** The server has ended jobs that are not in `jobs`. */
+  readonly hasOlderJobs: boolean;
+  /** Plotters whose older jobs are all in `jobs`; "" if the jobs of all plotters are. */
+  readonly wholeHistories: readonly string[];
   /** Whether each plotter's queue starts the next job by itself, by plotter id. */
   readonly queues: Readonly<Record<string, QueueSettings>>;
   /** This browser's identity and role; null until the server has answered. */
@@ -206,6 +210,8 @@ export const createPageStore = ({ settings, view }: Remembered) =>
     plotterId: null,
     plotterSettings: {},
     jobs: [],
+    hasOlderJobs: false,
+    wholeHistories: [],
     queues: {},
     me: null,
     operator: null,

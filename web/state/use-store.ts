@@ -29,10 +29,21 @@ export const usePageStore = (): PageStore => usePage().store;
 /** Without a connection the page shows the last known state, and its requests do not arrive. */
 export const useIsConnected = (): boolean => usePageState((state) => state.link === "connected");
 
+/** The plotter whose jobs the page lists; "": the jobs of all plotters, because there is only one. */
+const useListedPlotter = (): string =>
+  usePageState((state) => (state.plotters.length > 1 ? (currentPlotter(state)?.id ?? "") : ""));
+
 /** The current plotter's jobs: the queue in its order, then the history, newest first. */
 export const usePlotterJobs = (): readonly Job[] => {
   const jobs = usePageState((state) => state.jobs);
-  const plotterId = usePageState((state) => currentPlotter(state)?.id);
-  const areSeveral = usePageState((state) => state.plotters.length > 1);
-  return areSeveral ? jobs.filter((job) => job.plotterId === plotterId) : jobs;
+  const plotterId = useListedPlotter();
+  return plotterId === "" ? jobs : jobs.filter((job) => job.plotterId === plotterId);
+};
+
+/** Fetches more of the history that `usePlotterJobs` lists; null if the page has all of it. */
+export const useOlderJobs = (): (() => void) | null => {
+  const plotterId = useListedPlotter();
+  const hasMore = usePageState((state) => state.hasOlderJobs && !state.wholeHistories.includes(plotterId));
+  const { fetchOlderJobs } = useActions();
+  return hasMore ? () => void fetchOlderJobs(plotterId) : null;
 };

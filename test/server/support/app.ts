@@ -48,11 +48,17 @@ export interface TestApp {
   drawingsOnDisk(): string[];
   /** From now on requests have to arrive that fast. */
   hurry(headersMs: number, wholeMs: number): void;
-  close(): Promise<void>;
+  readonly dir: string;
+  /** Open connections to the server. */
+  connectionCount(): Promise<number>;
+  /** `keepsData`: for a server that is started again in the same folder. */
+  close(options?: { readonly keepsData: boolean }): Promise<void>;
 }
 
 export async function startApp(
   options: {
+    /** The data folder of a server before; default: a new one. */
+    readonly dir?: string;
     readonly planning?: Planning;
     readonly maxUploadBytes?: number;
     readonly trustsLoopback?: boolean;
@@ -61,10 +67,10 @@ export async function startApp(
     readonly keepUploadsMs?: number;
     readonly boards?: readonly FoundBoard[];
     readonly tls?: TlsFiles;
-    readonly times?: { readonly connectionsCheckingInterval: number };
+    readonly times?: { readonly connectionsCheckingInterval?: number; readonly unreadTimeout?: number };
   } = {},
 ): Promise<TestApp> {
-  const dir = mkdtempSync(join(tmpdir(), "plotwright-app-"));
+  const dir = options.dir ?? mkdtempSync(join(tmpdir(), "plotwright-app-"));
   prepareDataDir(dir);
   const store = Store.open(dir);
   const maxUploadBytes = options.maxUploadBytes ?? 3_000_000;
@@ -114,7 +120,7 @@ export async function startApp(
     lapseMs: options.lapseMs ?? 30_000,
   });
   const access = new Access(store, { trustsLoopback: options.trustsLoopback });
-  access.onRevoke(() => hub.dropAll());
+  access.onRevoke((id) => hub.drop(id));
   const refusals = new Refusals(log);
   const parts: AppParts = {
     version: "0.0.0",
@@ -166,7 +172,12 @@ export async function startApp(
       http.headersTimeout = headersMs;
       http.requestTimeout = wholeMs;
     },
-    close: async () => {
+    dir,
+    connectionCount: () =>
+      new Promise((resolve, reject) =>
+        http.getConnections((error, count) => (error === null ? resolve(count) : reject(error))),
+      ),
+    close: async ({ keepsData } = { keepsData: false }) => {
       hub.close();
       refusals.close();
       http.closeAllConnections();
@@ -176,7 +187,7 @@ export async function startApp(
       await uploads.close();
       operatorLock.close();
       store.close();
-      rmSync(dir, { recursive: true, force: true });
+      if (!keepsData) rmSync(dir, { recursive: true, force: true });
     },
   };
 }

@@ -30,6 +30,7 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
     moveJob: (id, beforeId) => remote.moveJob(id, beforeId),
     duplicateJob: (id) => remote.duplicateJob(id),
     removeJob: (id) => remote.removeJob(id),
+    olderJobs: (wanted) => remote.olderJobs(wanted),
     jobDrawing: (id) => remote.jobDrawing(id),
     setQueue: (plotterId, settings) => remote.setQueue(plotterId, settings),
 

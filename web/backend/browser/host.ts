@@ -133,7 +133,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
       serverNotices: notices.list(),
       localName: null,
       machines: machines.list(),
-      jobs: queue.list(),
+      ...queue.recent(),
     }),
     written: () =>
       db.written().catch((cause: unknown) => {

@@ -6,8 +6,10 @@ import {
   movePlaceSchema,
   newJobSchema,
   queueSettingsSchema,
+  type HistoryRequest,
   type Job,
   type JobChange,
+  type JobPage,
   type JobPatch,
   type MovePlace,
   type NewJob,
@@ -66,6 +68,7 @@ export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
     moveJob: (id: string, beforeId: string | null): void => queue.move(id, beforeId),
     duplicateJob: (id: string): Job => queue.duplicate(id),
     removeJob: (id: string): Promise<void> => queue.remove(id),
+    olderJobs: (wanted: HistoryRequest): JobPage => queue.older(wanted),
     isRunning: (id: string): boolean => queue.isRunning(id),
     jobDrawing: (id: string): Promise<DrawingText> => drawings.read(queue.drawingOf(id)),
     setQueue: (plotterId: string, settings: QueueSettings): QueueSettings =>

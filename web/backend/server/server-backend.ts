@@ -2,6 +2,7 @@
 import { z } from "zod";
 import {
   commandAnswerSchema,
+  jobPageSchema,
   jobSchema,
   machineProfileSchema,
   meSchema,
@@ -36,6 +37,12 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     moveJob: (id, beforeId) => command("POST", `${pathOf("jobs", id)}/move`, { beforeId }),
     duplicateJob: (id) => ask(jobSchema, "POST", `${pathOf("jobs", id)}/duplicate`),
     removeJob: (id) => command("DELETE", pathOf("jobs", id)),
+    olderJobs: ({ after, plotterId }) => {
+      const query = new URLSearchParams();
+      if (after !== undefined) query.set("after", after);
+      if (plotterId !== undefined) query.set("plotterId", plotterId);
+      return ask(jobPageSchema, "GET", `/history?${query.toString()}`);
+    },
     jobDrawing: async (id) =>
       contentOf(await (await send("GET", drawingPath({ of: "job", id }))).arrayBuffer()),
     setQueue: (plotterId, settings) =>
