@@ -124,7 +124,7 @@ export class Access {
 
   /** The session or key with this secret; null if the secret is unknown. */
   entryOf(secret: string): AccessEntry | null {
-    // The time of this look-up depends on the hash, from which nobody can find the secret.
+    // The time of this look-up depends on the hash, from which the secret can't be found.
     const entry = this.#entries.get(hashOf(secret));
     if (entry === undefined || !this.#isValid(entry)) return null;
     const now = this.#now();
