@@ -27,7 +27,32 @@ describe("identifying the board", () => {
       command === "V" ? "V,EBBv13_and_above EB Firmware Version 3.0.3\n" : "CUOK\r\n",
     );
     expect((await session.identify()).firmware).toBe("3.0.3");
-    expect(line.written).toEqual(["V", "CU,10,0"]);
+    expect(line.written).toEqual(["V", "CU,1,1", "CU,10,0"]);
+  });
+
+  it("switches off the checksums that an earlier program has required", async () => {
+    let isRequired = true;
+    const { clock, line, session } = newSession((command) => {
+      if (command === "CU,54,0,119") isRequired = false;
+      else if (isRequired) return "!10 Err: No checksum found but required\r\n";
+      return command === "V" ? VERSION_281 : "OK\r\n";
+    });
+    expect((await clock.run(session.identify())).firmware).toBe("2.8.1");
+    expect(line.written).toEqual(["V", "CU,54,0,119", "V"]);
+  });
+
+  it.each([
+    ["every line", (command: string) => `${command}\r\n`],
+    ["every line, its end as ^M", (command: string) => `${command}^M`],
+    ["every line, without its end", (command: string) => command],
+    ["every line in lower case", (command: string) => `${command.toLowerCase()}\r\n`],
+  ])("refuses a port that returns %s, and says what to do", async (_, echo) => {
+    for (const version of ["2.8.1", "3.0.3"]) {
+      const { clock, session } = newSession(
+        (command) => echo(command) + (command === "V" ? VERSION_281.replace("2.8.1", version) : "OK\r\n"),
+      );
+      expect(await outcome(clock.run(session.identify()))).toMatch(/^no-board: This port returns .*echo off/);
+    }
   });
 
   it("asks again if the remains of an earlier conversation spoil the first reply", async () => {

@@ -1,4 +1,5 @@
 /** A board that has been identified, and its features. */
+import { PlotwrightError } from "../../../errors.js";
 import { firmwareFeatures, type FirmwareFeatures } from "../protocol/firmware.js";
 import { BoardSession } from "../stream/session.js";
 import type { ConnectOptions } from "../../driver.js";
@@ -27,6 +28,8 @@ export async function connectBoard(
   try {
     const identity = await session.identify();
     const features = firmwareFeatures(identity.firmware);
+    // An earlier program may have switched off the OK. Very old firmware does not know the command.
+    if (!features.hasFutureSyntax) await session.send("CU,1,1").catch(ignoreRefusal);
     const boardName = features.hasGeneralQuery ? (await session.query("QT")).trim() || null : null;
     session.onFault((error) => events.lost(error));
     return { session, features, boardName, boardClock: machineClock, speed, waitSpeed: Math.max(1, speed) };
@@ -34,4 +37,8 @@ export async function connectBoard(
     await session.close();
     throw error;
   }
+}
+
+function ignoreRefusal(error: unknown): void {
+  if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
 }

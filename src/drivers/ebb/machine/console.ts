@@ -40,7 +40,7 @@ async function answerTo(carriage: Carriage, line: string): Promise<Omit<ConsoleA
   const replies = session.log
     .receivedSince(entryCount)
     .slice(0, -1)
-    .filter((text) => commandName(line) === "V" || !/^EBBv.* Version /.test(text));
+    .filter((text) => commandName(line) === "V" || !/^EBBv.* Version /i.test(text));
   return { replies, refused };
 }
 

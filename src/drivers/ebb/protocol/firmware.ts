@@ -95,7 +95,7 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
 
 /** The version in a reply to V ("EBBv13_and_above EB Firmware Version 2.8.1"), or null if there is none. */
 export function firmwareFromReply(reply: string): string | null {
-  const match = /EBB.*?(\d+\.\d+(?:\.\d+)?)\s*$/.exec(reply.trim());
+  const match = /EBB.*?(\d+\.\d+(?:\.\d+)?)\s*$/i.exec(reply.trim());
   return match?.[1] ?? null;
 }
 

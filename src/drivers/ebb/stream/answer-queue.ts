@@ -2,8 +2,8 @@
  * Matches reply lines to commands.
  *
  * The board answers in order, but its replies have no number. Some end in `OK` and some do not, an error may or may not
- * be followed by an `OK`, and after `CU,10,1` the command name comes first (firmware 3.x). So every waiting command
- * has the pattern of its reply, and a line is assigned to the first command that it fits. A value that fits only a later
+ * be followed by an `OK`, and after `CU,10,1` the command name comes first (firmware 3.x). Upper and lower case are
+ * alike. So every waiting command has the pattern of its reply, and a line is assigned to the first command that it fits. A value that fits only a later
  * command proves that the replies before it were lost. The plot continues, and lost replies are counted.
  *
  * A line that fits no command is ignored and logged. An `OK` where a value is due is either surplus, or the value was
@@ -29,7 +29,9 @@ interface Waiting<Awaited> {
 }
 
 /** Not anchored at the start: noise without a line end may precede the error. */
-const ERROR_LINE = /!(\d+)\s*Err:\s*(.*)$/;
+const ERROR_LINE = /!(\d+)\s*Err:\s*(.*)$/i;
+/** After `CU,10,0` the name precedes it. */
+const OK_LINE = /^(CU)?OK$/i;
 
 /** The reply was lost, or may belong to another command. Queries may be repeated. */
 export class LostAnswer extends PlotwrightError {
@@ -70,7 +72,7 @@ export class AnswerQueue<Awaited extends AwaitedAnswer = AwaitedAnswer> {
     if (line === "") return;
     const error = ERROR_LINE.exec(line);
     if (error) this.takeError(Number(error[1]), error[2], line);
-    else if (line === "OK" || line === "CUOK") this.takeOk();
+    else if (OK_LINE.test(line)) this.takeOk();
     else if (!this.takeValue(line)) this.stray(line);
   }
 
@@ -124,9 +126,10 @@ export class AnswerQueue<Awaited extends AwaitedAnswer = AwaitedAnswer> {
 
   /** False if the line fits no waiting command. */
   private takeValue(line: string): boolean {
+    const name = commandName(line);
     for (let i = 0; i < this.waiting.length; i++) {
       const candidate = this.waiting[i];
-      const named = line === candidate.name || line.startsWith(`${candidate.name},`);
+      const named = name === candidate.name;
       const value = named ? line.slice(candidate.name.length + 1) : line;
       if (!candidate.shape.values.test(value)) continue;
       if (!named && (value === "" || candidate.shape.isNamed)) continue;

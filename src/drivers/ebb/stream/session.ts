@@ -58,6 +58,8 @@ const IDENTIFY_TRIES = 3;
 const IDENTIFY_PATIENCE_S = 0.7;
 /** How often a query is sent if its replies are lost. */
 const QUERY_TRIES = 3;
+/** An earlier program may have made the board refuse commands without a checksum. The last number is this one's. */
+const NO_CHECKSUMS = "CU,54,0,119";
 /** Log lines to search for the message about a device that is not an EiBotBoard. */
 const HEARD_LINES = 6;
 
@@ -137,11 +139,14 @@ export class BoardSession {
 
   /**
    * Identifies the board and switches it to the legacy reply syntax. Rejects with `board-timeout` if nothing answers, and
-   * with `no-board` if another device does. Ignores unread replies to an earlier program.
+   * with `no-board` if another device does, or if the port returns what is sent to it. Ignores unread replies to an
+   * earlier program.
    */
   async identify(): Promise<BoardIdentity> {
+    let entryCount = 0;
     for (let attempt = 1; ; attempt++) {
       this.hasHeard = false;
+      entryCount = this.log.count;
       try {
         // An earlier program may have left an unfinished line, so a failed attempt must not end the session.
         const text = await this.ask("V", IDENTIFY_PATIENCE_S, true);
@@ -149,6 +154,9 @@ export class BoardSession {
         break;
       } catch (error) {
         if (this.fault) throw this.fault;
+        const heard = this.log.receivedSince(entryCount);
+        if (heard.some((line) => line.includes("!10 ")))
+          await this.ask(NO_CHECKSUMS, 1, true).catch(() => "");
         if (attempt < IDENTIFY_TRIES) continue;
         const last = this.log.receivedSince(this.log.count - HEARD_LINES);
         // A late reply of an EiBotBoard is not a sign of another device.
@@ -156,8 +164,12 @@ export class BoardSession {
         throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
       }
     }
-    // An earlier program may have switched the board to the other reply syntax.
-    if (firmwareFeatures(this.identity.firmware).hasFutureSyntax) await this.send("CU,10,0");
+    if (this.log.receivedSince(entryCount).some(isEchoOfV)) throw echoes();
+    // An earlier program may have switched off the OK, or switched the board to the other reply syntax.
+    if (firmwareFeatures(this.identity.firmware).hasFutureSyntax) {
+      await this.send("CU,1,1");
+      await this.send("CU,10,0");
+    }
     return this.identity;
   }
 
@@ -281,6 +293,18 @@ export class BoardSession {
 }
 
 const hasNoReply = (line: string): boolean => replyShape(commandName(line)).isSilent;
+
+/**
+ * A port that returns what is sent to it has returned V: in the board's own replies a comma follows the name. "^M" is how
+ * a terminal shows the end of a line.
+ */
+const isEchoOfV = (line: string): boolean => /^V(\^M)?($|EBB)/i.test(line);
+
+const echoes = (): PlotwrightError =>
+  new PlotwrightError(
+    "no-board",
+    "This port returns everything that is sent to it (echo), so the board's replies can't be told from it: switch the echo off in the program or adapter between this computer and the board (for a terminal: stty raw -echo), then connect again.",
+  );
 
 const silentAtStart = (cause: unknown): PlotwrightError =>
   new PlotwrightError(
