@@ -16,18 +16,15 @@ import { RunPath } from "./run-path.js";
 
 export class AxisFrame {
   private readonly stretched = new RunPath();
-  private path = new RunPath();
   private stretchX = 1;
   private stretchY = 1;
 
   /** The path in the stretched frame. Valid until the next call. */
   of(path: RunPath, { stretchX, stretchY }: RunLimits): RunPath {
     const { stretched } = this;
-    this.path = path;
     this.stretchX = stretchX;
     this.stretchY = stretchY;
     stretched.copyLayout(path);
-    stretched.startAlong = 0;
     for (let i = 0; i <= path.segmentCount; i++) {
       stretched.x[i] = path.x[i] * stretchX;
       stretched.y[i] = path.y[i] * stretchY;
@@ -38,11 +35,8 @@ export class AxisFrame {
 
   /** Converts the blocks from `first` on, planned on the path of the last `of`, to the machine's frame. */
   restore(blocks: BlockColumns, first: number): void {
-    const { path, stretched, stretchX, stretchY } = this;
-    const { x, y, vx, vy, ax, ay, jx, jy, alongMm } = blocks;
-    let i = 0;
-    let frameMm = 0;
-    let mm = path.startAlong;
+    const { stretchX, stretchY } = this;
+    const { x, y, vx, vy, ax, ay, jx, jy } = blocks;
     for (let k = first; k < blocks.count; k++) {
       x[k] /= stretchX;
       y[k] /= stretchY;
@@ -54,11 +48,6 @@ export class AxisFrame {
         jx[k] /= stretchX;
         jy[k] /= stretchY;
       }
-      while (i < path.segmentCount - 1 && frameMm + stretched.length[i] <= alongMm[k]) {
-        frameMm += stretched.length[i];
-        mm += path.length[i++];
-      }
-      alongMm[k] = mm + (alongMm[k] - frameMm) * (path.length[i] / stretched.length[i]);
     }
   }
 }

@@ -56,7 +56,7 @@ export class BlendPlanner {
     const line = this.line.of(path, limits);
     this.roundCorners(line, limits.accel);
     this.lookAhead(line, limits.accel);
-    this.writeBlocks(line, path.length, limits, out);
+    this.writeBlocks(line, limits, out);
   }
 
   /** Step 1, geometry: how far each corner's curve may reach, and the highest speed through it. */
@@ -109,13 +109,9 @@ export class BlendPlanner {
     }
   }
 
-  /**
-   * Step 3, blocks: one parabola per corner, and a trapezoid on each straight between them.
-   *
-   * @param drawn mm of the drawing that each segment covers
-   */
-  private writeBlocks(path: RunPath, drawn: Float64Array, { accel }: RunLimits, out: BlockColumns): void {
-    const { segmentCount: n, x, y, ux, uy, length, cap2 } = path;
+  /** Step 3, blocks: one parabola per corner, and a trapezoid on each straight between them. */
+  private writeBlocks(path: RunPath, { accel }: RunLimits, out: BlockColumns): void {
+    const { segmentCount: n, x, y, ux, uy, length, drawn, cap2 } = path;
     const { tangent, sine, vIn, vOut, change } = this.corners;
     const straight = newStraight();
     let along = path.startAlong;

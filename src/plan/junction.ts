@@ -7,7 +7,7 @@ import { newStraight, writeStraight } from "./trapezoid.js";
 
 /** Writes one run from rest to rest. */
 export function writeJunctionRun(path: RunPath, limits: RunLimits, out: BlockColumns): void {
-  const { segmentCount: n, x, y, ux, uy, length, v2, cap2 } = path;
+  const { segmentCount: n, x, y, ux, uy, length, drawn, v2, cap2 } = path;
   capSegments(path, limits);
   limitJunctions(path, limits.accel, limits.corner);
   lookAhead(v2, length, n, limits.accel);
@@ -22,8 +22,9 @@ export function writeJunctionRun(path: RunPath, limits: RunLimits, out: BlockCol
     straight.v0 = Math.sqrt(v2[i]);
     straight.v1 = Math.sqrt(v2[i + 1]);
     straight.cap2 = cap2[i];
+    straight.alongPerMm = drawn[i] / length[i];
     writeStraight(straight, limits.accel, out);
-    straight.alongMm += length[i];
+    straight.alongMm += drawn[i];
   }
 }
 

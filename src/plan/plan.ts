@@ -23,6 +23,7 @@ import { drawLimitsOf, runLimits, slower, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
 import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";
 import { dropTime, liftTime, penOfLayer } from "./pen-times.js";
+import { Resampler } from "./resample.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter, type WritesRuns } from "./run-writer.js";
 import { fillAlong } from "./shaped-along.js";
@@ -107,6 +108,7 @@ class PlanBuilder {
   private readonly planned: BlockColumns;
   private readonly plannedFirst: Uint32Array;
   private readonly path = new RunPath();
+  private readonly resampler = new Resampler();
   private readonly travelPath = new RunPath();
   private readonly writer: WritesRuns;
   private readonly penMoves: PenMoveWriter;
@@ -176,6 +178,7 @@ class PlanBuilder {
   draw(stroke: number, fromAlong: number, penBesideMm: number): void {
     const { path, strokes, motion } = this;
     path.load(strokes.xy, strokes.offsets[stroke], strokes.offsets[stroke + 1], fromAlong);
+    this.resampler.resample(path);
     if (fromAlong > 0 && path.segmentCount === 0) return;
     const layer = strokes.layer[stroke];
     const awayMm = Math.hypot(path.x[0] - this.x, path.y[0] - this.y);

@@ -4,6 +4,7 @@
  *   x, y     mm, n + 1 points          length   mm, n segments, at least 2 SHORTEST_MM
  *   ux, uy   unit directions           v2       (mm/s)², n + 1: max speed² at each point, then planned speed²
  *   cap2     (mm/s)², n: max speed² inside each segment, never below `v2` at its ends
+ *   drawn    mm, n: how much of the stroke each segment covers, which differs from its length if the planner moved its ends
  *
  * One object is reused for every run, so planning allocates nothing per stroke.
  */
@@ -30,6 +31,7 @@ export class RunPath {
   uy = new Float64Array(0);
   v2 = new Float64Array(0);
   cap2 = new Float64Array(0);
+  drawn = new Float64Array(0);
   /** mm along the whole stroke at the first point. */
   startAlong = 0;
   /** Segments before `easeUntil` and from `easeFrom` on are drawn at the easing speed. */
@@ -44,7 +46,7 @@ export class RunPath {
     this.y[0] = y0;
     this.x[1] = x1;
     this.y[1] = y1;
-    this.length[0] = l;
+    this.length[0] = this.drawn[0] = l;
     this.ux[0] = (x1 - x0) / l;
     this.uy[0] = (y1 - y0) / l;
     this.segmentCount = 1;
@@ -57,6 +59,7 @@ export class RunPath {
   setSegment(other: RunPath, i: number, alongMm: number): void {
     this.setLine(other.x[i], other.y[i], other.x[i + 1], other.y[i + 1]);
     this.startAlong = alongMm;
+    this.drawn[0] = other.drawn[i];
     this.easeUntil = i < other.easeUntil || i >= other.easeFrom ? 1 : 0;
   }
 
@@ -70,7 +73,7 @@ export class RunPath {
     this.reserve(end - first + 3);
     this.easeUntil = 0;
     this.easeFrom = Infinity;
-    const { x, y, length, ux, uy } = this;
+    const { x, y, length, ux, uy, drawn } = this;
     let px = xy[2 * first];
     let py = xy[2 * first + 1];
     if (!(Math.abs(px) + Math.abs(py) < Infinity)) throw notFinite(first, px, py);
@@ -105,7 +108,7 @@ export class RunPath {
         dy = qy - py;
         l = Math.sqrt(dx * dx + dy * dy);
       }
-      length[n] = l;
+      length[n] = drawn[n] = l;
       ux[n] = dx / l;
       uy[n] = dy / l;
       n++;
@@ -119,6 +122,7 @@ export class RunPath {
   copyLayout(other: RunPath): void {
     this.reserve(other.segmentCount + 1);
     this.segmentCount = other.segmentCount;
+    this.drawn.set(other.drawn.subarray(0, other.segmentCount));
     this.startAlong = other.startAlong;
     this.easeUntil = other.easeUntil;
     this.easeFrom = other.easeFrom;
@@ -155,11 +159,10 @@ export class RunPath {
   prependPoint(x: number, y: number): void {
     const { segmentCount: n } = this;
     for (const column of [this.x, this.y]) column.copyWithin(1, 0, n + 1);
-    for (const column of [this.length, this.ux, this.uy]) column.copyWithin(1, 0, n);
+    for (const column of [this.length, this.ux, this.uy, this.drawn]) column.copyWithin(1, 0, n);
     this.segmentCount = n + 1;
-    this.x[0] = x;
-    this.y[0] = y;
     this.startAt(x, y);
+    this.drawn[0] = this.length[0];
     this.startAlong = Math.max(0, this.startAlong - this.length[0]);
   }
 
@@ -171,7 +174,7 @@ export class RunPath {
   /** mm along the whole stroke at the last point. */
   private endAlong(): number {
     let along = this.startAlong;
-    for (let i = 0; i < this.segmentCount; i++) along += this.length[i];
+    for (let i = 0; i < this.segmentCount; i++) along += this.drawn[i];
     return along;
   }
 
@@ -189,18 +192,21 @@ export class RunPath {
 
   /** Adds a point `mm` after the first one, unless one is very close; returns its index. */
   private cutAt(mm: number): number {
-    const { x, y, length, ux, uy } = this;
+    const { x, y, length, ux, uy, drawn } = this;
     let i = 0;
     let left = mm;
-    while (i < this.segmentCount - 1 && left > length[i]) left -= length[i++];
-    if (left < 2 * SHORTEST_MM) return i;
-    if (length[i] - left < 2 * SHORTEST_MM) return i + 1;
+    while (i < this.segmentCount - 1 && left > drawn[i]) left -= drawn[i++];
+    const before = (length[i] * left) / drawn[i];
+    if (before < 2 * SHORTEST_MM) return i;
+    if (length[i] - before < 2 * SHORTEST_MM) return i + 1;
     for (const column of [x, y]) column.copyWithin(i + 2, i + 1, this.segmentCount + 1);
-    for (const column of [length, ux, uy]) column.copyWithin(i + 1, i, this.segmentCount);
-    x[i + 1] = x[i] + ux[i] * left;
-    y[i + 1] = y[i] + uy[i] * left;
-    length[i + 1] = length[i] - left;
-    length[i] = left;
+    for (const column of [length, ux, uy, drawn]) column.copyWithin(i + 1, i, this.segmentCount);
+    x[i + 1] = x[i] + ux[i] * before;
+    y[i + 1] = y[i] + uy[i] * before;
+    length[i + 1] = length[i] - before;
+    length[i] = before;
+    drawn[i + 1] = drawn[i] - left;
+    drawn[i] = left;
     this.segmentCount++;
     return i + 1;
   }
@@ -215,6 +221,7 @@ export class RunPath {
     this.uy = new Float64Array(size);
     this.v2 = new Float64Array(size);
     this.cap2 = new Float64Array(size);
+    this.drawn = new Float64Array(size);
   }
 }
 

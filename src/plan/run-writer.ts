@@ -113,7 +113,7 @@ export class RunWriter implements WritesRuns {
     for (let i = 0; i < path.segmentCount; i++) {
       straight.setSegment(path, i, along);
       this.writeFiltered(straight, limits, out);
-      along += path.length[i];
+      along += path.drawn[i];
     }
   }
 

@@ -8,6 +8,7 @@ import { arbitraryGridStroke, arbitraryLimits, strokeSetOf, type Point } from ".
 import { cases } from "../../support/full-run.js";
 import { swinging } from "../../support/swinging.js";
 import { worstOf } from "../../support/trajectory-checks.js";
+import { MAX_MOVED_MM } from "../../../src/plan/resample.js";
 
 const RUNS = { numRuns: cases(60) };
 const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
@@ -57,7 +58,7 @@ describe.each(MOTION_MODES)("limits of single axes, in mode %s", (mode) => {
         expect(worst.speed).toBeLessThanOrEqual(1.001);
         expect(worst.accel).toBeLessThanOrEqual(1.001);
         expect(worst.gap).toBeLessThanOrEqual(1e-8);
-        expect(worst.distance).toBeLessThanOrEqual(deviation * 1.001 + 2e-6);
+        expect(worst.distance).toBeLessThanOrEqual(deviation * 1.001 + MAX_MOVED_MM);
         if (mode !== "junction") expect(worst.velocityJump).toBeLessThan(1e-6);
         if (mode === "scurve") expect(worst.jerk).toBeLessThanOrEqual(1.001);
       }),

@@ -13,6 +13,7 @@ import {
 import { worstOf } from "../../support/trajectory-checks.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
 import { cases } from "../../support/full-run.js";
+import { MAX_MOVED_MM } from "../../../src/plan/resample.js";
 
 const RUNS = { numRuns: cases() };
 const motionIn = (mode: MotionMode): fc.Arbitrary<MotionSettings> =>
@@ -36,7 +37,7 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
         expect(worst.restSpeed).toBeLessThan(far ? 1e-2 : 1e-6);
         if (!far || mode !== "scurve") expect(worst.gap).toBeLessThanOrEqual(Math.max(1e-9, size * 1e-14));
         expect(worst.clock).toBeLessThanOrEqual(1e-9 * Math.max(1, trajectory.totalS));
-        expect(worst.distance).toBeLessThanOrEqual(deviation * 1.001 + (far ? 1e-3 : 2e-6));
+        expect(worst.distance).toBeLessThanOrEqual(deviation * 1.001 + MAX_MOVED_MM + (far ? 1e-3 : 0));
         if (mode !== "junction") expect(worst.velocityJump).toBeLessThan(far ? 1e-2 : 1e-6);
         if (mode === "scurve") {
           expect(worst.jerk).toBeLessThanOrEqual(1.001);
@@ -73,22 +74,22 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
       fc.property(arbitraryGridStroke, arbitraryMotion, (stroke, motion) => {
         const forwards = drawTime(stroke, motion);
         const backwards = drawTime([...stroke].reverse(), motion);
-        expect(Math.abs(backwards - forwards)).toBeLessThanOrEqual(1e-6 * (1 + forwards));
+        // Points that carry no shape are dropped from the start of the line on.
+        expect(Math.abs(backwards - forwards)).toBeLessThanOrEqual(0.01 * forwards + 1e-3);
       }),
       RUNS,
     );
   });
 
   it("takes as long if space and all limits are scaled by the same factor", () => {
-    const clean = fc.array(fc.tuple(fc.integer({ min: 0, max: 300 }), fc.integer({ min: 0, max: 200 })), {
-      minLength: 2,
-      maxLength: 12,
-    });
+    // So coarse that all points carry shape.
+    const coordinate = (max: number) => fc.integer({ min: 0, max }).map((value) => 10 * value);
+    const clean = fc.array(fc.tuple(coordinate(300), coordinate(200)), { minLength: 2, maxLength: 12 });
     fc.assert(
       fc.property(
         clean,
         arbitraryMotion,
-        fc.double({ min: 0.01, max: 100, noNaN: true }),
+        fc.double({ min: 0.2, max: 100, noNaN: true }),
         (stroke, motion, k) => {
           const { speedMmPerS, accelMmPerS2, cornerMm, jerkMmPerS3 } = motion.draw;
           const draw = {
@@ -100,7 +101,7 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
           const scaled = stroke.map(([x, y]): Point => [k * x, k * y]);
           const time = drawTime(stroke, motion);
           expect(Math.abs(drawTime(scaled, { ...motion, draw }) - time)).toBeLessThanOrEqual(
-            1e-9 * (1 + time),
+            1e-4 * (1 + time),
           );
         },
       ),
@@ -145,7 +146,7 @@ describe.each(MOTION_MODES)("a merged plan of any drawing in mode %s", (mode) =>
         expect(worst.accel).toBeLessThanOrEqual(1.001);
         expect(worst.restSpeed).toBeLessThan(1e-6);
         expect(worst.gap).toBeLessThanOrEqual(1e-9);
-        expect(worst.distance).toBeLessThanOrEqual(allowed + 2e-6);
+        expect(worst.distance).toBeLessThanOrEqual(allowed + MAX_MOVED_MM);
         if (mode !== "junction") expect(worst.velocityJump).toBeLessThan(1e-6);
         if (mode === "scurve") {
           expect(worst.jerk).toBeLessThanOrEqual(1.001);
@@ -196,11 +197,11 @@ describe("a junction plan", () => {
               [9, 9],
             ],
           ]);
-          const whole = trajectoryStats(plan(strokeSetOf([stroke]), motion, DEFAULT_PEN)).drawMm;
+          const whole = polylineLength(stroke);
           const left = plan(strokes, motion, DEFAULT_PEN, { from: { stroke: 0, alongMm: share * whole } });
           const drawn = trajectoryStats(left).drawMm;
           expect(Math.abs(drawn - Math.hypot(8, 8) - (1 - share) * whole)).toBeLessThanOrEqual(
-            1e-5 + 1e-9 * whole,
+            stroke.length * MAX_MOVED_MM + 1e-9 * whole,
           );
         },
       ),
@@ -208,6 +209,9 @@ describe("a junction plan", () => {
     );
   });
 });
+
+const polylineLength = (points: readonly Point[]): number =>
+  points.slice(1).reduce((sum, [x, y], i) => sum + Math.hypot(x - points[i][0], y - points[i][1]), 0);
 
 function drawTime(stroke: readonly Point[], motion: MotionSettings): number {
   const [x, y] = stroke[0];

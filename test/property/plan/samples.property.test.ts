@@ -6,6 +6,7 @@ import { DEFAULT_PEN, plan, type Trajectory } from "../../../src/index.js";
 import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../../../src/internal.js";
 import { sampleStrokes } from "../../support/sample-strokes.js";
 import { worstOf } from "../../support/trajectory-checks.js";
+import { MAX_MOVED_MM } from "../../../src/plan/resample.js";
 
 const FOLDER = path.join(import.meta.dirname, "..", "..", "..", "samples");
 const samples = readdirSync(FOLDER).flatMap((name) => (name.endsWith(".svg") ? name.slice(0, -4) : []));
@@ -29,7 +30,7 @@ describe.each(samples)("the sample %s", (name) => {
     expect(worst.restSpeed).toBeLessThan(1e-6);
     expect(worst.gap).toBeLessThanOrEqual(1e-9);
     expect(worst.clock).toBeLessThanOrEqual(1e-9 * trajectory.totalS);
-    expect(worst.distance).toBeLessThanOrEqual(allowed + 2e-6);
+    expect(worst.distance).toBeLessThanOrEqual(allowed + MAX_MOVED_MM);
     if (mode !== "junction") expect(worst.velocityJump).toBeLessThan(1e-6);
     if (mode !== "scurve") return;
     expect(worst.jerk).toBeLessThanOrEqual(1.001);

@@ -50,7 +50,7 @@ export class GrblRuns implements WritesRuns {
     const feeds: number[] = [];
     let alongMm = path.startAlong;
     for (let i = 0; i < path.segmentCount; i++) {
-      alongMm += path.length[i];
+      alongMm += path.drawn[i];
       const from = points[points.length - 1];
       const to = this.pointAt(path, i + 1, alongMm);
       if (to.steps1 === from.steps1 && to.steps2 === from.steps2) continue;
