@@ -6,7 +6,7 @@
  * and their winding makes holes under the non-zero rule.
  */
 import { Clipper64, ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
-import { boxOfPoints, type Box } from "./box.js";
+import type { Box } from "./box.js";
 import { type LineBuilder, type Lines } from "./polyline.js";
 import { RegionEdges } from "./region-edges.js";
 
@@ -37,7 +37,16 @@ export const ringOfLine = ({ xy, offsets }: Lines, i: number): Path64 =>
 
 /** A region from rings that are already clean. */
 export function regionOf(rings: Paths64): Region {
-  const box = boxOfPoints(rings.flatMap((ring) => ring.flatMap((p) => [p.x / SCALE, p.y / SCALE])));
+  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const ring of rings) {
+    for (const { x, y } of ring) {
+      x0 = Math.min(x0, x);
+      y0 = Math.min(y0, y);
+      x1 = Math.max(x1, x);
+      y1 = Math.max(y1, y);
+    }
+  }
+  const box = { x0: x0 / SCALE, y0: y0 / SCALE, x1: x1 / SCALE, y1: y1 / SCALE };
   let edges: RegionEdges | null = null;
   return {
     rings,
@@ -59,6 +68,36 @@ function isRectangle(ring: Path64): boolean {
 /** The area that `rings` enclose under `rule`. */
 export const cleanRings = (rings: Paths64, rule: FillRule): Paths64 =>
   combine(ClipType.Union, rings, [], rule);
+
+/**
+ * The part of each ring in a box (I. Sutherland, G. Hodgman, 1974). It encloses every point of the box as often as the
+ * ring does, but may run along the border of the box back and forth.
+ */
+export function ringsInBox(rings: Paths64, { x0, y0, x1, y1 }: Box): Paths64 {
+  return rings
+    .map((ring) => cutBySide(ring, "x", 1, Math.round(x0 * SCALE)))
+    .map((ring) => cutBySide(ring, "x", -1, Math.round(x1 * SCALE)))
+    .map((ring) => cutBySide(ring, "y", 1, Math.round(y0 * SCALE)))
+    .map((ring) => cutBySide(ring, "y", -1, Math.round(y1 * SCALE)))
+    .filter((ring) => ring.length > 2);
+}
+
+/** The part of a ring on one side of a line: above `at` along the axis, or below for sign −1. */
+function cutBySide(ring: Path64, axis: "x" | "y", sign: 1 | -1, at: number): Path64 {
+  if (ring.every((p) => sign * (p[axis] - at) >= 0)) return ring;
+  const kept: Path64 = [];
+  for (let k = 0, j = ring.length - 1; k < ring.length; j = k++) {
+    const [p, q] = [ring[j], ring[k]];
+    const from = sign * (p[axis] - at);
+    const to = sign * (q[axis] - at);
+    if (from < 0 !== to < 0) {
+      const t = from / (from - to);
+      kept.push({ x: Math.round(p.x + t * (q.x - p.x)), y: Math.round(p.y + t * (q.y - p.y)) });
+    }
+    if (to >= 0) kept.push(q);
+  }
+  return kept;
+}
 
 /** A boolean operation on two sets of rings, both filled under `rule`. */
 export function combine(

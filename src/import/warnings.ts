@@ -72,6 +72,8 @@ const WORDS = {
     `${many(n, "clip has", "clips have")} the shape of text, so what ${n === 1 ? "it shows" : "they show"} is not drawn. Give a font file and draw text as outlines, or convert the text to paths.`,
   "style-fault": (n: number, details: string) =>
     `${many(n, "style rule", "style rules")} could not be read and ${n === 1 ? "is" : "are"} ignored${details}.`,
+  "style-slow": (n: number, details: string) =>
+    `${many(n, "style rule takes", "style rules take")} too long to match and ${n === 1 ? "is" : "are"} ignored${details}. Use fewer :has, :not and ~ in one rule, or give the elements a class.`,
   "style-external": (n: number) =>
     `${many(n, "style sheet is", "style sheets are")} in another file and ignored. Embed the styles.`,
   "hidden-layer": (n: number, details: string) =>

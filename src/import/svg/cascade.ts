@@ -16,10 +16,22 @@ const MARKERS = ["marker-start", "marker-mid", "marker-end"] as const;
 const IS_PRESENTATION = new Set<string>([...PRESENTATION, ...NOT_DRAWN_PROPERTIES.keys()]);
 const IS_COLLECTED = new Set<string>([...IS_PROPERTY, ...NOT_DRAWN_PROPERTIES.keys()]);
 
+/**
+ * Max nodes that one selector may visit in the whole file, and all selectors together: `:has` in `:has`, or a chain of
+ * `~`, visits the siblings of siblings again and again. A usual selector visits a few nodes for each element.
+ */
+const MAX_VISITS = 5_000_000;
+const MAX_VISITS_PER_ELEMENT = 40;
+const MAX_TOTAL_VISITS = 400_000_000;
+
 interface FiledRule extends Rule {
   readonly order: number;
   readonly matches: (element: ElementRef) => boolean;
+  visitsLeft: number;
 }
+
+/** Thrown while a selector is tested, to leave css-select. */
+class TooManyVisits extends Error {}
 
 /** A node for css-select, created only for elements that a longer selector is tested on. */
 interface ElementRef {
@@ -29,6 +41,11 @@ interface ElementRef {
 export class Cascade {
   readonly importCount: number;
   readonly faults: readonly string[];
+  /** Selectors that need too much time: from some element on they match nothing. */
+  readonly slowSelectors = new Set<string>();
+  private totalVisitsLeft = MAX_TOTAL_VISITS;
+  /** For the test that is running. */
+  private visitsLeft = 0;
   private readonly byId = new Map<string, FiledRule[]>();
   private readonly byClass = new Map<string, FiledRule[]>();
   private readonly byType = new Map<string, FiledRule[]>();
@@ -85,8 +102,28 @@ export class Cascade {
     }
     return filed
       .flatMap((rules = []) => rules)
-      .filter((rule) => rule.isKeyAlone || rule.matches(this.ref(element)))
+      .filter((rule) => rule.isKeyAlone || this.isMatch(rule, element))
       .sort((a, b) => a.specificity - b.specificity || a.order - b.order);
+  }
+
+  private isMatch(rule: FiledRule, element: number): boolean {
+    const allowed = Math.min(rule.visitsLeft, this.totalVisitsLeft);
+    if (allowed <= 0) {
+      this.slowSelectors.add(rule.selector);
+      return false;
+    }
+    // Each test counts too, since there may be many rules.
+    this.visitsLeft = allowed - 1;
+    try {
+      return rule.matches(this.ref(element));
+    } catch (error) {
+      if (!(error instanceof TooManyVisits)) throw error;
+      this.slowSelectors.add(rule.selector);
+      return false;
+    } finally {
+      rule.visitsLeft -= allowed - this.visitsLeft;
+      this.totalVisitsLeft -= allowed - this.visitsLeft;
+    }
   }
 
   private file(rule: Rule, order: number, faults: string[]): void {
@@ -104,7 +141,8 @@ export class Cascade {
         return;
       }
     }
-    const filed = { ...rule, order, matches };
+    const visitsLeft = Math.max(MAX_VISITS, MAX_VISITS_PER_ELEMENT * this.tree.count);
+    const filed = { ...rule, order, matches, visitsLeft };
     const { kind, name } = rule.key;
     if (kind === "any") this.forAll.push(filed);
     else {
@@ -146,7 +184,11 @@ export class Cascade {
   };
 
   private readonly adapter = {
-    isTag: (node: ElementRef): node is ElementRef => node.index >= 0,
+    // css-select asks this about each node that it visits.
+    isTag: (_node: ElementRef): _node is ElementRef => {
+      if (--this.visitsLeft < 0) throw new TooManyVisits();
+      return true;
+    },
     getAttributeValue: (node: ElementRef, name: string): string | undefined =>
       attribute(this.tree, node.index, name),
     hasAttrib: (node: ElementRef, name: string): boolean =>

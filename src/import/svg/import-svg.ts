@@ -72,6 +72,7 @@ function draw(
   const clips = new SvgClips(file, geometry, painter, warnings);
   const walk = new SvgWalk(file, geometry, clips, painter, builder, warnings);
   if (isShown(root)) walk.run(context);
+  for (const selector of cascade.slowSelectors) warnings.add("style-slow", undefined, selector.slice(0, 80));
   return { builder, page };
 }
 

@@ -1,6 +1,9 @@
 /** Hatch, clips and hidden lines, checked by area and by sampling points inside and out. */
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { LineBuilder, type Lines } from "../../../src/geometry/polyline.js";
+import { regionOf, ringOf, type Region } from "../../../src/geometry/region.js";
+import { hideCovered } from "../../../src/prepare/hidden-lines.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { clipOf, drawingOf } from "../../support/drawings.js";
@@ -176,6 +179,48 @@ describe("hidden lines", () => {
     );
   });
 
+  it("are those that a shape painted later covers, in piles of hundreds of shapes", () => {
+    const side = fc.double({ min: 1, max: 60, noNaN: true });
+    const place = fc.double({ min: 0, max: 99, noNaN: true });
+    const slanted = fc.tuple(place, place, side, side).map(([x, y, width, height]): Ring => [
+      [x, y],
+      [x + width, y],
+      [x + width + 3, y + height],
+      [x, y + height],
+    ]);
+    fc.assert(
+      fc.property(fc.array(slanted, { minLength: 100, maxLength: 300 }), (rings) => {
+        const builder = new LineBuilder();
+        const areas = new Map<number, Region>();
+        rings.forEach((ring, i) => {
+          for (const [x, y] of [...ring, ring[0]]) builder.point(x, y);
+          builder.end(i);
+          areas.set(i, regionOf([ringOf(ring.flat())]));
+        });
+        const visible = hideCovered(builder.finish(), areas, () => true, {});
+        for (let i = 0; i < rings.length; i += 10) {
+          const above = rings.slice(i + 1);
+          const isVisible = (x: number, y: number): boolean =>
+            !above.some((ring) => isInside([ring], false, x, y));
+          checkBySampling(rings[i], segmentsOfTag(visible, i), isVisible, above);
+        }
+      }),
+      { numRuns: cases(50, 5) },
+    );
+  });
+
+  it("take no time that grows with the pairs of shapes in a pile", () => {
+    // Half of each circle is visible until the pile ends, so that every circle has all later ones beside it.
+    const circles = Array.from({ length: 1_000 }, (_, k) => {
+      const points = Array.from({ length: 24 }, (_, n) => (n * Math.PI) / 12);
+      const at = points.map((a) => `${40 + k / 50 + 20 * Math.cos(a)} ${50 + 20 * Math.sin(a)}`);
+      return { d: `M${at.join("L")}Z`, fill: "#ffffff", stroke: null };
+    });
+    const { strokes, drawMm } = prepare(drawingOf(circles), { ...PLAIN, hideCovered: true });
+    expect(strokes.offsets.length - 1).toBeGreaterThan(900);
+    expect(drawMm).toBeGreaterThan(1_000 * 20);
+  });
+
   it("hide nothing if their layer is hidden", () => {
     const square = "M10 10L50 10L50 50L10 50Z";
     const drawing = drawingOf(
@@ -190,6 +235,20 @@ describe("hidden lines", () => {
     expect(without.layers.map((layer) => layer.drawMm)).toEqual([90, 160]);
   });
 });
+
+function segmentsOfTag({ xy, offsets, tag }: Lines, wanted: number): ReturnType<typeof segmentsOf> {
+  const segments: ReturnType<typeof segmentsOf> = [];
+  tag.forEach((of, i) => {
+    for (let p = offsets[i]; p + 1 < offsets[i + 1] && of === wanted; p++) {
+      const [x0, y0, x1, y1] = xy.subarray(2 * p, 2 * p + 4);
+      segments.push([
+        [x0, y0],
+        [x1, y1],
+      ]);
+    }
+  });
+  return segments;
+}
 
 function onlyLayer(
   strokes: ReturnType<typeof prepare>["strokes"],

@@ -163,6 +163,32 @@ describe("importSvg on bad files", () => {
     expect(importSvg(text).paths.count).toBeGreaterThan(0);
   });
 
+  it.each([
+    "x ~ path ~ path ~ path",
+    ":has(:has(:has(path))) path ~ path ~ path ~ path",
+    "path:not(:is(x, y ~ path, z ~ path ~ path))",
+    "path:not(g:has(~ path:has(~ path:has(x))))",
+    "x ~ path:nth-child(n of path ~ path)",
+  ])("reports the selector %s if matching it takes too long, and draws everything", (selector) => {
+    const paths = '<path stroke="black" d="M0 0L9 9"/>'.repeat(4_000);
+    const style = `<style>${selector}{stroke:red} path{fill:none}</style>`;
+    const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm">${style}<g>${paths}</g></svg>`;
+    const drawing = importSvg(svg);
+    expect(drawing.paths.count).toBe(4_000);
+    expect(drawing.paths.fill.every((color) => color < 0)).toBe(true);
+    const left = drawing.warnings.filter(({ code }) => code !== "style-fault");
+    expect(left.map(({ code }) => code)).toEqual(left.length === 0 ? [] : ["style-slow"]);
+    if (selector.startsWith("x ~ path ~")) expect(left[0].message).toContain(selector);
+  });
+
+  it("matches a usual selector on any number of elements", () => {
+    const groups = `<g class="a">${'<path class="b" d="M0 0L9 9"/>'.repeat(100)}</g>`.repeat(300);
+    const style = "<style>svg > .a .b:not(:first-child), .b ~ .c, g:has(> .b) ~ g .b{stroke:red}</style>";
+    const { paths, warnings } = importSvg(`<svg width="9mm" height="9mm">${style}<g>${groups}</g></svg>`);
+    expect(paths.stroke.filter((color) => color >= 0).length).toBe(29_900);
+    expect(warnings.map(({ code }) => code)).not.toContain("style-slow");
+  });
+
   it("reads a file of 50 MB", () => {
     const line = `<path fill="none" stroke="#000" d="M12.5 20.25${"L30.125 44.5 61 7.75".repeat(100)}"/>\n`;
     const count = Math.ceil(50_000_000 / line.length);
