@@ -27,6 +27,8 @@ export interface Connection {
   readonly kind: "virtual" | "serial";
   /** Serial path; null for the built-in virtual machine. */
   readonly device: string | null;
+  /** Of the board's USB device; null if it has none. */
+  readonly serialNumber: string | null;
 }
 
 /**
@@ -38,13 +40,19 @@ export async function connect(options: ConnectOptions): Promise<Connection> {
   if (path === null && !options.virtualIfNone) throw notFound(options);
   if (path === null || path === "virtual") {
     const machine = await identified(options.virtualMachine().transport(), options);
-    return { machine, kind: "virtual", device: null };
+    return { machine, kind: "virtual", device: null, serialNumber: null };
   }
   const transport = await options.devices.open(path);
   const machine = await identified(transport, options).catch((error: unknown) => {
     throw atDevice(error, path);
   });
-  return { machine, kind: "serial", device: path };
+  return { machine, kind: "serial", device: path, serialNumber: await serialNumberAt(path, options) };
+}
+
+/** A port can be used without it, so errors are ignored. */
+async function serialNumberAt(path: string, { usbIds, devices }: ConnectOptions): Promise<string | null> {
+  const boards = await devices.find(usbIds).catch(() => []);
+  return boards.find((board) => board.path === path)?.serialNumber ?? null;
 }
 
 async function firstBoard({

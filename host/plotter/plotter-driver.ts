@@ -25,6 +25,7 @@ import {
   type PlotSettings,
 } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
+import { isOtherBoard, startOn } from "./board-id.js";
 import { connect, type Connection } from "./connection.js";
 import { moveByHand } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
@@ -107,10 +108,13 @@ export class PlotterDriver {
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
     await this.#connecting;
     if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
+    if (start.board && isOtherBoard(start.board, this.#current)) {
+      await this.#byHand((machine) => machine.release(settings));
+    }
     const machine = this.#idleMachine();
     this.#settings = settings;
     this.#machineChanged();
-    const run = new MachinePlot(machine, planner, settings, start);
+    const run = new MachinePlot(machine, planner, settings, startOn(this.#current, start));
     this.#run = run;
     const beginsHeld = start.held ?? (start.from ?? null) !== null;
     this.#setState({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
@@ -323,6 +327,7 @@ export class PlotterDriver {
       device: connection.device,
       connection: "idle",
       boardName: machine.name,
+      boardSerialNumber: connection.serialNumber,
       firmware: machine.firmware,
       message: this.#welcome(connection),
     });

@@ -46,6 +46,7 @@ export function initialState(device: string): PlotterState {
     device: isPath ? device : null,
     connection: "connecting",
     boardName: null,
+    boardSerialNumber: null,
     activity: "none",
     firmware: null,
     emergencyStopMs: null,

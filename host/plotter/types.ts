@@ -5,7 +5,7 @@
  */
 import type { MotionSettings, PenSettings, Place } from "../../src/index.js";
 import type { PlotProgress } from "../../src/internal.js";
-import type { PlotWait } from "../../src/schema/index.js";
+import type { BoardId, PlotWait } from "../../src/schema/index.js";
 
 export type { PlotProgress } from "../../src/internal.js";
 
@@ -74,6 +74,8 @@ export interface JournalEntry {
   readonly yMm: number;
   readonly penUp: boolean;
   readonly elapsedS: number;
+  /** The board that draws; the plotter adds it. */
+  readonly board?: BoardId | undefined;
 }
 
 interface PlotJournal {
@@ -85,6 +87,8 @@ export interface PlotStart {
   readonly from?: Place | null | undefined;
   /** `received` of the same journal entry. Default: nothing was drawn after `from`. */
   readonly received?: Place | undefined;
+  /** `board` of the same journal entry. The position of any other board says nothing about this plot. */
+  readonly board?: BoardId | undefined;
   /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */
   readonly held?: boolean | undefined;
   readonly journal?: PlotJournal | undefined;

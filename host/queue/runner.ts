@@ -3,7 +3,7 @@
  * outcome. The queue decides about the job from these reports.
  */
 import { PlotwrightError, type Place } from "../../src/index.js";
-import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
+import type { BoardId, PlotSettings, PlotWait } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import type { JournalEntry, LivePlotRun, PlotOutcome, PlotProgress } from "../plotter/types.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
@@ -30,6 +30,8 @@ export interface RunPlan {
   readonly from: Place | null;
   /** The end of what the board had received when that place was stored; undefined if it had drawn nothing more. */
   readonly received: Place | undefined;
+  /** The board that drew it up to there. */
+  readonly board: BoardId | undefined;
   /** Percent of the speeds in the settings, as it was before an interruption. */
   readonly speedPct: number;
 }
@@ -121,13 +123,13 @@ export class Runner {
   }
 
   async #plot(): Promise<PlotOutcome> {
-    const { plotter, settings, open, from, received, speedPct } = this.#plan;
+    const { plotter, settings, open, from, received, board, speedPct } = this.#plan;
     // An interrupted plot may have left the pen on the paper. So its planner is opened even after a cancel: cancelling
     // the run then lifts the pen.
     const planner = await open(from === null ? this.#abort.signal : new AbortController().signal);
     try {
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
-      const run = await plotter.plot(planner, settings, { from, received, journal });
+      const run = await plotter.plot(planner, settings, { from, received, board, journal });
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held, wait = null) => this.#reports.held(held, wait));

@@ -5,6 +5,7 @@
 import { z } from "zod";
 import { PlotwrightError, type ErrorCode, type Place } from "../../src/index.js";
 import {
+  boardIdSchema,
   ENDED_STATES,
   type Job,
   type JobChange,
@@ -12,6 +13,7 @@ import {
   type MovePlace,
   type PlotWait,
 } from "../../src/schema/index.js";
+import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
 import type { JournalEntry, PlotProgress } from "../plotter/types.js";
 import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
@@ -96,12 +98,15 @@ export class RunningPlots {
   recover(id: string): Job {
     const plotter = this.#freePlotter(id);
     const { place: from } = this.#jobs.get(id);
+    const { board } = this.#journal(id) ?? {};
+    const found = plotter.snapshot();
     const job = this.#jobs.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
     this.#keepPlace({ id, place: from });
     this.#begin(plotter, job).hold(this.#parts.nowIso());
-    const isLost = plotter.snapshot().xMm === null;
+    const isOther = board !== undefined && isOtherBoard(board, found);
+    const isLost = isOther || found.xMm === null;
     const place = isLost
-      ? "The board has lost its position: push the carriage to home by hand before you resume. The line may overlap a little where it continues."
+      ? `${isOther ? OTHER_BOARD : "The board has lost its position"}: push the carriage to home by hand before you resume. The line may overlap a little where it continues.`
       : "The board still knows its position. Check it with the pen up, then resume.";
     return this.#jobs.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
   }
@@ -174,6 +179,7 @@ export class RunningPlots {
         open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
         from,
         received: isJournalPlace ? entry?.received : undefined,
+        board: entry?.board,
         speedPct: job.speedPct,
       },
       {
@@ -334,7 +340,11 @@ const canContinue = (error: Error): boolean =>
 
 /** What Store.journal returns. It may have been written by another version of this program. */
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
-const journalSchema = z.object({ place: placeSchema, received: placeSchema.optional() });
+const journalSchema = z.object({
+  place: placeSchema,
+  received: placeSchema.optional(),
+  board: boardIdSchema.optional(),
+});
 const journalProgressSchema = z.object({
   progress: z.number().min(0).max(1),
   elapsedS: z.number().min(0),

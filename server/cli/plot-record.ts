@@ -6,7 +6,7 @@ import { existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "nod
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
-import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
+import { boardIdSchema, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import type { JournalEntry } from "../../host/plotter/types.js";
 import { makeDataFolder } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
@@ -23,6 +23,7 @@ const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0
 const entrySchema = z.object({
   place: placeSchema,
   received: placeSchema.optional(),
+  board: boardIdSchema.optional(),
   progress: z.number(),
 });
 
@@ -38,6 +39,7 @@ export interface StoredPlot {
 export interface InterruptedPlot extends StoredPlot {
   readonly from: JournalEntry["place"];
   readonly received: JournalEntry["received"];
+  readonly board: JournalEntry["board"];
   /** 0 … 1. */
   readonly progress: number;
 }
@@ -99,8 +101,8 @@ export class PlotRecord {
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
     if (this.#isPlottingElsewhere()) return null;
     const { name, settings, only } = plot.data;
-    const { place, received, progress } = entry.data;
-    return { name, settings, only, from: place, received, progress };
+    const { place, received, board, progress } = entry.data;
+    return { name, settings, only, from: place, received, board, progress };
   }
 
   /** Throws `not-found`. */

@@ -1,5 +1,6 @@
 /** Progress of a running plot, and the keys that control it. */
 import { SingleBar } from "cli-progress";
+import { OTHER_BOARD } from "../../host/plotter/board-id.js";
 import type { PlotProgress, PlotRun } from "../../host/plotter/types.js";
 import type { PlotWait } from "../../src/schema/index.js";
 import type { CliIo } from "./io.js";
@@ -8,8 +9,8 @@ import { minutes } from "./plan.js";
 export interface Watched {
   readonly name: string;
   readonly isQuiet: boolean;
-  /** Resumed after an interruption. `isLost`: the board no longer knows its position. */
-  readonly resumed: { readonly isLost: boolean } | null;
+  /** Resumed after an interruption: whether the board still knows the position, or is another board. */
+  readonly resumed: { readonly position: keyof typeof POSITIONS } | null;
   /** Aborted when the process must end: the plot is then interrupted. */
   readonly end: AbortSignal;
 }
@@ -42,7 +43,7 @@ export async function watch(
     else if (held) control.paused();
   });
   if (bar === null) say(`${resumed === null ? "Plotting" : "Resuming"} ${name}.\n`);
-  if (isHeld) io.err(`${resumed.isLost ? LOST : KNOWN} Enter resumes, Ctrl-C cancels.\n`);
+  if (isHeld) io.err(`${POSITIONS[resumed.position]} Enter resumes, Ctrl-C cancels.\n`);
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
     if (outcome.kind === "cancelled") return control.isInterrupted ? "interrupted" : "cancelled";
@@ -55,8 +56,11 @@ export async function watch(
   }
 }
 
-const LOST = "The board has lost its position: push the carriage to home by hand first.";
-const KNOWN = "The board still knows its position.";
+const POSITIONS = {
+  known: "The board still knows its position.",
+  lost: "The board has lost its position: push the carriage to home by hand first.",
+  other: `${OTHER_BOARD}: push the carriage to home by hand first.`,
+} as const;
 
 /** False if it was cancelled meanwhile. */
 export async function waitForPaper(

@@ -13,6 +13,7 @@ import type { OpenPlanner } from "../../host/planning/open-planner.js";
 import { PenStops } from "../../host/plotter/pen-stops.js";
 import { openPlanner } from "../planning/planner.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
+import { isOtherBoard } from "../../host/plotter/board-id.js";
 import type { JournalEntry, PlotStart } from "../../host/plotter/types.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "./files.js";
@@ -39,6 +40,7 @@ interface Plot {
   readonly only: readonly string[] | undefined;
   readonly from: InterruptedPlot["from"] | null;
   readonly received: InterruptedPlot["received"];
+  readonly board: InterruptedPlot["board"];
   /** Before it begins, 0 … 1. */
   readonly progress: number;
 }
@@ -84,6 +86,7 @@ export async function runPlot(
           only,
           from: null,
           received: undefined,
+          board: undefined,
           progress: 0,
         };
         return plotOne(plot, { begin: () => record.begin(path, plot), record, end }, options, io);
@@ -189,20 +192,22 @@ function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): 
 async function onPlotter(
   plotter: PlotterPort,
   planner: OpenPlanner,
-  { name, settings, from, received, progress: before }: Plot,
+  { name, settings, from, received, board, progress: before }: Plot,
   { begin, record, end }: Course,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
-  const isLost = plotter.snapshot().xMm === null;
+  const found = plotter.snapshot();
+  const isOther = board !== undefined && isOtherBoard(board, found);
+  const position = isOther ? "other" : found.xMm === null ? "lost" : "known";
   let progress = before;
   begin();
   const journal = journalIn(record, () => progress, io);
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
-  const start: PlotStart = { from, received, journal, held: from !== null && io.hasKeyboard };
+  const start: PlotStart = { from, received, board, journal, held: from !== null && io.hasKeyboard };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
-  const resumed = from === null ? null : { isLost };
+  const resumed = from === null ? null : ({ position } as const);
   const ended = await watch(run, { name, isQuiet: options.quiet === true, resumed, end }, io);
   // The motors stay on, so that the carriage stays where the plot is to be resumed.
   if (ended === "interrupted") return interrupted(record, io);

@@ -76,6 +76,8 @@ export const plotterSchema = z.object({
   name: z.string(),
   /** The name stored on the board (QT); null if it has none. */
   boardName: z.string().nullable().default(null),
+  /** Serial number of its USB device; null if it has none. */
+  boardSerialNumber: z.string().nullable().default(null),
   /** Id of the machine profile for manual moves; null: that of the last job. */
   machine: z.string().nullable().default(null),
   /** "virtual": no hardware, but the built-in board model. */
@@ -101,6 +103,10 @@ export const plotterSchema = z.object({
   yMm: z.number().nullable(),
 });
 export type Plotter = z.infer<typeof plotterSchema>;
+
+/** What distinguishes a board from others. Many have neither a name nor a serial number. */
+export const boardIdSchema = plotterSchema.pick({ boardName: true, boardSerialNumber: true, firmware: true });
+export type BoardId = z.infer<typeof boardIdSchema>;
 
 export const queueSettingsSchema = z.object({
   /** False: the next job waits until a user has changed the paper and starts it. */

@@ -79,6 +79,20 @@ describe("a stop for a pen", () => {
     expect(queue.get(id)).toMatchObject({ state: "paused", wait: null });
   });
 
+  it("tells the user that another board is connected than the one that began the plot", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    const board = { boardName: "left", boardSerialNumber: null, firmware: "2.8.1" };
+    run.record({ place: { stroke: 2, alongMm: 0 }, board });
+    crash();
+    queue.recover(id);
+    expect(queue.get(id).message).toMatch(
+      /^This is not the board that began the plot.*push the carriage to home/,
+    );
+  });
+
   it("is asked for again after a crash, but not after it was answered", async () => {
     const { id } = await add("fern");
     await queue.start(id);

@@ -28,6 +28,7 @@ export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter =>
   id,
   name: "Virtual plotter",
   boardName: null,
+  boardSerialNumber: null,
   emergencyStopMs: null,
   machine: null,
   kind: "virtual",

@@ -120,6 +120,7 @@ export class LedPlotter implements ManagedPlotter {
       id: this.id,
       name: this.#name,
       boardName: null,
+      boardSerialNumber: null,
       emergencyStopMs: null,
       machine: null,
       kind: "virtual",
