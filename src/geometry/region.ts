@@ -5,6 +5,7 @@
  * coordinates on any paper stay exact in a double. A region is always clean: its rings do not cross,
  * and their winding makes holes under the non-zero rule.
  */
+import Flatbush from "flatbush";
 import { Clipper64, ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
 import type { Box } from "./box.js";
 import { type LineBuilder, type Lines } from "./polyline.js";
@@ -12,6 +13,10 @@ import { RegionEdges } from "./region-edges.js";
 
 /** Clipper units per mm. */
 export const SCALE = 10_000;
+
+/** With fewer rings, or fewer edges side by side, Clipper takes them as they are. */
+const MIN_RINGS_OF_HEAPS = 50;
+const MANY_EDGES_ACROSS = 100;
 
 /** `rings` in Clipper units; `box` in mm. */
 export interface Region {
@@ -37,6 +42,19 @@ export const ringOfLine = ({ xy, offsets }: Lines, i: number): Path64 =>
 
 /** A region from rings that are already clean. */
 export function regionOf(rings: Paths64): Region {
+  const { x0, y0, x1, y1 } = boxOfRings(rings);
+  const box = { x0: x0 / SCALE, y0: y0 / SCALE, x1: x1 / SCALE, y1: y1 / SCALE };
+  let edges: RegionEdges | null = null;
+  return {
+    rings,
+    box,
+    isBox: rings.length === 1 && isRectangle(rings[0]),
+    edges: () => (edges ??= new RegionEdges(rings, SCALE)),
+  };
+}
+
+/** In Clipper units. */
+function boxOfRings(rings: Paths64): Box {
   let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const ring of rings) {
     for (const { x, y } of ring) {
@@ -46,14 +64,7 @@ export function regionOf(rings: Paths64): Region {
       y1 = Math.max(y1, y);
     }
   }
-  const box = { x0: x0 / SCALE, y0: y0 / SCALE, x1: x1 / SCALE, y1: y1 / SCALE };
-  let edges: RegionEdges | null = null;
-  return {
-    rings,
-    box,
-    isBox: rings.length === 1 && isRectangle(rings[0]),
-    edges: () => (edges ??= new RegionEdges(rings, SCALE)),
-  };
+  return { x0, y0, x1, y1 };
 }
 
 function isRectangle(ring: Path64): boolean {
@@ -65,9 +76,39 @@ function isRectangle(ring: Path64): boolean {
   });
 }
 
-/** The area that `rings` enclose under `rule`. */
+/** The area that `rings` enclose under `rule`. Rings that lie apart from the others are cleaned apart. */
 export const cleanRings = (rings: Paths64, rule: FillRule): Paths64 =>
-  combine(ClipType.Union, rings, [], rule);
+  heaps(rings).flatMap((heap) => combine(ClipType.Union, heap, [], rule));
+
+/**
+ * Rings whose boxes touch, directly or through others, in one heap: these can cross each other or lie inside one
+ * another. Clipper compares each ring with all beside it, so that a row of thousands would take minutes at once.
+ */
+export function heaps(rings: Paths64): Paths64[] {
+  if (rings.length < MIN_RINGS_OF_HEAPS) return [rings];
+  const tree = new Flatbush(rings.length);
+  const boxes = rings.map((ring) => boxOfRings([ring]));
+  for (const { x0, y0, x1, y1 } of boxes) tree.add(x0, y0, x1, y1);
+  tree.finish();
+  const heapOf = new Int32Array(rings.length).fill(-1);
+  const found: Paths64[] = [];
+  for (let first = 0; first < rings.length; first++) {
+    if (heapOf[first] >= 0) continue;
+    const heap = found.length;
+    const pending = [first];
+    const members: number[] = [];
+    heapOf[first] = heap;
+    for (let at = pending.pop(); at !== undefined; at = pending.pop()) {
+      members.push(at);
+      const { x0, y0, x1, y1 } = boxes[at];
+      const joined = tree.search(x0, y0, x1, y1, (k) => heapOf[k] < 0);
+      for (const k of joined) heapOf[k] = heap;
+      pending.push(...joined);
+    }
+    found.push(members.sort((a, b) => a - b).map((k) => rings[k]));
+  }
+  return found;
+}
 
 /**
  * The part of each ring in a box (I. Sutherland, G. Hodgman, 1974). It encloses every point of the box as often as the
@@ -106,14 +147,35 @@ export function combine(
   clip: Paths64,
   rule: FillRule = FillRule.NonZero,
 ): Paths64 {
+  const isTurned = sweepsBetterTurned([...subject, ...clip]);
   const clipper = new Clipper64();
   clipper.preserveCollinear = false;
-  clipper.addSubject(subject);
-  if (clip.length > 0) clipper.addClip(clip);
+  clipper.addSubject(isTurned ? turned(subject) : subject);
+  if (clip.length > 0) clipper.addClip(isTurned ? turned(clip) : clip);
   const closed: Paths64 = [];
   clipper.execute(op, rule, closed);
-  return closed;
+  return isTurned ? turned(turned(turned(closed))) : closed;
 }
+
+/**
+ * Clipper sweeps along y, and each step costs as much as there are edges on the sweep line. Whether turned by 90° this is
+ * so much less that turning pays.
+ */
+function sweepsBetterTurned(rings: Paths64): boolean {
+  let [width, height] = [0, 0];
+  for (const ring of rings) {
+    for (let k = 0, j = ring.length - 1; k < ring.length; j = k++) {
+      width += Math.abs(ring[k].x - ring[j].x);
+      height += Math.abs(ring[k].y - ring[j].y);
+    }
+  }
+  const { x0, y0, x1, y1 } = boxOfRings(rings);
+  const edgesAcross = height / (y1 - y0);
+  return edgesAcross > MANY_EDGES_ACROSS && width / (x1 - x0) < edgesAcross / 2;
+}
+
+/** Turned by 90°. */
+const turned = (rings: Paths64): Paths64 => rings.map((ring) => ring.map(({ x, y }) => ({ x: -y, y: x })));
 
 /** Adds a line from points in Clipper units. */
 export function addPath(path: Path64, tag: number, builder: LineBuilder): void {

@@ -14,8 +14,9 @@
  * Symbols: u along the lines, v across, both mm; level n is v = n · spacing.
  */
 import { ClipperOffset, EndType, JoinType, type Paths64 } from "clipper2-ts";
+import { firstWhere } from "../geometry/binary-search.js";
 import { LineBuilder } from "../geometry/polyline.js";
-import { SCALE, regionContains, regionOf, type Region } from "../geometry/region.js";
+import { SCALE, heaps, regionContains, regionOf, type Region } from "../geometry/region.js";
 import type { HatchSettings } from "../settings/prepare.js";
 
 /** Min spacing, mm: no pen is finer, and smaller spacings would need too much memory. */
@@ -43,11 +44,15 @@ export function hatchArea(area: Region, hatch: HatchSettings, tag: number, build
 
 /** Shrinks the area by this width, mm. */
 function inset(rings: Paths64, width: number): Region {
-  // Clipper.inflatePaths does the same, but adds the whole library to the page's worker bundle.
-  const offset = new ClipperOffset(MITER_LIMIT);
-  offset.addPaths(rings, JoinType.Miter, EndType.Polygon);
   const inner: Paths64 = [];
-  offset.execute(-width * SCALE, inner);
+  for (const heap of heaps(rings)) {
+    // Clipper.inflatePaths does the same, but adds the whole library to the page's worker bundle.
+    const offset = new ClipperOffset(MITER_LIMIT);
+    offset.addPaths(heap, JoinType.Miter, EndType.Polygon);
+    const shrunk: Paths64 = [];
+    offset.execute(-width * SCALE, shrunk);
+    for (const ring of shrunk) inner.push(ring);
+  }
   return regionOf(inner);
 }
 
@@ -99,6 +104,13 @@ interface Chain {
   level: number;
 }
 
+/** Where a chain ends, and its place among the chains of its level. */
+interface ChainEnd {
+  readonly chain: Chain;
+  readonly k: number;
+  readonly end: number;
+}
+
 /** Links lines of neighbouring levels into zigzags if the link is inside the area. */
 class HatchWriter {
   private open: Chain[] = [];
@@ -115,10 +127,12 @@ class HatchWriter {
   level(n: number, us: readonly number[]): void {
     const v = n * this.spacing;
     const before = this.open;
+    const byEnd = before.map((chain, k) => ({ chain, k, end: chain.points[chain.points.length - 2] }));
+    byEnd.sort((a, b) => a.end - b.end);
     this.open = [];
     for (let k = 0; k + 1 < us.length; k += 2) {
       if (!(us[k + 1] > us[k])) continue;
-      const chain = this.chainFor(before, n, us[k], us[k + 1], v);
+      const chain = this.chainFor(byEnd, n, us[k], us[k + 1], v);
       this.open.push(chain);
     }
     for (const chain of before) if (chain.level !== n) this.write(chain);
@@ -130,21 +144,22 @@ class HatchWriter {
   }
 
   /** The chain of the previous level that can continue along this line, or a new one. */
-  private chainFor(before: readonly Chain[], n: number, u0: number, u1: number, v: number): Chain {
+  private chainFor(byEnd: readonly ChainEnd[], n: number, u0: number, u1: number, v: number): Chain {
     let best: Chain | null = null;
     let bestGap = LONGEST_LINK * this.spacing;
     let backwards = false;
-    for (const chain of before) {
+    const candidates = [u0, u1].flatMap((u) =>
+      this.endsNear(byEnd, u, bestGap).map((end) => ({ ...end, u })),
+    );
+    candidates.sort((a, b) => a.k - b.k);
+    for (const { chain, end, u } of candidates) {
       if (chain.level !== n - 1) continue;
-      const end = chain.points[chain.points.length - 2];
-      for (const u of [u0, u1]) {
-        const gap = Math.hypot(end - u, this.spacing);
-        const inward = u === u0 ? HAIR : -HAIR;
-        if (gap < bestGap && this.isInside(end + inward, v - this.spacing, u + inward, v)) {
-          best = chain;
-          bestGap = gap;
-          backwards = u === u1;
-        }
+      const gap = Math.hypot(end - u, this.spacing);
+      const inward = u === u0 ? HAIR : -HAIR;
+      if (gap < bestGap && this.isInside(end + inward, v - this.spacing, u + inward, v)) {
+        best = chain;
+        bestGap = gap;
+        backwards = u === u1;
       }
     }
     const line = backwards ? [u1, v, u0, v] : [u0, v, u1, v];
@@ -152,6 +167,13 @@ class HatchWriter {
     best.points.push(...line);
     best.level = n;
     return best;
+  }
+
+  private endsNear(byEnd: readonly ChainEnd[], u: number, gap: number): ChainEnd[] {
+    const near: ChainEnd[] = [];
+    const first = firstWhere(0, byEnd.length, (k) => byEnd[k].end > u - gap);
+    for (let k = first; k < byEnd.length && byEnd[k].end < u + gap; k++) near.push(byEnd[k]);
+    return near;
   }
 
   /** Whether a short link is inside the area, checked at three points. */

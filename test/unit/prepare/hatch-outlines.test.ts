@@ -37,4 +37,33 @@ describe("filling a drawing without filled shapes", () => {
     const { drawMm } = prepare(importSvg(svgOf(both)), settings);
     expect(prepare(importSvg(svgOf(both)), { ...settings, hideCovered: true }).drawMm).toBeCloseTo(drawMm, 6);
   });
+
+  it.each([
+    ["in a row", ""],
+    ["in a row inside a frame", `<path d="M0 0h200v20h-200z" fill="none" stroke="#000"/>`],
+  ])("fills thousands of small outlines %s", (_, frame) => {
+    const count = 5_000;
+    const small = Array.from({ length: count }, (_unused, k) => `M${k * 0.04} 5h.02v6h-.02z`).join("");
+    const svg = svgOf(`<path d="${small}" fill="none" stroke="#000"/>${frame}`);
+    const hatch = { spacingMm: 0.05, angleDeg: 90, cross: false };
+    const settings = { ...TRUE_SIZE, joinMm: 0, clipToMargins: false, hatchOutlines: true };
+    const { drawMm } = prepare(importSvg(svg), { ...settings, hatch });
+    const outlines = prepare(importSvg(svg), { ...settings, hatch: DEFAULT_PREPARE.hatch }).drawMm;
+    // The small ones are thinner than the pen, and the frame is a shape of its own.
+    const filledMm = frame === "" ? 0 : (200 * 20) / 0.05;
+    expect(Math.abs(drawMm - outlines - filledMm)).toBeLessThanOrEqual(filledMm * 0.02);
+  });
+
+  it("fills a comb of thousands of teeth, which are side by side at each level", () => {
+    const teeth = Array.from(
+      { length: 4_000 },
+      (_, k) => `V20H${(k * 0.05 + 0.04).toFixed(3)}V10H${((k + 1) * 0.05).toFixed(3)}`,
+    );
+    const svg = svgOf(`<path d="M0 5${teeth.join("")}V5z" fill="#000"/>`);
+    const hatch = { spacingMm: 0.2, angleDeg: 0, cross: false };
+    const settings = { ...TRUE_SIZE, joinMm: 0, clipToMargins: false, outlineFills: false, hatch };
+    const { drawMm } = prepare(importSvg(svg), settings);
+    // The bar of 5 mm; the teeth are thinner than the pen.
+    expect(Math.abs(drawMm - (200 * 5) / 0.2)).toBeLessThanOrEqual(250);
+  });
 });
