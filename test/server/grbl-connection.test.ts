@@ -152,6 +152,21 @@ describe("a plot", { timeout: 120_000 }, () => {
     }
   });
 
+  it.each([
+    "ok",
+    "error:20",
+    "ALARM:1",
+    "[GC:G1]",
+    "Grbl 1.1h ['$' for help]",
+    "<Alarm|MPos:0.000,0.000,0.000>",
+  ])("leaves nothing out if noise looks like an answer: %s", async (noise) => {
+    for (const atS of [1.4, 3, 8.6, 12]) {
+      const { board, atEnd } = await plotDisturbed(atS, (one) => one.say(noise));
+      expect(atEnd.penUp).toBe(true);
+      expectAllDrawn(board);
+    }
+  });
+
   it("draws a line again that the Grbl refused, and keeps home although it cut the corner", async () => {
     const { first, atEnd, board } = await plotDisturbed(
       0.1,

@@ -202,6 +202,19 @@ describe.each([
     expect(board.state().zMm).toBeCloseTo(downMm, 3);
   });
 
+  it("is lifted by its travel if the Grbl restarts in mid-stroke and its greeting is lost", async () => {
+    const { world, board, driver, begin, line, within } = await plotter();
+    const run = await begin();
+    await world.advance(3);
+    line().isMute = true;
+    board.restart();
+    line().isMute = false;
+    expect(await within(run.finished)).toMatch(/^board-(error|timeout): /);
+    await world.advance(5);
+    expect(board.state().zMm).toBeCloseTo(upMm, 3);
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
+  });
+
   it("is lifted by its travel if the Grbl restarts in mid-stroke with the connection kept", async () => {
     const { world, board, begin, within } = await plotter();
     const run = await begin();

@@ -282,7 +282,8 @@ export class GrblMachine implements Machine {
     const status = await stream.cleared();
     if (stream.isBroken) this.at = null;
     await this.recovered(status);
-    if (stream.isBroken && !this.isLocked && hasRestarted(status)) await this.setHeight(penUp, settings);
+    // Its greeting may have been lost.
+    if (!this.isLocked && hasRestarted(status)) await this.setHeight(penUp, settings);
   }
 
   /** Without homing, a lock has no other purpose than to be acknowledged. */
