@@ -79,7 +79,8 @@ export default function planBench(report: Report): void {
 const SAMPLES = path.join(import.meta.dirname, "..", "samples");
 
 const sampleStrokes = (file: string): StrokeSet =>
-  prepare(importSvg(readFileSync(path.join(SAMPLES, file), "utf8")), DEFAULT_PREPARE).strokes;
+  prepare(importSvg(readFileSync(path.join(SAMPLES, file), "utf8")), { ...DEFAULT_PREPARE, fit: false })
+    .strokes;
 
 /** Number of warm-up rounds, and of timed rounds. */
 const WARM_UP = 10;

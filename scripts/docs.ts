@@ -1,10 +1,11 @@
-/** `npm run docs`: writes the generated parts of docs/*.md: parts of cli.md and motion.md, and both references. */
+/** `npm run docs`: writes the generated parts of docs/*.md: parts of cli.md, motion.md and comparison.md, and both references. */
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { cliReference } from "./cli-reference.js";
 import { httpReference } from "./http-reference.js";
 import { libraryReference } from "./library-reference.js";
 import { penGainsTable } from "./pen-gains.js";
+import { sampleTimesTable } from "./sample-times.js";
 import { settingsTable } from "./settings-table.js";
 
 const DOCS = path.join(import.meta.dirname, "..", "docs");
@@ -12,6 +13,7 @@ const DOCS = path.join(import.meta.dirname, "..", "docs");
 writePart("cli.md", "settings", settingsTable());
 writePart("cli.md", "commands", await cliReference());
 writePart("motion.md", "pen gains", penGainsTable());
+writePart("comparison.md", "sample times", sampleTimesTable());
 writeFileSync(path.join(DOCS, "library-reference.md"), (await libraryReference()).markdown);
 writeFileSync(path.join(DOCS, "http-reference.md"), await httpReference());
 

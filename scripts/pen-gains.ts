@@ -40,7 +40,7 @@ const DRAWINGS: readonly (readonly [name: string, svg: string, settings?: Partia
 export function penGainsTable(): string {
   const machine = machineById("axidraw-v3");
   const rows = DRAWINGS.map(([name, svg, settings]) => {
-    const { strokes } = prepare(importSvg(svg), { ...DEFAULT_PREPARE, ...settings });
+    const { strokes } = prepare(importSvg(svg), { ...DEFAULT_PREPARE, fit: false, ...settings });
     const timeS = (overlap: PenOverlap, dropsAtStroke: boolean): number =>
       plan(strokes, DEFAULT_MOTION, { ...DEFAULT_PEN, overlap }, { machine, dropsAtStroke }).totalS;
     const [off, ...others] = [

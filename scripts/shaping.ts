@@ -44,7 +44,9 @@ const SPRINGS: readonly Springs[] = [
 const FACTORS = [1, 0.9, 1.1, 0.8, 1.2];
 
 const drawings: readonly StrokeSet[] = readdirSync(FOLDER).map(
-  (file) => prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), DEFAULT_PREPARE).strokes,
+  (file) =>
+    prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), { ...DEFAULT_PREPARE, fit: false })
+      .strokes,
 );
 
 interface Variant {

@@ -79,11 +79,10 @@ export {
   canBePaper,
   isOnFilesPage,
   onFilesPage,
-  placedForPage,
   quarterTurned,
   quarterTurnedBox,
-  withoutFilesPage,
 } from "./prepare/files-page.js";
+export { meanScaleOf, sizeInWords, type DrawnSize, type OutsidePaper } from "./prepare/on-paper.js";
 export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
 export { cutOffLines, type CutOff } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";

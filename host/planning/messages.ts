@@ -1,7 +1,17 @@
 /** Messages between the planner and its worker thread. Large arrays are transferred, not copied. */
 import { PlotwrightError, type ErrorCode, type StrokeSet } from "../../src/index.js";
+import type { DrawnSize } from "../../src/internal.js";
 import type { Measured } from "./planning.js";
 import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
+
+/** A drawing that is prepared for planning. */
+export interface ReadyDrawing {
+  readonly strokes: StrokeSet;
+  /** The drawing's size on the paper. */
+  readonly size: DrawnSize;
+  /** Warnings, for example about features of the file that are not drawn. */
+  readonly warnings: readonly string[];
+}
 
 export type ToWorker =
   | { readonly type: "plan"; readonly id: number; readonly request: PlanRequest }
@@ -11,7 +21,7 @@ export type ToWorker =
 export type FromWorker =
   /** The file has been read. */
   | { readonly type: "imported" }
-  | { readonly type: "ready"; readonly strokes: StrokeSet; readonly warnings: readonly string[] }
+  | ({ readonly type: "ready" } & ReadyDrawing)
   | { readonly type: "planned"; readonly id: number; readonly plot: PlannedPlot }
   | ({ readonly type: "measured"; readonly id: number } & Measured)
   /** `id` null: the drawing itself could not be prepared. */

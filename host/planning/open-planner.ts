@@ -3,7 +3,7 @@
  * thread that streams to the board must not wait for it. The host program starts the thread.
  */
 import { PlotwrightError } from "../../src/index.js";
-import type { FromWorker, ToWorker } from "./messages.js";
+import type { FromWorker, ReadyDrawing, ToWorker } from "./messages.js";
 import type { Measured } from "./planning.js";
 import type { PlotPlanner } from "./plot-planner.js";
 
@@ -22,9 +22,7 @@ export interface PlannerThread {
 /** Starts a thread that prepares the drawing and answers "ready" or "failed". */
 export type StartPlanner = (listener: PlannerListener) => PlannerThread;
 
-export interface OpenPlanner extends PlotPlanner {
-  /** Warnings, for example about features of the file that are not drawn. */
-  readonly warnings: readonly string[];
+export interface OpenPlanner extends PlotPlanner, ReadyDrawing {
   /** Plans the whole drawing from home, for a board with this firmware (null: unknown), and returns only its figures. */
   measure(firmware: string | null): Promise<Measured>;
 }
@@ -74,6 +72,7 @@ export async function openPlanner(start: StartPlanner, signal?: AbortSignal): Pr
   };
   return {
     strokes: ready.strokes,
+    size: ready.size,
     warnings: ready.warnings,
     plan: async (request) => {
       const answer = await ask((id) => ({ type: "plan", id, request }));

@@ -56,7 +56,7 @@ function measurePrepared(
   const job = planJob(prepared, settings, machine, { firmware });
   const { drawMm, travelMm, penLiftCount, durationS } = trajectoryStats(job.trajectory);
   const counts = { strokeCount: strokeCount(prepared.strokes), pointCount: pointCount(prepared.strokes) };
-  const stats: JobStats = { ...counts, drawMm, travelMm, penLiftCount, durationS };
+  const stats: JobStats = { size: prepared.size, ...counts, drawMm, travelMm, penLiftCount, durationS };
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
 }
 

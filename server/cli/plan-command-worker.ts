@@ -11,6 +11,7 @@ let fault: Fault | null = null;
 try {
   runPlan(file, settings, options, {
     out: (text) => post({ type: "out", text }),
+    err: (text) => post({ type: "err", text }),
     begin: (step) => post({ type: "begin", step }),
   });
 } catch (error) {

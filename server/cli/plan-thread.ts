@@ -21,13 +21,14 @@ export interface PlanThreadInput {
 
 export type FromPlanThread =
   | { readonly type: "out"; readonly text: string }
+  | { readonly type: "err"; readonly text: string }
   | { readonly type: "begin"; readonly step: PlanStep }
   | { readonly type: "done"; readonly fault: Fault | null };
 
 /** Throws what `runPlan` throws, and `bad-file` or `too-large` if a step takes too long. */
 export function runPlanInThread(
   input: PlanThreadInput,
-  io: Pick<CliIo, "out">,
+  io: Pick<CliIo, "out" | "err">,
   limits: PlanningLimits = OWN_PLANNING_LIMITS,
 ): Promise<void> {
   return new Promise((resolve, reject) => {
@@ -37,6 +38,7 @@ export function runPlanInThread(
     const thread = new BoundedThread<FromPlanThread>(start, {
       message: (message) => {
         if (message.type === "out") io.out(message.text);
+        else if (message.type === "err") io.err(message.text);
         else if (message.type === "begin") {
           thread.allow(
             message.step === "plan" ? planLimit(limits) : prepareLimit(limits, input.settings.prepare),

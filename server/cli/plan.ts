@@ -11,7 +11,10 @@ import {
 } from "../../src/index.js";
 import {
   penError,
+  meanScaleOf,
   prepareJob,
+  sizeInWords,
+  type DrawnSize,
   type PenError,
   type PreparedJob,
   machineOf,
@@ -41,6 +44,10 @@ export interface PlanCommandOptions {
 
 /** The object of `--json`: scripts depend on these keys. Lengths mm, speeds mm/s, mm/s². */
 export interface PlanReport {
+  /** The drawing's size on the paper, and its scale: 1 is the size in the file. If stretched, the mean of both scales. */
+  readonly widthMm: number;
+  readonly heightMm: number;
+  readonly scale: number;
   readonly strokes: number;
   readonly points: number;
   readonly blocks: number;
@@ -74,6 +81,7 @@ interface Planned {
 /** Output of a plan, provided by its thread. */
 export interface PlanOutput {
   out(text: string): void;
+  err(text: string): void;
   /** Called when a step begins. */
   begin(step: PlanStep): void;
 }
@@ -105,7 +113,8 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
     writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`, io);
   }
   if (options.json === true) io.out(`${JSON.stringify(report)}\n`);
-  else if (toStdout.length === 0) io.out(words(report));
+  else if (toStdout.length === 0) io.out(words(report, prepared.size));
+  else io.err(`${sizeInWords(prepared.size)}\n`);
 }
 
 function planFile(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): Planned {
@@ -133,7 +142,11 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
   const compileMs = clock();
   const lines = planned.lines();
   const stats = trajectoryStats(trajectory);
+  const { widthMm, heightMm } = job.prepared.size;
   const report: PlanReport = {
+    widthMm: rounded(widthMm),
+    heightMm: rounded(heightMm),
+    scale: rounded(meanScaleOf(job.prepared.size)),
     strokes: strokeCount(job.prepared.strokes),
     points: pointCount(job.prepared.strokes),
     blocks: trajectory.blockCount,
@@ -167,8 +180,9 @@ function penErrorOf({ prepared }: PreparedJob, trajectory: Trajectory, machine: 
   return { maxMm: rounded(maxMm), p99Mm: rounded(p99Mm), rmsMm: rounded(rmsMm) };
 }
 
-function words(report: PlanReport): string {
+function words(report: PlanReport, size: DrawnSize): string {
   const lines = [
+    sizeInWords(size),
     [many(report.strokes, "stroke"), many(report.points, "point"), many(report.penLifts, "pen lift")].join(
       ", ",
     ),

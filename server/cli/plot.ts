@@ -5,7 +5,7 @@
  */
 import { basename } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { machineOf } from "../../src/internal.js";
+import { machineOf, sizeInWords } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
@@ -158,6 +158,7 @@ async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, 
         // Ctrl-C while the board was being connected.
         if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
         forget();
+        say(`${plot.name}: ${sizeInWords(planner.size)}\n`);
         return onPlotter(plotter, planner, plot, course, options, io);
       });
     } finally {

@@ -2,7 +2,7 @@
 import { InvalidArgumentError, Option, type Command } from "commander";
 import { basename } from "node:path";
 import { importDrawing, PlotwrightError } from "../../src/index.js";
-import { textOfBytes } from "../../src/internal.js";
+import { sizeInWords, textOfBytes } from "../../src/internal.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readBytes } from "../planning/read-drawing.js";
@@ -47,7 +47,9 @@ export const declareAdd: Declare = (command, { io }) => {
           };
           const job = await addJob(options, wanted, drawing);
           const columns = [job.id, job.name, timeOf(job), ...plotterNameOf(job, state)];
-          if (options.quiet !== true) io.out(`${columns.join("\t")}\n`);
+          if (options.quiet === true) return;
+          io.out(`${columns.join("\t")}\n`);
+          if (job.stats?.size) io.err(`${job.name}: ${sizeInWords(job.stats.size)}\n`);
         });
       }
     });

@@ -28,7 +28,7 @@ try {
     const answer = answerOf(prepared, warnings, input, message);
     post(answer, answer.type === "planned" ? buffersOf(answer.plot) : []);
   });
-  post({ type: "ready", strokes: prepared.strokes, warnings });
+  post({ type: "ready", strokes: prepared.strokes, size: prepared.size, warnings });
 } catch (error) {
   post({ type: "failed", id: null, ...faultOf(error) });
 }

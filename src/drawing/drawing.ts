@@ -126,6 +126,11 @@ export interface Drawing {
   /** Size of the file's page. */
   readonly widthMm: number;
   readonly heightMm: number;
+  /**
+   * How the page is known, if the file does not define it. "extent": lengths are true, and the page is the drawing's
+   * extent. "proportions": only its proportions are known, from the viewBox of an SVG without a width and height.
+   */
+  readonly pageFrom?: "extent" | "proportions";
   /** The file's layers. */
   readonly groups: readonly DrawingGroup[];
   /** "#rrggbb", lower case, distinct, in order of first use. */

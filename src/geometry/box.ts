@@ -19,6 +19,10 @@ export const boxContainsPoint = (box: Box, x: number, y: number): boolean =>
 export const boxContains = (outer: Box, inner: Box): boolean =>
   inner.x0 >= outer.x0 && inner.x1 <= outer.x1 && inner.y0 >= outer.y0 && inner.y1 <= outer.y1;
 
+/** True if `inner` is not larger than `outer`, wherever it lies. */
+export const hasRoom = (outer: Box, inner: Box): boolean =>
+  inner.x1 - inner.x0 <= outer.x1 - outer.x0 && inner.y1 - inner.y0 <= outer.y1 - outer.y0;
+
 /** True if the boxes have at least one point in common, borders included. */
 export const boxesTouch = (a: Box, b: Box): boolean =>
   a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;

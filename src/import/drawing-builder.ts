@@ -151,7 +151,7 @@ export class DrawingBuilder {
     const { x0, y0, x1, y1 } = this.extent();
     this.translate(-x0, -y0);
     this.warnings.translate(-x0, -y0);
-    return this.finish(Math.max(x1 - x0, SMALLEST_SIDE), Math.max(y1 - y0, SMALLEST_SIDE));
+    return this.finish(Math.max(x1 - x0, SMALLEST_SIDE), Math.max(y1 - y0, SMALLEST_SIDE), "extent");
   }
 
   private translate(dx: number, dy: number): void {
@@ -165,12 +165,13 @@ export class DrawingBuilder {
     }
   }
 
-  finish(widthMm: number, heightMm: number): Drawing {
+  finish(widthMm: number, heightMm: number, pageFrom?: Drawing["pageFrom"]): Drawing {
     const count = this.shapeCount;
     if (count === 0) this.warnings.add("empty-drawing");
     return {
       widthMm,
       heightMm,
+      ...(pageFrom === undefined ? {} : { pageFrom }),
       groups: this.groups,
       colors: this.colors,
       dashes: this.dashes,

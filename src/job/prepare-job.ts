@@ -1,10 +1,11 @@
-/** Prepares the drawing of a job, and checks that there are strokes and that the machine reaches them. */
+/** Prepares the drawing of a job, and checks that there are strokes, that they are on the paper, and that the machine reaches them. */
 import type { Drawing } from "../drawing/drawing.js";
 import { strokeCount } from "../drawing/stroke-set.js";
 import type { JobSettings } from "../drivers/machine-job.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { checkBounds } from "../prepare/check-bounds.js";
+import { checkPaper } from "../prepare/on-paper.js";
 import { prepareSettingsOf, type PenSetup } from "../prepare/pens.js";
 import { prepare, type Prepared } from "../prepare/prepare.js";
 import type { Work } from "../prepare/work.js";
@@ -37,6 +38,10 @@ export function prepareJob(
     const isEmpty = drawing.warnings.some(({ code }) => code === "empty-drawing");
     throw new PlotwrightError("bad-file", (isEmpty ? fileWarnings : warnings).join(" "));
   }
+  checkPaper(prepared.outside, settings.prepare.outside, {
+    widthMm: prepared.paperWidthMm,
+    heightMm: prepared.paperHeightMm,
+  });
   checkBounds(prepared.strokes, machine);
   return { prepared, warnings: [...warnings, ...unusedSettings(settings, machine)] };
 }

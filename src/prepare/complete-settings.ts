@@ -7,7 +7,15 @@ import {
   PREPARE_TABLE,
   type PrepareSettings,
 } from "../settings/prepare.js";
-import { isAllowed, rangeInWords, type SettingsTable } from "../settings/setting.js";
+import {
+  AUTO,
+  isAllowed,
+  orAutoInWords,
+  rangeInWords,
+  takesAuto,
+  type Setting,
+  type SettingsTable,
+} from "../settings/setting.js";
 
 const NAMES = [...Object.keys(DEFAULT_PREPARE), "layerShifts"];
 const LISTS = ["hiddenLayers", "shownLayers", "layerOrder", "layerHatches"] as const;
@@ -38,7 +46,8 @@ function checkTable<Table extends SettingsTable>(
 ): void {
   for (const [key, row] of Object.entries(table)) {
     const value = values[key];
-    if (row.kind === "number") {
+    if (takesAuto(row)) checkOrAuto(at + key, row, value);
+    else if (row.kind === "number") {
       if (!isAllowed(row, value as number)) refuseSetting(at + key, value, rangeInWords(row));
     } else if (row.kind === "switch") {
       if (typeof value !== "boolean") refuseSetting(at + key, value, "true or false");
@@ -46,4 +55,9 @@ function checkTable<Table extends SettingsTable>(
       refuseSetting(at + key, value, `one of ${row.choices.join(", ")}`);
     }
   }
+}
+
+function checkOrAuto(name: string, row: Setting, value: unknown): void {
+  const isFit = row.kind === "number" ? isAllowed(row, value as number) : typeof value === "boolean";
+  if (value !== AUTO && !isFit) refuseSetting(name, value, orAutoInWords(row));
 }

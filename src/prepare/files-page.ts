@@ -1,11 +1,8 @@
-/**
- * Places the file's page on the paper unless the user has chosen a place. A file made for this paper keeps its true size,
- * and the paper is turned so that the machine reaches it.
- */
+/** Paper of the size of the file's page, and turning paper and drawing together. */
 import { PAPER_SIZES, type PaperSize } from "../drawing/paper.js";
 import type { Box } from "../geometry/box.js";
-import { DEFAULT_PREPARE, PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
-import { orientedPaper } from "./place.js";
+import { PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
+import { orientedPaper, type Layout, type Placement } from "./place.js";
 
 /** Width along x and height along y, unlike `PaperSize`, which is portrait. */
 type Size = PaperSize;
@@ -27,15 +24,14 @@ const reaches = (machine: Size, { widthMm, heightMm }: Size): boolean =>
 export const canBePaper = ({ widthMm, heightMm }: Size): boolean =>
   [widthMm, heightMm].every((mm) => mm >= PAPER_TABLE.widthMm.min && mm <= PAPER_TABLE.widthMm.max);
 
-/** True if the page's corner is on the paper's corner, at true size, and lines are cut off only at the page's edge. */
-const isPageOnCorner = ({ fit, place, cropToPage, clipToMargins }: PrepareSettings): boolean =>
-  !fit && place === null && cropToPage && !clipToMargins;
+/** Whether the paper is the file's page, at true size. */
+export const isOnFilesPage = ({ paper, fit, place }: PrepareSettings, page: Size): boolean =>
+  fit !== true && place === null && isSameSheet(paper, page);
 
-/** Whether `onFilesPage` would change nothing. */
-export const isOnFilesPage = (settings: PrepareSettings, page: Size): boolean =>
-  isPageOnCorner(settings) && isSameSheet(settings.paper, page);
-
-/** Makes the paper the file's page, at true size. Turns both by 90° if the machine reaches the page only that way. */
+/**
+ * Makes the paper the file's page, at true size. The paper lies as the page does, unless the machine reaches it only
+ * the other way: then the drawing is turned by itself.
+ */
 export function onFilesPage<S extends PrepareSettings>(settings: S, page: Size, machine: Size | null): S {
   const { widthMm, heightMm } = page;
   const portrait = widthMm > heightMm ? turned(page) : page;
@@ -45,61 +41,27 @@ export function onFilesPage<S extends PrepareSettings>(settings: S, page: Size, 
     ...settings,
     paper: sheets.find((sheet) => isSameSheet(sheet, page)) ?? portrait,
     landscape: widthMm > heightMm !== isTurned,
-    fit: false,
+    fit: "auto",
     place: null,
-    rotateDeg: isTurned ? 90 : 0,
-    clipToMargins: false,
-    cropToPage: true,
+    rotateDeg: "auto",
   };
 }
-
-const NOT_CHOSEN = {
-  fit: DEFAULT_PREPARE.fit,
-  place: null,
-  rotateDeg: DEFAULT_PREPARE.rotateDeg,
-  clipToMargins: DEFAULT_PREPARE.clipToMargins,
-  cropToPage: DEFAULT_PREPARE.cropToPage,
-};
-
-const isChosen = (settings: PrepareSettings): boolean =>
-  Object.entries(NOT_CHOSEN).some(([key, value]) => settings[key as keyof PrepareSettings] !== value);
-
-/** The settings for a newly opened drawing. Settings that the user has changed stay unchanged. */
-export function placedForPage<S extends PrepareSettings>(settings: S, page: Size, machine: Size | null): S {
-  if (isChosen(settings)) return settings;
-  if (isSameSheet(settings.paper, page)) return onFilesPage(settings, page, machine);
-  const { landscape } = settings;
-  const isBetterTurned =
-    machine !== null &&
-    !reaches(machine, insideOf(settings, landscape)) &&
-    reaches(machine, insideOf(settings, !landscape));
-  return isBetterTurned ? { ...settings, landscape: !landscape } : settings;
-}
-
-/** The farthest point from home of a drawing inside the margins. */
-function insideOf({ paper, margins, marginMm }: PrepareSettings, landscape: boolean): Size {
-  const { widthMm, heightMm } = orientedPaper(paper, landscape);
-  return {
-    widthMm: widthMm - (margins?.rightMm ?? marginMm),
-    heightMm: heightMm - (margins?.bottomMm ?? marginMm),
-  };
-}
-
-/** Undoes `onFilesPage`, for the next drawing. */
-export const withoutFilesPage = <S extends PrepareSettings>(settings: S): S =>
-  isPageOnCorner(settings) ? { ...settings, ...NOT_CHOSEN } : settings;
 
 /**
  * Turns paper and drawing together by 90° clockwise, so that the plot is the same on a sheet in the other orientation.
- * `frame`: the drawing's box on the paper, before a placed box is turned.
+ * `frame`: the drawing's box on the paper, before a placed box is turned. `page`: the file's.
  */
-export function quarterTurned<S extends PrepareSettings>(settings: S, frame: Box): S {
-  const { paper, landscape, margins, place, rotateDeg } = settings;
+export function quarterTurned<S extends PrepareSettings>(
+  settings: S,
+  { frame, layout }: Pick<Placement, "frame" | "layout">,
+  page: Size,
+): S {
+  const { paper, landscape, margins, place } = settings;
   const { heightMm } = orientedPaper(paper, landscape);
   return {
     ...settings,
     landscape: !landscape,
-    rotateDeg: (rotateDeg + 90) % 360,
+    rotateDeg: turnsByItself(settings, layout, page) ? "auto" : (layout.rotateDeg + 90) % 360,
     margins: margins && turnedMargins(margins),
     place: place && {
       ...place,
@@ -110,6 +72,14 @@ export function quarterTurned<S extends PrepareSettings>(settings: S, frame: Box
     },
   };
 }
+
+/** Whether the drawing turns with the paper because its page fits only that way. */
+const turnsByItself = ({ rotateDeg, paper, landscape }: PrepareSettings, now: Layout, page: Size): boolean =>
+  rotateDeg === "auto" &&
+  now.rotateDeg === 0 &&
+  now.how === "corner" &&
+  reaches(orientedPaper(paper, landscape), page) &&
+  !reaches(orientedPaper(paper, !landscape), page);
 
 const turnedMargins = ({ topMm, rightMm, bottomMm, leftMm }: FourMargins): FourMargins => ({
   topMm: leftMm,

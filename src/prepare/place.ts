@@ -4,8 +4,12 @@
  *   home ┌──────────────── x        paper    top left corner at home, oriented by `landscape`
  *        │  ┌───────────┐           inside   the paper minus its margins
  *        │  │  inside   │           fit      the drawing's content fills `inside`, centred
- *        y  └───────────┘           true     page corner on paper corner
+ *        y  └───────────┘           corner   true size, page corner on paper corner
+ *                                   middle   true size, centred: a file without a page
  *                                   place    the content in the given box, then turned about its centre
+ *
+ * The setting `fit` chooses between fit and corner; "auto" chooses by the file's page. A drawing that leaves the paper is
+ * moved or fitted if the setting `outside` asks for it.
  */
 import { curveBoxOf } from "../drawing/curve-box.js";
 import { curvesOf, type Drawing } from "../drawing/drawing.js";
@@ -22,7 +26,9 @@ import {
 } from "../geometry/affine.js";
 import {
   EMPTY_BOX,
+  boxContains,
   boxOfPoints,
+  hasRoom,
   intersectBoxes,
   isEmptyBox,
   mappedCorners,
@@ -36,12 +42,22 @@ export interface Placement {
   readonly map: Affine;
   readonly paper: Box;
   readonly inside: Box;
-  /** Box of the content on the paper, before a placed box is turned; empty for an empty drawing. */
+  /** How the drawing is laid out: settings that are "auto" are decided. */
+  readonly layout: Layout;
+  /** Box of the content on the paper; empty for an empty drawing. */
+  readonly content: Box;
+  /** The same before a placed box is turned. */
   readonly frame: Box;
   /** Box of all shapes on the paper, before any clipping; infinite if a shape draws nothing. */
   readonly whole: Box;
   /** Box of each shape on the paper; empty for a shape that draws nothing. */
   readonly shapeBoxes: () => readonly Box[];
+}
+
+/** See the picture above. */
+export interface Layout {
+  readonly how: "fit" | "corner" | "middle" | "place";
+  readonly rotateDeg: number;
 }
 
 /** Width and height as the paper lies: the long side along x in landscape, otherwise along y. */
@@ -51,33 +67,109 @@ export function orientedPaper(paper: PaperSize, landscape: boolean): PaperSize {
   return landscape ? { widthMm: long, heightMm: short } : { widthMm: short, heightMm: long };
 }
 
+/** What the pen's width and the rounding of pages to whole pixels may exceed the paper by, mm. */
+const PEN_WIDTH_MM = 0.5;
+export const ROUNDING_MM = 0.01;
+
+/** What counts as paper. Left and top are at home, where the carriage can't go any further. */
+export const withTolerance = ({ x0, y0, x1, y1 }: Box): Box => ({
+  x0: x0 - ROUNDING_MM,
+  y0: y0 - ROUNDING_MM,
+  x1: x1 + PEN_WIDTH_MM,
+  y1: y1 + PEN_WIDTH_MM,
+});
+
 /** Throws `bad-setting` if the margins leave no room. */
 export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Placement {
+  const placement = laidOut(drawing, settings);
+  const { paper, inside, content, layout } = placement;
+  if (isEmptyBox(content) || boxContains(withTolerance(paper), content)) return placement;
+  if (settings.outside === "move") return movedBy(placement, shiftOnto(content, inside, paper));
+  if (settings.outside !== "fit") return placement;
+  const turnDeg = settings.place?.turnDeg ?? 0;
+  return laidOut(drawing, { ...settings, fit: true, place: null, rotateDeg: layout.rotateDeg + turnDeg });
+}
+
+/** A placement by the settings, whether or not it leaves the paper. */
+function laidOut(drawing: Drawing, settings: PrepareSettings): Placement {
   const { widthMm, heightMm } = orientedPaper(settings.paper, settings.landscape);
   const paper = { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
   const inside = insideMargins(paper, settings);
-  const turn = compose(rotation((settings.rotateDeg * Math.PI) / 180), MIRRORS[settings.mirror]);
+  const layout = layoutOf(drawing, settings, paper, inside);
+  const turn = turnOf(layout.rotateDeg, settings.mirror);
   const { boxes: turned, whole } = shapeBoxes(drawing, turn);
   const content = contentBox(drawing, turned, whole, turn, settings.cropToPage);
   const after = settings.place
     ? placed(content, settings.place)
-    : settings.fit
+    : layout.how === "fit"
       ? fitted(content, inside)
-      : onCorner(pageBox(drawing, turn));
+      : layout.how === "middle"
+        ? toMiddle(content, inside, 1)
+        : onCorner(pageBox(drawing, turn));
   const frame = isEmptyBox(content) ? content : movedBox(content, after);
-  const place = { paper, inside, frame };
+  const place = { paper, inside, layout, frame };
   const turnInPlace = aboutCentre(frame, settings.place?.turnDeg ?? 0);
   if (turnInPlace === null) {
     return {
       ...place,
       map: compose(after, turn),
+      content: frame,
       whole: movedBox(whole, after),
       shapeBoxes: () => turned.map((box) => movedBox(box, after)),
     };
   }
   const map = compose(turnInPlace, compose(after, turn));
   const moved = shapeBoxes(drawing, map);
-  return { ...place, map, whole: moved.whole, shapeBoxes: () => moved.boxes };
+  return {
+    ...place,
+    map,
+    content: contentBox(drawing, moved.boxes, moved.whole, map, settings.cropToPage),
+    whole: moved.whole,
+    shapeBoxes: () => moved.boxes,
+  };
+}
+
+function layoutOf(drawing: Drawing, settings: PrepareSettings, paper: Box, inside: Box): Layout {
+  const { fit, rotateDeg, mirror, place } = settings;
+  const turns = rotateDeg === "auto" ? [0, 90] : [rotateDeg];
+  const [unturned] = turns;
+  if (place !== null) return { how: "place", rotateDeg: unturned };
+  if (fit === true) return { how: "fit", rotateDeg: unturned };
+  // Such a page has no margins of its own.
+  const isExtent = drawing.pageFrom === "extent" && fit === "auto";
+  const room = isExtent ? inside : withTolerance(paper);
+  const fitting = turns.find((deg) => hasRoom(room, pageBox(drawing, turnOf(deg, mirror))));
+  if (fit === false) return { how: "corner", rotateDeg: fitting ?? unturned };
+  if (fitting === undefined || drawing.pageFrom === "proportions") return { how: "fit", rotateDeg: unturned };
+  return { how: isExtent ? "middle" : "corner", rotateDeg: fitting };
+}
+
+const turnOf = (rotateDeg: number, mirror: MirrorMode): Affine =>
+  compose(rotation((rotateDeg * Math.PI) / 180), MIRRORS[mirror]);
+
+/** The shortest way inside the margins, where there is room, otherwise onto the paper; none if it is too large. */
+function shiftOnto(content: Box, inside: Box, paper: Box): { readonly x: number; readonly y: number } {
+  const { x0, y0, x1, y1 } = content;
+  const along = (from: number, to: number, ...rooms: readonly (readonly [number, number])[]): number => {
+    const room = rooms.find(([low, high]) => to - from <= high - low);
+    return room ? Math.max(room[0] - from, Math.min(0, room[1] - to)) : 0;
+  };
+  return {
+    x: along(x0, x1, [inside.x0, inside.x1], [paper.x0, paper.x1]),
+    y: along(y0, y1, [inside.y0, inside.y1], [paper.y0, paper.y1]),
+  };
+}
+
+function movedBy(placement: Placement, { x, y }: { readonly x: number; readonly y: number }): Placement {
+  const by = translation(x, y);
+  return {
+    ...placement,
+    map: compose(by, placement.map),
+    content: movedBox(placement.content, by),
+    frame: movedBox(placement.frame, by),
+    whole: movedBox(placement.whole, by),
+    shapeBoxes: () => placement.shapeBoxes().map((box) => movedBox(box, by)),
+  };
 }
 
 /** A turn about the centre of the box; null for no turn. */
@@ -160,10 +252,14 @@ function fitted(content: Box, inside: Box): Affine {
   const height = content.y1 - content.y0;
   const scale = FIT_SHARE * Math.min((inside.x1 - inside.x0) / width, (inside.y1 - inside.y0) / height);
   // A lone dot has no size to scale by.
-  const s = Number.isFinite(scale) ? scale : 1;
-  const toMiddle = translation((inside.x0 + inside.x1) / 2, (inside.y0 + inside.y1) / 2);
-  const fromMiddle = translation(-(content.x0 + content.x1) / 2, -(content.y0 + content.y1) / 2);
-  return compose(toMiddle, compose(scaling(s), fromMiddle));
+  return toMiddle(content, inside, Number.isFinite(scale) ? scale : 1);
+}
+
+function toMiddle(content: Box, inside: Box, scale: number): Affine {
+  if (isEmptyBox(content)) return IDENTITY;
+  const to = translation((inside.x0 + inside.x1) / 2, (inside.y0 + inside.y1) / 2);
+  const from = translation(-(content.x0 + content.x1) / 2, -(content.y0 + content.y1) / 2);
+  return compose(to, compose(scaling(scale), from));
 }
 
 /** Moves the content's top left corner to x, y and scales it to the given size. */

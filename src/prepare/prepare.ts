@@ -28,20 +28,22 @@ import { hideCovered } from "./hidden-lines.js";
 import { joinLines } from "./join.js";
 import { inOrder, layersOf, visibleLayers } from "./layers.js";
 import { repeatLines } from "./layer-passes.js";
+import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
 import { orderLines } from "./order.js";
 import { placeDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
 import { setFor } from "./set-for.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import {
-  ANYWHERE,
   addHatch,
+  areaToFill,
   cropBox,
   cropLines,
   cropToPage,
   cutsAreas,
   dashedAcross,
   dashesOf,
+  edgeName,
   hatchesOf,
   shapesOnPaper,
   strokedOnly,
@@ -62,6 +64,10 @@ export interface Prepared {
   /** The paper after `landscape` is applied. */
   readonly paperWidthMm: number;
   readonly paperHeightMm: number;
+  /** The drawing's size on the paper, and its scale. */
+  readonly size: DrawnSize;
+  /** Strokes that leave the paper; null if there are none, or none that are drawn. */
+  readonly outside: OutsidePaper | null;
   /** Distance with the pen up from home through all strokes and back home, in the file's order. */
   readonly travelMmUnordered: number;
   /** The same in drawing order. */
@@ -100,15 +106,17 @@ export function prepare(
   progress(0, "placing");
   const place = placeDrawing(drawing, settings);
   const limit = cropBox(settings, place);
+  const edge = edgeName(settings);
+  const area = areaToFill(settings, place, limit);
   const table = inOrder(layersOf(drawing, settings.layers), settings.layerOrder);
   const isVisible = visibleLayers(table, settings);
-  const wanted = shapesOnPaper(drawing, place, limit, warnings);
+  const wanted = shapesOnPaper(drawing, place, limit, edge, warnings);
 
   progress(0.05, "flattening");
   const subpaths = flattenShapes(drawing.paths, place.map, settings.flattenMm, wanted, options);
   const clipOf = clipRegions(drawing, place.map, settings.flattenMm);
   const dashOf = dashesOf(drawing, place);
-  let lines = drawing.dashes.length > 0 ? dashLines(subpaths, dashOf, limit ?? ANYWHERE) : subpaths;
+  let lines = drawing.dashes.length > 0 ? dashLines(subpaths, dashOf, area) : subpaths;
   if (!settings.outlineFills) lines = strokedOnly(lines, drawing);
 
   progress(0.15, "cutting");
@@ -117,20 +125,20 @@ export function prepare(
     lines = clipLines(lines, drawing, clipOf, options);
     dashed = clipLines(dashed, drawing, clipOf, options);
   }
-  lines = cropLines(lines, dashed, limit, warnings);
+  lines = cropLines(lines, dashed, limit, edge, warnings);
   if (settings.cropToPage) lines = cropToPage(lines, drawing, place);
 
   progress(0.25, "filling");
   const hatches = hatchesOf(settings, table);
   if (hatches !== null || settings.hideCovered) {
     const whole = filledAreas(subpaths, drawing, clipOf, settings.hatchOutlines, options);
-    const areas = cropAreas(whole, limit ?? ANYWHERE);
+    const areas = cropAreas(whole, area);
     // If the outline is drawn too, the warning about its lines is enough.
     const isHatchOnly = (shape: number): boolean =>
       !settings.outlineFills &&
       drawing.paths.stroke[shape] < 0 &&
       (hatches?.[table.ofShape[shape]].spacingMm ?? 0) > 0;
-    if (limit !== null && cutsAreas(whole, limit, isHatchOnly)) warnings.push(CUT_HATCH);
+    if (limit !== null && cutsAreas(whole, limit, isHatchOnly)) warnings.push(cutHatch(edge));
     if (hatches !== null && areas.size === 0) warnings.push(nothingToFill(settings.hatchOutlines));
     if (hatches !== null) lines = addHatch(lines, areas, (shape) => hatches[table.ofShape[shape]], options);
     if (settings.cropToPage && hatches !== null) lines = cropToPage(lines, drawing, place);
@@ -175,6 +183,8 @@ export function prepare(
     layers,
     paperWidthMm: place.paper.x1,
     paperHeightMm: place.paper.y1,
+    size: drawnSizeOf(ordered.lines, place, settings.rotateDeg !== "auto"),
+    outside: outsidePaper(ordered.lines, place),
     travelMmUnordered: ordered.travelMmUnordered,
     travelMm: ordered.travelMm,
     drawMm: totalLength(ordered.lines),
@@ -205,8 +215,8 @@ function inDrawingOrder(
   return { lines: inOrder, travelMmUnordered, travelMm };
 }
 
-const CUT_HATCH =
-  "Areas filled with lines lie partly outside the margins and are cut off. Make the margins or the drawing smaller.";
+const cutHatch = (edge: string): string =>
+  `Areas filled with lines lie partly outside ${edge} and are cut off. Fit the drawing to the paper or make it smaller.`;
 
 const nothingToFill = (withOutlines: boolean): string =>
   withOutlines

@@ -24,23 +24,30 @@ import { regionOf, ringOf, type Region } from "../geometry/region.js";
 import { patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
-import { isFarAway, pageCorners, type Placement } from "./place.js";
+import { isFarAway, pageCorners, withTolerance, type Placement } from "./place.js";
 import type { HatchSettings, PrepareSettings } from "../settings/prepare.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** The box to which lines are cropped; null if nothing is cropped. */
-export function cropBox(settings: PrepareSettings, place: Placement): Box | null {
-  const inside = settings.clipToMargins ? place.inside : null;
-  if (settings.reach === null) return inside;
-  const reach = { x0: 0, y0: 0, x1: settings.reach.widthMm, y1: settings.reach.heightMm };
-  return inside ? intersectBoxes(inside, reach) : reach;
+export function cropBox({ clipToMargins, outside, reach }: PrepareSettings, place: Placement): Box | null {
+  const boxes = [
+    ...(clipToMargins ? [place.inside] : []),
+    ...(outside === "cut" ? [withTolerance(place.paper)] : []),
+    ...(reach === null ? [] : [{ x0: 0, y0: 0, x1: reach.widthMm, y1: reach.heightMm }]),
+  ];
+  return boxes.length === 0 ? null : boxes.reduce(intersectBoxes);
 }
+
+/** What cuts lines off, for warnings. */
+export const edgeName = ({ clipToMargins, outside }: PrepareSettings): string =>
+  clipToMargins ? "the margins" : outside === "cut" ? "the paper" : "the machine's reach";
 
 /** Marks the shapes to flatten: those that touch `limit` and are not extremely far away. */
 export function shapesOnPaper(
   drawing: Drawing,
   place: Placement,
   limit: Box | null,
+  edge: string,
   warnings: string[],
 ): Uint8Array {
   const wanted = new Uint8Array(drawing.paths.count);
@@ -58,7 +65,7 @@ export function shapesOnPaper(
   if (far > 0) warnings.push(`${shapes(far)} much too far from the paper (over 1000 km) and not drawn.`);
   if (outside > 0) {
     warnings.push(
-      `${shapes(outside)} entirely outside the margins and not drawn. Fit the drawing to the paper, or place it.`,
+      `${shapes(outside)} entirely outside ${edge} and not drawn. Fit the drawing to the paper, or place it.`,
     );
   }
   return wanted;
@@ -66,8 +73,16 @@ export function shapesOnPaper(
 
 const shapes = (count: number): string => (count === 1 ? "1 shape is" : `${count} shapes are`);
 
-/** The area for dashes and hatches when nothing is cropped: 100 m around home. */
-export const ANYWHERE: Box = { x0: -1e5, y0: -1e5, x1: 1e5, y1: 1e5 };
+/** 100 m around home. */
+const ANYWHERE: Box = { x0: -1e5, y0: -1e5, x1: 1e5, y1: 1e5 };
+const BESIDE_PAPER_MM = 1_000;
+
+/**
+ * The area for dashes and hatches. A drawing that leaves the paper is not plotted unless that is allowed, so it needs
+ * only so many of them there that this is noticed.
+ */
+export const areaToFill = ({ outside }: PrepareSettings, { paper }: Placement, limit: Box | null): Box =>
+  limit ?? (outside === "allow" ? ANYWHERE : grownBox(paper, BESIDE_PAPER_MM));
 
 /** The dash pattern of each shape on the paper; null for solid lines. */
 export function dashesOf(drawing: Drawing, place: Placement): (shape: number) => DashPattern | null {
@@ -93,14 +108,20 @@ export const dashedAcross = (
 const UNNOTICED_CROP = 0.1;
 
 /** `dashed`: the lines of `dashedAcross`, which count as cut off too. */
-export function cropLines(lines: Lines, dashed: Lines, limit: Box | null, warnings: string[]): Lines {
+export function cropLines(
+  lines: Lines,
+  dashed: Lines,
+  limit: Box | null,
+  edge: string,
+  warnings: string[],
+): Lines {
   if (limit === null) return lines;
   const kept = boxContains(limit, boxOfPoints(lines.xy)) ? lines : clipLinesToBox(lines, limit);
   const lost =
     totalLength(lines) - totalLength(kept) + totalLength(dashed) - totalLength(clipLinesToBox(dashed, limit));
   if (lost > UNNOTICED_CROP) {
     warnings.push(
-      `${Math.ceil(lost)} mm of line lie outside the margins and are cut off. Make the margins or the drawing smaller.`,
+      `${Math.ceil(lost)} mm of line lie outside ${edge} and are cut off. Fit the drawing to the paper or make it smaller.`,
     );
   }
   return kept;

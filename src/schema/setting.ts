@@ -1,7 +1,10 @@
 /** Builds schemas from the settings tables. Their descriptions are shown by the HTTP reference and OpenAPI. */
 import { z } from "zod";
 import {
+  AUTO,
+  orAutoInWords,
   rangeInWords,
+  takesAuto,
   type NumberSetting,
   type Setting,
   type SettingsTable,
@@ -16,8 +19,14 @@ export function numberSchema(row: NumberSetting): z.ZodNumber {
 }
 
 export function schemaOf(row: Setting): z.ZodType {
+  if (takesAuto(row)) return orAuto(row).describe(row.about);
   if (row.kind === "number") return numberSchema(row);
   return (row.kind === "switch" ? z.boolean() : z.enum(row.choices)).describe(row.about);
+}
+
+function orAuto(row: Setting): z.ZodType {
+  const error = `it must be ${orAutoInWords(row)}`;
+  return z.union([row.kind === "number" ? numberSchema(row) : z.boolean(), z.literal(AUTO)], { error });
 }
 
 type ShapeOf<Table extends SettingsTable> = {

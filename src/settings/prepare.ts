@@ -9,6 +9,9 @@ export const ORDER_MODES = ["none", "fast", "best"] as const;
 const MIRROR_MODES = ["none", "leftRight", "upDown"] as const;
 export type MirrorMode = (typeof MIRROR_MODES)[number];
 
+const OUTSIDE_MODES = ["refuse", "cut", "move", "fit", "allow"] as const;
+export type OutsideMode = (typeof OUTSIDE_MODES)[number];
+
 const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
 export type SpreadMode = (typeof SPREAD_MODES)[number];
 
@@ -115,15 +118,26 @@ export const PREPARE_TABLE = {
     label: "Fit paper",
     about: "scale the drawing to the paper inside the margins",
     aboutOff: "draw at true size, page corner on paper corner",
+    aboutAuto: "true size if the file's page fits the paper, otherwise --fit",
     flag: "--fit",
-    default: true,
+    default: "auto",
+  },
+  outside: {
+    kind: "choice",
+    label: "What lies outside the paper",
+    about:
+      "if the drawing leaves the paper: plot nothing, cut it off at the edge, move it onto the paper, fit it to the paper, or draw it",
+    flag: "--outside",
+    default: "refuse",
+    choices: OUTSIDE_MODES,
   },
   rotateDeg: {
     kind: "number",
     label: "Rotate",
     about: "turn the drawing clockwise about its middle, before fitting",
+    aboutAuto: "90 if the file's page fits the paper only that way, otherwise 0",
     flag: "--rotate",
-    default: 0,
+    default: "auto",
     min: -360,
     max: 360,
     unit: "°",
@@ -143,7 +157,7 @@ export const PREPARE_TABLE = {
     about: "cut off what lies outside the margins",
     aboutOff: "draw over the margins",
     flag: "--clip",
-    default: true,
+    default: false,
   },
   cropToPage: {
     kind: "switch",
@@ -347,7 +361,7 @@ export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
   readonly layerHatches: readonly LayerHatch[];
 }
 
-/** A4 in landscape, margins of 15 mm, the drawing fitted to the paper, no hatching. */
+/** A4 in landscape; true size if the file's page fits on it, otherwise fitted inside margins of 15 mm; no hatching. */
 export const DEFAULT_PREPARE: PrepareSettings = {
   ...defaultsOf(PREPARE_TABLE),
   paper: defaultsOf(PAPER_TABLE),

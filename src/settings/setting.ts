@@ -11,11 +11,17 @@ interface Described {
   readonly flag?: string;
   /** The page's panel that lists it as a plain field; left out: it has custom UI. */
   readonly panel?: "lines";
+  /** What happens by default, for a row whose default is "auto". */
+  readonly aboutAuto?: string;
 }
+
+/** A default that is decided for each drawing. A row with this default takes it as a value too. */
+export const AUTO = "auto";
+export type Auto = typeof AUTO;
 
 export interface NumberSetting extends Described {
   readonly kind: "number";
-  readonly default: number;
+  readonly default: number | Auto;
   readonly min: number;
   readonly max: number;
   /** `min` itself is not allowed, for example a speed of 0. */
@@ -33,7 +39,7 @@ export interface NumberSetting extends Described {
 
 interface SwitchSetting extends Described {
   readonly kind: "switch";
-  readonly default: boolean;
+  readonly default: boolean | Auto;
   /** The effect of `--no-…`. */
   readonly aboutOff?: string;
 }
@@ -47,13 +53,15 @@ interface ChoiceSetting extends Described {
 export type Setting = NumberSetting | SwitchSetting | ChoiceSetting;
 export type SettingsTable = Readonly<Record<string, Setting>>;
 
-type ValueOf<S> = S extends NumberSetting
-  ? number
-  : S extends SwitchSetting
-    ? boolean
-    : S extends { readonly choices: readonly (infer T)[] }
-      ? T
-      : never;
+type ValueOf<S> =
+  | (S extends { readonly default: Auto } ? Auto : never)
+  | (S extends NumberSetting
+      ? number
+      : S extends SwitchSetting
+        ? boolean
+        : S extends { readonly choices: readonly (infer T)[] }
+          ? T
+          : never);
 
 /** The object that a table describes. */
 export type ValuesOf<Table extends SettingsTable> = { readonly [K in keyof Table]: ValueOf<Table[K]> };
@@ -74,3 +82,9 @@ export function rangeInWords({ min, max, minExcluded, isWhole, unit }: NumberSet
   const range = minExcluded ? `more than ${min}${upTo}` : `${min} to ${max}`;
   return `${isWhole ? "a whole number, " : ""}${range}${unit === "" ? "" : ` ${unit}`}`;
 }
+
+export const takesAuto = (row: Setting): boolean => row.kind !== "choice" && row.default === AUTO;
+
+/** What a row whose default is "auto" takes, as text: '"auto", or -360 to 360 °'. */
+export const orAutoInWords = (row: Setting): string =>
+  row.kind === "number" ? `"auto", or ${rangeInWords(row)}` : '"auto", true or false';

@@ -58,9 +58,9 @@ export function flagInWords({ flag, row }: SettingFlag): string {
 
 /** Range and default as text: "0 to 1000 mm, default 15"; for a choice or a switch only the default. */
 export function valuesInWords({ row, otherwise }: SettingFlag): string {
-  if (row.kind === "switch") return `default ${row.default ? "on" : "off"}`;
-  if (row.kind === "choice") return `default ${otherwise ?? row.default}`;
-  return `${rangeInWords(row)}, default ${otherwise ?? row.default}`;
+  const usual = row.kind === "switch" ? (row.default ? "on" : "off") : row.default;
+  const byDefault = row.aboutAuto ? `by default ${row.aboutAuto}` : `default ${otherwise ?? usual}`;
+  return row.kind === "number" ? `${rangeInWords(row)}, ${byDefault}` : byDefault;
 }
 
 const UNIT_WORDS: Readonly<Record<string, string>> = { "": "count", "°": "degrees", "%": "percent" };

@@ -13,6 +13,7 @@ const sample = (name: string): string => join(SAMPLES, name);
 const [firstSample = ""] = samples;
 
 const CONTRACT = [
+  ...["widthMm", "heightMm", "scale"],
   ...["strokes", "points", "blocks", "commands", "drawMm", "travelMm", "travelMmUnordered", "penLifts"],
   ...[
     "durationS",
@@ -191,6 +192,101 @@ describe("plotwright plan", () => {
     const wrong = await cli("plan", file, "--json", "--only", "Green pen");
     expect(wrong).toMatchObject({ code: 2, out: "" });
     expect(wrong.err).toMatch(/no layer "Green pen".*"Red pen", "Blue pen"/);
+  });
+});
+
+describe("the size on the paper", () => {
+  /** A line of `mm` across a page of 100 × 50 mm, or of another size. */
+  const line = (mm: number, page = 'width="100mm" height="50mm" viewBox="0 0 100 50"'): string => {
+    const path = join(dir, `line-${mm}.svg`);
+    writeFileSync(
+      path,
+      `<svg xmlns="http://www.w3.org/2000/svg" ${page} stroke="#000"><path d="M0 10h${mm}v20"/></svg>`,
+    );
+    return path;
+  };
+  const PORTRAIT = 'width="21cm" height="29.7cm" viewBox="0 0 210 297"';
+  /** As vpype writes it. */
+  const VPYPE = 'width="10.0cm" height="5.0cm" viewBox="0.0 0.0 377.952755905 188.976377953"';
+  const firstLineOf = async (...args: string[]): Promise<string | undefined> => {
+    const { code, out, err } = await cli("plan", ...args);
+    expect([code, err]).toEqual([0, ""]);
+    return out.split("\n")[0];
+  };
+
+  it.each<[string, number, string | undefined, string[], string]>([
+    ["true if the page fits", 100, undefined, [], "drawn 100 × 20 mm, 100 %"],
+    ["true, and past the margins", 100, undefined, ["--no-fit"], "drawn 100 × 20 mm, 100 %"],
+    ["fitted if asked for", 100, undefined, ["--fit"], "drawn 267 × 53.4 mm, 267 %"],
+    ["fitted if the page does not fit", 100, undefined, ["--paper", "A6"], "drawn 100 × 20 mm, 100 %"],
+    ["fitted to a smaller paper", 100, undefined, ["--paper", "90x90mm"], "drawn 60 × 12 mm, 60 %"],
+    ["kept after vpype", 300, VPYPE, [], "drawn 79.4 × 5.3 mm, 100 %"],
+    ["stretched", 100, undefined, ["--place", "10,10,50,20"], "drawn 50 × 20 mm, 50 × 100 %"],
+    ["true, and turned", 190, PORTRAIT, [], "drawn 20 × 190 mm, 100 %, turned by 90°"],
+    [
+      "true, and turned with --no-fit too",
+      190,
+      PORTRAIT,
+      ["--no-fit"],
+      "drawn 20 × 190 mm, 100 %, turned by 90°",
+    ],
+    ["not turned against the user", 190, PORTRAIT, ["--rotate", "0"], "drawn 267 × 28.1 mm, 141 %"],
+    ["fitted without a size in the file", 100, 'viewBox="0 0 100 50"', [], "drawn 267 × 53.4 mm, 1009 %"],
+    [
+      "cut at the margins if asked for",
+      100,
+      undefined,
+      ["--clip", "--margin", "5"],
+      "drawn 95 × 20 mm, 100 %",
+    ],
+  ])("is %s", async (_what, mm, page, args, words) => {
+    expect(await firstLineOf(line(mm, page), ...args)).toBe(words);
+  });
+
+  it("is in the report, and on stderr if stdout has other data", async () => {
+    const { out } = await cli("plan", line(100), "--json", "--fit");
+    expect(JSON.parse(out)).toMatchObject({ widthMm: 267, heightMm: 53.4, scale: 2.67 });
+    const { out: commands, err } = await cli("plan", line(100), "--fit", "--commands", "-");
+    expect([commands.includes("drawn"), err]).toEqual([false, "drawn 267 × 53.4 mm, 267 %\n"]);
+  });
+
+  it("is not drawn outside the paper without a choice, in any way of placing", async () => {
+    const hatched = join(dir, "hatched.svg");
+    writeFileSync(
+      hatched,
+      '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="50mm" viewBox="0 0 100 50"><path d="M0 0H330V40H0z"/></svg>',
+    );
+    const wide = line(330);
+    for (const args of [
+      [wide],
+      [wide, "--no-fit"],
+      [wide, "--rotate", "180"],
+      [line(100), "--place", "250,10"],
+      [line(100), "--place", "10,195"],
+      [line(100), "--place", "10,10,600"],
+      [line(100), "--place=-20,10"],
+      [hatched, "--hatch", "3", "--no-outline-fills"],
+    ]) {
+      const run = await cli("plan", ...args, "--json");
+      expect([args, run.code, run.out]).toEqual([args, 3, ""]);
+      expect(run.err).toMatch(
+        /leaves the paper of 297 × 210 mm: .* mm over its .* edge.*--outside.*cut.*allow/,
+      );
+    }
+    const { err } = await cli("plan", line(330));
+    expect(err).toContain("1 stroke reaches up to 33 mm over its right edge.");
+  });
+
+  it("is what was chosen for a drawing that leaves the paper", async () => {
+    const drawnWith = (mode: string, file: string, ...args: string[]) =>
+      firstLineOf(file, "--outside", mode, "--paper", "A5", ...args);
+    const page = 'width="200mm" height="100mm" viewBox="0 0 200 100"';
+    expect(await drawnWith("cut", line(330, page))).toBe("drawn 210.5 × 0 mm, 100 %");
+    expect(await drawnWith("fit", line(330, page))).toBe("drawn 180 × 10.9 mm, 55 %");
+    expect(await drawnWith("allow", line(250, page))).toBe("drawn 250 × 20 mm, 100 %");
+    expect(await drawnWith("move", line(100), "--place", "150,140")).toBe("drawn 100 × 20 mm, 100 %");
+    const large = await cli("plan", line(330, page), "--outside", "move", "--paper", "A5");
+    expect([large.code, large.err]).toEqual([3, expect.not.stringContaining("move (")]);
   });
 });
 

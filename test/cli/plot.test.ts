@@ -44,7 +44,7 @@ describe("plotwright plot", () => {
     "reports when it begins and when it is done, and nothing with --quiet",
     async () => {
       expect((await plot(new CaughtIo(), file)).err).toMatch(
-        /^Plotting a\.svg\.\nDone: a\.svg, after 00:00:\d\d\.\n$/,
+        /^a\.svg: drawn 9 × 0 mm, 100 %\nPlotting a\.svg\.\nDone: a\.svg, after 00:00:\d\d\.\n$/,
       );
       expect(await plot(new CaughtIo(), "-", "--quiet")).toEqual({ code: 0, out: "", err: "" });
     },
@@ -117,7 +117,7 @@ describe("plotwright plot", () => {
       const line = await openPtyBoard({ speed: 5 });
       writeFileSync(file, SVG.replace("M1 2h9", "M1 2h18v16h-18z"));
       const io = new CaughtIo();
-      const args = ["--device", line.path, "--virtual-speed", "5", "--data", dir];
+      const args = ["--fit", "--device", line.path, "--virtual-speed", "5", "--data", dir];
       const plotted = cliWith(io, "plot", file, ...args);
       try {
         await expect.poll(() => line.board.statistics().drawnMm).toBeGreaterThan(1);
@@ -159,7 +159,7 @@ describe("plotwright plot", () => {
       expect(resumed).toEqual({ code: 0, out: "", err: "" });
       interrupt();
       const again = await plot(withoutKeyboard(), "--resume");
-      expect(again.err).toMatch(/^Resuming b\.svg\.\nDone: b\.svg/);
+      expect(again.err).toMatch(/^b\.svg: drawn 9 × 0 mm, 100 %\nResuming b\.svg\.\nDone: b\.svg/);
       expect([again.code, record.find()]).toEqual([0, null]);
       expect((await plot(new CaughtIo(), "--resume")).err).toMatch(/nothing to resume/);
       interrupt();

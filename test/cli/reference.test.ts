@@ -28,7 +28,13 @@ vi.mock("../../server/cli/plan-thread.js", async () => {
   const { runPlan } = await import("../../server/cli/plan.js");
   const runPlanInThread = ({ file, settings, options }: PlanThreadInput, io: PlanOutput): Promise<void> =>
     new Promise((resolve) => {
-      resolve(runPlan(file, settings, options, { out: (text) => io.out(text), begin: () => undefined }));
+      resolve(
+        runPlan(file, settings, options, {
+          out: (text) => io.out(text),
+          err: () => undefined,
+          begin: () => undefined,
+        }),
+      );
     });
   return { runPlanInThread };
 });

@@ -201,10 +201,10 @@ describe("a file that cannot be used", () => {
     expect(err).toMatch(/^plotwright: \S*empty\.svg: 1 picture is not drawn/);
     expect(err).not.toContain("other notes");
     const outside = file("outside.svg", LINE.replace("M1 1H9", "M5000 5000h9"));
-    const { err: why } = await cli("plan", outside, "--no-fit");
+    const { err: why } = await cli("plan", outside, "--no-fit", "--outside", "cut");
     expect(why).toMatch(/outside\.svg: 1 shape is entirely outside .* Nothing is left to draw on this paper/);
     expect(why).not.toContain("There is nothing to draw");
-    expect(await cli("plan", drawing, "--paper", "5000x5000")).toMatchObject({
+    expect(await cli("plan", drawing, "--fit", "--paper", "5000x5000")).toMatchObject({
       code: 3,
       err: expect.stringMatching(/line\.svg: The drawing reaches from/) as string,
     });

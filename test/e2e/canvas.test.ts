@@ -151,6 +151,8 @@ describe("what the margins cut off", () => {
     const before = await ghostPixels();
     const lines = Array.from({ length: 12 }, (_, k) => `<path d="M${1 + k} 0V210"/>`).join("");
     await test.page.getByRole("radio", { name: "True size" }).check();
+    await test.page.getByText("Separate margins, mirror, cutting").click();
+    await test.page.getByText("Cut off what lies outside the margins").click();
     await test.drop(
       "margin",
       `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210" stroke="#000">${lines}

@@ -24,62 +24,166 @@ const drawn = async (): Promise<string> =>
   (await test.page.locator(".drawn-size span").innerText()).replace(/\u202f/g, " ");
 const plot = () => plotBar(test.page).getByRole("button", { name: "Plot", exact: true });
 
+const radio = (name: string) => test.page.getByRole("radio", { name, exact: true });
+const choose = async (name: string): Promise<void> => {
+  await radio(name).check();
+  await test.planned();
+};
+const press = async (name: string): Promise<void> => {
+  await test.page.getByRole("button", { name, exact: true }).click();
+  await test.planned();
+};
+
 describe("the size on the paper", () => {
   it("is always shown, in mm and in percent of the file", async () => {
     await test.drop("flag", FLAG);
+    expect(await drawn()).toBe("Drawn 60 × 40 mm, 100 %");
+    await choose("Fit paper");
     expect(await drawn()).toBe("Drawn 267 × 178 mm, 445 %");
+    await choose("Auto");
   });
 
   it("is the file's if its page is the paper", async () => {
     await test.drop("ruler", RULER);
     expect(await drawn()).toBe("Drawn 279 × 10 mm, 100 %");
-    expect(await test.page.getByRole("radio", { name: "True size" }).isChecked()).toBe(true);
+    expect(await radio("Auto").isChecked()).toBe(true);
     const { x0, x1 } = await test.queuedBox();
     expect([x0, x1].map((mm) => Math.round(mm * 100) / 100)).toEqual([9, 288]);
   });
 
-  it("fits the paper again with the next drawing, and is the file's with one click", async () => {
+  it("stays as chosen with the next drawing, and is the file's with one click", async () => {
+    await choose("Fit paper");
     await test.drop("flag", FLAG);
     expect(await drawn()).toBe("Drawn 267 × 178 mm, 445 %");
-    await test.page.getByRole("button", { name: "Use the file’s page" }).click();
-    await test.planned();
+    await press("Use the file’s page");
     expect(await drawn()).toBe("Drawn 60 × 40 mm, 100 %");
     await test.page.getByRole("button", { name: "Use the file’s page" }).waitFor({ state: "detached" });
-    await test.page.getByRole("button", { name: "Undo" }).click();
-    await test.planned();
+    await press("Undo");
     expect(await drawn()).toBe("Drawn 267 × 178 mm, 445 %");
+    await choose("Auto");
   });
 });
 
-describe("what the machine does not reach", () => {
-  it("is reported at the plot button, which is disabled until the drawing is turned", async () => {
-    await test.drop("tall", svgOf(100, 200, "M0 0L100 200"));
-    await test.page.getByRole("radio", { name: "Portrait" }).check();
-    await test.planned();
+describe("a portrait file", () => {
+  const TALL = svgOf(210, 297, "M20 10V280H50");
+
+  it("is turned by itself, and follows the paper", async () => {
+    await test.drop("tall page", TALL);
+    expect(await drawn()).toBe("Drawn 270 × 30 mm, 100 %, turned by 90°");
+    expect(await plot().isEnabled()).toBe(true);
+    expect(Object.values(await test.queuedBox()).map(Math.round)).toEqual([17, 20, 287, 50]);
+    await choose("Portrait");
+    expect(await drawn()).toBe("Drawn 30 × 270 mm, 100 %");
+    expect(
+      await plotBar(test.page)
+        .getByText(/leaves? the paper/)
+        .count(),
+    ).toBe(0);
+  });
+
+  it("is reported at the plot button if the machine does not reach it, until it is turned", async () => {
     const why = plotBar(test.page).getByText(/AxiDraw V3 reaches 300 × 218/);
     await why.waitFor();
     expect(await why.innerText()).toContain("1 line is out of reach.");
     expect(await plot().isDisabled()).toBe(true);
-    await plotBar(test.page).getByRole("button", { name: "Turn for this machine" }).click();
-    await test.planned();
+    await press("Turn for this machine");
     await why.waitFor({ state: "detached" });
     expect(await plot().isEnabled()).toBe(true);
-    expect(await test.page.getByRole("radio", { name: "Landscape" }).isChecked()).toBe(true);
-    expect(await drawn()).toMatch(/^Drawn 267 × 133.5 mm/);
+    expect(await radio("Landscape").isChecked()).toBe(true);
+    expect(await drawn()).toBe("Drawn 270 × 30 mm, 100 %, turned by 90°");
+    await choose("Portrait");
+    expect(await drawn()).toBe("Drawn 30 × 270 mm, 100 %");
+    await choose("Landscape");
   });
 
-  it("is corrected automatically if the user has chosen nothing for the drawing", async () => {
+  it("stays where it is when it is placed by hand, and follows the paper again after that", async () => {
+    const before = Object.values(await test.queuedBox()).map(Math.round);
+    await choose("Custom");
+    expect(Object.values(await test.queuedBox()).map(Math.round)).toEqual(before);
+    expect(await test.field("Rotate").inputValue()).toBe("90");
+    await choose("Portrait");
+    expect(await plot().isDisabled()).toBe(true);
+    await plotBar(test.page)
+      .getByText(/1 line leaves the paper/)
+      .waitFor();
+    await choose("Auto");
+    expect(await drawn()).toBe("Drawn 30 × 270 mm, 100 %");
+    await choose("Landscape");
+    expect(await drawn()).toBe("Drawn 270 × 30 mm, 100 %, turned by 90°");
+  });
+
+  it("keeps an angle that was typed", async () => {
+    expect(await test.field("Rotate").inputValue()).toBe("90");
     await test.field("Rotate").fill("0");
-    await test.page.getByRole("radio", { name: "Portrait" }).check();
-    await test.drop("flag", FLAG);
-    expect(await test.page.getByRole("radio", { name: "Landscape" }).isChecked()).toBe(true);
+    await test.field("Rotate").press("Enter");
+    await test.planned();
+    expect(await drawn()).toBe("Drawn 20 × 180 mm, 67 %");
+    await press("Turn to fit the paper");
+    expect(await drawn()).toBe("Drawn 270 × 30 mm, 100 %, turned by 90°");
+    expect(await test.page.getByRole("button", { name: "Turn to fit the paper" }).count()).toBe(0);
+  });
+});
+
+describe("what leaves the paper", () => {
+  /** A line of 320 mm on a page of A4, and one that is on the paper. */
+  const WIDE = svgOf(297, 210, "M10 20H330M50 50H100");
+  const note = () => plotBar(test.page).getByText(/leaves? the paper/);
+  const words = async (): Promise<string> => (await note().innerText()).replace(/\u202f/g, " ");
+
+  it("is named with its figures, and nothing is plotted until a choice is made", async () => {
+    await test.drop("wide", WIDE);
+    expect(await words()).toBe(
+      "1 line leaves the paper: up to 33 mm over the right edge. Choose what happens to it before you plot.",
+    );
+    expect(await plot().isDisabled()).toBe(true);
+    await test.page.keyboard.press("q");
+    expect((await test.jobs()).filter(({ name }) => name === "wide")).toEqual([]);
+    await press("Cut off at the edge");
+    expect(await drawn()).toBe("Drawn 287.5 × 30 mm, 100 %");
+    await plotBar(test.page).getByText("1 line is cut off at the paper.").waitFor();
     expect(await plot().isEnabled()).toBe(true);
+    expect((await test.queuedBox()).x1).toBeLessThan(297.6);
   });
 
-  it("is corrected by turning page and paper if the page is the paper", async () => {
-    await test.drop("tall page", svgOf(210, 297, "M20 10V200"));
-    expect(await drawn()).toBe("Drawn 190 × 0 mm, 100 %");
+  it("can be fitted, and another drawing is asked about again", async () => {
+    await test.drop("wider", WIDE);
+    expect(await plot().isDisabled()).toBe(true);
+    expect(await plotBar(test.page).getByRole("button", { name: "Move onto the paper" }).count()).toBe(0);
+    await press("Fit to the paper");
+    expect(await drawn()).toBe("Drawn 267 × 25 mm, 83 %");
     expect(await plot().isEnabled()).toBe(true);
+    await choose("Auto");
+    expect(await plot().isDisabled()).toBe(true);
+  });
+
+  it("can be allowed, but the machine has to reach it", async () => {
+    await press("Draw it there");
+    expect(await words()).toMatch(/It will be drawn there\.$/);
+    await plotBar(test.page)
+      .getByText(/AxiDraw V3 reaches/)
+      .waitFor();
+    expect(await plot().isDisabled()).toBe(true);
+    await test.page.getByLabel("Paper", { exact: true }).selectOption("A5");
+    await test.drop("flag", FLAG);
+    await choose("Custom");
+    await test.field("From the left").fill("170");
+    await test.field("From the left").press("Enter");
+    await test.planned();
+    expect(await words()).toMatch(/^2 lines leave the paper: up to 20 mm over the right edge\. Choose/);
+    await press("Draw it there");
+    expect(await plot().isEnabled()).toBe(true);
+    expect(Math.round((await test.queuedBox()).x1)).toBe(230);
+  });
+
+  it("is moved by the distance that it lacks, if it was placed by hand", async () => {
+    await press("Undo");
+    await press("Move onto the paper");
+    expect(await test.field("From the left").inputValue()).toBe("150");
+    expect(await note().count()).toBe(0);
+    expect(await plot().isEnabled()).toBe(true);
+    await choose("Auto");
+    await test.page.getByLabel("Paper", { exact: true }).selectOption("A4");
+    await test.planned();
   });
 });
 

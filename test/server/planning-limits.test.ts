@@ -111,7 +111,7 @@ it("the command plan cancels a file that takes too long to read, with exit code 
   const error = await failure(
     runPlanInThread(
       { file: path, settings, options: { firmware: "3.0.3" } },
-      { out: (text) => void out.push(text) },
+      { out: (text) => void out.push(text), err: (text) => void out.push(text) },
       { ...PLANNING_LIMITS, importS: 1 },
     ),
   );

@@ -1,5 +1,5 @@
 /** The whole server, embedded or served: real threads, real disk, the virtual board. */
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
@@ -147,6 +147,54 @@ describe("a server", () => {
       expect([what, response.status, error.message.length > 15]).toEqual([what, status, true]);
     }
     expect((await state()).jobs).toEqual([kept]);
+  });
+
+  it("takes a drawing that leaves the paper only with a choice, by every way into the queue, and tells its size", async () => {
+    // 330 mm long on a page of A4.
+    const wide = svg('<path d="M10 20H330"/>', 'width="297mm" height="210mm" viewBox="0 0 297 210"');
+    const withPrepare = (change: Partial<PlotSettings["prepare"]>): PlotSettings => ({
+      ...DEFAULT_PLOT_SETTINGS,
+      prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, ...change },
+    });
+    const refusal = async (response: Response): Promise<string> => {
+      const { error } = apiErrorSchema.parse(await response.json());
+      return `${response.status} ${error.code} ${error.message}`;
+    };
+    const REFUSED =
+      /^422 out-of-bounds .* paper of 297 × 210 mm: 1 stroke reaches up to 33 mm over its right edge\. .*cut.*fit.*allow/;
+    const asFile = (settings: string): Promise<Response> =>
+      fetch(`${server.url}/api/v1/jobs?name=wide.svg${settings}`, {
+        method: "POST",
+        headers: { "Content-Type": "image/svg+xml" },
+        body: wide,
+      });
+    expect(await refusal(await upload(wide))).toMatch(REFUSED);
+    expect(await refusal(await asFile(""))).toMatch(REFUSED);
+    expect((await state()).jobs).toEqual([]);
+
+    const fitted = jobSchema.parse(await (await upload(wide, withPrepare({ outside: "fit" }))).json());
+    expect(fitted.stats?.size).toMatchObject({ widthMm: expect.closeTo(267, 3), turnedDeg: 0 });
+    const cut = encodeURIComponent(JSON.stringify(withPrepare({ outside: "cut" })));
+    const job = jobSchema.parse(await (await asFile(`&settings=${cut}`)).json());
+    expect(job.stats?.size).toMatchObject({ widthMm: 287.5, heightMm: 0, scaleX: 1, scaleY: 1 });
+    expect(job.warnings.join()).toContain("33 mm of line lie outside the paper and are cut off");
+
+    const changed = await fetch(`${server.url}/api/v1/jobs/${job.id}`, {
+      method: "PATCH",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify({ settings: DEFAULT_PLOT_SETTINGS }),
+    });
+    expect(await refusal(changed)).toMatch(REFUSED);
+    expect((await state()).jobs.find(({ id }) => id === job.id)?.settings.prepare.outside).toBe("cut");
+
+    await server.close();
+    const watchDir = mkdtempSync(join(tmpdir(), "plotwright-watched-"));
+    writeFileSync(join(watchDir, "watched.svg"), wide);
+    await start({ watchDir });
+    await expect
+      .poll(async () => (await state()).serverNotices.map(({ message }) => message).join())
+      .toMatch(/watched\.svg.*33 mm over its right edge/);
+    rmSync(watchDir, { recursive: true, force: true });
   });
 
   it("accepts odd drawings that can be plotted", async () => {

@@ -154,12 +154,11 @@ const hideLayer1 = (actions: Actions): void =>
 
 describe("a drawing that is opened", () => {
   const fault = { message: "The file ends too soon.", stage: "import" as const };
-  const A4 = { widthMm: 297, heightMm: 210 };
 
   it("leaves the previous one on the paper, with its settings, if it can't be read", () => {
     const { store, actions } = makePage();
     actions.openDrawing("hills", "<svg width='9'/>");
-    actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    actions.noteRead(store.getState().drawing?.key ?? "");
     store.setState({ planned: {} as Planned });
     const { drawing, settings } = store.getState();
     actions.openDrawing("torn", "<svg");
@@ -175,38 +174,38 @@ describe("a drawing that is opened", () => {
     const { store, actions } = makePage();
     actions.openDrawing("torn", "<svg");
     expect(actions.wentBack(fault)).toBe(false);
-    actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    actions.noteRead(store.getState().drawing?.key ?? "");
     expect(actions.wentBack(fault)).toBe(false);
   });
 
-  it("is placed by its page size, once, as an undo step", () => {
+  it("asks again what happens outside the paper, and keeps its own place", () => {
     const { store, actions } = makePage();
     actions.openDrawing("hills", "<svg width='9'/>");
-    const key = store.getState().drawing?.key ?? "";
-    actions.placeForPage("drawing-0", A4);
-    expect(store.getState().settings.prepare.fit).toBe(true);
-    actions.placeForPage(key, A4);
-    expect(store.getState().settings.prepare.fit).toBe(false);
-    actions.undo();
-    actions.placeForPage(key, A4);
-    expect(store.getState().settings.prepare.fit).toBe(true);
+    actions.changeSettings("outside", (now) => ({
+      ...now,
+      prepare: { ...now.prepare, outside: "allow", fit: false },
+    }));
+    actions.openDrawing("hills", "<svg width='8'/>");
+    expect(store.getState().settings.prepare).toMatchObject({ outside: "allow", fit: false });
+    actions.openDrawing("waves", "<svg width='9'/>");
+    expect(store.getState().settings.prepare).toMatchObject({ outside: "refuse", fit: false });
   });
 
   it("never gets the layers of the drawing before by Undo", () => {
     const { store, actions } = makePage();
-    const openPlaced = (name: string): void => {
+    const openRead = (name: string): void => {
       actions.openDrawing(name, "<svg width='9'/>");
-      actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+      actions.noteRead(store.getState().drawing?.key ?? "");
     };
     const prepare = () => store.getState().settings.prepare;
-    openPlaced("hills");
+    openRead("hills");
     hideLayer1(actions);
     actions.changeSettings("margin", (now) => ({ ...now, prepare: { ...now.prepare, marginMm: 3 } }));
-    openPlaced("waves");
+    openRead("waves");
     actions.undo();
-    expect(prepare()).toMatchObject({ fit: true, hiddenLayers: [], marginMm: 3 });
+    expect(prepare()).toMatchObject({ hiddenLayers: [], marginMm: 3 });
     actions.undo();
-    expect(prepare()).toMatchObject({ fit: true, hiddenLayers: [], marginMm: 3 });
+    expect(prepare()).toMatchObject({ hiddenLayers: [], marginMm: 3 });
   });
 
   it.each([
@@ -232,26 +231,16 @@ describe("a drawing that is opened", () => {
     expect(store.getState().settings.prepare.hiddenLayers).toEqual(["layer1"]);
   });
 
-  it("right after another one is still placed as an undo step", () => {
-    const { store, actions } = makePage();
-    for (const name of ["hills", "waves"]) {
-      actions.openDrawing(name, "<svg width='9'/>");
-      actions.placeForPage(store.getState().drawing?.key ?? "", A4);
-    }
-    expect(store.getState().settings.prepare.fit).toBe(false);
-    actions.undo();
-    expect(store.getState().settings.prepare.fit).toBe(true);
-  });
-
   it("can't be read: the steps of the previous one can still be undone", () => {
     const { store, actions } = makePage();
     actions.openDrawing("hills", "<svg width='9'/>");
-    actions.placeForPage(store.getState().drawing?.key ?? "", A4);
+    actions.noteRead(store.getState().drawing?.key ?? "");
+    hideLayer1(actions);
     store.setState({ planned: {} as Planned });
     actions.openDrawing("torn", "<svg");
     actions.wentBack(fault);
     actions.undo();
-    expect(store.getState().settings.prepare.fit).toBe(true);
+    expect(store.getState().settings.prepare.hiddenLayers).toEqual([]);
   });
 });
 

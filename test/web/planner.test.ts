@@ -157,7 +157,7 @@ describe("the planner", () => {
     const { planner, workers, timers, calls } = setUp();
     planner.request(taskOf({ key: "a", text: "<svg/>" }));
     workers[0].reply({ type: "started", id: 1 });
-    workers[0].reply({ type: "imported", id: 1, drawingKey: "a", page: { widthMm: 9, heightMm: 9 } });
+    workers[0].reply({ type: "imported", id: 1, drawingKey: "a" });
     expect(timers.map(({ isOn }) => isOn)).toEqual([false]);
     workers[0].reply({ type: "planned", id: 1, planned: planned("a") });
     planner.request(taskOf({ key: "b", text: "<svg/>" }));

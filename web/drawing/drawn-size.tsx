@@ -10,20 +10,21 @@ export const DrawnSize = () => {
   const planned = usePageState((state) => state.planned);
   const unit = usePageState((state) => state.view.lengthUnit);
   if (!planned || isEmptyBox(planned.drawnBox)) return null;
-  const { x0, y0, x1, y1 } = planned.drawnBox;
+  const { widthMm, heightMm, turnedDeg } = planned.size;
   return (
     <div className="drawn-size">
-      <span>{words.drawn(formatSize(x1 - x0, y1 - y0, unit), scaleInWords(planned))}</span>
+      <span>
+        {words.drawn(formatSize(widthMm, heightMm, unit), scaleInWords(planned.size))}
+        {turnedDeg !== 0 && words.turned(turnedDeg)}
+      </span>
       <UseFilesPage planned={planned} />
     </div>
   );
 };
 
 /** In percent of the size in the file; two numbers if it is stretched. */
-const scaleInWords = ({ pageToPaper: { a, b, c, d } }: Planned): string => {
-  const percents = [Math.hypot(a, b), Math.hypot(c, d)].map((factor) =>
-    formatNumber(100 * factor, factor < 0.1 ? 1 : 0),
-  );
+const scaleInWords = ({ scaleX, scaleY }: Planned["size"]): string => {
+  const percents = [scaleX, scaleY].map((factor) => formatNumber(100 * factor, factor < 0.1 ? 1 : 0));
   return [...new Set(percents)].join(" × ");
 };
 

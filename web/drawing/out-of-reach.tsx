@@ -26,9 +26,9 @@ export const isOutOfReach = ({ planned, settings }: PageState): boolean => {
 };
 
 /** The height of what is turned: the paper, or at true size the file's page. */
-const turningHeightMm = ({ settings, pageToPaper, pageWidthMm, pageHeightMm }: Planned): number => {
-  const { fit, place, paper, landscape } = settings.prepare;
-  if (fit || place) return orientedPaper(paper, landscape).heightMm;
+const turningHeightMm = ({ settings, layout, pageToPaper, pageWidthMm, pageHeightMm }: Planned): number => {
+  const { paper, landscape } = settings.prepare;
+  if (layout.how !== "corner") return orientedPaper(paper, landscape).heightMm;
   const page = paperBoxOf([0, 0, pageWidthMm, pageHeightMm], pageToPaper);
   return page.yMm + page.heightMm;
 };
@@ -60,7 +60,11 @@ export const OutOfReach = () => {
             const frame = { x0: xMm, y0: yMm, x1: xMm + widthMm, y1: yMm + heightMm };
             changeSettings("turn for machine", (settings) => ({
               ...settings,
-              prepare: quarterTurned(settings.prepare, frame),
+              prepare: quarterTurned(
+                settings.prepare,
+                { frame, layout: planned.layout },
+                { widthMm: planned.pageWidthMm, heightMm: planned.pageHeightMm },
+              ),
             }));
           }}
         >

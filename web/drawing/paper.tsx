@@ -9,7 +9,7 @@ import {
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { paperText as words } from "./text.js";
-import { IconButton } from "../ui/button.js";
+import { Button, IconButton } from "../ui/button.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatSize } from "../ui/format.js";
 import { SettingField } from "../ui/setting-field.js";
@@ -21,6 +21,12 @@ import { usePrepareChange } from "../ui/use-change.js";
 const PlaceFields = lazyPart(async () => (await import("./place-fields.js")).PlaceFields);
 type PrepareSettings = PlotSettings["prepare"];
 const PAPER_NAMES = Object.keys(PAPER_SIZES) as PaperName[];
+const FIT_NAMES = { auto: "auto", true: "fit", false: "true" } as const;
+const FITS = {
+  auto: { fit: "auto", rotateDeg: "auto" },
+  fit: { fit: true },
+  true: { fit: false },
+} as const;
 const CUSTOM = "custom";
 
 const nameOfPaper = ({ widthMm, heightMm }: PrepareSettings["paper"]): PaperName | typeof CUSTOM =>
@@ -33,7 +39,9 @@ export const PaperPanel = () => {
   const lengthUnit = usePageState((state) => state.view.lengthUnit);
   const change = usePrepareChange();
   const { changeView } = useActions();
-  const { paper, landscape, marginMm, rotateDeg } = prepare;
+  const { paper, landscape, marginMm } = prepare;
+  const layoutDeg = usePageState((state) => state.planned?.layout.rotateDeg ?? 0);
+  const rotateDeg = prepare.rotateDeg === "auto" ? layoutDeg : prepare.rotateDeg;
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const firstPlace = placeOfFrame(
     frame ?? { xMm: marginMm, yMm: marginMm, widthMm: 100, heightMm: 100, turnDeg: 0 },
@@ -89,14 +97,16 @@ export const PaperPanel = () => {
       )}
       <Segments
         label={words.placement}
-        value={prepare.place ? "place" : prepare.fit ? "fit" : "true"}
+        value={prepare.place ? "place" : FIT_NAMES[`${prepare.fit}`]}
+        hint={words.autoHint}
         options={[
+          { value: "auto", label: words.auto },
           { value: "fit", label: words.fit },
           { value: "true", label: words.trueSize },
           { value: "place", label: words.byNumbers },
         ]}
         onChange={(value) =>
-          change("fit", value === "place" ? { place: firstPlace } : { fit: value === "fit", place: null })
+          change("fit", value === "place" ? { place: firstPlace } : { ...FITS[value], place: null })
         }
       />
       {prepare.place && <PlaceFields place={prepare.place} />}
@@ -113,6 +123,11 @@ export const PaperPanel = () => {
           onClick={() => turnTo("quarter", angleDeg + 90)}
         />
       </div>
+      {prepare.rotateDeg !== "auto" && !prepare.place && prepare.fit !== true && (
+        <Button kind="link" onClick={() => change("rotate", { rotateDeg: "auto" })}>
+          {words.autoTurn}
+        </Button>
+      )}
       <Segments
         label={words.unit}
         isInline
@@ -127,6 +142,12 @@ export const PaperPanel = () => {
           value={prepare.mirror}
           options={PREPARE_TABLE.mirror.choices.map((value) => ({ value, label: words.mirrors[value] }))}
           onChange={(mirror) => change("mirror", { mirror })}
+        />
+        <Select
+          label={PREPARE_TABLE.outside.label}
+          value={prepare.outside}
+          options={PREPARE_TABLE.outside.choices.map((value) => ({ value, label: words.outside[value] }))}
+          onChange={(outside) => change("outside", { outside })}
         />
         <Switch
           label={PREPARE_TABLE.cropToPage.label}

@@ -11,6 +11,7 @@ export const drawingText = {
 
 export const drawnSizeText = {
   drawn: (size: string, scale: string) => `Drawn ${size}, ${scale}\u202f%`,
+  turned: (deg: number) => `, turned by ${deg}°`,
   useFilesPage: "Use the file’s page",
 };
 
@@ -23,6 +24,25 @@ export const reachText = {
     count === 1 ? "1 line is out of reach." : `${number} lines are out of reach.`,
   whatToDo: "Choose a smaller paper, or make the drawing smaller.",
   turn: "Turn for this machine",
+};
+
+export const outsideText = {
+  leaves: (count: number, number: string, edges: string) =>
+    `${count === 1 ? "1 line leaves" : `${number} lines leave`} the paper: up to ${edges}.`,
+  edges: {
+    leftMm: (size: string) => `${size} over the left edge`,
+    topMm: (size: string) => `${size} over the upper edge`,
+    rightMm: (size: string) => `${size} over the right edge`,
+    bottomMm: (size: string) => `${size} over the lower edge`,
+  },
+  and: " and ",
+  question: "Choose what happens to it before you plot.",
+  isAllowed: "It will be drawn there.",
+  choices: "Drawing outside the paper",
+  cut: "Cut off at the edge",
+  move: "Move onto the paper",
+  fit: "Fit to the paper",
+  allow: "Draw it there",
 };
 
 export const reportText = {
@@ -41,6 +61,15 @@ export const paperText = {
   portrait: "Portrait",
   landscape: "Landscape",
   placement: "Size of the drawing",
+  auto: "Auto",
+  autoHint: "True size if the page of the file fits the paper, otherwise fitted to it.",
+  outside: {
+    refuse: "Ask before plotting",
+    cut: "Cut it off at the edge",
+    move: "Move it onto the paper",
+    fit: "Fit the drawing to the paper",
+    allow: "Draw it there",
+  },
   fit: "Fit paper",
   trueSize: "True size",
   byNumbers: "Custom",
@@ -50,6 +79,7 @@ export const paperText = {
   bottom: "Bottom",
   left: "Left",
   mirrors: { none: "Off", leftRight: "Left–right", upDown: "Up–down" },
+  autoTurn: "Turn to fit the paper",
   rotateQuarter: "Turn by 90°",
 };
 

@@ -4,7 +4,7 @@ import { activeJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
 import { deskOf } from "./desk.js";
-import { paintCutOff } from "./cut-off.js";
+import { paintBesidePaper, paintCutOff } from "./cut-off.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
 import type { Point } from "./gestures.js";
@@ -65,11 +65,12 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
       state.view.lengthUnit !== before?.view.lengthUnit
     ) {
       const frame = frameNow(state);
-      const cutOff = state.planned?.cutOff ?? null;
+      const { cutOff, besidePaper } = state.planned ?? { cutOff: null, besidePaper: null };
       const selection = selectionPainter(state);
       const rest = painterOf(state);
       const paint = (context: CanvasRenderingContext2D, view: View): void => {
         if (cutOff) paintCutOff(context, view, cutOff);
+        if (besidePaper) paintBesidePaper(context, view, besidePaper);
         selection?.(context, view);
         rest?.(context, view);
       };

@@ -1,5 +1,6 @@
 /** Whether the drawing can be put in the queue, for the buttons of Plot and for the keyboard. */
 import { isOutOfReach } from "../drawing/out-of-reach.js";
+import { isOutsideUnanswered } from "../drawing/outside-paper.js";
 import { mayOperate, type PageState } from "../state/store.js";
 
 /** A drawing or its settings are being sent. */
@@ -14,4 +15,5 @@ export const canQueue = (state: PageState): boolean =>
   state.plotters.length > 0 &&
   mayOperate(state) &&
   !isOutOfReach(state) &&
+  !isOutsideUnanswered(state) &&
   !isSendingJob(state);

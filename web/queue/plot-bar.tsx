@@ -1,4 +1,5 @@
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
+import { isOutsideUnanswered, OutsidePaper } from "../drawing/outside-paper.js";
 import { plotterText } from "../plotter/text.js";
 import { activeJob, currentPlotter } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
@@ -71,6 +72,7 @@ const Buttons = () => {
   const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
   const { plotDrawing, queueDrawing } = useActions();
   const isUnreached = usePageState(isOutOfReach);
+  const isOutside = usePageState(isOutsideUnanswered);
   return (
     <div className="plot-buttons">
       <Button
@@ -99,7 +101,8 @@ const Buttons = () => {
         />
       </div>
       <CutOffNote />
-      {isUnreached && <OutOfReach />}
+      <OutsidePaper />
+      {isUnreached && !isOutside && <OutOfReach />}
       <PlotNote isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
     </div>
   );

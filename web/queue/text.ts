@@ -13,12 +13,14 @@ export const plotText = {
   addCopies: (count: number) => `Add ${count} to queue`,
   sending: "Adding… Every move is planned first, which takes a while for a large drawing.",
   saveToJob: (name: string) => `Save the changes to ${name} in the queue`,
-  outside: (count: number, number: string) =>
+  margins: "the margins",
+  paper: "the paper",
+  outside: (count: number, number: string, edge: string) =>
     count === 1
-      ? "1 line is outside the margins and will not be drawn."
-      : `${number} lines are outside the margins and will not be drawn.`,
-  cutOff: (count: number, number: string) =>
-    count === 1 ? "1 line is cut off at the margins." : `${number} lines are cut off at the margins.`,
+      ? `1 line is outside ${edge} and will not be drawn.`
+      : `${number} lines are outside ${edge} and will not be drawn.`,
+  cutOff: (count: number, number: string, edge: string) =>
+    count === 1 ? `1 line is cut off at ${edge}.` : `${number} lines are cut off at ${edge}.`,
   needsDrawing: "Choose a drawing, or try a sample.",
   needsPlotter: "No plotter is connected. The queue waits for one.",
 };

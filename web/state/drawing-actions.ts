@@ -1,5 +1,5 @@
 /** The user's actions that put a drawing on the paper. */
-import { findMachine, isDrawingName, placedForPage, type PaperSize } from "../../src/internal.js";
+import { isDrawingName } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
@@ -42,8 +42,8 @@ export const createDrawingActions = (parts: DrawingParts) => {
   let nextDrawing = 1;
   /** The drawing before the one being opened, to return to if the new file can't be read. */
   let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
-  /** A drawing that has just been opened, until its page size is known. */
-  let unplacedKey: string | null = null;
+  /** Another drawing that has just been opened, until its file is read. */
+  let unreadKey: string | null = null;
   let lastRequest = 0;
 
   /**
@@ -61,7 +61,7 @@ export const createDrawingActions = (parts: DrawingParts) => {
     const isOther = jobId === null && (drawing === null || !isAgain(drawing, name, text));
     const key = `drawing-${nextDrawing++}`;
     if (drawing && planned) lastGood = { drawing, settings };
-    unplacedKey = isOther ? key : null;
+    unreadKey = isOther ? key : null;
     store.setState({
       drawing: { key, name, text, jobId, sourceId: jobId },
       copies: 1,
@@ -76,16 +76,13 @@ export const createDrawingActions = (parts: DrawingParts) => {
     replan();
   };
 
-  /** Called when the drawing's page size is known. Places a drawing that was just opened, as one undo step. */
-  const placeForPage = (drawingKey: string, page: PaperSize): void => {
+  /** Called when the drawing's file has been read. */
+  const noteRead = (drawingKey: string): void => {
     lastGood = null;
-    if (drawingKey !== unplacedKey) return;
-    unplacedKey = null;
+    if (drawingKey !== unreadKey) return;
+    unreadKey = null;
     // Earlier steps hold the layers and the place of the drawing before. Cleared only now: the file could be read.
     undo.clear();
-    const { settings } = store.getState();
-    const prepare = placedForPage(settings.prepare, page, findMachine(settings));
-    if (prepare !== settings.prepare) undo.changeSettings("place for page", (now) => ({ ...now, prepare }));
   };
 
   /** Returns to the previous drawing if the one just opened can't be read. False: there is none to return to. */
@@ -114,7 +111,7 @@ export const createDrawingActions = (parts: DrawingParts) => {
 
   return {
     openDrawing,
-    placeForPage,
+    noteRead,
     wentBack,
     restoreDrawing,
     /**

@@ -1,20 +1,22 @@
 /** Which settings stay when another drawing is opened. Not in layer-settings.ts, because that is loaded later. */
-import { withoutFilesPage } from "../../src/internal.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 
 /** Layers identified by a colour mean the same in every drawing. */
 const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
 
-/** The settings for another drawing: without those of single layers, except layers identified by a colour. */
+/**
+ * The settings for another drawing: without those of single layers, except layers identified by a colour, and without
+ * the answer to what happens outside the paper.
+ */
 export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
   const kept = <T>(byLayer: Readonly<Record<string, T>> | undefined): Record<string, T> =>
     Object.fromEntries(Object.entries(byLayer ?? {}).filter(([id]) => isColorId(id)));
-  const { motion, pen } = settings;
-  const prepare = withoutFilesPage(settings.prepare);
+  const { motion, pen, prepare } = settings;
   return {
     ...settings,
     prepare: {
       ...prepare,
+      outside: DEFAULT_PLOT_SETTINGS.prepare.outside,
       hiddenLayers: [],
       shownLayers: [],
       layerOrder: prepare.layerOrder.filter(isColorId),

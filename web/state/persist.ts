@@ -65,6 +65,7 @@ export const parseRemembered = (stored: string | null): Remembered => {
  */
 const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   const defaults: Record<string, unknown> = DEFAULT_PLOT_SETTINGS;
+  stored = { ...stored, prepare: withoutOldPlacing(recordOf(stored.prepare)) };
   const parts = Object.entries(plotSettingsSchema.shape).map(([name, schema]) => [
     name,
     partOr<unknown>(schema, defaults[name], stored[name]),
@@ -75,6 +76,13 @@ const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   const machine = findMachine(result.data);
   const motion = plannable(result.data.motion, machine?.springs ?? null);
   return { ...result.data, machine: machine?.id ?? DEFAULT_PLOT_SETTINGS.machine, motion };
+};
+
+/** Earlier versions stored how they had placed a drawing by themselves as if the user had chosen it. */
+const withoutOldPlacing = (prepare: Record<string, unknown>): Record<string, unknown> => {
+  if ("outside" in prepare) return prepare;
+  const { fit: _fit, rotateDeg: _rotateDeg, clipToMargins: _clip, cropToPage: _crop, ...rest } = prepare;
+  return rest;
 };
 
 /** A part with more bad values than this is replaced as a whole. */

@@ -58,6 +58,7 @@ let prepared: {
   result: Prepared;
   placement: Placement;
   cutOff: CutOffPicture | null;
+  besidePaper: CutOffPicture | null;
   settings: PlotSettings;
 } | null = null;
 
@@ -90,11 +91,10 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   let stage: PlanFault["stage"] = "import";
   try {
     const drawing = await drawingOf(request);
-    const { widthMm, heightMm } = drawing;
-    scope.postMessage({ type: "imported", id, drawingKey, page: { widthMm, heightMm } }, []);
+    scope.postMessage({ type: "imported", id, drawingKey }, []);
     if (await isSuperseded()) return null;
     stage = "plan";
-    const { result: ready, placement, cutOff } = preparedOf(drawingKey, drawing, request);
+    const { result: ready, placement, cutOff, besidePaper } = preparedOf(drawingKey, drawing, request);
     if (await isSuperseded()) return null;
     const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
     if (await isSuperseded()) return null;
@@ -106,15 +106,19 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       pageWidthMm: drawing.widthMm,
       pageHeightMm: drawing.heightMm,
       pageToPaper: placement.map,
+      layout: placement.layout,
+      size: ready.size,
+      outside: ready.outside,
       hasFills: drawing.paths.fill.some((color) => color >= 0),
       drawnBox: boxOfPoints(ready.strokes.xy),
-      frameMm: frameOf(placement, settings.prepare.place?.turnDeg ?? 0),
+      frameMm: frameOf(placement, settings.prepare),
       layers: ready.layers,
       penStops: penStopsOf(ready.strokes, settings),
       drawnLayers: ready.strokes.layers,
       fileWarnings: drawing.warnings,
       layoutWarnings: [...ready.warnings, ...unusedSettings(settings, machineOf(settings))],
       cutOff,
+      besidePaper,
       unreachedCount: unreachedCount(ready.strokes, machineOf(settings)),
       strokeCount: strokeCount(ready.strokes),
       stats,
@@ -156,14 +160,27 @@ function preparedOf(
   if (prepared?.key !== key) {
     const result = prepare(drawing, wanted);
     const placement = placeDrawing(drawing, wanted);
-    prepared = { key, result, placement, cutOff: cutOffOf(drawing, wanted, placement), settings };
+    const cutOff = cutOffOf(drawing, wanted, placement);
+    const isBeside = result.outside !== null;
+    const besidePaper = isBeside ? cutOffOf(drawing, { ...wanted, outside: "cut" }, placement) : null;
+    prepared = { key, result, placement, cutOff, besidePaper, settings };
   }
   prepared.settings = settings;
   return prepared;
 }
 
-const frameOf = ({ frame: { x0, y0, x1, y1 } }: Placement, turnDeg: number): FrameMm | null =>
-  x1 >= x0 && y1 >= y0 ? { xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0, turnDeg } : null;
+/** The box that keeps the drawing where it is when it becomes its place. A turn made by itself is the box's then. */
+function frameOf(
+  { frame: { x0, y0, x1, y1 }, layout }: Placement,
+  { place, rotateDeg }: PlotSettings["prepare"],
+): FrameMm | null {
+  if (!(x1 >= x0 && y1 >= y0)) return null;
+  const [widthMm, heightMm] = [x1 - x0, y1 - y0];
+  const turnDeg = rotateDeg === "auto" ? layout.rotateDeg : 0;
+  if (turnDeg === 0) return { xMm: x0, yMm: y0, widthMm, heightMm, turnDeg: place?.turnDeg ?? 0 };
+  const inset = (widthMm - heightMm) / 2;
+  return { xMm: x0 + inset, yMm: y0 - inset, widthMm: heightMm, heightMm: widthMm, turnDeg };
+}
 
 const pictureOf = ({ draw, travel, totalS }: Scene): Picture => ({
   draw: { ...draw, bytes: draw.bytes.slice(0) },

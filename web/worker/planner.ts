@@ -7,7 +7,6 @@
  * endlessly.
  */
 import type { StrokeSet } from "../../src/index.js";
-import type { PaperSize } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingText } from "./drawing-text.js";
 import type { ExportFormat, PlanFault, Planned, WorkerReply, WorkerRequest } from "./protocol.js";
@@ -30,7 +29,7 @@ interface PlannerTimer {
 
 interface PlannerListener {
   /** Called before each plan. */
-  onImported(drawingKey: string, page: PaperSize): void;
+  onImported(drawingKey: string): void;
   onPlanned(planned: Planned): void;
   onFault(fault: PlanFault): void;
   onExported(format: ExportFormat, text: string): void;
@@ -144,7 +143,7 @@ export class Planner {
     this.#stopWaiting?.();
     this.#stopWaiting = null;
     this.#stopReading?.();
-    if (reply.type === "imported") return this.#listener.onImported(reply.drawingKey, reply.page);
+    if (reply.type === "imported") return this.#listener.onImported(reply.drawingKey);
     if (reply.type === "started") {
       this.#stopReading = this.#timer.after(READING_MS, () => this.#endReading());
       return;

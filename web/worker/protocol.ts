@@ -3,7 +3,8 @@ import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type {
   Box,
   DrawingWarning,
-  PaperSize,
+  DrawnSize,
+  OutsidePaper,
   PenStop,
   Placement,
   PreparedLayer,
@@ -58,6 +59,10 @@ export interface Planned {
   readonly pageToPaper: Placement["map"];
   /** The drawing's box on the paper, before anything is cut off; null for an empty drawing. */
   readonly frameMm: FrameMm | null;
+  readonly layout: Placement["layout"];
+  readonly size: DrawnSize;
+  /** Strokes that leave the paper. */
+  readonly outside: OutsidePaper | null;
   /** The box of all lines that the pen draws, without lines that are cut off or hidden; empty if there are none. */
   readonly drawnBox: Box;
   /** Whether the file has filled shapes. */
@@ -72,8 +77,10 @@ export interface Planned {
   readonly fileWarnings: readonly DrawingWarning[];
   /** What paper and settings leave out, and settings that the machine does not use. */
   readonly layoutWarnings: readonly string[];
-  /** The lines that the margins cut off. */
+  /** The lines that the margins or the paper's edge cut off. */
   readonly cutOff: CutOffPicture | null;
+  /** The lines that leave the paper and are not cut off. */
+  readonly besidePaper: CutOffPicture | null;
   /** The number of strokes that the machine can't reach, or only in part. */
   readonly unreachedCount: number;
   readonly strokeCount: number;
@@ -92,12 +99,11 @@ export interface PlanFault {
   readonly stage: "import" | "plan";
 }
 
-/** The file has been read; `page` is the size of its page. */
+/** The file has been read. */
 interface ImportedReply {
   readonly type: "imported";
   readonly id: number;
   readonly drawingKey: string;
-  readonly page: PaperSize;
 }
 
 export interface PlannedReply {

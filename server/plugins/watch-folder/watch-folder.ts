@@ -165,10 +165,12 @@ function settingsOfLast(jobs: readonly Job[]): PlotSettings {
   );
   if (newest === null) return DEFAULT_PLOT_SETTINGS;
   const { settings } = newest;
-  const { hiddenLayers, layerHatches, layerOrder, layerRepeats, place } = DEFAULT_PLOT_SETTINGS.prepare;
+  const { prepare } = DEFAULT_PLOT_SETTINGS;
+  const { hiddenLayers, layerHatches, layerOrder, layerRepeats, place, rotateDeg, outside } = prepare;
+  const ofDrawing = { hiddenLayers, layerHatches, layerOrder, layerRepeats, place, rotateDeg, outside };
   return {
     ...settings,
-    prepare: { ...settings.prepare, hiddenLayers, layerHatches, layerOrder, layerRepeats, place },
+    prepare: { ...settings.prepare, ...ofDrawing },
     layerPens: DEFAULT_PLOT_SETTINGS.layerPens,
   };
 }

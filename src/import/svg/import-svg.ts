@@ -125,7 +125,8 @@ function rootTransform(
 const isShown = (root: Declared): boolean => parseOpacity(root.get("opacity") ?? "1") !== 0;
 
 function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
-  if (page.isSized || builder.shapeCount === 0) return builder.finish(page.widthMm, page.heightMm);
+  if (page.pageFrom !== "extent" || builder.shapeCount === 0)
+    return builder.finish(page.widthMm, page.heightMm, page.pageFrom);
   const { x0, y0, x1, y1 } = builder.extent();
   const size = `taken from the drawing: ${(x1 - x0).toFixed(1)} × ${(y1 - y0).toFixed(1)} mm`;
   warnings.add("page-size", undefined, size);

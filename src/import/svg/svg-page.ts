@@ -1,4 +1,5 @@
 /** The page size, and the map from the root's user units to page mm. */
+import type { Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
@@ -14,8 +15,8 @@ export interface SvgPage {
   /** Size of the viewport in user units, for %. */
   readonly viewportWidth: number;
   readonly viewportHeight: number;
-  /** False if there is neither size nor viewBox: then the drawing's own extent is the page. */
-  readonly isSized: boolean;
+  /** How the page is known if the file does not define its size. "extent": the drawing's own extent will be the page. */
+  readonly pageFrom?: Drawing["pageFrom"];
 }
 
 /** Ten times the largest roll of paper; anything larger is a mistake. */
@@ -43,7 +44,7 @@ export function pageOf(tree: SvgTree, root: Declared, pxPerInch: number): SvgPag
       map: scaling(mmPerPx),
       viewportWidth: widthMm / mmPerPx,
       viewportHeight: heightMm / mmPerPx,
-      isSized: width !== null && height !== null,
+      ...(width === null || height === null ? { pageFrom: "extent" } : {}),
     };
   }
   const ratio = box.width / box.height;
@@ -55,7 +56,8 @@ export function pageOf(tree: SvgTree, root: Declared, pxPerInch: number): SvgPag
     map: viewBoxMap(box, widthMm, heightMm, attribute(tree, 0, "preserveAspectRatio")),
     viewportWidth: box.width,
     viewportHeight: box.height,
-    isSized: true,
+    // A browser gives such a drawing the size of its window.
+    ...(width === null && height === null ? { pageFrom: "proportions" } : {}),
   };
 }
 

@@ -13,6 +13,7 @@ const PLAIN: PrepareSettings = {
   paper: { widthMm: 120, heightMm: 120 },
   marginMm: 10,
   fit: false,
+  clipToMargins: true,
   joinMm: 0,
   order: "none",
 };
@@ -81,7 +82,7 @@ const settings: fc.Arbitrary<PrepareSettings> = fc
     spread: fc.constantFrom("none" as const, "interleave" as const, "shuffle" as const),
     reinkMm: fc.constantFrom(0, 200),
   })
-  .map((some) => ({ ...DEFAULT_PREPARE, ...some }));
+  .map((some) => ({ ...DEFAULT_PREPARE, clipToMargins: true, ...some }));
 
 const lengthOf = (set: StrokeSet): number => {
   let length = 0;

@@ -10,6 +10,7 @@ const BASE: PrepareSettings = {
   paper: { widthMm: 100, heightMm: 100 },
   marginMm: 10,
   fit: false,
+  clipToMargins: true,
 };
 const cutOf = (drawing: ReturnType<typeof drawingOf>, settings: Partial<PrepareSettings> = {}) => {
   const all = { ...BASE, ...settings };
@@ -31,6 +32,14 @@ describe("lines that the margins cut off", () => {
     expect(cutOf(drawingOf(LINES.slice(0, 1)))).toBeNull();
     expect(cutOf(drawingOf(LINES), { fit: true })).toBeNull();
     expect(cutOf(drawingOf(LINES), { clipToMargins: false })).toBeNull();
+  });
+
+  it("are lines outside the paper if they are cut off there", () => {
+    const cut = cutOf(drawingOf(["M50 50L95 50", "M50 60L120 60"]), {
+      clipToMargins: false,
+      outside: "cut",
+    })!;
+    expect([...cut.lines.xy]).toEqual([50, 60, 120, 60]);
   });
 
   it("do not count hidden layers, nor shapes that draw nothing", () => {

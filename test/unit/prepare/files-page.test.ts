@@ -1,4 +1,4 @@
-/** Placing a file's page on the paper if the user has chosen no position, and turning it to fit the machine's reach. */
+/** Placing a file's page on the paper, and turning both. */
 import { describe, expect, it } from "vitest";
 import {
   DEFAULT_PREPARE,
@@ -12,10 +12,8 @@ import {
   isOnFilesPage,
   onFilesPage,
   placeDrawing,
-  placedForPage,
   quarterTurned,
   quarterTurnedBox,
-  withoutFilesPage,
 } from "../../../src/internal.js";
 
 const V3 = { widthMm: 300, heightMm: 218 };
@@ -27,61 +25,36 @@ const svgOf = (width: number, height: number, d: string): string =>
 const drawn = (svg: string, settings: PrepareSettings) =>
   boxOfPoints(prepare(importSvg(svg), settings).strokes.xy);
 
+const mm = (values: readonly number[]): number[] => values.map((value) => Math.round(value * 1e6) / 1e6);
+
 describe("a file whose page is the paper", () => {
   it("is drawn at true size, past the margins too", () => {
     // A ruler of 279 mm on A4: inside the margins of 15 mm it would be 267 mm long.
-    const settings = placedForPage(DEFAULT_PREPARE, page(297, 210), V3);
-    const { x0, x1, y0 } = drawn(svgOf(297, 210, "M9 100H288"), settings);
-    expect([x0, x1, y0].map((mm) => Math.round(mm * 1e6) / 1e6)).toEqual([9, 288, 100]);
+    const { x0, x1, y0 } = drawn(svgOf(297, 210, "M9 100H288"), DEFAULT_PREPARE);
+    expect(mm([x0, x1, y0])).toEqual([9, 288, 100]);
   });
 
-  it("is also recognised if its page is in whole pixels, and the paper keeps its name", () => {
-    const letter = { ...DEFAULT_PREPARE, paper: PAPER_SIZES.Letter };
-    const { fit, paper, landscape } = placedForPage(letter, page((1056 * 25.4) / 96, (817 * 25.4) / 96), V3);
-    expect({ fit, paper, landscape }).toEqual({ fit: false, paper: PAPER_SIZES.Letter, landscape: true });
+  it("is also recognised if its page is in whole pixels", () => {
+    const svg = svgOf(297, 210, "M9 100H288").replace("297mm", "1123px").replace("210mm", "794px");
+    const { x0, x1 } = drawn(svg, DEFAULT_PREPARE);
+    expect(x1 - x0).toBeCloseTo(279, 0);
   });
 
-  it("is portrait if the machine reaches that, and is otherwise turned with its paper", () => {
+  it("is turned by itself if it fits the paper only that way, and turns back with the paper", () => {
     const svg = svgOf(210, 297, "M20 10V200");
-    const upright = placedForPage(DEFAULT_PREPARE, page(210, 297), A3_PLOTTER);
-    expect([upright.landscape, upright.rotateDeg]).toEqual([false, 0]);
-    const turned = placedForPage(DEFAULT_PREPARE, page(210, 297), V3);
-    expect([turned.landscape, turned.rotateDeg]).toEqual([true, 90]);
-    const { x0, x1, y0 } = drawn(svg, turned);
-    expect([x0, x1, y0].map((mm) => Math.round(mm * 1e6) / 1e6)).toEqual([97, 287, 20]);
+    const turned = drawn(svg, DEFAULT_PREPARE);
+    expect(mm([turned.x0, turned.x1, turned.y0])).toEqual([97, 287, 20]);
+    const upright = drawn(svg, { ...DEFAULT_PREPARE, landscape: false });
+    expect(mm([upright.x0, upright.y0, upright.y1])).toEqual([20, 10, 200]);
   });
 
-  it("is cut at the edge of its page", () => {
-    const settings = placedForPage(DEFAULT_PREPARE, page(297, 210), V3);
-    expect(drawn(svgOf(297, 210, "M-20 100H400"), settings).x1).toBeCloseTo(297, 3);
-  });
-});
-
-describe("a place chosen by hand", () => {
-  it.each([
-    ["true size", { fit: false }],
-    ["a place", { place: { xMm: 1, yMm: 1, widthMm: 50, heightMm: null } }],
-    ["a turn", { rotateDeg: 30 }],
-    ["no cut at the margins", { clipToMargins: false }],
-  ])("stays unchanged: %s", (_what, change) => {
-    const settings = { ...DEFAULT_PREPARE, ...change };
-    expect(placedForPage(settings, page(297, 210), V3)).toBe(settings);
-  });
-
-  it("is not the place on the file's page: the next drawing starts from the defaults", () => {
-    const first = placedForPage(DEFAULT_PREPARE, page(210, 297), V3);
-    expect(isOnFilesPage(first, page(210, 297))).toBe(true);
-    expect(placedForPage(withoutFilesPage(first), page(100, 100), V3)).toEqual(DEFAULT_PREPARE);
-  });
-});
-
-describe("a drawing that is fitted", () => {
-  it("has its paper turned if the machine reaches only that", () => {
-    const portrait = { ...DEFAULT_PREPARE, landscape: false };
-    expect(placedForPage(portrait, page(100, 100), V3).landscape).toBe(true);
-    expect(placedForPage(portrait, page(100, 100), A3_PLOTTER).landscape).toBe(false);
-    const tooLarge = { ...portrait, paper: PAPER_SIZES.A2 };
-    expect(placedForPage(tooLarge, page(100, 100), V3)).toBe(tooLarge);
+  it("keeps a rotation that the user has chosen", () => {
+    const { size, outside } = prepare(importSvg(svgOf(210, 297, "M20 10V200")), {
+      ...DEFAULT_PREPARE,
+      rotateDeg: 0,
+    });
+    expect(size.scaleX).toBeCloseTo(180 / 190, 3);
+    expect([size.turnedDeg, outside]).toEqual([0, null]);
   });
 });
 
@@ -90,26 +63,42 @@ describe("the file's page as the paper", () => {
     expect(onFilesPage(DEFAULT_PREPARE, page(420, 297), A3_PLOTTER).paper).toEqual(PAPER_SIZES.A3);
     const own = onFilesPage(DEFAULT_PREPARE, page(200, 120), null);
     expect([own.paper, own.landscape]).toEqual([page(120, 200), true]);
+    expect([
+      isOnFilesPage(own, page(200, 120)),
+      isOnFilesPage({ ...own, fit: true }, page(200, 120)),
+    ]).toEqual([true, false]);
+  });
+
+  it("lies as the page does, or the other way if the machine reaches only that", () => {
+    expect(onFilesPage(DEFAULT_PREPARE, page(210, 297), A3_PLOTTER).landscape).toBe(false);
+    expect(onFilesPage(DEFAULT_PREPARE, page(210, 297), V3).landscape).toBe(true);
   });
 });
 
 describe("a quarter turn of paper and drawing", () => {
   const svg = svgOf(60, 40, "M0 0L60 40M6 20H16");
   it.each<[string, Partial<PrepareSettings>]>([
-    ["fitted", {}],
-    ["at true size", { fit: false, clipToMargins: false }],
+    ["fitted", { fit: true }],
+    ["at true size", { fit: false }],
     ["on the file's page", onFilesPage(DEFAULT_PREPARE, page(60, 40), null)],
     ["with four margins", { margins: { topMm: 5, rightMm: 10, bottomMm: 30, leftMm: 50 } }],
     ["placed", { place: { xMm: 20, yMm: 30, widthMm: 80, heightMm: null } }],
     ["placed and turned", { place: { xMm: 20, yMm: 60, widthMm: null, heightMm: 40, turnDeg: 30 } }],
-    ["mirrored", { mirror: "leftRight", rotateDeg: 30 }],
+    ["mirrored", { fit: true, mirror: "leftRight", rotateDeg: 30 }],
   ])("leaves the same plot on the sheet: %s", (_how, change) => {
     const settings = { ...DEFAULT_PREPARE, landscape: false, ...change };
-    const { frame } = placeDrawing(importSvg(svg), settings);
-    const after = drawn(svg, quarterTurned(settings, frame));
+    const placement = placeDrawing(importSvg(svg), settings);
+    const after = drawn(svg, quarterTurned(settings, placement, page(60, 40)));
     // At true size the page is at the paper's corner before and after.
-    const heightMm = settings.fit || settings.place ? 297 : 40;
+    const heightMm = placement.layout.how === "corner" ? 40 : 297;
     const expected = quarterTurnedBox(drawn(svg, settings), heightMm);
     for (const side of ["x0", "y0", "x1", "y1"] as const) expect(after[side]).toBeCloseTo(expected[side], 3);
+  });
+
+  it("leaves a drawing that follows the paper by itself so", () => {
+    const portrait = { ...DEFAULT_PREPARE, landscape: false };
+    const placement = placeDrawing(importSvg(svgOf(210, 297, "M20 10V200")), portrait);
+    const turned = quarterTurned(portrait, placement, page(210, 297));
+    expect([turned.landscape, turned.rotateDeg]).toEqual([true, "auto"]);
   });
 });

@@ -9,6 +9,7 @@ const TRUE_SIZE: PrepareSettings = {
   landscape: false,
   marginMm: 0,
   fit: false,
+  clipToMargins: true,
   order: "none",
 };
 

@@ -11,6 +11,7 @@ const TRUE_SIZE: PrepareSettings = {
   landscape: false,
   marginMm: 0,
   fit: false,
+  clipToMargins: true,
   joinMm: 0,
   order: "none",
 };

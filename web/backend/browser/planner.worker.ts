@@ -28,7 +28,7 @@ scope.onmessage = ({ data }) => {
       const answer = answerOf(prepared, warnings, input, event.data as ToWorker);
       scope.postMessage(answer, answer.type === "planned" ? buffersOf(answer.plot) : []);
     };
-    scope.postMessage({ type: "ready", strokes: prepared.strokes, warnings });
+    scope.postMessage({ type: "ready", strokes: prepared.strokes, size: prepared.size, warnings });
   } catch (error) {
     scope.postMessage({ type: "failed", id: null, ...faultOf(error) });
   }

@@ -1,0 +1,66 @@
+import type { OutsidePaper as Outside } from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { wholeTurn } from "../scene/placing.js";
+import type { PageState } from "../state/store.js";
+import { usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
+import { formatCount, formatInUnit } from "../ui/format.js";
+import { usePrepareChange } from "../ui/use-change.js";
+import type { Planned } from "../worker/protocol.js";
+import { outsideText as words } from "./text.js";
+
+type Prepare = PlotSettings["prepare"];
+
+/** A part of the drawing is outside the paper, and the user has not chosen what happens to it. */
+export const isOutsideUnanswered = ({ planned, settings }: PageState): boolean =>
+  Boolean(planned?.outside) && settings.prepare.outside !== "allow";
+
+/** What lies outside the paper, and the choices. */
+export const OutsidePaper = () => {
+  const planned = usePageState((state) => state.planned);
+  const isUnanswered = usePageState(isOutsideUnanswered);
+  const unit = usePageState((state) => state.view.lengthUnit);
+  const change = usePrepareChange();
+  if (!planned?.outside) return null;
+  const { outside } = planned;
+  const edges = EDGES.filter((edge) => outside[edge] > 0).map((edge) =>
+    words.edges[edge](`${formatInUnit(outside[edge], unit, 1)}\u202f${unit}`),
+  );
+  const leaves = words.leaves(outside.strokeCount, formatCount(outside.strokeCount), edges.join(words.and));
+  if (!isUnanswered) return <p className="note cut-off-note">{`${leaves} ${words.isAllowed}`}</p>;
+  return (
+    <div className="out-of-reach" role="group" aria-label={words.choices}>
+      <p className="note note-error">{`${leaves} ${words.question}`}</p>
+      <div className="outside-choices">
+        <Button onClick={() => change("outside", { outside: "cut" })}>{words.cut}</Button>
+        {outside.canMove && (
+          <Button onClick={() => change("outside", movedOnto(planned, outside))}>{words.move}</Button>
+        )}
+        <Button onClick={() => change("outside", fittedTo(planned))}>{words.fit}</Button>
+        <Button onClick={() => change("outside", { outside: "allow" })}>{words.allow}</Button>
+      </div>
+    </div>
+  );
+};
+
+const EDGES = ["leftMm", "topMm", "rightMm", "bottomMm"] as const;
+
+/** A drawing that was placed by hand gets another place, so that its frame is where it is drawn. */
+const movedOnto = (
+  { settings }: Planned,
+  { leftMm, topMm, rightMm, bottomMm }: Outside,
+): Partial<Prepare> => {
+  const { place } = settings.prepare;
+  if (!place) return { outside: "move" };
+  return { place: { ...place, xMm: place.xMm + leftMm - rightMm, yMm: place.yMm + topMm - bottomMm } };
+};
+
+/** Keeps the angle of a drawing that was placed by hand. */
+const fittedTo = ({ settings, layout }: Planned): Partial<Prepare> => {
+  const { place } = settings.prepare;
+  return {
+    fit: true,
+    place: null,
+    ...(place ? { rotateDeg: wholeTurn(layout.rotateDeg + (place.turnDeg ?? 0)) } : {}),
+  };
+};
