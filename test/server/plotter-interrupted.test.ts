@@ -4,12 +4,15 @@
  */
 import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../host/plotter/types.js";
-import type { PlotwrightError, StrokeSet, VirtualBoard } from "../../src/index.js";
+import type { Devices } from "../../host/plotter/devices.js";
+import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
+import { VirtualBoard, type PlotwrightError, type StrokeSet, type Transport } from "../../src/index.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { compareDrawn } from "../support/drawn-truth.js";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";
+import { cases } from "../support/full-run.js";
 import { seeded } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
@@ -40,9 +43,16 @@ const ROUND_AND_ROUND = strokesOf(
 );
 const STRAIGHT = strokesOf([10, 10, 200, 10], [200, 20, 10, 90]);
 
+/** The host reads each reply that much later. */
+function withLateReplies(transport: Transport, clock: ManualClock, lateS: number): Transport {
+  const onData = transport.onData.bind(transport);
+  transport.onData = (listener) => onData((bytes) => void clock.after(lateS, () => listener(bytes)));
+  return transport;
+}
+
 interface Interrupted {
   readonly world: ManualClock;
-  readonly driver: PlotterDriver;
+  readonly driver: HostDriver;
   readonly board: VirtualBoard;
   readonly strokes: StrokeSet;
   readonly journal: JournalEntry[];
@@ -55,9 +65,15 @@ async function interrupt(
   afterS: number,
   happen: (board: VirtualBoard) => void,
   strokes = FAULT_DRAWING,
+  lateS = 0,
 ): Promise<Interrupted> {
   const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  const board = new VirtualBoard({ clock: world, firmware, servo: {} });
+  const devices: Devices = {
+    find: () => Promise.resolve([]),
+    open: () => Promise.resolve(withLateReplies(board.transport(), world, lateS)),
+  };
+  const driver = new HostDriver({ device: "a port", clock: world, devices });
   await world.run(driver.start());
   const journal: JournalEntry[] = [];
   const record = (entry: JournalEntry): void => void journal.push(entry);
@@ -66,7 +82,6 @@ async function interrupt(
   );
   await underWay(world, journal);
   await world.advance(afterS);
-  const board = virtualBoardOf(driver);
   happen(board);
   const message = await world.run(
     run.finished.then(
@@ -153,6 +168,20 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
       expect(refused).toBeGreaterThan(COUNT / 2);
     },
   );
+
+  it("with three refused commands in a row leaves nothing out", { timeout: 120_000 }, async () => {
+    const random = seeded(9);
+    for (let i = 0; i < cases(100, COUNT); i++) {
+      const [strokes, lateS] = [[STRAIGHT, FAULT_DRAWING][i % 2], [0, 0, 0.05, 0.05, 0.2, 0.2][i % 6]];
+      const afterS = 0.4 + 6 * random();
+      const plot = await interrupt(firmware, afterS, (one) => one.refuseNext(3), strokes, lateS);
+      // They may have been queries: those are repeated.
+      if (plot.message === "done") continue;
+      const { gapMm, overlapMm } = await resumeAndCompare(plot);
+      expect(gapMm).toBeLessThan(GAP_MM);
+      expect(overlapMm).toBeLessThan(WINDOW_MM);
+    }
+  });
 
   it("with a refused command on a curve leaves nothing out", { timeout: 60_000 }, async () => {
     const random = seeded(8);

@@ -247,7 +247,8 @@ export class Carriage {
         }
         if (failure === "failed") this.events.supplyRead(failure);
         if (line !== "QS") this.polled(line, reply);
-        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place())) streamer.halt(stuck());
+        else if (streamer.playing && watch.isStalled(reply, asked, streamer.place()))
+          streamer.stopAtOnce(stuck());
       },
     });
     return streamer;
@@ -258,7 +259,7 @@ export class Carriage {
     const isGone = await this.mark.isGone().catch(() => false);
     if (!isGone || !streamer.playing) return;
     this.hasRestarted = true;
-    streamer.halt(boardRestarted());
+    streamer.stopAtOnce(boardRestarted());
   }
 
   /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed home. */
@@ -436,7 +437,7 @@ export class Carriage {
  * command was refused.
  */
 const canFindPlace = (streamer: Streamer, error: unknown): boolean =>
-  streamer.refused !== null || (error instanceof PlotwrightError && error.code === "conflict");
+  streamer.refused.length > 0 || (error instanceof PlotwrightError && error.code === "conflict");
 
 const placeUnknown = (): PlotwrightError =>
   new PlotwrightError(

@@ -23,7 +23,6 @@ import { streamOf, type BoardState } from "../compile/command-stream.js";
 import { compile } from "../compile/compile.js";
 import { penCommand } from "../protocol/commands.js";
 import { boardStateBefore, commandAfter, restingStream, withoutDrop } from "../stream/cut-streams.js";
-import type { RefusedCommand } from "../stream/stream-types.js";
 import type { Streamer } from "../stream/streamer.js";
 import type { StreamPlace } from "../stream/timeline.js";
 import { brakingAt } from "./braking.js";
@@ -140,8 +139,8 @@ export class EbbRun implements MachineRun {
         left = await this.afterEmergency(streamer);
       } else {
         // Without a state, the position is lost.
-        const { refused } = streamer;
-        left = refused && carriage.state ? await this.afterRefusal(streamer, refused) : this.certain;
+        const isRefused = streamer.refused.length > 0 && carriage.state;
+        left = isRefused ? await this.afterRefusal(streamer) : this.certain;
         throw error;
       }
     } finally {
@@ -174,7 +173,7 @@ export class EbbRun implements MachineRun {
   /** Stops the motors for good: the current play, or the next one, fails with the error. */
   fail(error: PlotwrightError): void {
     this.failure = error;
-    if (this.streamer) this.streamer.halt(error);
+    if (this.streamer) this.streamer.stopAtOnce(error);
     else this.carriage.connection.session.write([{ line: "ES" }]);
   }
 
@@ -307,18 +306,21 @@ export class EbbRun implements MachineRun {
     return swungPlace(this.strokes, trajectory, { tS: at.planS, place, x, y }, springs);
   }
 
-  /** The board refused one command. The counters still show how far it drew. */
-  private async afterRefusal(streamer: Streamer, refused: RefusedCommand): Promise<Place | null> {
+  /** The board refused commands. The counters still show how far it drew. */
+  private async afterRefusal(streamer: Streamer): Promise<Place | null> {
     const { carriage, strokes, settings } = this;
     try {
       await carriage.findPlace();
       const { steps1, steps2 } = carriage.state!;
       const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2);
-      const stop = { refused, at, steps1, steps2 };
-      const machine = machineOf(settings);
-      const part = this.progress.partOf(refused.at.stream);
-      const place = placeAfterRefusal(strokes, machine, part, stop, (found, x, y) =>
-        this.placeOrEnd(found, x, y),
+      const place = placeAfterRefusal(
+        strokes,
+        machineOf(settings),
+        { refused: streamer.refused, at, steps1, steps2 },
+        {
+          partOf: (stream) => this.progress.partOf(stream),
+          placeOf: (found, x, y) => this.placeOrEnd(found, x, y),
+        },
       );
       carriage.penUp = null;
       await carriage.movePen(true, settings);

@@ -33,7 +33,7 @@ const SAME_STEPS = 2;
 /** Data recorded at a stop. */
 export interface StopNotes {
   /** Estimated board time when the stop was sent. */
-  readonly boardS: number;
+  boardS: number;
   /** How many commands waited behind the running one just before the stop; null: not reported. */
   waitingCount: number | null;
   /** Remaining steps of the running command, by motor; null: not reported. */
@@ -43,8 +43,8 @@ export interface StopNotes {
 interface StopEvidence extends Readonly<StopNotes> {
   /** The commands written last, in order. */
   readonly commands: readonly InFlight[];
-  /** The one of them that the board refused and so never ran. */
-  readonly refused?: InFlight | null;
+  /** Those of them that the board refused and so never ran. */
+  readonly refused?: readonly InFlight[];
 }
 
 /** `number`: the command's number, as in `InFlight`. */
@@ -59,12 +59,14 @@ export function placeOfStop(
   steps1: number,
   steps2: number,
 ): NumberedPlace | null {
-  const { waitingCount, stepsLeft: left, refused } = evidence;
-  const commands = evidence.commands.filter((one) => one !== refused);
+  const { waitingCount, stepsLeft: left, refused = [] } = evidence;
+  const commands = evidence.commands.filter((one) => !refused.includes(one));
   // The steps of a refused command are missing, so the commands after it are offset from their plan by these steps.
-  const missing = refused ? stepsOf(refused, evidence.commands) : NO_STEPS;
   const missingBefore = ({ number }: InFlight): Steps =>
-    refused && number > refused.number ? missing : NO_STEPS;
+    refused
+      .filter((one) => one.number < number)
+      .map((one) => stepsOf(one, evidence.commands))
+      .reduce((sum, steps) => [sum[0] + steps[0], sum[1] + steps[1]], NO_STEPS);
   const last = commands[commands.length - 1];
   if (!last) return null;
   if (!features.stopEndsTimed) return numbered(last, last.endS);

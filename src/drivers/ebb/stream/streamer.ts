@@ -29,6 +29,7 @@ import { BoardTimeline, placeIn, type InFlight, type StreamPlace } from "./timel
 
 /** Min time between wake-ups. */
 const MIN_WAKE_S = 0.004;
+const STOP_TRIES = 3;
 /** Shorter underruns cannot be distinguished from the connection's latency. */
 const DRY_S = 0.002;
 const IDLE_POLL_S = 0.02;
@@ -45,8 +46,8 @@ export const maxAheadS = (windowS: number, commandS: number): number =>
 export class Streamer {
   /** Number of times that the board ran out of commands during a run. */
   underrunCount = 0;
-  /** The command that the board refused. It never ran, but those written after it may have. */
-  refused: RefusedCommand | null = null;
+  /** The commands that the board refused. They never ran, but those written after them may have. */
+  readonly refused: RefusedCommand[] = [];
 
   private readonly session: BoardSession;
   private readonly options: Required<Pick<StreamOptions, "clock" | "windowS" | "queueDepth" | "stuckS">> &
@@ -168,40 +169,46 @@ export class Streamer {
   }
 
   /**
-   * Makes the board stop at once and clear its queue (ES); `play` rejects with `error`. Afterwards
-   * `placeOfStop` finds the position of the stop from the step counters.
+   * Makes the board stop at once and clear its queue (ES), which it must not draw later; `play` rejects with `error`.
+   * Afterwards `placeOfStop` finds the position of the stop from the step counters.
    */
   stopAtOnce(error: PlotwrightError): void {
-    const query = this.options.queueDepth > 1 ? "QU,6" : "QM";
-    const waitS = this.timeline.longestS();
-    const stop: StopNotes = { boardS: this.timeline.boardS(), waitingCount: null, stepsLeft: null };
+    const stop: StopNotes = { boardS: 0, waitingCount: null, stepsLeft: null };
     this.stop ??= stop;
-    const note = (line: string, take: (reply: string) => void): Outgoing => ({
-      line,
-      waitS,
-      onReply: (failed, reply) => {
-        if (!failed) take(reply);
-      },
-    });
-    this.clearQueue([
-      note(query, (reply) => (stop.waitingCount = waitingCount(query, reply))),
-      note("ES", (reply) => (stop.stepsLeft = stepsLeft(reply))),
-    ]);
+    this.writeStop(stop);
     this.abandon(error);
   }
 
-  /** Writes lines that clear the board's queue, and lifts the pen. A lost connection carries them no more. */
-  private clearQueue(lines: readonly Outgoing[]): void {
+  /** Asks for the queue, clears it, and lifts the pen. Repeated if the board refuses it, because of noise on the line. */
+  private writeStop(stop: StopNotes, tries = STOP_TRIES): void {
+    const { queueDepth, liftLine } = this.options;
+    const waitS = this.timeline.longestS();
+    const query = queueDepth > 1 ? "QU,6" : "QM";
+    stop.boardS = this.timeline.boardS();
+    // A lost connection carries no stop.
     this.isStopped ||= this.session.failure === null;
-    const { liftLine: line } = this.options;
-    const lift = line === undefined ? [] : [{ line, waitS: this.timeline.longestS() }];
-    this.session.write([...lines, ...lift]);
+    this.session.write([
+      {
+        line: query,
+        waitS,
+        onReply: (error, reply) => (stop.waitingCount = error ? null : waitingCount(query, reply)),
+      },
+      {
+        line: "ES",
+        waitS,
+        onReply: (error, reply) => {
+          if (!error) stop.stepsLeft = stepsLeft(reply);
+          else if (!this.session.failure && tries > 1) this.writeStop(stop, tries - 1);
+        },
+      },
+      ...(liftLine === undefined ? [] : [{ line: liftLine, waitS }]),
+    ]);
   }
 
   /** Where the board was at the emergency stop; null if no command had run. */
   placeOfStop(features: FirmwareFeatures, steps1: number, steps2: number): NumberedPlace | null {
     if (!this.stop) throw new TypeError("nothing was stopped");
-    const refused = this.refused?.command ?? null;
+    const refused = this.refused.flatMap(({ command }) => command ?? []);
     return placeOfStop({ ...this.stop, commands: this.timeline.recent(), refused }, features, steps1, steps2);
   }
 
@@ -323,10 +330,10 @@ export class Streamer {
 
   /** Stops the plot: everything after a refused command would be drawn in the wrong place. */
   private refusedAt(at: StreamPlace, error: PlotwrightError): void {
-    if (this.failure) return;
     const isIt = ({ stream, index }: InFlight): boolean => stream === at.stream && index === at.commandIndex;
-    this.refused = { at, command: this.timeline.recent().find(isIt) ?? null };
-    this.stopAtOnce(error);
+    this.refused.push({ at, command: this.timeline.recent().find(isIt) ?? null });
+    // More may be refused before the board reads the stop.
+    if (!this.failure) this.stopAtOnce(error);
   }
 
   private sleep(delayS: number): void {
@@ -370,7 +377,7 @@ export class Streamer {
     this.options.onPoll?.(line, reply, asked);
     const waiting = isFirst ? waitingCount(line, reply) : null;
     if (waiting !== null && this.timeline.waiting(waiting, asked.clockS)) {
-      this.halt(stuck());
+      this.stopAtOnce(stuck());
     }
     if (!this.failure) this.pump();
   }
@@ -436,12 +443,6 @@ export class Streamer {
       if (this.session.failure) throw error;
       return null;
     }
-  }
-
-  /** `abandon`, and clears the board's queue: its commands must not be drawn if the board recovers. */
-  halt(error: PlotwrightError): void {
-    this.clearQueue([{ line: "ES" }]);
-    this.abandon(error);
   }
 
   /** Stops writing and waiting. The board finishes the commands it has received. */

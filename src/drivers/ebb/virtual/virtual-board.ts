@@ -108,7 +108,8 @@ export class VirtualBoard {
   private ticksPerByte = 0;
   private isMute = false;
   private repliesToLose = 0;
-  private refusesNext = false;
+  /** Commands to refuse. */
+  private refuseCount = 0;
   private readonly sendListeners: ((bytes: Uint8Array) => void)[] = [];
   private readonly drainListeners: (() => void)[] = [];
   private readonly changeListeners: (() => void)[] = [];
@@ -275,9 +276,9 @@ export class VirtualBoard {
     this.repliesToLose += count;
   }
 
-  /** Corrupts one character of the next command that is not a query, so that the board refuses it. */
-  refuseNext(): void {
-    this.refusesNext = true;
+  /** Corrupts one character of each of the next commands that are no queries, so that the board refuses them. */
+  refuseNext(count = 1): void {
+    this.refuseCount = count;
   }
 
   /** Limits the speed of received bytes. Infinity: no limit. */
@@ -406,8 +407,8 @@ export class VirtualBoard {
 
   private takeLine(): string {
     const line = this.input.take();
-    if (!this.refusesNext || line === "" || isQuery(commandName(line))) return line;
-    this.refusesNext = false;
+    if (this.refuseCount === 0 || line === "" || isQuery(commandName(line))) return line;
+    this.refuseCount--;
     return `#${line.slice(1)}`;
   }
 
