@@ -44,7 +44,7 @@ export class DrawingFiles implements DrawingStore {
       try {
         for await (const chunk of chunks) {
           bytes += chunk.byteLength;
-          if (bytes > this.maxBytes) throw tooLarge(this.maxBytes);
+          this.mustFit(bytes);
           await file.write(chunk);
         }
         await file.sync();
@@ -58,6 +58,11 @@ export class DrawingFiles implements DrawingStore {
       await rm(draft, { force: true });
       throw error;
     }
+  }
+
+  /** Throws `too-large` if a drawing of that size is larger than the limit. */
+  mustFit(bytes: number): void {
+    if (bytes > this.maxBytes) throw tooLarge(this.maxBytes);
   }
 
   /** As `add`, but throws `bad-file` if the file is empty. */

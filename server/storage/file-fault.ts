@@ -10,6 +10,7 @@ const FILE_FAULTS: Readonly<Record<string, string>> = {
   EROFS: "the disk is read-only",
   ENOSPC: "the disk is full",
   ENAMETOOLONG: "its name is too long",
+  ELOOP: "its link leads in a circle",
 };
 
 /** Why a file cannot be read or written. */

@@ -75,10 +75,8 @@ class Desk {
     const resumed = this.run("plot", "--resume");
     await resumed.saying(/The board still knows its position\. Enter resumes/);
     resumed.type("\r");
-    expect([await resumed.ended, readdirSync(join(this.dir, "command-line"))]).toEqual([
-      { exitCode: 0, signal: 0 },
-      [],
-    ]);
+    await resumed.endsWith(0);
+    expect(readdirSync(join(this.dir, "command-line"))).toEqual([]);
   }
 
   async untilDrawn(mm: number): Promise<void> {
@@ -86,10 +84,19 @@ class Desk {
     await expect.poll(drawnMm, { timeout: LIMIT_MS }).toBeGreaterThan(mm);
   }
 
-  /** The pen is up, the carriage at rest, and the motors hold it there. */
+  /** The pen is up and the carriage at rest, as soon as the board has done what it was sent. */
+  async expectLifted(): Promise<void> {
+    const lifted = async (): Promise<object> => {
+      const { penUp, isBusy } = (await this.board.report()).state;
+      return { penUp, isBusy };
+    };
+    await expect.poll(lifted, { timeout: LIMIT_MS }).toEqual({ penUp: true, isBusy: false });
+  }
+
+  /** So too, and the motors hold the carriage there. */
   async expectHeld(): Promise<void> {
-    const { penUp, isBusy, motorsOn } = (await this.board.report()).state;
-    expect({ penUp, isBusy, motorsOn }).toEqual({ penUp: true, isBusy: false, motorsOn: true });
+    await this.expectLifted();
+    expect((await this.board.report()).state.motorsOn).toBe(true);
   }
 
   /** Everything is drawn `times` times, and nothing else. */
@@ -128,6 +135,11 @@ class AtTerminal {
     } catch {
       // It has ended.
     }
+  }
+
+  /** What it said is in the message of a failure. */
+  async endsWith(exitCode: number): Promise<void> {
+    expect({ ...(await this.ended), said: this.said }).toEqual({ exitCode, signal: 0, said: this.said });
   }
 
   async saying(words: RegExp): Promise<void> {
@@ -170,7 +182,7 @@ describe.each(FIRMWARES)("plotwright plot on firmware %s", (firmware) => {
           await desk.untilDrawn(0);
           await waitS(afterS);
           end(plotted);
-          expect([afterS, await plotted.ended]).toEqual([afterS, { exitCode: 5, signal: 0 }]);
+          await plotted.endsWith(5);
           await desk.expectHeld();
           await desk.resume();
           await desk.expectDrawn(1);
@@ -204,7 +216,7 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
       plotted.type("\u0003");
       await plotted.saying(/Paused/);
       end(plotted);
-      expect(await plotted.ended).toEqual({ exitCode: 5, signal: 0 });
+      await plotted.endsWith(5);
       await desk.expectHeld();
       await desk.resume();
       await desk.expectDrawn(1);
@@ -224,7 +236,7 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
       );
       await plotted.saying(/Put in the pen for "2"/);
       end(plotted);
-      expect(await plotted.ended).toEqual({ exitCode: 5, signal: 0 });
+      await plotted.endsWith(5);
       await desk.expectDrawn(1, strokesOf([10, 10, 30, 10]));
       await desk.resume();
       await desk.expectDrawn(1, strokesOf([10, 10, 30, 10], [10, 20, 30, 20]));
@@ -239,7 +251,7 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
       const plotted = desk.plot(svgOf(line), "--copies", "3", "--paper-s", "0");
       await desk.untilDrawn(lengthOf(line) + 5);
       end(plotted);
-      expect(await plotted.ended).toEqual({ exitCode: 5, signal: 0 });
+      await plotted.endsWith(5);
       await desk.expectHeld();
       await desk.resume();
       await desk.expectDrawn(2, line);
@@ -257,7 +269,7 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
         await waitS(0.03);
         plotted.signal(name);
       }
-      expect(await plotted.ended).toEqual({ exitCode: 5, signal: 0 });
+      await plotted.endsWith(5);
       await desk.expectHeld();
       await desk.resume();
       await desk.expectDrawn(1);
@@ -280,9 +292,8 @@ describe("at a terminal that disappears", () => {
       const moveCount = async (): Promise<number> => (await desk.board.report()).statistics.moveCount;
       await expect.poll(moveCount, { timeout: LIMIT_MS }).toBeGreaterThan(0);
       command.drop();
-      expect(await command.ended).toEqual({ exitCode: 5, signal: 0 });
-      const { penUp, isBusy } = (await desk.board.report()).state;
-      expect({ penUp, isBusy }).toEqual({ penUp: true, isBusy: false });
+      await command.endsWith(5);
+      await desk.expectLifted();
     },
     LIMIT_MS,
   );
@@ -293,7 +304,7 @@ describe("at a terminal that disappears", () => {
       const server = desk.run("serve", "--port", "0");
       await server.saying(/plotwright is at/);
       server.drop();
-      expect(await server.ended).toEqual({ exitCode: 0, signal: 0 });
+      await server.endsWith(0);
     },
     LIMIT_MS,
   );

@@ -117,6 +117,66 @@ describe("a taken job that the server can't add to its queue", () => {
   });
 });
 
+describe("a row of the shared queue that no server can understand", () => {
+  it.each([
+    ["payload = 'no JSON'"],
+    ["payload = NULL"],
+    ["payload = '{\"name\":7}'"],
+    ["payload = 'null'"],
+    ["payload = '[]', name = E'\\u001b[2J'"],
+  ])("with %s is refused, and the jobs behind it are taken", async (change) => {
+    const closed = await open(newFolder());
+    closed.plotter.connection = "absent";
+    await send(closed, "fern");
+    await database.query(`UPDATE plotwright_jobs SET ${change}`);
+    await send(closed, "moss");
+    closed.plotter.connection = "idle";
+    await expect.poll(() => closed.jobs()).toEqual(["moss queued"]);
+    const message = "It was sent by another version of plotwright.";
+    expect(await closed.shared.list()).toMatchObject([{ state: "stored" }, { state: "refused", message }]);
+  });
+
+  it("taken before a restart does not stop the jobs behind it either", async () => {
+    const dir = newFolder();
+    const first = await open(dir);
+    first.plotter.connection = "absent";
+    await send(first, "fern");
+    await send(first, "moss");
+    await first.close();
+    await database.query(
+      `UPDATE plotwright_jobs SET state = 'taken', plotter_id = 'virtual', server_id = '${dir}'`,
+    );
+    await database.query("UPDATE plotwright_jobs SET payload = '{' WHERE name = 'fern'");
+    const again = await open(dir);
+    await expect.poll(() => again.jobs()).toEqual(["moss queued"]);
+  });
+
+  it.each([["'{}'"], ["'null'"], ["'7'"], [`'{"id": 7}'`], [`'{"id": "gone"}'`]])(
+    "because pg-boss has the data %s is passed over",
+    async (data) => {
+      const server = await open(newFolder());
+      server.plotter.connection = "absent";
+      await send(server, "fern");
+      await database.query(`UPDATE pgboss.job SET data = ${data}::jsonb WHERE state = 'created'`);
+      await send(server, "moss");
+      server.plotter.connection = "idle";
+      await expect.poll(() => server.jobs()).toEqual(["moss queued"]);
+    },
+  );
+
+  it.each([["state = 'dreaming'"], ["created_at = 'infinity'"]])(
+    "with %s is left out of the list, and the others are shown",
+    async (change) => {
+      const server = await open(newFolder());
+      server.plotter.connection = "absent";
+      await send(server, "fern");
+      await database.query(`UPDATE plotwright_jobs SET ${change}`);
+      await send(server, "moss");
+      expect((await server.shared.list()).map(({ name }) => name)).toEqual(["moss"]);
+    },
+  );
+});
+
 describe("a taken job that has not started when the server restarts", () => {
   it("starts as soon as the board is there, if the queue runs automatically", async () => {
     const dir = newFolder();

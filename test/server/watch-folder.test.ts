@@ -1,3 +1,4 @@
+import { execFileSync } from "node:child_process";
 import {
   mkdirSync,
   mkdtempSync,
@@ -5,8 +6,10 @@ import {
   renameSync,
   rmSync,
   symlinkSync,
+  truncateSync,
   writeFileSync,
 } from "node:fs";
+import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
@@ -16,6 +19,7 @@ import { JobQueue } from "../../host/queue/job-queue.js";
 import { Notices } from "../../host/queue/notices.js";
 import type { Planning } from "../../server/planning/planning.js";
 import { Store } from "../../server/storage/store.js";
+import { withDrawing } from "../../server/plugins/watch-folder/watched-file.js";
 import { WatchFolder } from "../../server/plugins/watch-folder/watch-folder.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -243,4 +247,73 @@ describe("the watched folder", () => {
       "does not exist",
     );
   });
+});
+
+/** What else a name in a folder may belong to. Each of them makes it, and says why it can't be read. */
+const ODD_FILES: Record<string, readonly [make: (path: string) => unknown, why: RegExp]> = {
+  "a named pipe": [(path) => execFileSync("mkfifo", [path]), /it is not a file/],
+  "a socket": [
+    (path) => new Promise((resolve) => sockets.push(createServer().listen(path, () => resolve(null)))),
+    /it is not a file/,
+  ],
+  "a folder": [(path) => mkdirSync(path), /it is a folder/],
+  "a link that leads nowhere": [(path) => symlinkSync("none", path), /there is no such file/],
+  "a link to itself": [(path) => symlinkSync(path, path), /leads in a circle/],
+  "a link to an endless device": [(path) => symlinkSync("/dev/zero", path), /it is not a file/],
+  "a file of 100 GB": [
+    (path) => {
+      writeFileSync(path, "");
+      truncateSync(path, 100e9);
+    },
+    /larger than/,
+  ],
+};
+const sockets: { close(): unknown }[] = [];
+
+describe.skipIf(process.platform === "win32").each(Object.entries(ODD_FILES))(
+  "in the watched folder, %s",
+  (_, [make, why]) => {
+    afterEach(() => sockets.splice(0).forEach((socket) => socket.close()));
+
+    it.each(["settings.json", "a.settings.json"])(
+      "named %s is reported, and the drawing is plotted when a file replaces it",
+      async (name) => {
+        await make(join(watched, name));
+        put("a.svg");
+        await open();
+        await expect.poll(() => notices.list()[0]?.message).toMatch(why);
+        expect(notices.list()[0].message).toContain(`${name} can't be read: `);
+        rmSync(join(watched, name), { recursive: true });
+        // The file system reports two changes as one if they follow at once.
+        await new Promise((resolve) => setTimeout(resolve, 1_000));
+        put(name, "{}");
+        await queued("a.svg");
+      },
+    );
+
+    it("named as a drawing holds up no other drawing", async () => {
+      await make(join(watched, "a.svg"));
+      await open();
+      put("b.svg");
+      await queued("b.svg");
+    });
+  },
+);
+
+it("a drawing that is replaced by a named pipe or a link while it is read is read from the file that it was", async () => {
+  await open();
+  const path = join(dir, "swapped.svg");
+  writeFileSync(path, "<svg/>");
+  const texts = await withDrawing(path, async (drawing) => {
+    rmSync(path);
+    symlinkSync("/dev/zero", path);
+    const read = async (): Promise<string> => {
+      let text = "";
+      for await (const chunk of drawing.chunks()) text += chunk.toString();
+      return text;
+    };
+    return [await read(), await read()];
+  });
+  expect(texts).toEqual(["<svg/>", "<svg/>"]);
+  expect(await withDrawing(path, () => Promise.resolve("taken"))).toBeNull();
 });

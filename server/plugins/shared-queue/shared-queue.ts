@@ -18,6 +18,7 @@ import type { PlotterPort } from "../../../host/plotter/plotter-port.js";
 import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Store } from "../../storage/store.js";
+import { isDiskFault } from "../../../host/disk-fault.js";
 import { isDrawingFault } from "../drawing-fault.js";
 import type { SharedStore, TakenJob } from "./shared-store.js";
 
@@ -108,7 +109,7 @@ export class SharedQueue {
       if (await shared.claim(known.id, serverId)) return null;
       return await this.#leave(known);
     } catch (error) {
-      log(`shared queue: "${name}" can't start: ${error instanceof Error ? error.message : String(error)}`);
+      log(`shared queue: "${name}" can't start: ${wordsOf(error)}`);
       return `The database of the shared queue can't be reached, so another server may have been given "${name}". Start it when the database is back. Or duplicate it: a duplicate can start at any time.`;
     }
   }
@@ -157,7 +158,7 @@ export class SharedQueue {
       this.#lastFault = null;
     } catch (error) {
       this.#isCaughtUp = false;
-      const fault = error instanceof Error ? error.message : String(error);
+      const fault = wordsOf(error);
       if (fault !== this.#lastFault) log(`shared queue: ${fault}`);
       this.#lastFault = fault;
     }
@@ -255,11 +256,8 @@ export class SharedQueue {
       await shared.finish(id, "stored", null);
       return;
     }
-    const parsed = payloadSchema.safeParse(JSON.parse(payload));
     try {
-      if (!parsed.success)
-        throw new PlotwrightError("bad-setting", "It was sent by another version of plotwright.");
-      const { name, drawing, settings } = parsed.data;
+      const { name, drawing, settings } = payloadOf(payload);
       const stored = await files.add([Buffer.from(drawing, "utf8")]);
       const job = await queue.add({ name, settings, drawing: stored, sharedId: id, plotterId });
       log(`shared queue: took "${name}" as ${job.id}`);
@@ -267,17 +265,18 @@ export class SharedQueue {
       this.#unstarted.add(job.id);
       await this.#startTaken();
     } catch (error) {
-      if (store.isShared(id) || !(error instanceof PlotwrightError)) throw error;
-      if (!isDrawingFault(error)) return this.#putBack(id, error);
-      const message = `A job of the shared queue can't be plotted: ${error.message}`;
+      if (store.isShared(id)) throw error;
+      const reason = isDiskFault(error) ? "The disk is full or can't be written to." : wordsOf(error);
+      if (!isDrawingFault(error)) return this.#putBack(id, reason);
+      const message = `A job of the shared queue can't be plotted: ${reason}`;
       log(message);
       notice(message);
-      await shared.finish(id, "refused", error.message);
+      await shared.finish(id, "refused", reason);
     }
   }
 
   /** Another server may have more memory, for example. Notifies once per job, since this server may get it again. */
-  async #putBack(id: string, { message: reason }: PlotwrightError): Promise<void> {
+  async #putBack(id: string, reason: string): Promise<void> {
     const { shared, serverId, log, notice } = this.#parts;
     await shared.putBack(id, serverId);
     if (this.#reportedBack.has(id)) return;
@@ -285,6 +284,17 @@ export class SharedQueue {
     const message = `A job of the shared queue was put back, because it can't be plotted here now: ${reason}`;
     log(message);
     notice(message);
+  }
+}
+
+const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
+/** Throws `bad-setting`. */
+function payloadOf(text: string): z.infer<typeof payloadSchema> {
+  try {
+    return payloadSchema.parse(JSON.parse(text));
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", "It was sent by another version of plotwright.", { cause });
   }
 }
 

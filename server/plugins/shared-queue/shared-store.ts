@@ -6,6 +6,7 @@
 import type { Pool, PoolClient, QueryConfig } from "pg";
 import type PgBoss from "pg-boss";
 import { createHash, randomUUID } from "node:crypto";
+import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
 import { sharedJobSchema, type SharedJob } from "../../../src/schema/index.js";
 
@@ -57,6 +58,8 @@ const LOST = `state IN ('taken', 'stored') AND NOT has_begun AND payload IS NOT 
   AND seen_at > now() - make_interval(secs => $1::double precision / 1000))`;
 
 type Row = Record<string, unknown>;
+
+const jobIdSchema = z.object({ id: z.string() });
 
 export class SharedStore {
   readonly #boss: PgBoss;
@@ -129,12 +132,14 @@ export class SharedStore {
     const queue = await this.#queueOf(target);
     return this.#transaction(async (client) => {
       const db = plainDb(client);
-      const [next] = await this.#boss.fetch<{ id: string }>(queue, { db });
+      const [next] = await this.#boss.fetch<unknown>(queue, { db });
       if (next === undefined) return null;
+      // What is no job's id matches no row. It is completed all the same, or it would be fetched for ever.
+      const id = jobIdSchema.safeParse(next.data).data?.id ?? null;
       const { rows } = await client.query<Row>(
         `UPDATE plotwright_jobs SET state = 'taken', server_id = $2, server = $3, plotter_id = $4
          WHERE id = $1 AND state = 'waiting' RETURNING id, plotter_id, payload`,
-        [next.data.id, serverId, server, plotterId],
+        [id, serverId, server, plotterId],
       );
       await this.#boss.complete(queue, next.id, { server }, { db });
       return rows[0] === undefined ? null : takenFrom(rows[0]);
@@ -267,21 +272,14 @@ export class SharedStore {
     }
   }
 
-  /** Newest first. */
+  /** Newest first, without those that this version doesn't understand. */
   async list(): Promise<SharedJob[]> {
     const { rows } = await this.#pool.query<Row>(
       `SELECT job.id, name, target, state, server, message, has_begun, seen_at, created_at
        FROM plotwright_jobs job LEFT JOIN plotwright_servers ON plotwright_servers.id = job.server_id
        ORDER BY created_at DESC LIMIT ${MAX_LISTED}`,
     );
-    return rows.map(({ created_at: createdAt, seen_at: seenAt, has_begun: hasBegun, ...row }) =>
-      sharedJobSchema.parse({
-        ...row,
-        hasBegun,
-        serverSeenAt: seenAt === null ? null : new Date(seenAt as Date).toISOString(),
-        createdAt: new Date(createdAt as Date).toISOString(),
-      }),
-    );
+    return rows.flatMap((row) => listed(row) ?? []);
   }
 
   async close(): Promise<void> {
@@ -324,6 +322,21 @@ const takenFrom = ({ id, plotter_id: plotterId, payload }: Row): TakenJob => ({
   plotterId: String(plotterId),
   payload: String(payload),
 });
+
+function listed({
+  created_at: createdAt,
+  seen_at: seenAt,
+  has_begun: hasBegun,
+  ...row
+}: Row): SharedJob | null {
+  const [serverSeenAt, createdIso] = [seenAt, createdAt].map(isoOf);
+  return sharedJobSchema.safeParse({ ...row, hasBegun, serverSeenAt, createdAt: createdIso }).data ?? null;
+}
+
+/** Null for no time, and for "infinity", which PostgreSQL has too. */
+function isoOf(time: unknown): string | null {
+  return time instanceof Date && !Number.isNaN(time.getTime()) ? time.toISOString() : null;
+}
 
 function whyNot(job: SharedJob | undefined): string {
   if (job === undefined) return "There is no such job in the shared queue.";

@@ -11,9 +11,7 @@
  * as too little memory or too many open files, it is tried again when it is saved again or the server restarts. If its
  * settings are at fault, it is also tried again when a settings file changes.
  */
-import { createHash } from "node:crypto";
-import { createReadStream } from "node:fs";
-import { lstat, readFile, stat } from "node:fs/promises";
+import { stat } from "node:fs/promises";
 import { basename, dirname, extname, join } from "node:path";
 import { watch, type FSWatcher } from "chokidar";
 import { PlotwrightError, type ErrorCode } from "../../../src/index.js";
@@ -30,6 +28,7 @@ import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Notices } from "../../../host/queue/notices.js";
 import type { Store } from "../../storage/store.js";
+import { settingsText, withDrawing, type WatchedDrawing } from "./watched-file.js";
 
 export interface WatchParts {
   readonly queue: Pick<JobQueue, "add" | "list">;
@@ -87,9 +86,10 @@ export class WatchFolder {
       else later(() => this.#take(path));
     };
     this.#watcher.on("add", changed).on("change", changed);
-    this.#watcher.on("unlink", (path) => {
+    const removed = (path: string): void => {
       if (isSettings(path)) changed(path);
-    });
+    };
+    this.#watcher.on("unlink", removed).on("unlinkDir", removed);
     this.#watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
   }
 
@@ -108,14 +108,16 @@ export class WatchFolder {
     if (this.#abort.signal.aborted) return;
     this.#refused.delete(path);
     const name = basename(path);
-    const { store, log, notices } = this.#parts;
+    const { files, store, log, notices } = this.#parts;
     let sha256: string | null = null;
     try {
-      if (!(await lstat(path)).isFile()) return;
-      sha256 = await hashOf(path);
-      if (store.isSeen({ name, sha256 })) return;
-      const job = await this.#add(path, name, sha256);
-      log(`watched folder: "${job.name}" is queued as ${job.id}`);
+      await withDrawing(path, async (drawing) => {
+        files.mustFit(drawing.bytes);
+        sha256 = await drawing.sha256(this.#abort.signal);
+        if (store.isSeen({ name, sha256 })) return;
+        const job = await this.#add(path, name, sha256, drawing);
+        log(`watched folder: "${job.name}" is queued as ${job.id}`);
+      });
     } catch (error) {
       const isGone = (error as NodeJS.ErrnoException).code === "ENOENT";
       if (isGone || this.#abort.signal.aborted) return;
@@ -131,10 +133,10 @@ export class WatchFolder {
     }
   }
 
-  async #add(path: string, name: string, sha256: string): Promise<Job> {
+  async #add(path: string, name: string, sha256: string, file: WatchedDrawing): Promise<Job> {
     const { queue, files, withMachine } = this.#parts;
     const settings = withMachine(await settingsBeside(path, settingsOfLast(queue.list())));
-    const drawing = await files.add(createReadStream(path));
+    const drawing = await files.add(file.chunks());
     if (drawing.bytes === 0) {
       await files.remove(drawing.id);
       throw new PlotwrightError("bad-file", "The file is empty.");
@@ -151,12 +153,6 @@ const isSettings = (path: string): boolean => /(^|\.)settings\.json$/.test(basen
 /** Settings files end in .json, which drawings may too, so they are excluded. */
 const isDrawing = (path: string): boolean =>
   isDrawingName(path) && !basename(path).startsWith(".") && !isSettings(path);
-
-async function hashOf(path: string): Promise<string> {
-  const hash = createHash("sha256");
-  for await (const chunk of createReadStream(path) as AsyncIterable<Buffer>) hash.update(chunk);
-  return hash.digest("hex");
-}
 
 function settingsOfLast(jobs: readonly Job[]): PlotSettings {
   const newest = jobs.reduce<Job | null>(
@@ -178,7 +174,7 @@ function settingsOfLast(jobs: readonly Job[]): PlotSettings {
 async function settingsBeside(path: string, base: PlotSettings): Promise<PlotSettings> {
   const name = basename(path, extname(path));
   for (const file of [join(dirname(path), `${name}.settings.json`), join(dirname(path), "settings.json")]) {
-    const text = await readFile(file, "utf8").catch(() => null);
+    const text = await settingsText(file);
     if (text === null) continue;
     const result = plotSettingsSchema.partial().safeParse(parsed(text, file));
     if (result.success) return plotSettingsSchema.parse({ ...base, ...result.data });
