@@ -9,8 +9,9 @@ export {
   type LengthUnit,
 } from "./units.js";
 
-// errors
+// errors and text
 export { ERROR_TABLE } from "./errors.js";
+export { printable, printableJson } from "./plain-text.js";
 
 // drawing
 export type { DrawingWarning } from "./drawing/drawing.js";

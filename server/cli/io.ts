@@ -1,11 +1,12 @@
 /** The process, as a command uses it. An interface, so that tests can run commands without a process. */
 import { closeSync } from "node:fs";
 import { isatty } from "node:tty";
+import { printable } from "../../src/internal.js";
 
 export interface CliIo {
-  /** Writes results. */
+  /** Writes results. Text for people is made by `printed`. */
   out(text: string): void;
-  /** Writes messages and progress. */
+  /** Writes messages and progress, made by `printed`. */
   err(text: string): void;
   /** Whether the output is a terminal, so that a progress bar makes sense. */
   readonly isTerminal: boolean;
@@ -22,6 +23,20 @@ export interface CliIo {
   onLine(listener: (line: string) => void): () => void;
 }
 
+/**
+ * A template for what is printed: values come from drawings, boards and servers, and may contain line ends and
+ * sequences that control the terminal. Each becomes plain text of one line; only the template itself can end a line.
+ */
+export const printed = (parts: TemplateStringsArray, ...values: readonly unknown[]): string =>
+  String.raw({ raw: parts }, ...values.map((value) => printable(String(value))));
+
+/** For text of several lines, such as a table or an SVG: everything that could control a terminal but its line ends and tabs. */
+const harmless = (text: string): string =>
+  text
+    .split(/([\n\t])/)
+    .map((part) => (part === "\n" || part === "\t" ? part : printable(part)))
+    .join("");
+
 /** "disconnect": the parent that opened a channel to this process, as `npm start` does, has ended. */
 const ENDS = ["SIGTERM", "SIGHUP", "disconnect"] as const;
 
@@ -34,8 +49,9 @@ export function processIo(): CliIo {
   // At exit Node.js restores the modes of its terminals, and aborts if one of them is gone, unless that one is closed.
   process.once("exit", () => terminals.filter((fd) => !isatty(fd)).forEach((fd) => closeSync(fd)));
   return {
-    out: (text) => void process.stdout.write(text),
-    err: (text) => void process.stderr.write(text),
+    // A file or another program gets every character.
+    out: (text) => void process.stdout.write(process.stdout.isTTY ? harmless(text) : text),
+    err: (text) => void process.stderr.write(harmless(text)),
     isTerminal: process.stderr.isTTY,
     // Not process.stdin.isTTY: opening stdin as a stream makes a pipe non-blocking, and reading it whole then fails.
     hasKeyboard: isatty(0),

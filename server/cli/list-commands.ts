@@ -1,8 +1,9 @@
 /** Commands that list boards and plotter models. */
+import { printableJson } from "../../src/internal.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { mustBeDataFolder } from "./files.js";
-import type { CliIo } from "./io.js";
+import { printed, type CliIo } from "./io.js";
 import { addData, addJson, type Declare } from "./options.js";
 
 interface ListOptions {
@@ -22,11 +23,11 @@ async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
   const { findBoards } = await import("../serial/find-boards.js");
   const boards = await findBoards();
   if (json === true) {
-    io.out(`${JSON.stringify(boards)}\n`);
+    io.out(`${printableJson(boards)}\n`);
     return;
   }
   for (const { path, description, serialNumber } of boards) {
-    io.out(`${path}\t${description}${serialNumber === null ? "" : ` (${serialNumber})`}\n`);
+    io.out(printed`${path}\t${description}${serialNumber === null ? "" : ` (${serialNumber})`}\n`);
   }
   io.out("virtual\tthe built-in virtual board\n");
 }
@@ -34,11 +35,11 @@ async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
 function runMachines({ data, json }: ListOptions, io: CliIo): void {
   mustBeDataFolder(data);
   const files = new MachineFiles(data ?? defaultDataDir());
-  if (json === true) io.out(`${JSON.stringify(files.list())}\n`);
+  if (json === true) io.out(`${printableJson(files.list())}\n`);
   else {
     for (const { id, name, widthMm, heightMm, builtIn } of files.list()) {
-      io.out(`${id}\t${name}\t${widthMm} × ${heightMm} mm${builtIn ? "" : "\tyour own"}\n`);
+      io.out(printed`${id}\t${name}\t${widthMm} × ${heightMm} mm` + (builtIn ? "\n" : "\tyour own\n"));
     }
   }
-  files.warnings.forEach((warning) => io.err(`${warning}\n`));
+  files.warnings.forEach((warning) => io.err(printed`${warning}\n`));
 }

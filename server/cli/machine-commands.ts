@@ -1,11 +1,12 @@
 /** Runs the single commands to the machine: pen, manual moves, a raw line, info. */
 import type { HandMove, PlotSettings } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
+import { printableJson } from "../../src/internal.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import { openPlotter } from "../plotter/open-plotter.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { withDrawingFile } from "./files.js";
-import type { CliIo } from "./io.js";
+import { printed, type CliIo } from "./io.js";
 import type { DeviceOptions } from "./options.js";
 import { serverHint } from "./server-client.js";
 
@@ -38,8 +39,8 @@ export async function runRaw(
   await byHand(options, settings, io, async (plotter) => {
     const { replies, refused, note } = await plotter.command(line);
     if (refused) throw new PlotwrightError("board-error", `The board refused ${line}: ${replies.join(", ")}`);
-    replies.forEach((reply) => io.out(`${reply}\n`));
-    if (note !== null) io.err(`${note}\n`);
+    replies.forEach((reply) => io.out(printed`${reply}\n`));
+    if (note !== null) io.err(printed`${note}\n`);
   });
 }
 
@@ -80,15 +81,15 @@ export async function runInfo(
   await byHand(options, settings, io, (plotter) => {
     const { name, kind, device, firmware, penUp, motorsOn, xMm, yMm } = plotter.snapshot();
     if (options.json === true) {
-      io.out(`${JSON.stringify({ name, kind, device, firmware, penUp, motorsOn, xMm, yMm })}\n`);
+      io.out(`${printableJson({ name, kind, device, firmware, penUp, motorsOn, xMm, yMm })}\n`);
       return;
     }
     const known = (value: unknown): string => (value === null ? "not known" : String(value));
     io.out(
       [
-        `name      ${name}`,
-        `device    ${device ?? kind}`,
-        `firmware  ${known(firmware)}`,
+        printed`name      ${name}`,
+        printed`device    ${device ?? kind}`,
+        printed`firmware  ${known(firmware)}`,
         `pen       ${penUp === null ? "not known" : penUp ? "up" : "down"}`,
         `motors    ${motorsOn === null ? "not known" : motorsOn ? "on" : "off"}`,
         `place     ${xMm === null || yMm === null ? "not known" : `${xMm.toFixed(2)}, ${yMm.toFixed(2)} mm`}`,

@@ -12,6 +12,7 @@ import {
 import {
   penError,
   meanScaleOf,
+  printableJson,
   prepareJob,
   sizeInWords,
   type DrawnSize,
@@ -28,6 +29,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readDrawing } from "../planning/read-drawing.js";
 import { writeOut } from "./files.js";
+import { printed } from "./io.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
@@ -112,7 +114,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   if (options.strokes !== undefined) {
     writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`, io);
   }
-  if (options.json === true) io.out(`${JSON.stringify(report)}\n`);
+  if (options.json === true) io.out(`${printableJson(report)}\n`);
   else if (toStdout.length === 0) io.out(words(report, prepared.size));
   else io.err(`${sizeInWords(prepared.size)}\n`);
 }
@@ -189,7 +191,7 @@ function words(report: PlanReport, size: DrawnSize): string {
     `draws ${metres(report.drawMm)}, travels ${metres(report.travelMm)} (${metres(report.travelMmUnordered)} in the file's order)`,
     `takes ${minutes(report.durationS)}, up to ${Math.round(report.maxSpeed)} mm/s`,
     ...(report.penError ? [penErrorInWords(report.penError)] : []),
-    ...report.warnings.map((warning) => `note: ${warning}`),
+    ...report.warnings.map((warning) => printed`note: ${warning}`),
   ];
   return `${lines.join("\n")}\n`;
 }

@@ -3,7 +3,7 @@ import { SingleBar } from "cli-progress";
 import { OTHER_BOARD } from "../../host/plotter/board-id.js";
 import type { PlotProgress, PlotRun } from "../../host/plotter/types.js";
 import type { PlotWait } from "../../src/schema/index.js";
-import type { CliIo } from "./io.js";
+import { printed, type CliIo } from "./io.js";
 import { minutes } from "./plan.js";
 
 export interface Watched {
@@ -42,13 +42,13 @@ export async function watch(
     if (wait !== null) control.waitsFor(wait);
     else if (held) control.paused();
   });
-  if (bar === null) say(`${resumed === null ? "Plotting" : "Resuming"} ${name}.\n`);
+  if (bar === null) say(printed`${resumed === null ? "Plotting" : "Resuming"} ${name}.\n`);
   if (isHeld) io.err(`${POSITIONS[resumed.position]} Enter resumes, Ctrl-C cancels.\n`);
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
     if (outcome.kind === "cancelled") return control.isInterrupted ? "interrupted" : "cancelled";
     bar?.update(100);
-    if (bar === null) say(`Done: ${name}, after ${minutes(elapsedS)}.\n`);
+    if (bar === null) say(printed`Done: ${name}, after ${minutes(elapsedS)}.\n`);
     return "done";
   } finally {
     bar?.stop();
@@ -70,7 +70,7 @@ export async function waitForPaper(
 ): Promise<boolean> {
   // The request for Enter is printed even if quiet: without it, the command would seem to hang.
   if (quiet !== true || waitS === undefined)
-    io.err(`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
+    io.err(printed`Next: ${name}. Change the paper${waitS === undefined ? ", then press Enter" : ""}.\n`);
   const forget: (() => void)[] = [];
   try {
     return await new Promise<boolean>((resolve) => {
@@ -146,7 +146,7 @@ class Control {
     if (this.#isEnding) return;
     this.#held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
-    this.#io.err(`\nPut in ${what}. Enter resumes, Ctrl-C cancels.\n`);
+    this.#io.err(printed`\nPut in ${what}. Enter resumes, Ctrl-C cancels.\n`);
   }
 
   resume(): void {

@@ -17,7 +17,7 @@ import { isOtherBoard } from "../../host/plotter/board-id.js";
 import type { JournalEntry, PlotStart } from "../../host/plotter/types.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "./files.js";
-import type { CliIo } from "./io.js";
+import { printed, type CliIo } from "./io.js";
 import { withPlotter } from "./machine-commands.js";
 import type { DeviceOptions } from "./options.js";
 import { PlotRecord, type InterruptedPlot } from "./plot-record.js";
@@ -153,7 +153,7 @@ async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, 
     );
     try {
       if (!io.hasKeyboard) mustNotWaitForPen(planner, plot);
-      planner.warnings.forEach((warning) => say(`note: ${warning}\n`));
+      planner.warnings.forEach((warning) => say(printed`note: ${warning}\n`));
       return await withPlotter(options, settings, (plotter) => {
         // Ctrl-C while the board was being connected.
         if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
@@ -224,7 +224,7 @@ async function onPlotter(
 function interrupted(record: PlotRecord, io: CliIo): number {
   const found = record.find();
   if (found === null) return cancelled(io);
-  io.err(`plotwright: ${wasInterrupted(found)} Use plotwright plot --resume to resume it.\n`);
+  io.err(printed`plotwright: ${wasInterrupted(found)} Use plotwright plot --resume to resume it.\n`);
   return 5;
 }
 
@@ -239,7 +239,7 @@ function journalIn(record: PlotRecord, progress: () => number, io: CliIo): NonNu
       try {
         record.save(entry, progress());
       } catch (error) {
-        if (!isReported) io.err(`\n${notStored(error)}\n`);
+        if (!isReported) io.err(printed`\n${notStored(error)}\n`);
         isReported = true;
       }
     },

@@ -1,7 +1,7 @@
 /** The command line: finds the command, runs it, and turns errors into one line and an exit code. */
 import { Command, CommanderError } from "commander";
 import { COMMANDS, DEFAULT_COMMAND } from "./commands.js";
-import type { CliIo } from "./io.js";
+import { printed, type CliIo } from "./io.js";
 import type { CommandContext } from "./options.js";
 import { usageInWords } from "./usage-words.js";
 
@@ -23,11 +23,11 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
     const { PlotwrightError } = await import("../../src/index.js");
     const { ERROR_TABLE } = await import("../../src/internal.js");
     if (error instanceof PlotwrightError) {
-      io.err(`plotwright: ${oneLine(error.message)}\n`);
+      io.err(printed`plotwright: ${oneLine(error.message)}\n`);
       return ERROR_TABLE[error.code].exitCode;
     }
     io.err(
-      `plotwright: internal error: ${oneLine(error instanceof Error ? error.message : String(error))}\n`,
+      printed`plotwright: internal error: ${oneLine(error instanceof Error ? error.message : String(error))}\n`,
     );
     return FAILED;
   }
@@ -45,7 +45,7 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
       writeOut: (text) => io.out(text),
       writeErr: (text) => io.err(text),
       outputError: (text, write) =>
-        write(`plotwright: ${usageInWords(oneLine(text.replace(/^error: /, "")), wanted[0])}\n`),
+        write(printed`plotwright: ${usageInWords(oneLine(text.replace(/^error: /, "")), wanted[0])}\n`),
     });
   for (const { name, about, examples, load } of COMMANDS) {
     const command = program

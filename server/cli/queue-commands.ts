@@ -2,11 +2,12 @@
 import { InvalidArgumentError, Option, type Command } from "commander";
 import { basename } from "node:path";
 import { importDrawing, PlotwrightError } from "../../src/index.js";
-import { sizeInWords, textOfBytes } from "../../src/internal.js";
+import { printableJson, sizeInWords, textOfBytes } from "../../src/internal.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { withOnlyLayers } from "../planning/only-layers.js";
 import { readBytes } from "../planning/read-drawing.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "./files.js";
+import { printed } from "./io.js";
 import { addData, addJson, copies, type Declare } from "./options.js";
 import { minutes } from "./plan.js";
 import { addJob, DEFAULT_URL, serverState, type ServerOptions, type ServerState } from "./server-client.js";
@@ -48,8 +49,8 @@ export const declareAdd: Declare = (command, { io }) => {
           const job = await addJob(options, wanted, drawing);
           const columns = [job.id, job.name, timeOf(job), ...plotterNameOf(job, state)];
           if (options.quiet === true) return;
-          io.out(`${columns.join("\t")}\n`);
-          if (job.stats?.size) io.err(`${job.name}: ${sizeInWords(job.stats.size)}\n`);
+          io.out(row(columns));
+          if (job.stats?.size) io.err(printed`${job.name}: ${sizeInWords(job.stats.size)}\n`);
         });
       }
     });
@@ -59,9 +60,9 @@ export const declareQueue: Declare = (command, { io }) => {
   addJson(addServer(command)).action(async (options: ServerOptions & { json?: boolean }) => {
     const state = await serverState(options);
     const waiting = state.jobs.filter((job) => !ENDED_STATES.some((ended) => ended === job.state));
-    if (options.json === true) io.out(`${JSON.stringify(waiting)}\n`);
+    if (options.json === true) io.out(`${printableJson(waiting)}\n`);
     else if (waiting.length === 0) io.err("The queue is empty.\n");
-    else waiting.forEach((job) => io.out(`${line(job, state)}\n`));
+    else waiting.forEach((job) => io.out(line(job, state)));
   });
 };
 
@@ -90,11 +91,14 @@ function plotterOf(
   );
 }
 
+const row = (columns: readonly string[]): string =>
+  `${columns.map((column) => printed`${column}`).join("\t")}\n`;
+
 const line = (job: Job, state: ServerState): string =>
-  [
+  row([
     ...[job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name],
     ...plotterNameOf(job, state),
-  ].join("\t");
+  ]);
 
 /** One more column, if the server has several plotters. */
 const plotterNameOf = ({ plotterId }: Job, { plotters }: ServerState): string[] =>

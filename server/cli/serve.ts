@@ -6,7 +6,7 @@ import { createServer, type PlotwrightServer, type ServerOptions } from "../comp
 import { lanAddresses, pairingText } from "../security/network.js";
 import { fileFault } from "../storage/file-fault.js";
 import { readText } from "./files.js";
-import type { CliIo } from "./io.js";
+import { printed, type CliIo } from "./io.js";
 
 /** Time limit after everything has been closed. */
 const LINGER_MS = 3_000;
@@ -58,7 +58,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...(options.watch === undefined ? {} : { watchDir: options.watch }),
     ...(options.sharedQueue === undefined ? {} : { sharedQueue: options.sharedQueue }),
     onNewPairing: () => void showPairing("A device was removed, so the links for pairing are new.\n"),
-    log: (line) => io.err(`${line}\n`),
+    log: (line) => io.err(printed`${line}\n`),
   });
   const showPairing = async (why: string): Promise<void> => {
     if (options.lan !== true && options.pairAlways !== true) return;

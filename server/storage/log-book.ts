@@ -7,6 +7,7 @@ import { readFileSync, statSync } from "node:fs";
 import { appendFile, rename } from "node:fs/promises";
 import { arch, homedir, release } from "node:os";
 import { join } from "node:path";
+import { printable } from "../../src/internal.js";
 import type { Job, Plotter } from "../../src/schema/index.js";
 
 const MAX_BYTES = 1_000_000;
@@ -28,7 +29,7 @@ export class LogBook {
 
   write(line: string): void {
     if (this.#waiting.length > MAX_WAITING) return;
-    const text = line.replace(/\s*\n\s*/g, " | ");
+    const text = printable(line.replace(/\s*\n\s*/g, " | "));
     const cut = text.length > MAX_LINE ? `${text.slice(0, MAX_LINE)}…` : text;
     this.#waiting += `${new Date().toISOString()} ${cut}\n`;
     this.#writing ??= this.#writeWaiting().finally(() => {

@@ -117,62 +117,55 @@ describe("a taken job that the server can't add to its queue", () => {
   });
 });
 
-describe("a row of the shared queue that no server can understand", () => {
-  it.each([
-    ["payload = 'no JSON'"],
-    ["payload = NULL"],
-    ["payload = '{\"name\":7}'"],
-    ["payload = 'null'"],
-    ["payload = '[]', name = E'\\u001b[2J'"],
-  ])("with %s is refused, and the jobs behind it are taken", async (change) => {
-    const closed = await open(newFolder());
-    closed.plotter.connection = "absent";
-    await send(closed, "fern");
-    await database.query(`UPDATE plotwright_jobs SET ${change}`);
-    await send(closed, "moss");
-    closed.plotter.connection = "idle";
-    await expect.poll(() => closed.jobs()).toEqual(["moss queued"]);
+describe("rows of the shared queue that no server can understand", () => {
+  const PAYLOADS = ["'no JSON'", "NULL", "'null'", "'[]'", `'{"name":7}'`];
+  /** What pg-boss hands out instead of a job's id. */
+  const HANDED_OUT = ["'{}'", "'null'", "'7'", `'{"id": 7}'`, `'{"id": "gone"}'`];
+
+  it("are refused or passed over, and the job behind them is taken", { timeout: 180_000 }, async () => {
+    const server = await open(newFolder());
+    server.plotter.connection = "absent";
+    for (const [i, data] of HANDED_OUT.entries()) {
+      await send(server, `handed ${i}`);
+      await database.query(
+        `UPDATE pgboss.job SET data = ${data}::jsonb WHERE data->>'id' = (SELECT id FROM plotwright_jobs WHERE name = 'handed ${i}')`,
+      );
+    }
+    for (const [i, payload] of PAYLOADS.entries()) {
+      await send(server, `bad ${i}`);
+      await database.query(`UPDATE plotwright_jobs SET payload = ${payload} WHERE name = 'bad ${i}'`);
+    }
+    await send(server, "moss");
+    server.plotter.connection = "idle";
+    await expect.poll(() => server.jobs(), { timeout: 120_000 }).toEqual(["moss queued"]);
+    const bad = (await server.shared.list()).filter(({ name }) => name.startsWith("bad"));
     const message = "It was sent by another version of plotwright.";
-    expect(await closed.shared.list()).toMatchObject([{ state: "stored" }, { state: "refused", message }]);
+    expect(bad.map((job) => [job.state, job.message])).toEqual(PAYLOADS.map(() => ["refused", message]));
   });
 
-  it("taken before a restart does not stop the jobs behind it either", async () => {
-    const dir = newFolder();
-    const first = await open(dir);
-    first.plotter.connection = "absent";
-    await send(first, "fern");
-    await send(first, "moss");
-    await first.close();
-    await database.query(
-      `UPDATE plotwright_jobs SET state = 'taken', plotter_id = 'virtual', server_id = '${dir}'`,
-    );
-    await database.query("UPDATE plotwright_jobs SET payload = '{' WHERE name = 'fern'");
-    const again = await open(dir);
-    await expect.poll(() => again.jobs()).toEqual(["moss queued"]);
-  });
-
-  it.each([["'{}'"], ["'null'"], ["'7'"], [`'{"id": 7}'`], [`'{"id": "gone"}'`]])(
-    "because pg-boss has the data %s is passed over",
-    async (data) => {
-      const server = await open(newFolder());
-      server.plotter.connection = "absent";
-      await send(server, "fern");
-      await database.query(`UPDATE pgboss.job SET data = ${data}::jsonb WHERE state = 'created'`);
-      await send(server, "moss");
-      server.plotter.connection = "idle";
-      await expect.poll(() => server.jobs()).toEqual(["moss queued"]);
-    },
-  );
-
-  it.each([["state = 'dreaming'"], ["created_at = 'infinity'"]])(
-    "with %s is left out of the list, and the others are shown",
-    async (change) => {
-      const server = await open(newFolder());
-      server.plotter.connection = "absent";
-      await send(server, "fern");
-      await database.query(`UPDATE plotwright_jobs SET ${change}`);
-      await send(server, "moss");
-      expect((await server.shared.list()).map(({ name }) => name)).toEqual(["moss"]);
+  it(
+    "taken before a restart do not stop the jobs behind them, nor the list",
+    { timeout: 180_000 },
+    async () => {
+      const dir = newFolder();
+      const first = await open(dir);
+      first.plotter.connection = "absent";
+      for (const name of ["fern", "moss", "dreaming", "endless"]) await send(first, name);
+      await first.close();
+      await database.query(
+        `UPDATE plotwright_jobs SET state = 'taken', plotter_id = 'virtual', server_id = '${dir}' WHERE name IN ('fern', 'moss')`,
+      );
+      await database.query("UPDATE plotwright_jobs SET payload = '{' WHERE name = 'fern'");
+      await database.query("UPDATE plotwright_jobs SET state = 'dreaming' WHERE name = 'dreaming'");
+      await database.query("UPDATE plotwright_jobs SET created_at = 'infinity' WHERE name = 'endless'");
+      const again = await open(dir);
+      await expect.poll(() => again.jobs(), { timeout: 120_000 }).toEqual(["moss queued"]);
+      await expect
+        .poll(() => again.shared.list())
+        .toMatchObject([
+          { name: "moss", state: "stored" },
+          { name: "fern", state: "refused" },
+        ]);
     },
   );
 });

@@ -134,7 +134,7 @@ export class SharedStore {
       const db = plainDb(client);
       const [next] = await this.#boss.fetch<unknown>(queue, { db });
       if (next === undefined) return null;
-      // What is no job's id matches no row. It is completed all the same, or it would be fetched for ever.
+      // What is no job's id matches no row. It is completed all the same, or it would be fetched endlessly.
       const id = jobIdSchema.safeParse(next.data).data?.id ?? null;
       const { rows } = await client.query<Row>(
         `UPDATE plotwright_jobs SET state = 'taken', server_id = $2, server = $3, plotter_id = $4

@@ -1,11 +1,18 @@
 /** Which typed lines are kept from the board, however they are written. */
+import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { VirtualBoard } from "../../../src/index.js";
 import { whyRefused } from "../../../src/drivers/ebb/machine/console-lines.js";
+import { cases } from "../../support/full-run.js";
+import { ManualClock } from "../../support/manual-clock.js";
 
 describe("a line for the board", () => {
   it.each(
     [
       ["restarts it", ["BL", "bl", "BL,1", "BL,", "RB", "rb,0", "R", "r", "r,1"]],
+      ["restarts it, whatever follows its name", ["BL;", "BLx", "RB0", "rb0,1", "BL_,1", "bL;QM"]],
+      ["is longer than the board's buffer", [`ST,${"x".repeat(253)}`, `${"QM".padEnd(256, "x")}BL`]],
+      ["goes home slowly", ["HM,1", "HM,0", "HM", "HM,999", "HM,1000,1,0", "HM,25000,0,2880001"]],
       [
         "changes how it answers",
         ["CU,1,0", "CU,01,0", "cu,001,0", "CU,10,1", "CU,0010,1", "CU,54,1", "CU,251,1"],
@@ -44,9 +51,54 @@ describe("a line for the board", () => {
     "LM,0,10,2748,0,0,0",
     "LT,25000,85899346,0,0,0",
     "HM,3200",
+    "HM,1000",
+    "HM,25000,2880000,0",
     "XX,1",
     "constructor",
   ])("without such a fault is sent: %j", (line) => {
     expect(whyRefused(line)).toBeNull();
+  });
+});
+
+describe("the filter and the virtual board agree on which command a line is", () => {
+  const names = ["BL", "RB", "R", "CU", "QM", "V", "T", "C", "SM", "HM", "ST", "XX"];
+  const line = fc
+    .tuple(
+      fc.constantFrom(...names, ...names.map((name) => name.toLowerCase())),
+      fc.string({ maxLength: 6, unit: fc.constantFrom(...";,01 .-xBLR_#") }),
+    )
+    .map(([name, rest]) => name + rest);
+
+  it.each(["BL;", "RB0", "bl;QM", "RB.,1"])("which restarts for %s", (text) => {
+    const board = new VirtualBoard({ clock: new ManualClock(), speed: Infinity });
+    let isDropped = false;
+    board.onDrop(() => (isDropped = true));
+    board.receive(Buffer.from(`${text}\r`));
+    expect(isDropped).toBe(true);
+    board.close();
+  });
+
+  it("so that no line that passes makes it restart, fall silent or answer in another way", () => {
+    fc.assert(
+      fc.property(
+        fc.oneof(line, fc.string({ maxLength: 12 })),
+        fc.constantFrom("2.8.1", "3.0.3"),
+        (text, firmware) => {
+          fc.pre(whyRefused(text) === null);
+          const board = new VirtualBoard({ clock: new ManualClock(), firmware, speed: Infinity });
+          let sent = "";
+          let isDropped = false;
+          board.onSend((bytes) => (sent += Buffer.from(bytes).toString("latin1")));
+          board.onDrop(() => (isDropped = true));
+          board.receive(Buffer.from("SC,4,12345\r"));
+          board.receive(Buffer.from(`${text}\r`));
+          sent = "";
+          board.receive(Buffer.from("QP\r"));
+          expect([isDropped, sent]).toEqual([false, expect.stringMatching(/^[01]\n\rOK\r\n$/)]);
+          board.close();
+        },
+      ),
+      { numRuns: cases(20_000, 1_000) },
+    );
   });
 });

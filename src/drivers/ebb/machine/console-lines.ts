@@ -3,12 +3,15 @@
  * and numbers are compared as the board reads them, so that "cu,01,0" equals "CU,1,0".
  */
 import { TICKS_PER_S, stepsPerSFromRate } from "../../../units.js";
-import { commandName } from "../protocol/replies.js";
+import { commandName, MAX_LINE_BYTES } from "../protocol/replies.js";
 
 /** Maximum duration of a typed motion, seconds of board time. */
 export const LONGEST_S = 120;
 
 const TOO_LONG = `it would move for more than ${LONGEST_S} s`;
+
+/** More steps than the carriage of any machine is from its home, on one motor. */
+const FARTHEST_STEPS = 120_000;
 
 /** First numbers of CU that are allowed; all others change how the board answers, counts, moves or watches its supply. */
 const HARMLESS_SWITCHES = [3];
@@ -38,6 +41,10 @@ const RULES: Readonly<Record<string, Rule>> = {
   LT: longerTicks(1),
   T3: longerTicks(1),
   TD: longerTicks(2),
+  HM: ([stepsPerS = 0, to1 = 0, to2 = 0]) =>
+    (FARTHEST_STEPS + Math.max(Math.abs(to1), Math.abs(to2))) / Math.min(stepsPerS, TICKS_PER_S) > LONGEST_S
+      ? `${TOO_LONG} from the far corner. Give more steps per second`
+      : null,
   LM: ([rate1, steps1, accel1, rate2, steps2, accel2]) =>
     stepsTake(steps1, rate1, [accel1]) ?? stepsTake(steps2, rate2, [accel2]),
   L3: ([rate1, steps1, accel1, jerk1, rate2, steps2, accel2, jerk2]) =>
@@ -47,6 +54,8 @@ const RULES: Readonly<Record<string, Rule>> = {
 /** Why a line must not be sent; null if it may. */
 export function whyRefused(line: string): string | null {
   if (!/^[\x20-\x7e]+$/.test(line)) return "it is not one line of plain characters";
+  // The board would take the rest for another line.
+  if (line.length > MAX_LINE_BYTES) return `it has more than ${MAX_LINE_BYTES} characters`;
   const name = commandName(line);
   // Only the board's name may contain spaces; elsewhere firmware versions treat them differently.
   if (/ /.test(line) && name !== "ST") return "the board takes no spaces";

@@ -16,8 +16,11 @@ export class Parameters {
   private readonly fields: string[];
   private next = 0;
 
-  /** `rest`: the text after the command name; empty or starting with a comma. */
-  constructor(rest: string) {
+  /**
+   * `rest`: the text after the command name; empty or starting with a comma. The board notices another beginning only
+   * when it reads a parameter: a command without parameters runs all the same.
+   */
+  constructor(private readonly rest: string) {
     this.fields = rest === "" ? [] : rest.slice(1).split(",");
   }
 
@@ -38,16 +41,23 @@ export class Parameters {
   }
 
   text(maxLength: number): string {
+    this.mustBeginWithComma();
     return this.fields.splice(this.next).join(",").slice(0, maxLength);
   }
 
   private number(min: number, max: number): number {
     const field = this.fields[this.next];
     if (field === undefined) throw new BoardFault(4, "Err: Missing parameter(s)");
+    this.mustBeginWithComma();
     this.next++;
     if (!/^-?\d{0,10}$/.test(field)) throw invalidValue();
     const value = field === "" || field === "-" ? 0 : Number(field);
     if (value < min || value > max || (min === 0 && field.startsWith("-"))) throw invalidValue();
     return value;
+  }
+
+  private mustBeginWithComma(): void {
+    const [first = ","] = this.rest;
+    if (first !== ",") throw new BoardFault(5, `Err: Need comma next, found: '${first}'`);
   }
 }

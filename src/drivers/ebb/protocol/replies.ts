@@ -56,11 +56,15 @@ const SHAPES: Readonly<Record<string, ReplyShape>> = {
 /** The shape of the reply to a command with this name (upper case). */
 export const replyShape = (name: string): ReplyShape => SHAPES[name] ?? PLAIN;
 
-/** "sp,1,250" -> "SP". */
-export function commandName(line: string): string {
-  const comma = line.indexOf(",");
-  return (comma < 0 ? line : line.slice(0, comma)).trim().toUpperCase();
-}
+/** The longest line that the board takes, without its line end. */
+export const MAX_LINE_BYTES = 255;
+
+/**
+ * The name of a line's command, as the board reads it: the first two characters, or only the first one before a comma.
+ * "sp,1,250" -> "SP", "r,1" -> "R", "BL;" -> "BL".
+ */
+export const commandName = (line: string): string =>
+  (line[1] === "," ? line.slice(0, 1) : line.slice(0, 2)).toUpperCase();
 
 /** Whether a command with this name only returns values, so that it may be repeated. */
 export const isQuery = (name: string): boolean => /^(Q|PI|V)/.test(name);

@@ -5,7 +5,7 @@
  * queue, or in the case of CU,4 and HM for the motors to stop) blocks all later ones, as in the board's parser.
  */
 import { ebbOf, STANDARD_PIN } from "../protocol/ebb-controller.js";
-import { commandName, replyShape } from "../protocol/replies.js";
+import { commandName, MAX_LINE_BYTES, replyShape } from "../protocol/replies.js";
 import type { BoardCore } from "./core.js";
 import { MotionCommands } from "../model/motion-commands.js";
 import type { Order } from "../model/orders.js";
@@ -13,7 +13,6 @@ import { BoardFault, invalidValue, Parameters } from "../model/parameters.js";
 import { BoardQueries, type BoardInputs } from "./queries.js";
 import { TICKS_PER_MS } from "../../../units.js";
 
-const MAX_LINE_BYTES = 255;
 const MS16 = 65_535;
 
 /** The effect of a parsed command. */
@@ -74,15 +73,11 @@ export class Interpreter {
       this.sendError("", new BoardFault(3, "Err: RX Buffer overrun"));
       return;
     }
-    const name = (line[1] === "," ? line.slice(0, 1) : line.slice(0, 2)).toUpperCase();
-    const rest = line.slice(name.length);
+    const name = commandName(line);
     const handler = this.handlers.get(name);
     try {
       if (handler === undefined) throw unknownCommand(name);
-      if (rest !== "" && !rest.startsWith(",")) {
-        throw new BoardFault(5, `Err: Need comma next, found: '${rest[0]}'`);
-      }
-      const parameters = new Parameters(rest);
+      const parameters = new Parameters(line.slice(name.length));
       const action = handler(parameters) ?? {};
       this.blocked = { name, action, orders: [...(action.orders ?? [])], extra: parameters.hasMore };
       this.resume();
@@ -368,5 +363,5 @@ export class Interpreter {
 
 function unknownCommand(name: string): BoardFault {
   const hex = [...name].map((c) => c.charCodeAt(0).toString(16).toUpperCase().padStart(2, "0")).join("");
-  return new BoardFault(8, `Err: Unknown command '${commandName(name)}:${hex}'`);
+  return new BoardFault(8, `Err: Unknown command '${name}:${hex}'`);
 }
