@@ -30,7 +30,7 @@ export interface CliIo {
 export const printed = (parts: TemplateStringsArray, ...values: readonly unknown[]): string =>
   String.raw({ raw: parts }, ...values.map((value) => printable(String(value))));
 
-/** For text of several lines, such as a table or an SVG: everything that could control a terminal but its line ends and tabs. */
+/** A second safeguard, for messages of several lines: without what could control a terminal, except line ends and tabs. */
 const harmless = (text: string): string =>
   text
     .split(/([\n\t])/)
@@ -49,8 +49,8 @@ export function processIo(): CliIo {
   // At exit Node.js restores the modes of its terminals, and aborts if one of them is gone, unless that one is closed.
   process.once("exit", () => terminals.filter((fd) => !isatty(fd)).forEach((fd) => closeSync(fd)));
   return {
-    // A file or another program gets every character.
-    out: (text) => void process.stdout.write(process.stdout.isTTY ? harmless(text) : text),
+    // Not filtered: results are also files of every kind, and the pairing code is drawn with colours.
+    out: (text) => void process.stdout.write(text),
     err: (text) => void process.stderr.write(harmless(text)),
     isTerminal: process.stderr.isTTY,
     // Not process.stdin.isTTY: opening stdin as a stream makes a pipe non-blocking, and reading it whole then fails.
