@@ -5,10 +5,17 @@
  */
 import { describe, expect, it } from "vitest";
 import { JOURNAL_S, PROGRESS_S } from "../../host/plotter/place-left.js";
+import type { JournalEntry } from "../../host/plotter/types.js";
+import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { StrokeSet } from "../../src/index.js";
 import { leavesDrawingMm, machineOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { cases, IS_FULL } from "../support/full-run.js";
+import { compareDrawn } from "../support/drawn-truth.js";
+import { FAULT_DRAWING } from "../support/faulty-plots.js";
+import { LocalPlanner } from "../support/local-planner.js";
+import { ManualClock } from "../support/manual-clock.js";
+import { virtualBoardOf } from "../support/virtual-board-of.js";
 import { InterruptiblePlot, type Resumption } from "../support/interruptions.js";
 import { seeded } from "../support/live-plot.js";
 import { RETRACED_DRAWINGS } from "../support/retraced-drawings.js";
@@ -44,6 +51,9 @@ const SHAPED: PlotSettings = {
 /** The place of a shaped carriage along the line differs by up to as much from the pen's. */
 const SHAPED_MM = 0.3;
 
+/** More than the commands sent ahead, the braking and the lift take. */
+const PAUSE_S = 0.9;
+
 async function interruptedAnywhere(strokes: StrokeSet, settings: PlotSettings, firmware: string) {
   const random = seeded(strokes.xy.length);
   const plot = await InterruptiblePlot.begin(strokes, settings, firmware);
@@ -73,6 +83,52 @@ function check(found: readonly Resumption[], settings: PlotSettings, unseenMm: n
   expect(found.filter((one) => overlapOf(one) > one.unsureMm + alikeMm)).toEqual([]);
   expect(found.filter((one) => overlapOf(one) > mostMm)).toEqual([]);
 }
+
+/** Killed at an instant from the request of a pause until after its lift. */
+async function killedInPause(settings: PlotSettings, firmware: string, random: () => number) {
+  const world = new ManualClock();
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  await world.run(driver.start());
+  const board = virtualBoardOf(driver);
+  const journal: JournalEntry[] = [];
+  const record = (entry: JournalEntry): void => void journal.push(entry);
+  const run = await world.run(
+    driver.plot(new LocalPlanner(FAULT_DRAWING), settings, { journal: { record } }),
+  );
+  while (journal.length === 0) await world.advance(0.05);
+  await world.advance(0.5 + 5 * random());
+  void run.pause().catch(() => undefined);
+  await world.advance(PAUSE_S * random());
+  const { place: from, received } = journal[journal.length - 1];
+  board.unplug();
+  await world.run(run.finished.catch(() => undefined));
+  await world.advance(5);
+  const resumed = await world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), settings, { from, received }));
+  await world.run(resumed.resume());
+  expect(await world.run(resumed.finished)).toEqual({ kind: "done" });
+  return compareDrawn(FAULT_DRAWING, board.drawn());
+}
+
+describe.each(["2.8.1", "3.0.3"])(
+  "a plot on firmware %s that is killed during the braking of a pause",
+  (firmware) => {
+    it.each([
+      ["", DEFAULT_PLOT_SETTINGS, UNSEEN_MM],
+      [" in shaped motion", SHAPED, 2 * SHAPED_MM],
+    ] as const)(
+      "leaves nothing out and draws nothing twice%s",
+      { timeout: 120_000 },
+      async (_, settings, mostMm) => {
+        const random = seeded(23);
+        for (let i = 0; i < cases(100, 10); i++) {
+          const { gapMm, overlapMm } = await killedInPause(settings, firmware, random);
+          expect(gapMm).toBeLessThan(mostMm);
+          expect(overlapMm).toBeLessThan(mostMm);
+        }
+      },
+    );
+  },
+);
 
 describe.each(["2.8.1", "3.0.3"])("a plot on firmware %s that is interrupted at any instant", (firmware) => {
   it.each(DRAWINGS)("leaves out nothing of %s", { timeout: 300_000 }, async (_, strokes) => {
