@@ -162,10 +162,14 @@ export function filterLines(lines: Lines, isKept: (i: number) => boolean): Lines
 }
 
 /** Ranges [first, end) of lines that share a tag; lines of one tag are contiguous. */
-export function tagRanges({ tag }: Lines): [number, number][] {
+export const tagRanges = (lines: Lines): [number, number][] => rangesBy(lines, (tag) => tag);
+
+/** Ranges [first, end) of neighbouring lines whose tags have the same key. */
+export function rangesBy({ tag }: Lines, keyOf: (tag: number) => number): [number, number][] {
   const ranges: [number, number][] = [];
   for (let first = 0, end = 0; first < tag.length; first = end) {
-    while (end < tag.length && tag[end] === tag[first]) end++;
+    const key = keyOf(tag[first]);
+    while (end < tag.length && keyOf(tag[end]) === key) end++;
     ranges.push([first, end]);
   }
   return ranges;

@@ -19,17 +19,32 @@ export interface PreparedLayer extends FileLayer {
   readonly drawMm: number;
 }
 
-/** Sorts lines by part of a layer (speed-parts.ts), with the file's order within a part, and tags them with the part. */
-export function byLayer(lines: Lines, parts: SpeedParts): Lines {
-  const part = new Uint32Array(lines.tag.length);
-  const tagged = { ...lines, tag: part };
-  if (parts.count === 1) return tagged;
-  for (let i = 0; i < part.length; i++) part[i] = parts.ofShape[lines.tag[i]];
+/**
+ * Sorts lines by part of a layer (speed-parts.ts), with the file's order within a part, and tags them with their part and
+ * colour (`partOfTag`).
+ */
+export function byLayer(lines: Lines, parts: SpeedParts, drawing: Drawing): Lines {
+  const { stroke, fill } = drawing.paths;
+  const part = Uint32Array.from(lines.tag, (shape) => parts.ofShape[shape]);
+  const tag = Uint32Array.from(lines.tag, (shape, i) => {
+    const color = stroke[shape] >= 0 ? stroke[shape] : fill[shape];
+    return part[i] * colorTags(drawing) + color + 1;
+  });
+  const tagged = { ...lines, tag };
   if (isSorted(part)) return tagged;
   const linesOf = Array.from({ length: parts.count }, (): number[] => []);
   part.forEach((k, i) => linesOf[k].push(i));
   return pickLines(tagged, linesOf.flat());
 }
+
+/** Also for shapes without a colour. */
+const colorTags = ({ colors }: Drawing): number => colors.length + 1;
+
+/** The part of a layer of a line that `byLayer` has tagged. */
+export const partOfTag =
+  (drawing: Drawing) =>
+  (tag: number): number =>
+    Math.floor(tag / colorTags(drawing));
 
 const isSorted = (values: Uint32Array): boolean => {
   for (let i = 1; i < values.length; i++) if (values[i] < values[i - 1]) return false;

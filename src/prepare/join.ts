@@ -1,9 +1,9 @@
 /**
- * Joins lines whose ends meet, within a layer, so that the pen stays down.
+ * Joins lines of one colour whose ends meet, within a layer, so that the pen stays down.
  *
  * Every end is paired with at most one other end nearby; chains of paired lines become one line. The first round pairs
- * ends at the same point, the straightest continuation first, so that in a mesh the pen goes straight through a crossing
- * instead of turning. The second round pairs the remaining ends, nearest first.
+ * ends at the same point, the second round the remaining ends. Both choose the end where the pen turns least, so that in a
+ * mesh the pen goes straight through a crossing.
  *
  * Symbols: end 2i is the first point of line i, end 2i + 1 its last. `far[e]` is the other end of the chain that ends in
  * e (valid for chain ends only). It shows whether a pair would join a chain to itself, which only real loops may do.
@@ -16,7 +16,7 @@ import {
   SAME_POINT,
   isClosedLine,
   lineLength,
-  tagRanges,
+  rangesBy,
   type Lines,
 } from "../geometry/polyline.js";
 
@@ -24,16 +24,41 @@ import {
 const MAX_CANDIDATES = 24;
 /** A chain shorter than this many radii is not closed, because its ends are close only because it is short. */
 const SHORTEST_LOOP = 4;
+/** Of the ends within the radius, those up to this many times as far as the nearest are compared. */
+const FARTHER = 2;
 const UNPAIRED = -1;
 
-/** Lines of one tag must be contiguous. `radius` in mm; 0 joins only ends that coincide. */
-export function joinLines(lines: Lines, radius: number): Lines {
+/**
+ * Joins lines of the same tag. `rangeOf` says which tags are one range: its lines must be contiguous, and lines of other
+ * ranges are not looked at. `radius` in mm; 0 joins only ends that coincide.
+ */
+export function joinLines(lines: Lines, radius: number, rangeOf: (tag: number) => number): Lines {
   const builder = new LineBuilder();
-  for (const [first, end] of tagRanges(lines)) {
+  for (const [first, end] of rangesBy(lines, rangeOf)) {
     const pairing = new Pairing(lines, first, end, Math.max(radius, SAME_POINT));
-    pairing.run(SAME_POINT, true);
-    if (radius > SAME_POINT) pairing.run(radius, false);
+    pairing.run(SAME_POINT);
+    if (radius > SAME_POINT) pairing.run(radius);
     pairing.write(builder);
+  }
+  return builder.finish();
+}
+
+/** Joins a line only to the one before it in the file, in their directions, so that the file's order is kept. */
+export function joinInFileOrder(lines: Lines, radius: number): Lines {
+  const { xy, offsets, tag } = lines;
+  const builder = new LineBuilder();
+  const isJoinable = (i: number): boolean => offsets[i + 1] - offsets[i] > 1 && !isClosedLine(lines, i);
+  for (let i = 0; i < tag.length; i++) {
+    builder.extend(lines, i, false);
+    const next = i + 1;
+    const end = 2 * (offsets[next] - 1);
+    const meets =
+      next < tag.length &&
+      tag[next] === tag[i] &&
+      isJoinable(i) &&
+      isJoinable(next) &&
+      Math.hypot(xy[end + 2] - xy[end], xy[end + 3] - xy[end + 1]) <= Math.max(radius, SAME_POINT);
+    if (!meets) builder.end(tag[i]);
   }
   return builder.finish();
 }
@@ -110,32 +135,48 @@ class Pairing {
     this.out[2 * e + 1] = dy / length;
   }
 
-  /** Pairs each free end with the best free one within `reach`: the straightest, or the nearest. */
-  run(reach: number, straightest: boolean): void {
+  /** Pairs each free end with the free one within `reach` where the pen turns least. */
+  run(reach: number): void {
     for (let e = 0; e < this.partner.length; e++) {
       if (this.isFree[e] === 0) continue;
-      const other = this.best(e, reach, straightest);
+      const other = this.best(e, reach);
       if (other >= 0) this.pair(e, other);
     }
   }
 
-  private best(e: number, reach: number, straightest: boolean): number {
-    const { near, out } = this;
-    this.free.find(this.xy[2 * e], this.xy[2 * e + 1], reach, near);
+  private best(e: number, reach: number): number {
+    const { near, xy } = this;
+    const x = xy[2 * e];
+    const y = xy[2 * e + 1];
+    this.free.find(x, y, reach, near);
     let best = -1;
-    let bestCost = Infinity;
+    let bestTurn = Infinity;
+    let farthest = Infinity;
+    // The nearest come first.
     for (let k = 0; k < near.count; k++) {
       const other = near.ids[k];
       if (other === e || !this.mayPair(e, other)) continue;
-      if (!straightest) return other;
-      // The continuation is straight if the two vectors are opposite.
-      const cost = out[2 * e] * out[2 * other] + out[2 * e + 1] * out[2 * other + 1];
-      if (cost < bestCost) {
-        bestCost = cost;
+      const gap = Math.hypot(xy[2 * other] - x, xy[2 * other + 1] - y);
+      if (gap > farthest) break;
+      farthest = Math.min(farthest, Math.max(FARTHER * gap, SAME_POINT));
+      const turn = this.turn(e, other, gap);
+      if (turn < bestTurn) {
+        bestTurn = turn;
         best = other;
       }
     }
     return best;
+  }
+
+  /** How much the pen turns from end e to `other`, 0 (straight on) to 4 (back, and back again). */
+  private turn(e: number, other: number, gap: number): number {
+    const { out, xy } = this;
+    const [ux, uy] = [out[2 * e], out[2 * e + 1]];
+    const [vx, vy] = [-out[2 * other], -out[2 * other + 1]];
+    if (gap <= SAME_POINT) return 1 - (ux * vx + uy * vy);
+    const dx = (xy[2 * other] - xy[2 * e]) / gap;
+    const dy = (xy[2 * other + 1] - xy[2 * e + 1]) / gap;
+    return 2 - (ux * dx + uy * dy) - (dx * vx + dy * vy);
   }
 
   private take(e: number): void {
@@ -144,6 +185,8 @@ class Pairing {
   }
 
   private mayPair(e: number, other: number): boolean {
+    const { tag } = this.lines;
+    if (tag[this.lineOf(e)] !== tag[this.lineOf(other)]) return false;
     return this.far[e] !== other || this.length[e] > SHORTEST_LOOP * this.radius;
   }
 

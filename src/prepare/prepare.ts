@@ -14,6 +14,7 @@ import {
   countLayers,
   dropShort,
   emptyWarning,
+  partOfTag,
   strokeSetOf,
   visibleOnly,
   type PreparedLayer,
@@ -25,7 +26,7 @@ import { completeSettings } from "./complete-settings.js";
 import { dashLines } from "./dash.js";
 import { flattenShapes } from "./flatten.js";
 import { hideCovered } from "./hidden-lines.js";
-import { joinLines } from "./join.js";
+import { joinInFileOrder, joinLines } from "./join.js";
 import { inOrder, layersOf, visibleLayers } from "./layers.js";
 import { repeatLines } from "./layer-passes.js";
 import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
@@ -153,9 +154,16 @@ export function prepare(
 
   progress(0.45, "joining");
   const parts = speedPartsOf(drawing, table);
-  lines = byLayer(lines, parts);
-  lines = dropRepeats(lines, settings.dropRepeatsMm, options);
-  if (settings.joinMm > 0) lines = joinLines(lines, settings.joinMm);
+  const partOf = partOfTag(drawing);
+  lines = byLayer(lines, parts, drawing);
+  lines = dropRepeats(lines, settings.dropRepeatsMm, partOf, options);
+  if (settings.joinMm > 0) {
+    lines =
+      settings.order === "none"
+        ? joinInFileOrder(lines, settings.joinMm)
+        : joinLines(lines, settings.joinMm, partOf);
+  }
+  lines = { ...lines, tag: lines.tag.map(partOf) };
   lines = dropShort(lines, settings.dropShorterMm);
   lines = simplifyLines(lines, settings.simplifyMm);
   lines = smoothLines(lines, settings.smoothRounds);

@@ -7,15 +7,23 @@
  *      this         ═══════════════════════     within tolerance from t0 to t1: dropped there,
  *                   t0            t1            the rest stays
  *
- * Pieces (segments and dots) are indexed in a tree of boxes (Flatbush). Only pieces of the same tag are compared.
+ * Pieces (segments and dots) are indexed in a tree of boxes (Flatbush). Only pieces of the same part of a layer are compared.
  */
 import Flatbush from "flatbush";
 import { LineBuilder, distance, lineCount, mix, type Lines } from "../geometry/polyline.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
-/** `tolerance` in mm; 0 keeps everything. A dot is dropped if an earlier dot is within the tolerance. */
-export const dropRepeats = (lines: Lines, tolerance: number, work: Work): Lines =>
-  tolerance > 0 && lineCount(lines) > 0 ? new Repeats(lines, tolerance).dropped(work) : lines;
+/**
+ * `tolerance` in mm; 0 keeps everything. A dot is dropped if an earlier dot is within the tolerance. `partOf` is the part of
+ * a layer that a tag belongs to.
+ */
+export const dropRepeats = (
+  lines: Lines,
+  tolerance: number,
+  partOf: (tag: number) => number,
+  work: Work,
+): Lines =>
+  tolerance > 0 && lineCount(lines) > 0 ? new Repeats(lines, tolerance, partOf).dropped(work) : lines;
 
 /** A part of a piece, from and to a share of its length, 0 … 1. */
 type Range = readonly [number, number];
@@ -34,6 +42,7 @@ class Repeats {
   constructor(
     private readonly lines: Lines,
     private readonly tolerance: number,
+    private readonly partOf: (tag: number) => number,
   ) {
     const { offsets } = lines;
     for (let i = 0; i < lineCount(lines); i++) {
@@ -89,14 +98,15 @@ class Repeats {
     ];
   }
 
-  /** Earlier pieces of the same kind and tag that are near, and drawn at least in part. */
+  /** Earlier pieces of the same kind and part that are near, and drawn at least in part. */
   private drawnNear(piece: number): number[] {
-    const { line, drawn } = this;
+    const { line, drawn, partOf } = this;
     const { tag } = this.lines;
+    const part = partOf(tag[line[piece]]);
     const isDot = this.isDot(piece);
     return this.tree.search(
       ...this.boxOf(piece, this.tolerance),
-      (k) => k < piece && drawn[k].length > 0 && this.isDot(k) === isDot && tag[line[k]] === tag[line[piece]],
+      (k) => k < piece && drawn[k].length > 0 && this.isDot(k) === isDot && partOf(tag[line[k]]) === part,
     );
   }
 

@@ -291,9 +291,14 @@ describe("cutting", () => {
 });
 
 describe("joining and dropping", () => {
+  const drawJoined = (
+    drawing: Parameters<typeof prepare>[0],
+    settings: Partial<PrepareSettings> = {},
+  ): number[][] => draw(drawing, { order: "fast", ...settings });
+
   it("joins near ends in either direction, only within a layer", () => {
     const lines = ["M0 0L10 0", "M20 0L10.05 0"];
-    expect(draw(drawingOf(lines))).toEqual([[0, 0, 10, 0, 10.05, 0, 20, 0]]);
+    expect(drawJoined(drawingOf(lines))).toEqual([[0, 0, 10, 0, 10.05, 0, 20, 0]]);
     const twoLayers = drawingOf(
       [
         { d: lines[0], group: 0 },
@@ -301,22 +306,60 @@ describe("joining and dropping", () => {
       ],
       { groups: ["a", "b"] },
     );
-    expect(draw(twoLayers)).toHaveLength(2);
-    expect(draw(drawingOf(lines), { joinMm: 0.04 })).toHaveLength(2);
-    expect(draw(drawingOf(lines), { joinMm: 0 })).toHaveLength(2);
+    expect(drawJoined(twoLayers)).toHaveLength(2);
+    expect(drawJoined(drawingOf(lines), { joinMm: 0.04 })).toHaveLength(2);
+    expect(drawJoined(drawingOf(lines), { joinMm: 0 })).toHaveLength(2);
   });
 
   it("closes a loop of four lines", () => {
     const square = drawingOf(["M0 0L10 0", "M10 0L10 10", "M0 10L10 10", "M0 10L0 0"]);
-    expect(draw(square)).toEqual([[0, 0, 10, 0, 10, 10, 0, 10, 0, 0]]);
+    expect(drawJoined(square)).toEqual([[0, 0, 10, 0, 10, 10, 0, 10, 0, 0]]);
   });
 
   it("continues straight where lines cross", () => {
     const cross = drawingOf(["M0 5L5 5", "M5 0L5 5", "M5 5L10 5", "M5 5L5 10"]);
-    expect(draw(cross)).toEqual([
+    expect(drawJoined(cross)).toEqual([
       [0, 5, 5, 5, 10, 5],
       [5, 0, 5, 5, 5, 10],
     ]);
+  });
+
+  it("takes the end where the pen turns least, also across a gap", () => {
+    const fork = drawingOf(["M0 0L10 0", "M10.02 0L10.02 9", "M10.03 0L20 0"]);
+    expect(drawJoined(fork)).toContainEqual([0, 0, 10, 0, 10.03, 0, 20, 0]);
+    const far = drawingOf(["M0 0L10 0", "M10.02 0L10.02 9", "M10.09 0L20 0"]);
+    expect(drawJoined(far)).toContainEqual([0, 0, 10, 0, 10.02, 0, 10.02, 9]);
+  });
+
+  it("never makes one stroke of two colours", () => {
+    const shapes = [
+      { d: "M0 0L10 0", stroke: "#ff0000" },
+      { d: "M10 0L20 0", stroke: "#0000ff" },
+      { d: "M20 0L30 0", stroke: "#0000ff" },
+    ];
+    for (const order of ["none", "fast", "best"] as const)
+      expect(draw(drawingOf(shapes), { order })).toEqual([
+        [0, 0, 10, 0],
+        [10, 0, 20, 0, 30, 0],
+      ]);
+  });
+
+  it("keeps the file's order and directions if lines are not ordered", () => {
+    const lines = ["M10 10L50 10", "M10 30L50 30", "M90 10L50 10"];
+    expect(draw(drawingOf(lines))).toEqual([
+      [10, 10, 50, 10],
+      [10, 30, 50, 30],
+      [90, 10, 50, 10],
+    ]);
+    const sorted = ["M0 0L10 0", "M10.05 0L20 0", "M20 0L20 5", "M5 5L20 5", "M30 0L40 0", "M0 20L40 0"];
+    expect(draw(drawingOf(sorted))).toEqual([
+      [0, 0, 10, 0, 10.05, 0, 20, 0, 20, 5],
+      [5, 5, 20, 5],
+      [30, 0, 40, 0],
+      [0, 20, 40, 0],
+    ]);
+    const closed = ["M0 0L5 0L5 5L0 0", "M0 0L9 9", "M9 9L9 9", "M9 9L3 3"];
+    expect(draw(drawingOf(closed))).toHaveLength(4);
   });
 
   it("does not bend a short line onto itself", () => {
