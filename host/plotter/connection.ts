@@ -94,3 +94,6 @@ const notFound = ({ usbIds }: ConnectOptions): PlotwrightError =>
       ? "This machine's controller can't be detected automatically: name its port with --device."
       : "The plotter is no longer plugged in: check its USB cable and its power.",
   );
+
+export const connectFailed = (cause: unknown): PlotwrightError =>
+  new PlotwrightError("internal", "Connecting to the board failed because of an internal error.", { cause });

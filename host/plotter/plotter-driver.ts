@@ -26,10 +26,10 @@ import {
 } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import { isOtherBoard, startOn } from "./board-id.js";
-import { connect, type Connection } from "./connection.js";
+import { connect, connectFailed, type Connection } from "./connection.js";
 import { moveByHand } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
-import { initialState, UNKNOWN, type PlotterOptions, type PlotterState } from "./plotter-state.js";
+import { initialState, penRested, UNKNOWN, type PlotterOptions, type PlotterState } from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";
 import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
 
@@ -46,6 +46,7 @@ export class PlotterDriver {
   #penBefore: PenBefore | null = null;
   /** Why there is no connection. */
   #trouble: PlotwrightError | null = null;
+  #lostAtS: number | null = null;
   #connecting: Promise<void> | null = null;
   #cancelRetry: (() => void) | null = null;
   #run: MachinePlot | null = null;
@@ -291,7 +292,7 @@ export class PlotterDriver {
       });
       await this.#adopt(connection);
     } catch (error) {
-      this.#lost(error instanceof PlotwrightError ? error : internal(error));
+      this.#lost(error instanceof PlotwrightError ? error : connectFailed(error));
     }
   }
 
@@ -322,6 +323,8 @@ export class PlotterDriver {
     this.#trouble = null;
     this.#supply.watch(machine);
     this.#machineChanged();
+    const restedS = this.#lostAtS === null ? null : this.#clock.nowS() - this.#lostAtS;
+    this.#lostAtS = null;
     this.#setState({
       kind: connection.kind,
       device: connection.device,
@@ -329,7 +332,7 @@ export class PlotterDriver {
       boardName: machine.name,
       boardSerialNumber: connection.serialNumber,
       firmware: machine.firmware,
-      message: this.#welcome(connection),
+      message: machine.left?.penUp === false ? penRested(this.#current, restedS) : this.#welcome(connection),
     });
   }
 
@@ -343,6 +346,7 @@ export class PlotterDriver {
   #lost(error: PlotwrightError): void {
     if (this.#closed) return;
     this.#trouble = error;
+    if (this.#machine) this.#lostAtS = this.#clock.nowS();
     this.#supply.stop();
     if (this.#machine) this.#penBefore = { penUp: this.#machine.penMoving ? null : this.#machine.penUp };
     this.#machine = null;
@@ -444,6 +448,3 @@ const notStarted = (): PlotwrightError =>
 
 const closedError = (): PlotwrightError =>
   new PlotwrightError("disconnected", "The plotter was closed: start it again to continue.");
-
-const internal = (cause: unknown): PlotwrightError =>
-  new PlotwrightError("internal", "Connecting to the board failed because of an internal error.", { cause });

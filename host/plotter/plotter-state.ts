@@ -54,3 +54,14 @@ export function initialState(device: string): PlotterState {
     ...UNKNOWN,
   };
 }
+
+/** The message after a connection that found the pen on the paper. `restedS`: since the last connection was lost. */
+export function penRested({ xMm, yMm }: PlotterState, restedS: number | null): string {
+  const where =
+    xMm === null || yMm === null ? "" : ` at x ${xMm.toFixed(1)} mm, y ${yMm.toFixed(1)} mm from home`;
+  const rested =
+    restedS === null
+      ? `The pen was on the paper${where} when the board was connected`
+      : `The pen rested on the paper for ${Math.round(restedS)} s${where}, while the board was not connected`;
+  return `${rested}. It is lifted now: look for a blot there before you resume.`;
+}

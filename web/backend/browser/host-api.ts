@@ -38,6 +38,13 @@ export const hostApi = (parts: HostParts) => {
 };
 
 /** Methods that change nothing: all pages may call them. */
-export const READING: readonly HostMethod[] = ["olderJobs", "jobDrawing", "devices", "usbIds", "log", "handOver"];
+export const READING: readonly HostMethod[] = [
+  "olderJobs",
+  "jobDrawing",
+  "devices",
+  "usbIds",
+  "log",
+  "handOver",
+];
 /** Actions that only stop a plot: all pages may call them. */
 export const STOPPING: readonly JobAction[] = ["pause", "cancel", "emergency-stop"];

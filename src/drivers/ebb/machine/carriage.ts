@@ -88,6 +88,7 @@ export class Carriage {
   async takeOver(): Promise<void> {
     const { features } = this.connection;
     if (features.hasStepQuery) await this.untilStill();
+    const penUp = await this.liftWhereLeft();
     // Before `configure`, which begins a new watch.
     if (features.hasSupplyLatch && (await this.motorSupply.hasFailed())) await this.mark.clear();
     await this.configure();
@@ -96,7 +97,9 @@ export class Carriage {
       await this.findPlace();
       this.motorsOn = true;
     }
-    await this.liftWhereLeft();
+    // A carriage at home may have been brought there by hand since the plot, so its place says nothing about the plot.
+    const isHome = this.state?.steps1 === 0 && this.state.steps2 === 0;
+    if (this.state && !(penUp && isHome)) this.left = { penUp };
   }
 
   /** Sets what the board forgets when it restarts. */
@@ -107,15 +110,14 @@ export class Carriage {
   }
 
   /**
-   * Lifts a pen that was left on the paper, where it would bleed. The board still has the plot's up height. A carriage at
-   * home may have been brought there by hand since the plot, so its place says nothing about the plot.
+   * Lifts a pen that was left on the paper, where it would bleed. The board still has the plot's up height. Returns
+   * whether the pen was up.
    */
-  private async liftWhereLeft(): Promise<void> {
+  private async liftWhereLeft(): Promise<boolean> {
     const { session } = this.connection;
     const penUp = Number(await session.query("QP")) === 1;
-    const isHome = this.state?.steps1 === 0 && this.state.steps2 === 0;
-    if (this.state && !(penUp && isHome)) this.left = { penUp };
     if (!penUp) await session.send(`SP,1,${SERVO_MS}`, SERVO_MS / 1000);
+    return penUp;
   }
 
   /** Reads back the motors' position after something other than the plan has moved them. */

@@ -303,7 +303,7 @@ const isEchoOfV = (line: string): boolean => /^V(\^M)?($|EBB)/i.test(line);
 const echoes = (): PlotwrightError =>
   new PlotwrightError(
     "no-board",
-    "This port returns everything that is sent to it (echo), so the board's replies can't be told from it: switch the echo off in the program or adapter between this computer and the board (for a terminal: stty raw -echo), then connect again.",
+    "This port returns everything that is sent to it (echo), so it can't be distinguished from the board's replies: switch the echo off in the program or adapter between this computer and the board (for a terminal: stty raw -echo), then connect again.",
   );
 
 const silentAtStart = (cause: unknown): PlotwrightError =>
