@@ -106,7 +106,7 @@ describe("a stroke", () => {
     }
     await test.page.mouse.click(x, y - 4);
     await card().getByText("Stroke 2 of 3").waitFor();
-    expect(await card().innerText()).toMatch(/Length\s*257\s*mm/);
+    expect(await card().innerText()).toMatch(/Length\s*200\s*mm/);
     expect(await test.page.getByRole("tooltip").count()).toBe(0);
   });
 
@@ -152,7 +152,7 @@ describe("what the margins cut off", () => {
     const lines = Array.from({ length: 12 }, (_, k) => `<path d="M${1 + k} 0V210"/>`).join("");
     await test.page.getByRole("radio", { name: "True size" }).check();
     await test.page.getByText("Separate margins, mirror, cutting").click();
-    await test.page.getByText("Cut off what lies outside the margins").click();
+    await test.page.getByRole("switch", { name: "Cut off what lies outside the margins" }).check();
     await test.drop(
       "margin",
       `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210" stroke="#000">${lines}

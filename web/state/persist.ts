@@ -78,11 +78,11 @@ const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   return { ...result.data, machine: machine?.id ?? DEFAULT_PLOT_SETTINGS.machine, motion };
 };
 
+const OLD_PLACING = ["fit", "rotateDeg", "clipToMargins", "cropToPage"];
 /** Earlier versions stored how they had placed a drawing by themselves as if the user had chosen it. */
 const withoutOldPlacing = (prepare: Record<string, unknown>): Record<string, unknown> => {
   if ("outside" in prepare) return prepare;
-  const { fit: _fit, rotateDeg: _rotateDeg, clipToMargins: _clip, cropToPage: _crop, ...rest } = prepare;
-  return rest;
+  return Object.fromEntries(Object.entries(prepare).filter(([key]) => !OLD_PLACING.includes(key)));
 };
 
 /** A part with more bad values than this is replaced as a whole. */
