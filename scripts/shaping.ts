@@ -45,7 +45,7 @@ const FACTORS = [1, 0.9, 1.1, 0.8, 1.2];
 
 const drawings: readonly StrokeSet[] = readdirSync(FOLDER).map(
   (file) =>
-    prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), { ...DEFAULT_PREPARE, fit: false })
+    prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), { ...DEFAULT_PREPARE, fit: true })
       .strokes,
 );
 

@@ -33,9 +33,9 @@ describe("the page's stored settings", () => {
   });
 
   it("take a place that an earlier version chose by itself from the defaults", () => {
-    const { outside: _outside, ...old } = DEFAULT_PLOT_SETTINGS.prepare;
     const chosen = {
-      ...old,
+      ...DEFAULT_PLOT_SETTINGS.prepare,
+      outside: undefined,
       marginMm: 22,
       fit: false,
       rotateDeg: 90,
