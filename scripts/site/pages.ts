@@ -56,6 +56,7 @@ export const PAGE_GROUPS: readonly PageGroup[] = [
     pages: [
       page("ARCHITECTURE.md", "Architecture"),
       page("CONTRIBUTING.md", "Contributing"),
+      page("SECURITY.md", "Security"),
       page("CHANGELOG.md", "Changes"),
       page("LICENSE", "Licence"),
     ],

@@ -3,7 +3,7 @@
  * with --system for the whole computer.
  */
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { chmodSync, existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { connect } from "node:net";
 import { homedir } from "node:os";
 import { dirname, join, resolve } from "node:path";
@@ -115,7 +115,9 @@ export async function installService(
   await mustBeFree(options, server, host);
   try {
     mkdirSync(dirname(path), { recursive: true });
-    writeFileSync(path, unit);
+    // Its options may have the password of a database.
+    writeFileSync(path, unit, { mode: 0o600 });
+    chmodSync(path, 0o600);
   } catch (cause) {
     throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, { cause });
   }

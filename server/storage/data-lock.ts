@@ -4,7 +4,7 @@
  * The lock is a file that names the process that owns it. Node has no flock(), so a killed owner leaves the file
  * behind. It is stale when that process has ended.
  */
-import { linkSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { linkSync, lstatSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { randomBytes } from "node:crypto";
 import { PlotwrightError } from "../../src/index.js";
@@ -28,6 +28,7 @@ export function lockDataDir(dir: string): () => void {
   try {
     for (let attempt = 0; attempt < 5; attempt++) {
       if (tryLink(draft, path)) return () => release(path, mine);
+      mustBeFile(path);
       const owner = readOwner(path);
       if (owner !== null && isAlive(owner)) throw inUse(dir, owner.pid);
       const pid = removeStale(path, `${draft}.stale`);
@@ -58,6 +59,15 @@ function removeStale(path: string, aside: string): number | null {
   } finally {
     rmSync(aside, { force: true });
   }
+}
+
+/** A folder could not be replaced, and reading a named pipe would wait endlessly. */
+function mustBeFile(path: string): void {
+  if (lstatSync(path, { throwIfNoEntry: false })?.isFile() !== false) return;
+  throw new PlotwrightError(
+    "bad-setting",
+    `${path} is not a file, but a server needs that name for its lock. Rename or remove it, or choose another folder with --data.`,
+  );
 }
 
 /** In one step, link() creates the name with its complete content, or fails if the name exists. */

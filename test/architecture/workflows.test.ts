@@ -1,4 +1,4 @@
-/** The workflows of .github: what they run exists, their permissions are minimal, their actions have a fixed major version. */
+/** The workflows of .github: what they run exists, their permissions are minimal, their actions are pinned. */
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -34,10 +34,12 @@ describe.each(WORKFLOWS)("the workflow $name", ({ text }) => {
     }
   });
 
-  it("uses actions of a fixed major version", () => {
+  it("uses actions that are pinned by their hash, with the version beside it", () => {
     const actions = valuesOf(text, "uses");
     expect(actions.length).toBeGreaterThan(0);
-    expect(actions.filter((action) => !/^actions\/[\w-]+@v\d+$/.test(action))).toEqual([]);
+    expect(
+      actions.filter((action) => !/^actions\/[\w-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+$/.test(action)),
+    ).toEqual([]);
   });
 
   it("may only read by default, ends by itself, and never runs twice at once", () => {
@@ -61,8 +63,13 @@ describe("the workflows", () => {
     const { text } = WORKFLOWS.find(({ name }) => name === "release.yml")!;
     const commands = valuesOf(text, "run");
     expect(commands.indexOf("node scripts/check-release.mjs")).toBeGreaterThan(-1);
-    expect(commands.at(-1)).toMatch(/^npm publish --provenance/);
-    expect(text).toContain("id-token: write");
+    expect(commands.at(-1)).toMatch(/^npm publish .*--provenance/);
+    // Only the last job may publish, and it runs none of the project's code, nor install scripts.
+    const [before, publish] = text.split(/^ {2}publish:$/m);
+    expect(before).not.toMatch(/id-token|environment:/);
+    expect(publish).toMatch(/permissions:\n {6}id-token: write\n {4}\w/);
+    expect(valuesOf(publish, "run").every((command) => command.includes("--ignore-scripts"))).toBe(true);
+    expect(valuesOf(publish, "uses").some((action) => action.includes("checkout"))).toBe(false);
   });
 });
 

@@ -57,7 +57,7 @@ describe("the installed package", () => {
   it("has the built product and nothing else", () => {
     expect(readdirSync(installed).sort()).toEqual(
       [
-        ...["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md"],
+        ...["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md", "SECURITY.md"],
         ...["dist", "docs", "package.json", "samples"],
       ].sort(),
     );
