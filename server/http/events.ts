@@ -5,6 +5,8 @@
  * The text of the snapshot is kept until something changes, and all clients get the same bytes of it and of each event:
  * the memory that slow clients take does not grow with their number.
  */
+import { Readable } from "node:stream";
+import { setImmediate as nextTurn } from "node:timers/promises";
 import type { Request, Response } from "express";
 import { LimitedProgress } from "../../host/limited-progress.js";
 import type { PlotSettings, ServerEvent, Snapshot } from "../../src/schema/index.js";
@@ -17,9 +19,13 @@ const SNAPSHOT_MS = 1_000;
 const RETRY_FROM_MS = 1_000;
 const RETRY_RANGE_MS = 3_000;
 
+/** What is written to one client before others have their turn. The system takes megabytes at once, which takes time. */
+const SLICE_BYTES = 65_536;
+
 interface Stream {
   readonly callerId: string;
-  maxUnsentBytes: number;
+  /** Events that wait until the snapshot is sent; null: it is. */
+  waiting: Buffer[] | null;
 }
 
 export class EventHub {
@@ -58,16 +64,19 @@ export class EventHub {
     });
     const retryMs = Math.round(RETRY_FROM_MS + RETRY_RANGE_MS * Math.random());
     response.write(`retry: ${retryMs}\n\ndata: {"type":"snapshot","snapshot":`);
-    response.write(this.snapshotText(make));
-    response.write("}\n\n");
-    // A long history takes a while to send. Until then it does not count: otherwise the client would be disconnected
-    // by the next event, again after each reconnect.
-    const stream = { callerId, maxUnsentBytes: response.writableLength + MAX_UNSENT_BYTES };
+    const stream: Stream = { callerId, waiting: [] };
     this.#streams.set(response, stream);
-    response.once("drain", () => {
-      stream.maxUnsentBytes = MAX_UNSENT_BYTES;
+    const snapshot = inSlices(this.snapshotText(make));
+    snapshot.pipe(response, { end: false });
+    snapshot.once("end", () => {
+      response.write("}\n\n");
+      for (const event of stream.waiting ?? []) response.write(event);
+      stream.waiting = null;
     });
-    request.on("close", () => this.#streams.delete(response));
+    request.on("close", () => {
+      this.#streams.delete(response);
+      snapshot.destroy();
+    });
   }
 
   /** Ends the streams of a session or key that has ended. */
@@ -89,14 +98,24 @@ export class EventHub {
 
   #write(text: string): void {
     const bytes = Buffer.from(text);
-    for (const [response, { maxUnsentBytes }] of this.#streams) {
-      if (response.writableLength > maxUnsentBytes) {
+    for (const [response, { waiting }] of this.#streams) {
+      const unsentBytes = waiting?.reduce((sum, { length }) => sum + length, 0) ?? response.writableLength;
+      if (unsentBytes > MAX_UNSENT_BYTES) {
         this.#streams.delete(response);
         response.destroy();
-      } else {
-        response.write(bytes);
-      }
+      } else if (waiting !== null) waiting.push(bytes);
+      else response.write(bytes);
     }
+  }
+}
+
+/** The same bytes without a copy, one slice in each turn of the event loop. */
+export const inSlices = (bytes: Buffer): Readable => Readable.from(slicesOf(bytes), { highWaterMark: 1 });
+
+async function* slicesOf(bytes: Buffer): AsyncGenerator<Buffer> {
+  for (let from = 0; from < bytes.length; from += SLICE_BYTES) {
+    yield bytes.subarray(from, from + SLICE_BYTES);
+    await nextTurn();
   }
 }
 

@@ -19,7 +19,7 @@ import { route, type ApiRoute } from "./api-route.js";
 import { callerOf } from "./auth.js";
 import type { Browsers } from "./browser.js";
 import { parseWith } from "../../host/parse-with.js";
-import type { EventHub } from "./events.js";
+import { inSlices, type EventHub } from "./events.js";
 
 export interface StateParts {
   readonly version: string;
@@ -35,7 +35,12 @@ export interface StateParts {
 }
 
 export const STATE_ROUTES: readonly ApiRoute[] = [
-  route("get", "/state", "Returns the state of the server: everything but older jobs of the history", snapshotSchema),
+  route(
+    "get",
+    "/state",
+    "Returns the state of the server: everything but older jobs of the history",
+    snapshotSchema,
+  ),
   route(
     "get",
     "/history",
@@ -71,7 +76,10 @@ export function stateRoutes(parts: StateParts, browsers: Browsers, openApi: () =
     response.type("json").send(await openApi());
   });
   router.get("/state", (_request, response) => {
-    response.type("json").send(hub.snapshotText(snapshot));
+    const text = hub.snapshotText(snapshot);
+    const slices = inSlices(text);
+    response.on("close", () => slices.destroy());
+    slices.pipe(response.type("json").set("Content-Length", String(text.length)));
   });
   router.get("/history", (request, response) => {
     response.json(queue.older(parseWith(historyRequestSchema, request.query)));

@@ -10,6 +10,7 @@ import {
   jobSchema,
   snapshotSchema,
   type Job,
+  type Pairing,
   type PlotSettings,
   type Snapshot,
 } from "../../src/schema/index.js";
@@ -51,6 +52,25 @@ async function add(text: string): Promise<Job> {
 }
 
 describe("a server", () => {
+  it("shows new pairing links after a device was removed", async () => {
+    let newLinkCount = 0;
+    await server.close();
+    await start({ onNewPairing: () => newLinkCount++ });
+    const before = server.pairing;
+    expect((await fetch(`${server.url}${before.watchPath}`)).status).toBe(200);
+    const listed = await fetch(`${server.url}/api/v1/access`);
+    const { entries } = (await listed.json()) as { entries: { id: string }[] };
+    await fetch(`${server.url}/api/v1/access/${entries[0]?.id}`, { method: "DELETE" });
+    expect(newLinkCount).toBe(1);
+    const now = server.pairing;
+    const shown = (await (await post("/pairing")).json()) as Pairing;
+    expect(shown.operateUrl.endsWith(now.operatePath) && shown.watchUrl.endsWith(now.watchPath)).toBe(true);
+    for (const path of [before.operatePath, before.watchPath]) {
+      expect((await fetch(`${server.url}${path}`)).status).toBe(403);
+    }
+    expect((await fetch(`${server.url}${now.operatePath}`)).status).toBe(200);
+  });
+
   it("plans, plots and finishes a drawing, and still knows it after a restart", async () => {
     const drawn = lines(30);
     const { id, stats } = await add(drawn);

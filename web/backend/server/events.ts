@@ -3,6 +3,8 @@ import { serverEventSchema, type ServerEvent } from "../../../src/schema/index.j
 import type { BackendListener } from "../backend.js";
 
 const RETRY_MS = 1_500;
+/** Pages that lose the server together do not all come back at once. */
+const spread = (ms: number): number => ms * (0.7 + 0.6 * Math.random());
 /** After this many failures (the server is off, or refuses this device) the retries are slower. */
 const QUICK_RETRIES = 10;
 const SLOW_RETRY_MS = 6_000;
@@ -39,7 +41,7 @@ export const openEvents = (path: string, listener: BackendListener): void => {
       listener.onLink(false);
       if (opened.readyState !== EventSource.CLOSED) return;
       failures++;
-      retry ??= setTimeout(open, failures > QUICK_RETRIES ? SLOW_RETRY_MS : RETRY_MS);
+      retry ??= setTimeout(open, spread(failures > QUICK_RETRIES ? SLOW_RETRY_MS : RETRY_MS));
     };
   };
   let hiddenAtMs: number | null = null;
