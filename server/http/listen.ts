@@ -118,7 +118,18 @@ class Turns {
       this.#waiting.set(socket, []);
       this.#start(request, response);
     } else if (waiting.length < maxWaiting) waiting.push([request, response]);
-    else socket.destroy();
+    else this.#cutOff(socket);
+  }
+
+  /**
+   * Node makes an error for each of the hundreds of requests that it has already parsed. Their stack traces alone would
+   * take most of the time that a flood costs.
+   */
+  #cutOff(socket: Socket): void {
+    const { stackTraceLimit } = Error;
+    socket.prependOnceListener("close", () => (Error.stackTraceLimit = 0));
+    socket.once("close", () => (Error.stackTraceLimit = stackTraceLimit));
+    socket.destroy();
   }
 
   #start(request: IncomingMessage, response: ServerResponse): void {
