@@ -14,7 +14,7 @@ import { startServerProcess, temporaryFolder, type ServerProcess } from "../supp
 
 const ROUNDS = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const IS_SHORT = ROUNDS === 1;
-/** A flood goes on for this time in each round. */
+/** A flood lasts this long in each round. */
 const ROUND_MS = 1_500;
 const MOST_ANSWER_MS = 1_000;
 const MOST_MB = 600;
@@ -162,7 +162,7 @@ const memoryMb = (): number =>
 
 describe("a plot at real speed", () => {
   it.each(IS_SHORT ? FLOODS.slice(0, 1) : FLOODS)(
-    "goes on under $name, and can be stopped",
+    "continues under $name, and can be stopped",
     { timeout: 120_000 + ROUNDS * 10_000 },
     async (flood) => {
       const stopMs: number[] = [];
