@@ -7,7 +7,7 @@ import {
   importLimit,
   planLimit,
   prepareLimit,
-  OWN_PLANNING_LIMITS,
+  PLANNING_LIMITS,
   type PlanningLimits,
 } from "../planning/planning-limits.js";
 import type { CliIo } from "./io.js";
@@ -17,6 +17,11 @@ export interface PlanThreadInput {
   readonly file: string;
   readonly settings: PlotSettings;
   readonly options: PlanCommandOptions;
+}
+
+export interface PlanThreadData extends PlanThreadInput {
+  /** How much memory planning may take. */
+  readonly growthMb: number;
 }
 
 export type FromPlanThread =
@@ -29,12 +34,13 @@ export type FromPlanThread =
 export function runPlanInThread(
   input: PlanThreadInput,
   io: Pick<CliIo, "out" | "err">,
-  limits: PlanningLimits = OWN_PLANNING_LIMITS,
+  limits: PlanningLimits = PLANNING_LIMITS,
 ): Promise<void> {
   return new Promise((resolve, reject) => {
     const name = "plan-command-worker";
     const { heapMb, growthMb } = limits;
-    const start = { name, starterUrl: import.meta.url, workerData: input, heapMb, growthMb };
+    const workerData: PlanThreadData = { ...input, growthMb };
+    const start = { name, starterUrl: import.meta.url, workerData, heapMb, growthMb };
     const thread = new BoundedThread<FromPlanThread>(start, {
       message: (message) => {
         if (message.type === "out") io.out(message.text);

@@ -6,6 +6,7 @@ import {
   planJob,
   trajectoryStats,
   toSvg,
+  type Drawing,
   type MachineProfile,
   type Trajectory,
 } from "../../src/index.js";
@@ -84,6 +85,8 @@ interface Planned {
 export interface PlanOutput {
   out(text: string): void;
   err(text: string): void;
+  /** Called when the file is read; may throw to refuse the drawing. */
+  imported(drawing: Drawing): void;
   /** Called when a step begins. */
   begin(step: PlanStep): void;
 }
@@ -124,6 +127,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
   const clock = stopwatch();
   const drawing = importDrawing(basename(file), readDrawing(file));
   const importMs = clock();
+  io.imported(drawing);
   io.begin("prepare");
   const settings = withOnlyLayers(drawing, base, options.only);
   clock();

@@ -8,10 +8,11 @@ import { prepareJob } from "../../src/internal.js";
 import { faultOf, type FromWorker, type ToWorker } from "../../host/planning/messages.js";
 import { answerOf, buffersOf } from "../../host/planning/stages.js";
 import { withOnlyLayers } from "./only-layers.js";
+import { mustFitMemory } from "./planning-limits.js";
 import { readDrawing } from "./read-drawing.js";
-import type { WorkerInput } from "./planner.js";
+import type { WorkerData } from "./planner.js";
 
-const input = workerData as WorkerInput;
+const input = workerData as WorkerData;
 const port = parentPort;
 if (port === null) throw new Error("plan-worker runs as a worker thread only");
 
@@ -21,6 +22,7 @@ const post = (message: FromWorker, transfer: TransferListItem[] = []): void =>
 try {
   // Without a file name the format is detected from the content.
   const drawing = importDrawing("", readDrawing(input.path));
+  mustFitMemory(drawing, input.growthMb);
   post({ type: "imported" });
   const settings = withOnlyLayers(drawing, input.settings, input.only);
   const { prepared, warnings } = prepareJob(drawing, settings, input.machine);

@@ -31,6 +31,11 @@ export interface WorkerInput {
   readonly only?: readonly string[] | undefined;
 }
 
+export interface WorkerData extends WorkerInput {
+  /** How much memory planning may take. */
+  readonly growthMb: number;
+}
+
 export interface PlannerInput extends WorkerInput {
   /** Default PLANNING_LIMITS. */
   readonly limits?: PlanningLimits;
@@ -49,16 +54,17 @@ export const measureDrawing = async (
 
 /** Starts the worker. Each step has a time limit: reading, preparing, and each plan. */
 function startThread(
-  { limits = PLANNING_LIMITS, ...workerData }: PlannerInput,
+  { limits = PLANNING_LIMITS, ...input }: PlannerInput,
   { message, ended }: PlannerListener,
 ): PlannerThread {
   const { heapMb, growthMb } = limits;
+  const workerData: WorkerData = { ...input, growthMb };
   const start = { name: "plan-worker", starterUrl: import.meta.url, workerData, heapMb, growthMb };
   /** Answers that are still to come; the first is "ready". */
   let dueCount = 1;
   const thread = new BoundedThread<FromWorker>(start, {
     message: (answer) => {
-      if (answer.type === "imported") thread.allow(prepareLimit(limits, workerData.settings.prepare));
+      if (answer.type === "imported") thread.allow(prepareLimit(limits, input.settings.prepare));
       else thread.allow(--dueCount === 0 ? null : planLimit(limits));
       message(answer);
     },

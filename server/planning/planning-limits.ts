@@ -1,10 +1,11 @@
 /**
  * Limits of time and memory for each step of planning. On a desktop computer a 25 MB file is read in 2 s, and
  * a million segments are planned in the same time. The limits leave room for far larger drawings on a small
- * computer, and end work that would never finish.
+ * computer, and end work that would never finish. Server and command line have the same ones, so that a drawing
+ * is planned by both or by neither.
  */
 import { totalmem } from "node:os";
-import { PlotwrightError, type PrepareSettings } from "../../src/index.js";
+import { PlotwrightError, type Drawing, type PrepareSettings } from "../../src/index.js";
 import type { TimeLimit } from "./bounded-thread.js";
 
 export interface PlanningLimits {
@@ -19,19 +20,19 @@ export interface PlanningLimits {
   readonly growthMb: number;
 }
 
+/** Node reserves no more for a thread on any computer. */
+const MAX_HEAP_MB = 4_096;
+
 export const PLANNING_LIMITS: PlanningLimits = {
   importS: 120,
   prepareS: 300,
   planS: 300,
   // Only a part of a small computer's memory: the thread must be ended before the system ends the server.
-  heapMb: Math.round(Math.min(1_024, Math.max(256, totalmem() / 4e6))),
-  growthMb: Math.min(1_500, totalmem() / 2e6),
+  heapMb: Math.round(Math.min(MAX_HEAP_MB, Math.max(256, totalmem() / 4e6))),
+  growthMb: totalmem() / 2e6,
 };
 
-/**
- * For the plot that is on the plotter, or for a user's own command: it must not fail because others use
- * memory.
- */
+/** For the plot that is on the plotter: it must not fail because others use memory. */
 export const OWN_PLANNING_LIMITS: PlanningLimits = { ...PLANNING_LIMITS, growthMb: Infinity };
 
 /**
@@ -66,3 +67,17 @@ export const planLimit = ({ planS }: PlanningLimits): TimeLimit => ({
     `This drawing takes too long to plan: more than ${planS} s. Simplify it, or plot it in parts.`,
   ),
 });
+
+/** What planning takes at least for each point of the drawing: lines, motion and commands are columns of numbers. */
+const BYTES_PER_POINT = 200;
+
+/** Throws "too-large" once the drawing is read, if planning it would run out of memory after a long time. */
+export function mustFitMemory({ paths }: Drawing, growthMb: number): void {
+  const points = paths.coords.length / 2;
+  const neededMb = (points * BYTES_PER_POINT) / 1e6;
+  if (neededMb <= growthMb) return;
+  throw new PlotwrightError(
+    "too-large",
+    `This drawing has ${(points / 1e6).toFixed(1)} million points. Planning them needs at least ${Math.ceil(neededMb)} MB of memory, and this computer can give ${Math.floor(growthMb)} MB. Simplify the drawing so that it has fewer points, or plot it in parts.`,
+  );
+}

@@ -32,6 +32,7 @@ vi.mock("../../server/cli/plan-thread.js", async () => {
         runPlan(file, settings, options, {
           out: (text) => io.out(text),
           err: () => undefined,
+          imported: () => undefined,
           begin: () => undefined,
         }),
       );

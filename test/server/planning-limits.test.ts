@@ -1,6 +1,6 @@
 /** Files and settings that would keep a planner busy for hours: each ends with its own error. */
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { tmpdir, totalmem } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { runPlanInThread } from "../../server/cli/plan-thread.js";
@@ -97,6 +97,29 @@ describe("a planner", () => {
     const error = await failure(openPlanner({ ...input(groups), limits }));
     expect([error.code, error.message]).toEqual(TOO_MUCH);
   }, 60_000);
+
+  it("refuses a drawing with too many points as soon as it is read, on server and command line alike", async () => {
+    // 2 200 000 points: at least 440 MB. The file alone needs less.
+    const limits = { ...PLANNING_LIMITS, growthMb: 400 };
+    const line = `<path stroke="black" d="M0 0${"l5 5-5-5".repeat(1_100_000)}"/>`;
+    const file = input(`<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="90mm">${line}</svg>`);
+    const command = { file: file.path, settings: file.settings, options: { firmware: "3.0.3" } };
+    const words =
+      /^This drawing has 2\.2 million points\. Planning them needs at least 441 MB .* can give 400 MB\. Simplify/;
+    for (const work of [
+      () => openPlanner({ ...file, limits }),
+      () => runPlanInThread(command, { out: () => undefined, err: () => undefined }, limits),
+    ]) {
+      const { code, message } = await failure(work());
+      expect([code, message]).toEqual(["too-large", expect.stringMatching(words)]);
+    }
+  }, 120_000);
+
+  it("allows the same memory to an upload and to the command line: at least a quarter of the computer's", () => {
+    const heapMb = Math.min(4_096, totalmem() / 4e6);
+    expect(PLANNING_LIMITS.heapMb).toBeGreaterThanOrEqual(Math.floor(heapMb));
+    expect(PLANNING_LIMITS.growthMb).toBeGreaterThanOrEqual(totalmem() / 4e6);
+  });
 
   it("fails if the process grows too large", async () => {
     const limits = { ...PLANNING_LIMITS, growthMb: 20 };
