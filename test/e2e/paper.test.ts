@@ -337,14 +337,14 @@ describe("a file", () => {
     await test.drop("box", svgOf(60, 40, "M0 0H60V40H0Z"));
     await test.group("Lines");
     await test.group("Fill and shade");
-    await test.page.getByText("Fill areas with lines").click();
+    await test.page.getByRole("switch", { name: "Fill areas with lines" }).click();
     await test.page.getByText(/No shape of this drawing is filled/).waitFor();
     const strokes = plotBar(test.page).locator("dd").nth(2);
     const before = Number(await strokes.innerText());
     await test.page.getByRole("button", { name: "Fill closed outlines" }).click();
     await test.planned();
     expect(Number(await strokes.innerText())).toBeGreaterThan(before);
-    await test.page.getByText("Fill areas with lines").click();
+    await test.page.getByRole("switch", { name: "Fill areas with lines" }).click();
   });
 
   it("that can't be read leaves the loaded one", async () => {

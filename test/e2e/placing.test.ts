@@ -181,7 +181,7 @@ describe("placing the drawing", () => {
 
   it("fills four custom margins, is centred, and is mirrored", async () => {
     await test.page.getByText("Separate margins, mirror, cutting").click();
-    await test.page.getByText("Separate margins", { exact: true }).click();
+    await test.page.getByRole("switch", { name: "Separate margins" }).click();
     await type("Left", 40);
     await type("Top", 20);
     await test.page.getByRole("button", { name: "Fit into margins" }).click();
