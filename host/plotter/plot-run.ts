@@ -33,6 +33,8 @@ import { Waiters } from "./waiters.js";
 /** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
+/** A pen that rests this long on the paper leaves a blot, real seconds. */
+const STALL_S = 2;
 
 /** The state that the user asked for. */
 type RequestedState = "run" | "hold" | "cancel";
@@ -401,9 +403,13 @@ export class MachinePlot implements LivePlotRun {
   #tick(): () => void {
     const { clock, speed } = this.#machine;
     let cancel = (): void => undefined;
+    let lastS = clock.nowS();
     const next = (): void => {
       const now = this.#stream.now();
+      const stalledS = (clock.nowS() - lastS) / speed;
+      lastS = clock.nowS();
       if (now) {
+        if (!now.penUp && stalledS >= STALL_S) this.#start.noted?.(restedWhileStalled(now, stalledS));
         this.#report(now);
         if (clock.nowS() >= this.#journalDueS) {
           this.#writeJournal(this.#stream.progress.place, this.#stream.receivedPlace);
@@ -434,5 +440,8 @@ export class MachinePlot implements LivePlotRun {
     return { xMm: x, yMm: y, penUp: this.#machine.penUp ?? true, elapsedS: 0 };
   }
 }
+
+const restedWhileStalled = ({ xMm, yMm }: PlotProgress, stalledS: number): string =>
+  `This computer stood still for ${Math.round(stalledS)} s, and the pen rested on the paper meanwhile, at x ${xMm.toFixed(1)} mm, y ${yMm.toFixed(1)} mm from home. Look for a blot there.`;
 
 const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was cancelled.");

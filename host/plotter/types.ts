@@ -92,4 +92,6 @@ export interface PlotStart {
   /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */
   readonly held?: boolean | undefined;
   readonly journal?: PlotJournal | undefined;
+  /** Called with words for the user about something that may be seen on the paper; the plot continues. */
+  readonly noted?: ((message: string) => void) | undefined;
 }

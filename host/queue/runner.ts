@@ -17,6 +17,8 @@ export interface RunReports {
   held(held: boolean, wait: PlotWait | null): void;
   /** A request (pause, resume) that could not be carried out; the plot itself continues. */
   refused(message: string): void;
+  /** Something that may be seen on the paper; the plot continues. */
+  noted(message: string): void;
   ended(end: RunEnd): void;
 }
 
@@ -128,8 +130,9 @@ export class Runner {
     // the run then lifts the pen.
     const planner = await open(from === null ? this.#abort.signal : new AbortController().signal);
     try {
+      const noted = (message: string): void => this.#reports.noted(message);
       const journal = { record: (entry: JournalEntry) => this.#reports.journal(entry) };
-      const run = await plotter.plot(planner, settings, { from, received, board, journal });
+      const run = await plotter.plot(planner, settings, { from, received, board, journal, noted });
       this.#run = run;
       run.onProgress((progress) => this.#reports.progress(progress));
       run.onHeld((held, wait = null) => this.#reports.held(held, wait));

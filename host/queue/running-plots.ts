@@ -187,6 +187,7 @@ export class RunningPlots {
         progress: (progress) => this.#progress(job.id, plotter.id, progress),
         held: (held, wait) => this.#safely(job.id, () => this.#held(job.id, held, wait)),
         refused: (message) => this.#safely(job.id, () => void this.#jobs.note(job.id, message)),
+        noted: (message) => this.#safely(job.id, () => void this.#jobs.note(job.id, message)),
         ended: (end) => this.#safely(job.id, () => this.#ended(job.id, plotter.id, end)),
       },
     );

@@ -205,7 +205,9 @@ async function onPlotter(
   begin();
   const journal = journalIn(record, () => progress, io);
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
-  const start: PlotStart = { from, received, board, journal, held: from !== null && io.hasKeyboard };
+  const held = from !== null && io.hasKeyboard;
+  const noted = (message: string): void => io.err(`\n${message}\n`);
+  const start: PlotStart = { from, received, board, journal, noted, held };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : ({ position } as const);

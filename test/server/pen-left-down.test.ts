@@ -1,6 +1,5 @@
 /** The pen does not stay on the paper longer than the connection is lost, and the user learns where it was. */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry } from "../../host/plotter/types.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
@@ -14,17 +13,14 @@ async function drawing(firmware: string) {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
   await world.run(driver.start());
-  const journal: JournalEntry[] = [];
-  const run = await world.run(
-    driver.plot(new LocalPlanner(LINE), DEFAULT_PLOT_SETTINGS, {
-      journal: { record: (entry) => journal.push(entry) },
-    }),
-  );
+  const notes: string[] = [];
+  const noted = (message: string): void => void notes.push(message);
+  const run = await world.run(driver.plot(new LocalPlanner(LINE), DEFAULT_PLOT_SETTINGS, { noted }));
   const ended = run.finished.catch(() => undefined);
   const board = virtualBoardOf(driver);
   await world.advance(3);
   expect(board.state().penUp).toBe(false);
-  return { world, driver, board, ended };
+  return { world, driver, board, ended, notes };
 }
 
 const commands = (log: string): string[] => [...log.matchAll(/> (.*)/g)].map(([, line]) => line);
@@ -47,6 +43,18 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     const lines = commands(driver.log());
     const before = lines.slice(0, lines.indexOf("SP,1,400"));
     expect(before.filter((line) => !/^(V|CU,10?,[01]|QT|QM|QP)$/.test(line))).toEqual([]);
+  });
+
+  it("a computer that stands still for 3 s says where the pen rested, and one that does for 1 s does not", async () => {
+    const { world, board, ended, notes } = await drawing(firmware);
+    await world.sleep(1);
+    await world.advance(0.5);
+    expect(notes).toEqual([]);
+    await world.sleep(3);
+    const xMm = Number(/ for 3 s, .* at x ([\d.]+) mm, y 10\.0 mm from home/.exec(notes[0])![1]);
+    expect(Math.abs(xMm - board.state().xMm)).toBeLessThan(1);
+    await world.run(ended);
+    expect(notes).toHaveLength(1);
   });
 
   it("a pen that was up when the connection was lost is not mentioned", async () => {
