@@ -32,29 +32,34 @@ const BOLD_WEIGHT = 600;
  */
 export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
   const { create } = await import("fontkit");
-  let font: Font;
-  try {
+  return readable(() => {
     const opened = create(bytes);
-    font = "fonts" in opened ? opened.fonts[0] : opened;
+    const font = "fonts" in opened ? opened.fonts[0] : opened;
     // Broken tables cause errors only when used.
     font.layout("A");
+    return {
+      kind: "outline",
+      metrics: metricsOf(font),
+      face: faceOf(font),
+      hasSmallCaps: font.availableFeatures.includes("smcp"),
+      // A damaged letter is found only when a text uses it.
+      layout: (text, style) => readable(() => layOut(font, text, style)),
+    };
+  });
+}
+
+/** What `read` returns; whatever the font library throws about damaged bytes becomes "bad-file". */
+function readable<T>(read: () => T): T {
+  try {
+    return read();
   } catch (cause) {
     const why = cause instanceof Error ? cause.message : String(cause);
     throw new PlotwrightError(
       "bad-file",
       `This file cannot be read as a font (${why}). Choose a ttf, otf or woff file.`,
-      {
-        cause,
-      },
+      { cause },
     );
   }
-  return {
-    kind: "outline",
-    metrics: metricsOf(font),
-    face: faceOf(font),
-    hasSmallCaps: font.availableFeatures.includes("smcp"),
-    layout: (text, style) => layOut(font, text, style),
-  };
 }
 
 function faceOf(font: Font): FontFace | undefined {

@@ -151,6 +151,15 @@ describe("outlines of a font", () => {
     await expect(openOutlineFont(new Uint8Array([1, 2, 3, 4, 5, 6, 7, 8]))).rejects.toThrow(PlotwrightError);
   });
 
+  it("are refused as a bad file if the font's measures are damaged", async () => {
+    const file = createRequire(import.meta.url).resolve("bootstrap-icons/font/fonts/bootstrap-icons.woff");
+    const bytes = new Uint8Array(readFileSync(file));
+    const table = Buffer.from(bytes).indexOf("post");
+    // Each entry of a WOFF's directory is a name, then the table's place in the file.
+    bytes.set([0x7f, 0xff, 0xff, 0xff], table + 4);
+    await expect(openOutlineFont(bytes)).rejects.toMatchObject({ name: "PlotwrightError", code: "bad-file" });
+  });
+
   it("come from a real font file", async () => {
     const file = createRequire(import.meta.url).resolve("bootstrap-icons/font/fonts/bootstrap-icons.woff");
     const font = await openOutlineFont(new Uint8Array(readFileSync(file)));
