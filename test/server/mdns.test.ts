@@ -248,3 +248,23 @@ describe("two servers on one network", () => {
     await server.local.close();
   });
 });
+
+describe("a flood of questions for the name", () => {
+  // RFC 6762, section 6: a record is multicast at most once a second. The own implementation has no such limit yet.
+  it.fails("is answered at most once a second", { timeout: 20_000 }, async () => {
+    const network = NETWORK();
+    const announcer = new Announcer(new Line(network));
+    await announcer.named("plotwright.local");
+    const asking = stranger(network);
+    let answerCount = 0;
+    asking.on("response", () => answerCount++);
+    const fromMs = Date.now();
+    for (let i = 0; i < 200; i++) asking.query({ questions: [{ name: "plotwright.local", type: "A" }] });
+    await new Promise((resolve) => setTimeout(resolve, 200));
+    const seconds = Math.ceil((Date.now() - fromMs) / 1_000);
+    await announcer.local.close();
+    asking.destroy();
+    expect(answerCount).toBeGreaterThan(0);
+    expect(answerCount).toBeLessThanOrEqual(seconds + 1);
+  });
+});

@@ -1,5 +1,5 @@
 /** The systemd service and the logs, on a simulated computer that only records its commands. */
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createServer, type AddressInfo } from "node:net";
 import { homedir, tmpdir } from "node:os";
 import { join } from "node:path";
@@ -84,6 +84,7 @@ describe("plotwright service", () => {
     expect(unit).toContain(
       `\nExecStart=/usr/bin/node ${script} serve --lan --data ${join(process.cwd(), "relative/plots")}\n`,
     );
+    expect(statSync(userUnit()).mode & 0o777).toBe(0o600);
     expect(unit).toMatch(/\nType=exec\nExecStart=/);
     expect(unit).toMatch(/\nRestart=on-failure\n/);
     expect(unit).toMatch(/\nWantedBy=default\.target\n$/);

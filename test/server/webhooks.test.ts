@@ -242,3 +242,19 @@ describe("a webhook", () => {
     },
   );
 });
+
+describe("a stored webhook with an event of another version", () => {
+  it("is listed with the events that this version knows", () => {
+    const store = new WebhookStore(app.store.database);
+    const hook = {
+      id: "w",
+      name: "Bell",
+      url,
+      createdAt: new Date().toISOString(),
+      pendingCount: 0,
+      last: null,
+    };
+    store.add({ ...hook, events: ["dreaming" as WebhookEvent, "done"] }, "secret");
+    expect(store.list()).toEqual([{ ...hook, events: ["done"] }]);
+  });
+});
