@@ -60,6 +60,7 @@ export {
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
+export { withGiven, type DeepPartial } from "./settings/partial.js";
 export { isAllowed, rangeInWords, type NumberSetting, type Setting } from "./settings/setting.js";
 export {
   QUALITY_PATH,
@@ -105,7 +106,7 @@ export type { TrajectoryStats } from "./plan/stats.js";
 export { landingMm } from "./plan/pen-flight.js";
 export { penOfLayer } from "./plan/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
-export { motionOfQuality, qualityOf } from "./plan/quality.js";
+export { motionForSprings, motionOfQuality, plannable, qualityOf, withQuality } from "./plan/quality.js";
 export { penError, type PenError } from "./plan/pen-error.js";
 export { swingPen, type PenPoint } from "./plan/spring-pen.js";
 export { comeToRest } from "./plan/come-to-rest.js";

@@ -1,12 +1,6 @@
 /** A plotter that is stored: a plotter driver with an id, a name and a machine. */
-import { findMachine, type Springs } from "../../src/internal.js";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  type CommandAnswer,
-  type HandMove,
-  type Plotter,
-  type PlotSettings,
-} from "../../src/schema/index.js";
+import type { Springs } from "../../src/internal.js";
+import type { CommandAnswer, HandMove, Plotter, PlotSettings } from "../../src/schema/index.js";
 import { PlotterDriver } from "./plotter-driver.js";
 import type { PlotterOptions } from "./plotter-state.js";
 import type { PlotPlanner } from "../planning/plot-planner.js";
@@ -22,29 +16,18 @@ interface NamedPlotterOptions extends Pick<PlotterOptions, "clock" | "devices"> 
   readonly virtualSprings?: Springs | undefined;
   /** Whether another plotter uses this port. */
   readonly isTaken: (path: string) => boolean;
-  /** Adds the profile when the settings name a custom machine. */
-  readonly withMachine: (settings: PlotSettings) => PlotSettings;
+  /** The plotter's settings, with which it moves before the first job or move. */
+  readonly settings: PlotSettings;
   readonly log: (line: string) => void;
 }
-
-/** Falls back to the default settings if the plotter's custom machine was removed. */
-const knownMachine = (settings: PlotSettings): PlotSettings =>
-  findMachine(settings) === null ? DEFAULT_PLOT_SETTINGS : settings;
 
 /**
  * Opens a plotter that connects in the background: a host without a board still shows the queue and the
  * error.
  */
 export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions): ManagedPlotter {
-  const { virtualSpeed, virtualSprings, isTaken, withMachine, log, clock, devices } = options;
-  const { machine } = row;
-  const settingsOf = (id: string | null): PlotSettings =>
-    knownMachine(
-      id === null ? DEFAULT_PLOT_SETTINGS : withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: id }),
-    );
-  const settings = settingsOf(machine);
-  const parts = { clock, devices, isTaken, virtualSpeed, virtualSprings };
-  const plotter = new NamedPlotter(row, { ...parts, device: row.device, settings }, settingsOf);
+  const { log, ...parts } = options;
+  const plotter = new NamedPlotter(row, { ...parts, device: row.device });
   let last: string | null = null;
   plotter.onChange(({ name, connection, message, device }) => {
     const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;
@@ -60,19 +43,13 @@ export class NamedPlotter implements ManagedPlotter {
   readonly id: string;
   readonly #driver: PlotterDriver;
   readonly #listeners: ((plotter: Plotter) => void)[] = [];
-  readonly #settingsOf: (machine: string | null) => PlotSettings;
   #name: string | null;
   #machine: string | null;
 
-  constructor(
-    { id, name, machine }: Omit<PlotterRow, "device">,
-    options: PlotterOptions,
-    settingsOf: (machine: string | null) => PlotSettings = () => DEFAULT_PLOT_SETTINGS,
-  ) {
+  constructor({ id, name, machine }: Omit<PlotterRow, "device">, options: PlotterOptions) {
     this.id = id;
     this.#name = name;
     this.#machine = machine;
-    this.#settingsOf = settingsOf;
     this.#driver = new PlotterDriver(options);
     this.#driver.onChange(() => this.#notify());
   }
@@ -96,8 +73,8 @@ export class NamedPlotter implements ManagedPlotter {
     this.#notify();
   }
 
-  useMachine(machine: string | null): void {
-    this.#driver.use(this.#settingsOf(machine));
+  useMachine(machine: string | null, settings: PlotSettings): void {
+    this.#driver.use(settings);
     this.#machine = machine;
     this.#notify();
   }
@@ -110,8 +87,8 @@ export class NamedPlotter implements ManagedPlotter {
     return this.#driver.plot(planner, settings, start);
   }
 
-  pen(up: boolean, heightPct?: number): Promise<void> {
-    return this.#driver.pen({ up, heightPct });
+  pen(up: boolean, heightPct?: number, settings?: PlotSettings): Promise<void> {
+    return this.#driver.pen({ up, heightPct }, settings);
   }
 
   motorsOff(): Promise<void> {

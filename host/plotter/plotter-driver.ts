@@ -138,8 +138,16 @@ export class PlotterDriver {
     }
   }
 
-  async pen(request: { readonly up: boolean; readonly heightPct?: number | undefined }): Promise<void> {
-    await this.#byHand((machine) => machine.movePen(request.up, this.#settings, request.heightPct));
+  /** Default settings: those of the last job or move. */
+  async pen(
+    request: { readonly up: boolean; readonly heightPct?: number | undefined },
+    settings: PlotSettings = this.#settings,
+  ): Promise<void> {
+    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
+    await this.#byHand((machine) => {
+      this.#settings = settings;
+      return machine.movePen(request.up, settings, request.heightPct);
+    });
   }
 
   async motorsOff(): Promise<void> {

@@ -11,7 +11,8 @@ export interface PlotterPort {
   onChange(listener: (plotter: Plotter) => void): void;
   /** Starts a plot; throws `no-board`, `busy` or `board-error` if it can't. */
   plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;
-  pen(up: boolean, heightPct?: number): Promise<void>;
+  /** With the machine and heights of `settings`; default: those of the last job or move. */
+  pen(up: boolean, heightPct?: number, settings?: PlotSettings): Promise<void>;
   motorsOff(): Promise<void>;
   /**
    * A manual move with the machine, speeds and heights of `settings`; default: those of the last job or move.
@@ -27,8 +28,6 @@ export interface PlotterPort {
 /** A plotter that is stored by the server and that the user can rename. */
 export interface ManagedPlotter extends PlotterPort {
   rename(name: string): void;
-  /**
-   * Sets the machine for manual moves; null: the default. The board stays connected and home stays the same.
-   */
-  useMachine(machine: string | null): void;
+  /** Sets the model, with the plotter's settings; null: not set. The board stays connected and home stays the same. */
+  useMachine(machine: string | null, settings: PlotSettings): void;
 }

@@ -3,25 +3,32 @@
  * announced.
  */
 import { PlotwrightError } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import {
+  DEFAULT_PLOT_SETTINGS,
   plotterSettingsSchema,
   type Device,
   type NewPlotter,
   type Plotter,
   type PlotterPatch,
   type PlotterSettings,
+  type PlotSettings,
   type ServerEvent,
 } from "../../src/schema/index.js";
 import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
 import type { PlotterRow, PlotterStore } from "../storage.js";
 import type { FoundBoard } from "./devices.js";
+import { settingsOfPlotter, type SettingsOfPlotter, type WithMachine } from "./settings-of-plotter.js";
 
 interface RegistryParts {
   readonly store: PlotterStore;
   /** Opens a plotter, which connects in the background. */
-  readonly open: (row: PlotterRow, isTaken: (path: string) => boolean) => ManagedPlotter;
-  /** Throws `bad-setting` for an unknown machine id. */
-  readonly mustBeMachine?: (id: string) => void;
+  readonly open: (
+    row: PlotterRow,
+    isTaken: (path: string) => boolean,
+    settings: PlotSettings,
+  ) => ManagedPlotter;
+  readonly withMachine: WithMachine;
   readonly findBoards: () => Promise<readonly FoundBoard[]>;
   readonly announce: (event: ServerEvent) => void;
   /** Id of the plotter that a new server starts with. */
@@ -80,6 +87,12 @@ export class PlotterRegistry {
     );
   }
 
+  /** The settings from which jobs and manual moves start. `last`: those of its last job. */
+  settingsOf(id: string, last?: PlotSettings): SettingsOfPlotter {
+    const machine = this.#rows.get(id)?.machine ?? null;
+    return settingsOfPlotter({ machine, own: this.settings()[id], last }, this.#parts.withMachine);
+  }
+
   /** Throws `not-found`. */
   saveSettings(id: string, settings: PlotterSettings): PlotterSettings {
     this.#find(id);
@@ -100,7 +113,7 @@ export class PlotterRegistry {
   /** Throws `conflict` if another plotter has the name or device. */
   add({ name, device, machine = null }: NewPlotter): Plotter {
     this.#mustBeFree(name, device, null);
-    if (machine !== null) this.#parts.mustBeMachine?.(machine);
+    if (machine !== null) this.#mustBeMachine(machine);
     const row = { id: this.#newId(name), name, device, machine };
     this.#parts.store.savePlotter(row);
     this.#rows.set(row.id, row);
@@ -120,7 +133,7 @@ export class PlotterRegistry {
     const { row, port } = this.#find(id);
     const { name = row.name, device = row.device, machine = row.machine } = patch;
     this.#mustBeFree(patch.name ?? null, patch.device ?? null, id);
-    if (typeof patch.machine === "string") this.#parts.mustBeMachine?.(patch.machine);
+    if (typeof patch.machine === "string") this.#mustBeMachine(patch.machine);
     const isMoved = device !== row.device;
     const isOther = machine !== row.machine;
     if ((isMoved || isOther) && use.isBusy(id)) {
@@ -136,7 +149,7 @@ export class PlotterRegistry {
       await port.close();
       if (!this.#isClosed) this.#open(next);
     } else {
-      if (isOther) port.useMachine(machine);
+      if (isOther) port.useMachine(machine, this.settingsOf(id).settings);
       if (name !== null) port.rename(name);
     }
     this.#announce();
@@ -194,7 +207,8 @@ export class PlotterRegistry {
   }
 
   #open(row: PlotterRow): ManagedPlotter {
-    const port = this.#parts.open(row, (path) => this.#ownerOf(path, row.id) !== undefined);
+    const isTaken = (path: string): boolean => this.#ownerOf(path, row.id) !== undefined;
+    const port = this.#parts.open(row, isTaken, this.settingsOf(row.id).settings);
     port.onChange((plotter) => {
       if (this.#ports.get(row.id) === port) this.#parts.announce({ type: "plotter", plotter });
     });
@@ -212,6 +226,11 @@ export class PlotterRegistry {
       throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
     }
     return { row, port };
+  }
+
+  /** Throws `bad-setting` for an unknown machine id. */
+  #mustBeMachine(machine: string): void {
+    machineOf(this.#parts.withMachine({ ...DEFAULT_PLOT_SETTINGS, machine }));
   }
 
   #mustBeFree(name: string | null, device: string | null, exceptId: string | null): void {

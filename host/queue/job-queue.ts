@@ -1,9 +1,10 @@
 /** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
 import { PlotwrightError } from "../../src/index.js";
-import { machineOf, firmwareFor, isPlannedAlike } from "../../src/internal.js";
+import { machineOf, firmwareFor, isPlannedAlike, motionForSprings } from "../../src/internal.js";
 import {
   ENDED_STATES,
   queueSettingsSchema,
+  type HandMoveRequest,
   type HistoryRequest,
   type Job,
   type JobChange,
@@ -15,8 +16,10 @@ import {
 } from "../../src/schema/index.js";
 import type { Requester } from "../planning/lane.js";
 import { expectedS, timeRatio } from "./expected-time.js";
+import type { SettingsOfPlotter } from "../plotter/settings-of-plotter.js";
 import { findPlotter } from "./find-plotter.js";
 import { JobList } from "./job-list.js";
+import { JobSettings } from "./job-settings.js";
 import { applyJobEvent, isOnPlotter } from "./job-machine.js";
 import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
@@ -31,6 +34,7 @@ const MAX_SETTINGS_BYTES = 100_000;
 export class JobQueue {
   readonly #parts: QueueParts;
   readonly #jobs: JobList;
+  readonly #settings: JobSettings;
   readonly #runs: RunningPlots;
   /** Starts in progress, by job id. */
   readonly #beginning = new Map<string, Promise<Job | string>>();
@@ -39,7 +43,8 @@ export class JobQueue {
   constructor(parts: QueueParts) {
     this.#parts = parts;
     this.#jobs = new JobList(parts);
-    this.#runs = new RunningPlots(parts, this.#jobs, (job) => this.#done(job));
+    this.#settings = new JobSettings(parts, this.#jobs);
+    this.#runs = new RunningPlots(parts, this.#jobs, this.#settings, (job) => this.#done(job));
   }
 
   /** Queue order first, then history, newest first. */
@@ -63,19 +68,32 @@ export class JobQueue {
   }
 
   /** The settings of one plotter; default: the first one. */
-  settings(plotterId = this.#firstPlotter()): QueueSettings {
+  settings(plotterId = this.firstPlotter()): QueueSettings {
     const stored = queueSettingsSchema.safeParse(this.#parts.store.setting(settingOf(plotterId)));
     return stored.success ? stored.data : { runOn: false };
+  }
+
+  /** The settings from which jobs and manual moves of a plotter start. */
+  settingsOf(plotterId: string): SettingsOfPlotter {
+    return this.#settings.of(plotterId);
+  }
+
+  /** The settings of a manual move: the plotter's, with what the caller gives. Throws `bad-setting`. */
+  handSettings(plotterId: string, { settings, profile }: HandMoveRequest = {}): PlotSettings {
+    const whole = this.#settings.with(plotterId, settings).settings;
+    if (profile === undefined) return whole;
+    const motion = motionForSprings(whole.motion, machineOf(whole).springs ?? null, profile.springs ?? null);
+    return { ...whole, machine: profile.id, customMachine: profile, motion };
   }
 
   allSettings(): Record<string, QueueSettings> {
     return Object.fromEntries([...this.#parts.plotters.keys()].map((id) => [id, this.settings(id)]));
   }
 
-  saveSettings(settings: QueueSettings, plotterId = this.#firstPlotter()): QueueSettings {
+  saveSettings(settings: QueueSettings, plotterId = this.firstPlotter()): QueueSettings {
     findPlotter(this.#parts.plotters, plotterId);
     this.#parts.store.saveSetting(settingOf(plotterId), settings);
-    if (plotterId === this.#firstPlotter()) this.#parts.announce({ type: "queue", queue: settings });
+    if (plotterId === this.firstPlotter()) this.#parts.announce({ type: "queue", queue: settings });
     this.#parts.announce({ type: "queues", queues: this.allSettings() });
     return settings;
   }
@@ -103,9 +121,13 @@ export class JobQueue {
   }
 
   async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
-    const { name, settings, drawing, from, plotterId = this.#firstPlotter() } = wanted;
-    mustFit(settings);
+    const { name, drawing, from, plotterId = this.firstPlotter() } = wanted;
     findPlotter(this.#parts.plotters, plotterId);
+    const { settings, note } =
+      wanted.sharedId === undefined
+        ? this.#settings.with(plotterId, wanted.settings)
+        : this.#settings.withForeign(plotterId, wanted.settings);
+    mustFit(settings);
     const firmware = this.#firmwareOf(plotterId, settings);
     const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
     if (from && from.strokeIndex >= stats.strokeCount) {
@@ -116,7 +138,7 @@ export class JobQueue {
     }
     // The plotter may have been removed meanwhile.
     findPlotter(this.#parts.plotters, plotterId);
-    const job = this.#newJob({ plotterId, name, settings, stats, warnings: [...warnings] });
+    const job = this.#newJob({ plotterId, name, settings, stats, warnings: noted(note, warnings) });
     const { watched, sharedId, copies } = wanted;
     return this.#jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId, copies });
   }
@@ -128,11 +150,7 @@ export class JobQueue {
   async patch(id: string, patch: JobPatch, requester: Requester = {}): Promise<Job> {
     const { name, settings, plotterId } = patch;
     if (plotterId !== undefined) this.#jobs.mustBeQueued(id, "Its plotter");
-    if (settings !== undefined) {
-      mustFit(settings);
-      this.#jobs.mustBeQueued(id, "Its settings");
-      mustKeepStrokes(this.get(id), settings);
-    }
+    if (settings !== undefined) this.#jobs.mustBeQueued(id, "Its settings");
     if (plotterId !== undefined) findPlotter(this.#parts.plotters, plotterId);
     const planned = await this.#remeasured(id, patch, requester);
     // The plotter may have been removed meanwhile.
@@ -147,20 +165,25 @@ export class JobQueue {
   }
 
   /** The figures of a job after its settings or plotter change; empty if they stay the same. */
-  async #remeasured(
-    id: string,
-    { settings, plotterId }: JobPatch,
-    requester: Requester,
-  ): Promise<Partial<Job>> {
+  async #remeasured(id: string, patch: JobPatch, requester: Requester): Promise<Partial<Job>> {
+    const { settings, plotterId } = patch;
+    if (settings === undefined && plotterId === undefined) return {};
     const job = this.get(id);
-    const wanted = settings ?? job.settings;
+    const { settings: wanted, note } = this.#settings.changed(job, patch);
+    mustFit(wanted);
+    if (settings !== undefined) mustKeepStrokes(job, wanted);
     const firmware = this.#firmwareOf(plotterId ?? job.plotterId, wanted);
     const before = this.#firmwareOf(job.plotterId, wanted);
-    if (settings === undefined && isPlannedAlike(machineOf(wanted), wanted.pen, firmware, before)) return {};
+    if (
+      isSameValue(job.settings, wanted) &&
+      isPlannedAlike(machineOf(wanted), wanted.pen, firmware, before)
+    ) {
+      return {};
+    }
     const drawing = this.#parts.store.drawingOf(id);
     const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, requester);
     mustBeSame(job, this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings"));
-    return { settings: wanted, stats, warnings: [...warnings], remainingS: stats.durationS };
+    return { settings: wanted, stats, warnings: noted(note, warnings), remainingS: stats.durationS };
   }
 
   /** The firmware of the plotter's board; null if it is unknown, or if the settings' machine has another controller. */
@@ -348,15 +371,19 @@ export class JobQueue {
 
   /** The job's plotter, or the first one if that plotter was removed. */
   #existingPlotter({ plotterId }: Job): string {
-    return this.#parts.plotters.has(plotterId) ? plotterId : this.#firstPlotter();
+    return this.#parts.plotters.has(plotterId) ? plotterId : this.firstPlotter();
   }
 
-  #firstPlotter(): string {
+  /** Id of the plotter for jobs that name none. */
+  firstPlotter(): string {
     const first = [...this.#parts.plotters.keys()][0];
     if (first === undefined) throw new PlotwrightError("no-board", "There is no plotter.");
     return first;
   }
 }
+
+const noted = (note: string | null, warnings: readonly string[]): string[] =>
+  note === null ? [...warnings] : [note, ...warnings];
 
 const settingOf = (plotterId: string): string => `queue:${plotterId}`;
 

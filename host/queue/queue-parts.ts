@@ -1,7 +1,8 @@
 /** The parts the queue depends on, injected so that tests can control each of them. */
-import type { Job, JobPlace, PlotSettings, ServerEvent } from "../../src/schema/index.js";
+import type { GivenSettings, Job, JobPlace, PlotSettings, ServerEvent } from "../../src/schema/index.js";
 import type { Planning } from "../planning/planning.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { SettingsOfPlotter, WithMachine } from "../plotter/settings-of-plotter.js";
 import type { DrawingStore, JobStore, StoredDrawing, WatchedFile } from "../storage.js";
 
 export interface Claims {
@@ -30,6 +31,10 @@ export interface QueueParts extends JobHooks {
   readonly planning: Planning;
   /** By id, in order; plotters may be added and removed while the queue runs. */
   readonly plotters: ReadonlyMap<string, PlotterPort>;
+  /** The settings of a plotter; `last`: those of its last job. Default: nothing is set for any plotter. */
+  readonly settingsOf?: (plotterId: string, last: PlotSettings | undefined) => SettingsOfPlotter;
+  /** Default: there are no custom machines. */
+  readonly withMachine?: WithMachine;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;
   /** Why a job that was being plotted when the program ended is interrupted. Default: SERVER_STOPPED. */
@@ -40,7 +45,8 @@ export interface QueueParts extends JobHooks {
 
 export interface NewQueueJob {
   readonly name: string;
-  readonly settings: PlotSettings;
+  /** Laid over the settings of the plotter. */
+  readonly settings: GivenSettings;
   readonly drawing: StoredDrawing;
   readonly plotterId?: string | undefined;
   /** Where it starts; left out: at the beginning. */

@@ -17,6 +17,7 @@ import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
 import type { JournalEntry, PlotProgress } from "../plotter/types.js";
 import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
+import type { JobSettings } from "./job-settings.js";
 import { applyJobEvent, isOnPlotter } from "./job-machine.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
 import { findPlotter } from "./find-plotter.js";
@@ -49,6 +50,7 @@ interface Running {
 export class RunningPlots {
   readonly #parts: QueueParts;
   readonly #jobs: JobList;
+  readonly #settings: JobSettings;
   readonly #done: (job: Job) => void;
   /** By plotter id. */
   readonly #running = new Map<string, Running>();
@@ -59,9 +61,10 @@ export class RunningPlots {
    * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
    * plot.
    */
-  constructor(parts: QueueParts, jobs: JobList, done: (job: Job) => void) {
+  constructor(parts: QueueParts, jobs: JobList, settings: JobSettings, done: (job: Job) => void) {
     this.#parts = parts;
     this.#jobs = jobs;
+    this.#settings = settings;
     this.#done = done;
     for (const job of jobs.list()) if (isOnPlotter(job)) this.#interrupt(job.id, this.#stopped);
   }
@@ -89,7 +92,7 @@ export class RunningPlots {
     const plotter = this.#freePlotter(id);
     // The journal of an earlier plot of this job, which was interrupted and queued again.
     this.#parts.store.clearJournal(id);
-    const started = this.#jobs.apply(id, { type: "start" });
+    const started = this.#jobs.apply(id, { type: "start" }, this.#settings.onPlotter(this.#jobs.get(id)));
     this.#begin(plotter, started);
     return started;
   }
@@ -100,7 +103,11 @@ export class RunningPlots {
     const { place: from } = this.#jobs.get(id);
     const { board } = this.#journal(id) ?? {};
     const found = plotter.snapshot();
-    const job = this.#jobs.apply(id, { type: "recover" }, { place: from ?? { strokeIndex: 0, alongMm: 0 } });
+    const job = this.#jobs.apply(
+      id,
+      { type: "recover" },
+      { ...this.#settings.onPlotter(this.#jobs.get(id)), place: from ?? { strokeIndex: 0, alongMm: 0 } },
+    );
     this.#keepPlace({ id, place: from });
     this.#begin(plotter, job).hold(this.#parts.nowIso());
     const isOther = board !== undefined && isOtherBoard(board, found);
@@ -113,10 +120,14 @@ export class RunningPlots {
 
   /** Changes pen heights and speeds of a job that is plotting or held. */
   async change(id: string, change: JobChange): Promise<Job> {
-    await this.#runnerOf(id, ["plotting", "paused"], "changed").live.change(change);
+    const { live } = this.#runnerOf(id, ["plotting", "paused"], "changed");
+    const { pen, motion, speedPct } = change;
+    const whole = this.#settings.changed(this.#jobs.get(id), { settings: { pen, motion } }).settings;
+    const now = { ...(pen && { pen: whole.pen }), ...(motion && { motion: whole.motion }) };
+    await live.change({ ...now, speedPct });
     const job = this.#jobs.get(id);
-    const { pen = job.settings.pen, motion = job.settings.motion, speedPct = job.speedPct } = change;
-    return this.#jobs.save({ ...job, settings: { ...job.settings, pen, motion }, speedPct });
+    const settings = { ...job.settings, ...now };
+    return this.#jobs.save({ ...job, settings, speedPct: speedPct ?? job.speedPct });
   }
 
   /** Stops without slowing down; afterwards the job is held. */

@@ -1,6 +1,7 @@
 /** Declares the single commands to the machine: pen, manual moves, a raw line, info. */
 import { InvalidArgumentError, type Command } from "commander";
-import type { HandMove } from "../../src/schema/index.js";
+import type { HandMove, PlotSettings } from "../../src/schema/index.js";
+import { mustBeDataFolder } from "./files.js";
 import type { CliIo } from "./io.js";
 import { length } from "./lengths.js";
 import {
@@ -22,7 +23,7 @@ import {
   type Declare,
   type DeviceOptions,
 } from "./options.js";
-import { addSettingOptions, handSettingsFromOptions, type OptionValues } from "./settings-options.js";
+import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
 
 type HandOptions = OptionValues & DeviceOptions;
 
@@ -30,26 +31,22 @@ export const declarePen: Declare = (command, { io }) => {
   addHandOptions(command.argument("<where>", "up, down, or a height in percent", penPlace))
     .option("--pen-up <percent>", "height when up (default: 60)", percent)
     .option("--pen-down <percent>", "height when down (default: 30)", percent)
-    .action((where: PenPlace, options: HandOptions) =>
-      runPen(where, handSettingsFromOptions(options), options, io),
-    );
+    .action((where: PenPlace, options: HandOptions) => runPen(where, handSettings(options, io), options, io));
 };
 
 export const declareAlign: Declare = (command, { io }) => {
-  addHandOptions(command).action((options: HandOptions) =>
-    runAlign(handSettingsFromOptions(options), options, io),
-  );
+  addHandOptions(command).action((options: HandOptions) => runAlign(handSettings(options, io), options, io));
 };
 
 export const declareInfo: Declare = (command, { io }) => {
   addJson(addHandOptions(command)).action((options: HandOptions & { json?: boolean }) =>
-    runInfo(handSettingsFromOptions(options), options, io),
+    runInfo(handSettings(options, io), options, io),
   );
 };
 
 export const declareRaw: Declare = (command, { io }) => {
   addHandOptions(command.argument("<line>", "a command of the board, for example QM")).action(
-    (line: string, options: HandOptions) => runRaw(line, handSettingsFromOptions(options), options, io),
+    (line: string, options: HandOptions) => runRaw(line, handSettings(options, io), options, io),
   );
 };
 
@@ -91,15 +88,23 @@ export const declareFrame: Declare = (command, { io }) => {
   addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"])
     .option("--only <layer...>", "around these layers only, by name or id")
     .action((file: string, options: OptionValues & FrameOptions) =>
-      runFrame(file, handSettingsFromOptions(options), options, io),
+      runFrame(file, handSettings(options, io), options, io),
     );
 };
+
+/** The plotter's settings with the options. Says if they name another model than the plotter's. */
+function handSettings(options: HandOptions, io: CliIo): PlotSettings {
+  mustBeDataFolder(typeof options["data"] === "string" ? options["data"] : undefined);
+  const { settings, note } = plotterSettingsFromOptions(options);
+  if (note !== null) io.err(`note: ${note}\n`);
+  return settings;
+}
 
 const addMove = (command: Command, settings: readonly string[]): Command =>
   addData(addDevice(addSettingOptions(command, settings)));
 
 const move = (how: HandMove, options: HandOptions, io: CliIo): Promise<void> =>
-  runMove(how, handSettingsFromOptions(options), options, io);
+  runMove(how, handSettings(options, io), options, io);
 
 function place(command: Command, ...names: readonly string[]): Command {
   for (const name of names) command.argument(`<${name}>`, "mm, or with a unit as in 2cm", length);

@@ -1,6 +1,7 @@
 /** Options that several commands have, and how their values are read. */
 import { InvalidArgumentError, Option, type Command } from "commander";
 import { isAllowed, rangeInWords, SPRINGS_TABLE, type Springs } from "../../src/internal.js";
+import type { PenChoice } from "../planning/layers-by-name.js";
 import type { CliIo } from "./io.js";
 
 /** Passed to each command when it declares its options and action. */
@@ -76,6 +77,26 @@ export function percent(text: string): number {
   if (!(value >= 0 && value <= 100)) throw new InvalidArgumentError("It must be 0 to 100.");
   return value;
 }
+
+/** Collects the values of --pen LAYER=NAME. */
+export function penChoice(text: string, before: readonly PenChoice[] = []): PenChoice[] {
+  const at = text.lastIndexOf("=");
+  const [layer, pen] = [text.slice(0, at).trim(), text.slice(at + 1).trim()];
+  if (at < 0 || layer === "" || pen === "") {
+    throw new InvalidArgumentError("It must be a layer and a pen, such as Sky=Blue.");
+  }
+  return [...before, { layer, pen }];
+}
+
+/** For the commands that draw. */
+export const addLayerOptions = (command: Command): Command =>
+  command
+    .option("--only <layer...>", "draw these layers only, by name or id")
+    .addOption(
+      new Option("--pen <layer=name...>", "pen that draws a layer: one of the plotter's, by name").argParser(
+        penChoice,
+      ),
+    );
 
 export function copies(text: string): number {
   const value = Number(text);

@@ -4,12 +4,13 @@ import { PlotwrightError } from "../../src/index.js";
 import { withDrawingFile } from "./files.js";
 import type { PlanCommandOptions } from "./plan.js";
 import { runPlanInThread } from "./plan-thread.js";
-import type { Declare } from "./options.js";
+import { addLayerOptions, type Declare } from "./options.js";
 import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
 
 export const declarePlan: Declare = (command, { io }) => {
-  addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin"))
-    .option("--only <layer...>", "draw these layers only, by name or id")
+  addLayerOptions(
+    addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin")),
+  )
     .option("--json", "print one JSON object")
     .option("--pen-error", "report how far the pen deviates from the drawing when the machine swings")
     .option("--commands <out>", "write the machine's commands, one per line, to a file or - for stdout")

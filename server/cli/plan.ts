@@ -27,7 +27,7 @@ import {
   toJson,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { withOnlyLayers } from "../planning/only-layers.js";
+import { withLayerPens, withOnlyLayers, type PenChoice } from "../planning/layers-by-name.js";
 import { readDrawing } from "../planning/read-drawing.js";
 import { writeOut } from "./files.js";
 import { printed } from "./io.js";
@@ -43,6 +43,7 @@ export interface PlanCommandOptions {
   readonly svg?: string;
   readonly strokes?: string;
   readonly only?: readonly string[];
+  readonly pen?: readonly PenChoice[];
 }
 
 /** The object of `--json`: scripts depend on these keys. Lengths mm, speeds mm/s, mm/s². */
@@ -129,7 +130,7 @@ function planFile(file: string, base: PlotSettings, options: PlanCommandOptions,
   const importMs = clock();
   io.imported(drawing);
   io.begin("prepare");
-  const settings = withOnlyLayers(drawing, base, options.only);
+  const settings = withLayerPens(drawing, withOnlyLayers(drawing, base, options.only), options.pen);
   clock();
   let orderingFrom = performance.now();
   const job = prepareJob(drawing, settings, machine, {

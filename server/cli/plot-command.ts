@@ -1,16 +1,17 @@
 import type { Command, Option } from "commander";
 import { PlotwrightError } from "../../src/index.js";
-import { addData, addDevice, copies, seconds, type Declare } from "./options.js";
+import { addData, addDevice, addLayerOptions, copies, seconds, type Declare } from "./options.js";
 import { resumePlot, runPlot, type PlotCommandOptions } from "./plot.js";
-import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
 
 export const declarePlot: Declare = (command, { io, setExitCode }) => {
   addData(
     addDevice(
-      addSettingOptions(command.argument("[files...]", "drawings, one after the other; - for stdin")),
+      addLayerOptions(
+        addSettingOptions(command.argument("[files...]", "drawings, one after the other; - for stdin")),
+      ),
     ),
   )
-    .option("--only <layer...>", "draw these layers only, by name or id")
     .option("--copies <number>", "number of times to plot each", copies, 1)
     .option(
       "--paper-s <seconds>",
@@ -24,7 +25,11 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
       if (options.resume === true) {
         mustFitResume(command);
         setExitCode(await resumePlot(files, options, io));
-      } else setExitCode(await runPlot(files, settingsFromOptions(options), options, io));
+        return;
+      }
+      const { settings, note } = plotterSettingsFromOptions(options);
+      if (note !== null && options.quiet !== true) io.err(`note: ${note}\n`);
+      setExitCode(await runPlot(files, settings, options, io));
     });
 };
 

@@ -4,7 +4,7 @@
  * When the process must end (SIGTERM, or its terminal is closed), the pen lifts, and the plot can be resumed.
  */
 import { basename } from "node:path";
-import { PlotwrightError } from "../../src/index.js";
+import { importDrawing, PlotwrightError } from "../../src/index.js";
 import { machineOf, sizeInWords } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
@@ -12,6 +12,8 @@ import { fileFault } from "../storage/file-fault.js";
 import type { OpenPlanner } from "../../host/planning/open-planner.js";
 import { PenStops } from "../../host/plotter/pen-stops.js";
 import { openPlanner } from "../planning/planner.js";
+import { withLayerPens, type PenChoice } from "../planning/layers-by-name.js";
+import { readDrawing } from "../planning/read-drawing.js";
 import { OWN_PLANNING_LIMITS } from "../planning/planning-limits.js";
 import { isOtherBoard } from "../../host/plotter/board-id.js";
 import type { JournalEntry, PlotStart } from "../../host/plotter/types.js";
@@ -25,6 +27,7 @@ import { cancelled, waitForPaper, watch } from "./plot-watch.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
   readonly only?: readonly string[];
+  readonly pen?: readonly PenChoice[];
   readonly copies: number;
   readonly paperS?: number;
   readonly resume?: boolean;
@@ -78,11 +81,12 @@ export async function runPlot(
       if (index > 0 && (end.aborted || !(await waitForPaper(nameOf(file), options, io))))
         return cancelled(io);
       const code = await withDrawingFile(file, (path) => {
-        const { only } = options;
+        const { only, pen } = options;
         const plot: Plot = {
           name: basename(nameOf(file)),
           path,
-          settings,
+          settings:
+            pen === undefined ? settings : withLayerPens(importDrawing("", readDrawing(path)), settings, pen),
           only,
           from: null,
           received: undefined,

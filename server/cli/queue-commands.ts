@@ -1,45 +1,47 @@
 /** Commands to a running server's queue. */
 import { InvalidArgumentError, Option, type Command } from "commander";
 import { basename } from "node:path";
-import { importDrawing, PlotwrightError } from "../../src/index.js";
+import { importDrawing, PlotwrightError, type Drawing } from "../../src/index.js";
 import { printableJson, sizeInWords, textOfBytes } from "../../src/internal.js";
-import { ENDED_STATES, type Job } from "../../src/schema/index.js";
-import { withOnlyLayers } from "../planning/only-layers.js";
+import { ENDED_STATES, machineProfileSchema, type Job, type PlotSettings } from "../../src/schema/index.js";
+import type { StoredOfPlotter, WithMachine } from "../../host/plotter/settings-of-plotter.js";
+import { withLayerPens, withOnlyLayers, type PenChoice } from "../planning/layers-by-name.js";
 import { readBytes } from "../planning/read-drawing.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "./files.js";
 import { printed } from "./io.js";
-import { addData, addJson, copies, type Declare } from "./options.js";
+import { addData, addJson, addLayerOptions, copies, type Declare } from "./options.js";
 import { minutes } from "./plan.js";
+import { NOTHING_STORED } from "./stored-plotter.js";
 import { addJob, DEFAULT_URL, serverState, type ServerOptions, type ServerState } from "./server-client.js";
-import { addSettingOptions, settingsFromOptions, type OptionValues } from "./settings-options.js";
+import { addSettingOptions, settingsOver, type OptionValues } from "./settings-options.js";
 
 interface AddOptions extends ServerOptions {
   readonly only?: readonly string[];
+  readonly pen?: readonly PenChoice[];
   readonly copies: number;
   readonly plotter?: string;
   readonly quiet?: boolean;
 }
 
 export const declareAdd: Declare = (command, { io }) => {
-  addData(addServer(addSettingOptions(command.argument("<files...>", "drawings; - for stdin"))))
-    .option("--only <layer...>", "draw these layers only, by name or id")
+  addLayerOptions(
+    addData(addServer(addSettingOptions(command.argument("<files...>", "drawings; - for stdin")))),
+  )
     .option("--copies <number>", "number of times to plot each", copies, 1)
     .option("--plotter <id>", "which of the server's plotters (default: its first one)")
     .option("--quiet", "print nothing but errors")
     .action(async (files: string[], options: AddOptions & OptionValues) => {
       const state = await serverState(options);
       const plotter = plotterOf(state, options.plotter);
-      // The plotter's own model, unless the user names one.
-      const machine = (options["machine"] ?? options["machineFile"]) ? undefined : plotter?.machine;
-      const base = settingsFromOptions(machine ? { ...options, machine } : options);
+      const base = settingsOver(options, storedOf(state, plotter), machinesOf(state)).settings;
       mustBeReadable(files);
       for (const file of files) {
         await withDrawingFile(file, async (path) => {
           const drawing = readBytes(path);
           const settings =
-            options.only === undefined
+            (options.only ?? options.pen) === undefined
               ? base
-              : withOnlyLayers(importDrawing(file, textOfBytes(drawing)), base, options.only);
+              : withLayers(importDrawing(file, textOfBytes(drawing)), base, options);
           const wanted = {
             name: basename(nameOf(file)),
             settings,
@@ -49,12 +51,38 @@ export const declareAdd: Declare = (command, { io }) => {
           const job = await addJob(options, wanted, drawing);
           const columns = [job.id, job.name, timeOf(job), ...plotterNameOf(job, state)];
           if (options.quiet === true) return;
+          // The server says first that it plots on the plotter's machine, not on the one that was named.
+          if (job.settings.machine !== settings.machine) io.err(printed`note: ${job.warnings[0] ?? ""}\n`);
           io.out(row(columns));
           if (job.stats?.size) io.err(printed`${job.name}: ${sizeInWords(job.stats.size)}\n`);
         });
       }
     });
 };
+
+const withLayers = (drawing: Drawing, base: PlotSettings, { only, pen }: AddOptions): PlotSettings =>
+  withLayerPens(drawing, withOnlyLayers(drawing, base, only), pen);
+
+/** What the server has stored of a plotter. */
+function storedOf(
+  { plotterSettings, jobs }: ServerState,
+  plotter: ServerState["plotters"][number] | undefined,
+): StoredOfPlotter {
+  if (plotter === undefined) return NOTHING_STORED;
+  const [last] = jobs
+    .filter((job) => job.plotterId === plotter.id && job.startedAt !== null)
+    .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""));
+  return { machine: plotter.machine, own: plotterSettings[plotter.id], last: last?.settings };
+}
+
+/** Adds the profiles of the server's custom machines. */
+const machinesOf =
+  ({ machines }: ServerState): WithMachine =>
+  (settings) => {
+    const custom = machines.find(({ id, builtIn }) => id === settings.machine && !builtIn);
+    if (custom === undefined || settings.customMachine?.id === custom.id) return settings;
+    return { ...settings, customMachine: machineProfileSchema.parse(custom) };
+  };
 
 export const declareQueue: Declare = (command, { io }) => {
   addJson(addServer(command)).action(async (options: ServerOptions & { json?: boolean }) => {

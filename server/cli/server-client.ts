@@ -1,7 +1,15 @@
 /** A client for a running server's HTTP interface (docs/api.md). */
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
-import { apiErrorSchema, jobSchema, meSchema, type Job, type NewJob } from "../../src/schema/index.js";
+import {
+  apiErrorSchema,
+  jobSchema,
+  listedMachineSchema,
+  meSchema,
+  plotterSettingsSchema,
+  type Job,
+  type NewJob,
+} from "../../src/schema/index.js";
 
 export const DEFAULT_URL = "http://127.0.0.1:9080";
 
@@ -15,6 +23,8 @@ export interface ServerOptions {
 const stateSchema = z.object({
   plotters: z.array(z.object({ id: z.string(), name: z.string(), machine: z.string().nullable() })),
   jobs: z.array(jobSchema),
+  plotterSettings: z.record(z.string(), plotterSettingsSchema).catch({}),
+  machines: z.array(listedMachineSchema).catch([]),
 });
 export type ServerState = z.infer<typeof stateSchema>;
 

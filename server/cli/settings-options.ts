@@ -1,5 +1,5 @@
 /**
- * From the command line to PlotSettings: defaults, then the file of --config, then the flags. Values are
+ * From the command line to PlotSettings: those of the plotter, then the file of --config, then the flags. Values are
  * checked by the same schema as the web's; an error names the flag, or the field in the file.
  */
 import { Option, type Command } from "commander";
@@ -7,25 +7,34 @@ import { PlotwrightError, type MachineProfile } from "../../src/index.js";
 import {
   findMachine,
   isAllowed,
-  motionOfQuality,
+  machineOf,
   QUALITY_PATH,
   rangeInWords,
   SPRINGS_PATH,
   SPRINGS_TABLE,
+  withQuality,
   type Quality,
   type Springs,
 } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   firstFault,
+  givenSettingsSchema,
   plotSettingsSchema,
+  type GivenSettings,
   type PlotSettings,
 } from "../../src/schema/index.js";
+import {
+  settingsOfPlotter,
+  settingsWith,
+  type StoredOfPlotter,
+  type WithMachine,
+} from "../../host/plotter/settings-of-plotter.js";
 import { fileFault } from "../storage/file-fault.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles, machineOfText } from "../storage/machine-files.js";
-import { mustBeDataFolder, readText } from "./files.js";
-import { storedMachine } from "./stored-machine.js";
+import { readText } from "./files.js";
+import { NOTHING_STORED, storedPlotter } from "./stored-plotter.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
 /** The option values that commander passes to an action: names in camel case. */
@@ -46,62 +55,97 @@ export function addSettingOptions(command: Command, parts?: readonly string[]): 
     .addOption(new Option("--config <file>", "JSON file with settings, or -; flags override it"));
 }
 
+/** Settings of a command, and what to tell its user about the machine; null: nothing. */
+export interface FoundSettings {
+  readonly settings: PlotSettings;
+  readonly note: string | null;
+}
+
+/** For a command without a plotter. Throws `bad-setting` naming the flag at fault. */
+export const settingsFromOptions = (values: OptionValues): PlotSettings =>
+  settingsOver(values, NOTHING_STORED).settings;
+
+/**
+ * For a command that uses the plotter: its settings are those that a server on this computer has stored. Throws also
+ * `busy` while that server runs.
+ */
+export function plotterSettingsFromOptions(values: OptionValues): FoundSettings {
+  const { machine, machineFile, device = "auto" } = values;
+  const stored = storedPlotter({
+    dataDir: dataDirOf(values),
+    device: String(device),
+    isOptional: (machine ?? machineFile) !== undefined || device === "virtual",
+  });
+  return settingsOver(values, stored);
+}
+
+/**
+ * The settings of the plotter, then the file of --config, then the flags. A model that is given by a flag is the plotter's
+ * model. The model in the file is that of a job, and only counts if nothing else names one.
+ *
+ * @param serverMachine adds the profile of a custom machine that is not in the data folder
+ */
+export function settingsOver(
+  values: OptionValues,
+  stored: StoredOfPlotter,
+  serverMachine: WithMachine = (settings) => settings,
+): FoundSettings {
+  const { config, machineFile, machine } = values;
+  const profile =
+    typeof machineFile === "string" ? fromFile("--machine-file", machineFile, machineOfText) : null;
+  const withMachine: WithMachine = (settings) =>
+    profile?.id === settings.machine
+      ? { ...settings, customMachine: profile }
+      : serverMachine(withOwnMachine(settings, values));
+  const named = profile?.id ?? (typeof machine === "string" ? machine : null);
+  if (named !== null) machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: named }));
+  const plotter = settingsOfPlotter({ ...stored, machine: named ?? stored.machine }, withMachine);
+  const given = typeof config === "string" ? readConfig(config) : {};
+  const { settings, note } = inFile(config, () => settingsWith(plotter, given, withMachine));
+  return { settings: withFlags(settings, values), note };
+}
+
+/** An error of the settings in the file of --config names that file. */
+function inFile<T>(config: unknown, work: () => T): T {
+  try {
+    return work();
+  } catch (cause) {
+    if (typeof config !== "string" || !(cause instanceof PlotwrightError)) throw cause;
+    throw new PlotwrightError(cause.code, `--config ${config}: ${cause.message}`, { cause });
+  }
+}
+
 /** Throws `bad-setting` naming the flag at fault. */
-export function settingsFromOptions(values: OptionValues): PlotSettings {
-  const settings: Record<string, unknown> = structuredClone(DEFAULT_PLOT_SETTINGS);
-  const config = values["config"];
-  if (typeof config === "string") merge(settings, readConfig(config), config, "");
+function withFlags(before: PlotSettings, values: OptionValues): PlotSettings {
+  const settings: Record<string, unknown> = structuredClone(before);
   const size = values["paper"];
   if (isOwnSize(size)) setPath(settings, ["prepare", "landscape"], size.widthMm > size.heightMm);
-  const { machineFile, machine } = values;
-  if (machine !== undefined) settings["machine"] = machine;
-  if (typeof machineFile === "string")
-    setMachine(settings, fromFile("--machine-file", machineFile, machineOfText));
   setSprings(settings, values);
   setQuality(settings, values);
+  // A motion has only one filter.
+  if (values["mode"] === "scurve" && values["shaper"] === undefined)
+    setPath(settings, ["motion", "shaper"], "none");
   for (const option of SETTING_OPTIONS.filter(isStored)) {
     const value = values[keyOf(option)];
     if (value !== undefined) setPath(settings, option.path.split("."), value);
   }
   const result = plotSettingsSchema.safeParse(settings);
-  if (result.success) return findMachine(result.data) ? result.data : withOwnMachine(result.data, values);
+  if (result.success) return result.data;
   const { path, words } = firstFault(result.error);
   const option = SETTING_OPTIONS.find((one) => path.startsWith(one.path) && values[keyOf(one)] !== undefined);
-  const where = option?.flags.split(" ")[0] ?? (typeof config === "string" ? `${config}: ${path}` : path);
+  const where = option?.flags.split(" ")[0] ?? path;
   throw new PlotwrightError("bad-setting", `${where}: ${words}.`);
-}
-
-/** Settings for manual moves. Without a given machine, uses that of the plotter of a server on this computer. */
-export function handSettingsFromOptions(values: OptionValues): PlotSettings {
-  const settings = settingsFromOptions(values);
-  const { machine, machineFile, config, device } = values;
-  mustBeDataFolder(typeof values["data"] === "string" ? values["data"] : undefined);
-  const isGiven =
-    machine !== undefined ||
-    machineFile !== undefined ||
-    (typeof config === "string" && "machine" in readConfig(config));
-  const stored = isGiven
-    ? null
-    : storedMachine(dataDirOf(values), typeof device === "string" ? device : "auto");
-  return stored === null ? settings : withOwnMachine({ ...settings, machine: stored }, values);
 }
 
 /** Whether the option is part of a job's settings, and not handled before. */
 const isStored = ({ path }: SettingOption): boolean =>
   path !== "machine" && path !== QUALITY_PATH && !path.startsWith(`${SPRINGS_PATH}.`);
 
-/** The machine as known so far; null if its id is unknown, which is reported later. */
-function machineIn(settings: Record<string, unknown>, values: OptionValues): MachineProfile | null {
-  const parsed = plotSettingsSchema.safeParse(settings);
-  if (!parsed.success) return null;
-  return findMachine(findMachine(parsed.data) ? parsed.data : withOwnMachine(parsed.data, values));
-}
-
 /** Flags for the machine's swing override its profile. */
 function setSprings(settings: Record<string, unknown>, values: OptionValues): void {
   const { springX, springY, damping } = values;
   if (springX === undefined && springY === undefined && damping === undefined) return;
-  const machine = machineIn(settings, values);
+  const machine = findMachine(settings as PlotSettings);
   if (machine === null) return;
   const known = machine.springs ?? null;
   const xHz = springX ?? known?.xHz;
@@ -124,10 +168,10 @@ function setSprings(settings: Record<string, unknown>, values: OptionValues): vo
 
 function setQuality(settings: Record<string, unknown>, values: OptionValues): void {
   const { quality } = values;
-  const machine = quality === undefined ? null : machineIn(settings, values);
+  const machine = quality === undefined ? null : findMachine(settings as PlotSettings);
   if (machine === null) return;
-  const motion = settings["motion"] as object;
-  settings["motion"] = { ...motion, ...motionOfQuality(quality as Quality, machine.springs ?? null) };
+  const { motion } = settings as PlotSettings;
+  settings["motion"] = withQuality(motion, quality as Quality, machine.springs ?? null);
 }
 
 const keyOf = (option: SettingOption): string => new Option(option.flags).attributeName();
@@ -160,29 +204,14 @@ const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSetti
 
 const dataDirOf = ({ data }: OptionValues): string => (typeof data === "string" ? data : defaultDataDir());
 
-const readConfig = (path: string): Record<string, unknown> =>
-  fromFile("--config", path, (text) => {
-    const value: unknown = JSON.parse(text);
-    if (isRecord(value)) return value;
-    throw new Error("it is not a JSON object");
-  });
-
-/** Merges the file's values into the settings. An unknown name is an error. */
-function merge(
-  target: Record<string, unknown>,
-  over: Record<string, unknown>,
-  file: string,
-  at: string,
-): void {
-  for (const [key, value] of Object.entries(over)) {
-    if (!Object.hasOwn(target, key)) {
-      throw new PlotwrightError("bad-setting", `--config ${file}: there is no setting ${at}${key}.`);
-    }
-    const before = target[key];
-    if (isRecord(before) && isRecord(value)) merge(before, value, file, `${at}${key}.`);
-    else target[key] = value;
+/** The settings in a file of --config, of which any part may be there. An unknown name is an error. */
+function readConfig(path: string): GivenSettings {
+  const value = fromFile("--config", path, (text): unknown => JSON.parse(text));
+  if (typeof value !== "object" || value === null || Array.isArray(value)) {
+    throw new PlotwrightError("bad-setting", `--config ${path}: it is not a JSON object.`);
   }
+  const result = givenSettingsSchema.safeParse(value);
+  if (result.success) return result.data;
+  const { path: field, words } = firstFault(result.error);
+  throw new PlotwrightError("bad-setting", `--config ${path}: ${field}: ${words}.`);
 }
-
-const isRecord = (value: unknown): value is Record<string, unknown> =>
-  typeof value === "object" && value !== null && !Array.isArray(value);

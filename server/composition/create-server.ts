@@ -2,13 +2,7 @@
 import type { Server } from "node:http";
 import type { AddressInfo } from "node:net";
 import { hostname } from "node:os";
-import { machineOf } from "../../src/internal.js";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  type Pairing,
-  type PlotSettings,
-  type ServerEvent,
-} from "../../src/schema/index.js";
+import type { Pairing, PlotSettings, ServerEvent } from "../../src/schema/index.js";
 import { Closing } from "./closing.js";
 import { defaultDataDir, prepareDataDir } from "../storage/data-dir.js";
 import { createApp, type AppParts } from "../http/app.js";
@@ -153,11 +147,11 @@ async function openParts(
     store,
     announce,
     findBoards,
-    mustBeMachine: (machine) => void machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine })),
+    withMachine,
     firstId: FIRST_PLOTTER,
     firstDevice,
-    open: (row, isTaken) =>
-      openNamedPlotter(row, { virtualSpeed, virtualSprings, isTaken, withMachine, log, ...NODE_PARTS }),
+    open: (row, isTaken, settings) =>
+      openNamedPlotter(row, { virtualSpeed, virtualSprings, isTaken, settings, log, ...NODE_PARTS }),
   });
   closing.add("the plotters", () => registry.close());
   const plotters = registry.ports;
@@ -168,6 +162,8 @@ async function openParts(
     files,
     planning: createPlanning(files),
     plotters,
+    settingsOf: (id, last) => registry.settingsOf(id, last),
+    withMachine,
     announce,
     nowIso,
     log,
@@ -181,7 +177,7 @@ async function openParts(
     localName = name;
     announce({ type: "local-name", localName: name });
   };
-  const host: PluginHost = { ...core, queue, files, uploads, notices, withMachine, setLocalName };
+  const host: PluginHost = { ...core, queue, files, uploads, notices, setLocalName };
   const running: RunningPlugin[] = [];
   for (const plugin of plugins) {
     const started = await plugin.start(host);

@@ -102,21 +102,20 @@ export function apiParts(
     { path: "/plotters", router: handMoveRoutes(handMoveParts(parts)), routes: HAND_MOVE_ROUTES },
     { path: "/access", router: accessRoutes(parts.access), routes: ACCESS_ROUTES },
     { path: "/drawings", router: drawingRoutes(uploads), routes: DRAWING_ROUTES },
-    { path: "/jobs", router: jobRoutes({ queue, files, uploads, machines }), routes: JOB_ROUTES },
+    { path: "/jobs", router: jobRoutes({ queue, files, uploads }), routes: JOB_ROUTES },
     { path: "/machines", router: machineRoutes(machines), routes: MACHINE_ROUTES },
     { path: "/samples", router: sampleRoutes(parts.samplesDir), routes: SAMPLE_ROUTES },
     ...parts.plugins,
   ];
 }
 
-function handMoveParts({ registry, queue, files, machines }: AppParts): HandMoveParts {
+function handMoveParts({ registry, queue, files }: AppParts): HandMoveParts {
   const turn = lane(2);
   return {
     plotters: registry.ports,
     queue,
     jobBoxMm: (id) =>
       turn({ client: id }, () => drawingBoxMm(files.path(queue.drawingOf(id)), queue.get(id).settings)),
-    withMachine: (settings) => machines.withMachine(settings),
   };
 }
 

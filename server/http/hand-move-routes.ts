@@ -14,7 +14,7 @@ import {
   walkRequestSchema,
   type BoxMm,
   type HandMove,
-  type PlotSettings,
+  type HandMoveRequest,
 } from "../../src/schema/index.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
@@ -27,8 +27,6 @@ export interface HandMoveParts {
   readonly queue: JobQueue;
   /** The box of a job's drawing as its settings place it on the machine. */
   readonly jobBoxMm: (jobId: string) => Promise<BoxMm>;
-  /** Adds the profile when the settings name a custom machine. */
-  readonly withMachine: (settings: PlotSettings) => PlotSettings;
 }
 
 /** Each manual move by its kind: what it does, and the body of its route. */
@@ -67,9 +65,9 @@ export function handMoveRoutes(parts: HandMoveParts): Router {
     router.post(`/:id/${kind}`, async (request, response) => {
       // The body may be missing for moves without required fields.
       const body: unknown = request.body ?? {};
-      const { move, settings } = await (kind === "frame" ? frameIn(body, parts) : moveIn(kind, body));
+      const { move, how } = await (kind === "frame" ? frameIn(body, parts) : moveIn(kind, body));
       const plotter = findFree(request.params["id"]);
-      await plotter.move(move, settings === undefined ? undefined : parts.withMachine(settings));
+      await plotter.move(move, parts.queue.handSettings(plotter.id, how));
       response.json(plotter.snapshot());
     });
   }
@@ -84,17 +82,19 @@ export function handMoveRoutes(parts: HandMoveParts): Router {
 
 interface Wanted {
   readonly move: HandMove;
-  readonly settings: PlotSettings | undefined;
+  readonly how: HandMoveRequest;
 }
 
 function moveIn(kind: string, body: unknown): Wanted {
-  const { settings, ...fields } = parseWith(handMoveRequestSchema.loose(), body);
-  return { move: parseWith(handMoveSchema, { ...fields, kind }), settings };
+  const { settings, profile, ...fields } = parseWith(handMoveRequestSchema.loose(), body);
+  return { move: parseWith(handMoveSchema, { ...fields, kind }), how: { settings, profile } };
 }
 
 async function frameIn(body: unknown, { jobBoxMm, queue }: HandMoveParts): Promise<Wanted> {
   const frame = parseWith(frameRequestSchema, body);
-  if ("boxMm" in frame) return { move: { kind: "frame", boxMm: frame.boxMm }, settings: frame.settings };
+  const { settings, profile } = frame;
+  if ("boxMm" in frame) return { move: { kind: "frame", boxMm: frame.boxMm }, how: { settings, profile } };
   const boxMm = await jobBoxMm(frame.jobId);
-  return { move: { kind: "frame", boxMm }, settings: frame.settings ?? queue.get(frame.jobId).settings };
+  const how = { settings: settings ?? queue.get(frame.jobId).settings, profile };
+  return { move: { kind: "frame", boxMm }, how };
 }

@@ -63,7 +63,7 @@ export function jobRoutes(parts: JobParts): Router {
 
 /** Adds, returns, changes and removes jobs. */
 function addJobRoutes(router: Router, parts: JobParts): void {
-  const { queue, files, machines } = parts;
+  const { queue, files } = parts;
   const limit = Math.min(MAX_JSON_BYTES, files.maxBytes);
 
   router.post("/", express.json({ limit }), async (request, response) => {
@@ -86,10 +86,8 @@ function addJobRoutes(router: Router, parts: JobParts): void {
   });
 
   router.patch("/:id", small, async (request, response) => {
-    const { settings, ...patch } = parseWith(jobPatchSchema, request.body);
-    const whole = settings === undefined ? {} : { settings: machines.withMachine(settings) };
-    const requester = requesterOf(request, response);
-    response.json(await queue.patch(request.params.id, { ...patch, ...whole }, requester));
+    const patch = parseWith(jobPatchSchema, request.body);
+    response.json(await queue.patch(request.params.id, patch, requesterOf(request, response)));
   });
 
   router.delete("/:id", async (request, response) => {

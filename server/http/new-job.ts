@@ -4,17 +4,15 @@ import { basename } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import {
-  DEFAULT_PLOT_SETTINGS,
+  givenSettingsSchema,
   nameSchema,
   newJobSchema,
-  plotSettingsSchema,
+  type GivenSettings,
   type Job,
-  type PlotSettings,
 } from "../../src/schema/index.js";
 import type { Requester } from "../../host/planning/lane.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
-import type { MachineFiles } from "../storage/machine-files.js";
 import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
 import { bytesOf } from "./drawing-routes.js";
 import { parseWith } from "../../host/parse-with.js";
@@ -23,7 +21,6 @@ export interface JobParts {
   readonly queue: JobQueue;
   readonly files: DrawingFiles;
   readonly uploads: UploadedDrawings;
-  readonly machines: MachineFiles;
 }
 
 export function addJob(parts: JobParts, request: Request, requester: Requester): Promise<Job> {
@@ -33,12 +30,11 @@ export function addJob(parts: JobParts, request: Request, requester: Requester):
 }
 
 async function addFromJson(
-  { queue, files, uploads, machines }: JobParts,
+  { queue, files, uploads }: JobParts,
   request: Request,
   requester: Requester,
 ): Promise<Job> {
-  const { drawing, drawingId, ...rest } = parseWith(newJobSchema, request.body);
-  const settings = machines.withMachine(rest.settings);
+  const { drawing, drawingId, settings = {}, ...rest } = parseWith(newJobSchema, request.body);
   const stored =
     drawingId === undefined
       ? await files.add([Buffer.from(drawing ?? "", "utf8")])
@@ -47,15 +43,11 @@ async function addFromJson(
 }
 
 /** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. */
-async function addFromFile(
-  { queue, files, machines }: JobParts,
-  request: Request,
-  requester: Requester,
-): Promise<Job> {
+async function addFromFile({ queue, files }: JobParts, request: Request, requester: Requester): Promise<Job> {
   const { name, settings, plotterId } = request.query;
   const wanted = {
     name: nameIn(name),
-    settings: machines.withMachine(settingsIn(settings)),
+    settings: settingsIn(settings),
     ...(typeof plotterId === "string" ? { plotterId } : {}),
   };
   const drawing = await files.addFile(bytesOf(request));
@@ -67,10 +59,10 @@ function nameIn(query: unknown): string {
   return parseWith(z.object({ name: nameSchema(200) }), { name: basename(query.trim()).slice(0, 200) }).name;
 }
 
-function settingsIn(query: unknown): PlotSettings {
-  if (query === undefined) return DEFAULT_PLOT_SETTINGS;
+function settingsIn(query: unknown): GivenSettings {
+  if (query === undefined) return {};
   try {
-    return parseWith(plotSettingsSchema, JSON.parse(String(query)));
+    return parseWith(givenSettingsSchema, JSON.parse(String(query)));
   } catch (cause) {
     if (!(cause instanceof SyntaxError)) throw cause;
     throw new PlotwrightError("bad-setting", "settings: not valid JSON.", { cause });

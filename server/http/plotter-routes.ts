@@ -127,9 +127,9 @@ export function plotterRoutes(
   });
 
   router.post("/plotters/:id/pen", small, async (request, response) => {
-    const { up, heightPct } = parseWith(penRequestSchema, request.body);
+    const { up, heightPct, settings } = parseWith(penRequestSchema, request.body);
     const plotter = findFree(request.params.id);
-    await plotter.pen(up, heightPct);
+    await plotter.pen(up, heightPct, queue.handSettings(plotter.id, { settings }));
     response.json(plotter.snapshot());
   });
 

@@ -7,7 +7,7 @@ import { importDrawing } from "../../src/index.js";
 import { prepareJob } from "../../src/internal.js";
 import { faultOf, type FromWorker, type ToWorker } from "../../host/planning/messages.js";
 import { answerOf, buffersOf } from "../../host/planning/stages.js";
-import { withOnlyLayers } from "./only-layers.js";
+import { withOnlyLayers } from "./layers-by-name.js";
 import { mustFitMemory } from "./planning-limits.js";
 import { readDrawing } from "./read-drawing.js";
 import type { WorkerData } from "./planner.js";

@@ -5,7 +5,6 @@
  *
  *   created ──the queue loads its jobs──> start(host) ──the port is open──> listening(address) ──> close()
  */
-import type { PlotSettings } from "../../src/schema/index.js";
 import type { ApiPart } from "../http/api-route.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
@@ -48,8 +47,6 @@ export interface PluginHost extends PluginCore {
   readonly files: DrawingFiles;
   readonly uploads: UploadedDrawings;
   readonly notices: Notices;
-  /** Adds the profile when the settings name a custom machine. */
-  readonly withMachine: (settings: PlotSettings) => PlotSettings;
   /** Sets the name that the server answers to and shows to its users; null: none. */
   readonly setLocalName: (name: string | null) => void;
 }

@@ -13,6 +13,9 @@ import { checkMachine, plannerOf } from "../drivers/registry.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { checkSettingNames } from "../plan/check-settings.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
+import { DEFAULT_MOTION } from "../settings/motion.js";
+import { withGiven, type DeepPartial } from "../settings/partial.js";
+import { DEFAULT_PEN } from "../settings/pen.js";
 
 export type { JobSettings, MachineJob } from "../drivers/machine-job.js";
 
@@ -23,7 +26,8 @@ export interface JobOptions extends DriverPlanOptions {
 }
 
 /**
- * Plans `strokes` for a machine, from any position in the drawing to any stroke.
+ * Plans `strokes` for a machine, from any position in the drawing to any stroke. Settings that are left out have their
+ * defaults: `{ motion: { draw: { speedMmPerS: 40 } } }`.
  *
  * @throws PlotwrightError "bad-setting" for contradictory settings, an invalid firmware version or an incomplete
  *   machine profile; "cancelled"
@@ -31,7 +35,7 @@ export interface JobOptions extends DriverPlanOptions {
  */
 export function planJob(
   prepared: { readonly strokes: StrokeSet },
-  settings: JobSettings,
+  settings: DeepPartial<JobSettings>,
   machine: MachineProfile,
   { until = null, ...options }: JobOptions = {},
 ): MachineJob {
@@ -44,16 +48,12 @@ export function planJob(
   );
   const { strokes } = prepared;
   checkStrokes("planJob", strokes);
-  checkObject(
-    "planJob",
-    "the settings object",
-    settings,
-    ["motion", "pen"],
-    "{ motion: DEFAULT_MOTION, pen: DEFAULT_PEN }",
-  );
-  checkSettingNames(settings.motion, settings.pen);
+  checkObject("planJob", "the settings object", settings, [], "{}, or { motion: …, pen: … }");
+  const motion = withGiven(DEFAULT_MOTION, settings.motion ?? {});
+  const pen = withGiven(DEFAULT_PEN, settings.pen ?? {});
+  checkSettingNames(motion, pen);
   checkMachine(machine);
-  const coded = withLayerCodes(settings, strokes.layers);
+  const coded = withLayerCodes({ ...settings, motion, pen }, strokes.layers);
   return plannerOf(machine)(firstStrokes(strokes, until), coded, machine, options);
 }
 

@@ -6,6 +6,7 @@ import { completeSettings } from "../prepare/complete-settings.js";
 import { NO_PENS, type PenSetup } from "../prepare/pens.js";
 import type { Prepared } from "../prepare/prepare.js";
 import { DEFAULT_MOTION } from "../settings/motion.js";
+import { withGiven, type DeepPartial } from "../settings/partial.js";
 import { DEFAULT_PEN } from "../settings/pen.js";
 import { STREAM_TABLE } from "../settings/stream.js";
 import type { PrepareSettings } from "../settings/prepare.js";
@@ -16,7 +17,7 @@ import { prepareJob } from "./prepare-job.js";
  * Settings of `planSvg`. Settings that are left out have their defaults, as on the page. The complete settings of a job
  * (`PlotSettings` of `plotwright/schema`) fit too.
  */
-export interface SvgSettings extends Partial<JobSettings & MachineChoice & PenSetup> {
+export interface SvgSettings extends DeepPartial<JobSettings>, Partial<MachineChoice & PenSetup> {
   /** Paper, placing, hatching, order of strokes … Default: `DEFAULT_PREPARE`. */
   readonly prepare?: Partial<PrepareSettings>;
 }
@@ -45,10 +46,10 @@ export function planSvg(text: string, settings: SvgSettings = {}, options: JobOp
   checkNames("planSvg", settings, NAMES);
   const whole = {
     machine: "axidraw-v3",
-    motion: DEFAULT_MOTION,
-    pen: DEFAULT_PEN,
     ...NO_PENS,
     ...settings,
+    motion: withGiven(DEFAULT_MOTION, settings.motion ?? {}),
+    pen: withGiven(DEFAULT_PEN, settings.pen ?? {}),
     prepare: completeSettings(settings.prepare ?? {}),
   };
   const machine = machineOf(whole);

@@ -67,3 +67,38 @@ export function qualityOf({ shaper, draw, travel }: MotionSettings, springs: Spr
   };
   return QUALITIES.find(isSame) ?? null;
 }
+
+/**
+ * The motion with a quality's settings.
+ *
+ * @throws PlotwrightError "bad-setting" for fine or fast on a machine that was not measured
+ */
+export const withQuality = (
+  motion: MotionSettings,
+  quality: Quality,
+  springs: Springs | null,
+): MotionSettings => {
+  const step = motionOfQuality(quality, springs);
+  // A motion has only one filter: the shaper excludes scurve.
+  const mode = step.shaper !== "none" && motion.mode === "scurve" ? "blend" : motion.mode;
+  return { ...motion, ...step, mode };
+};
+
+/** The same quality for another machine, or for one that was measured since. Custom numbers stay. */
+export const motionForSprings = (
+  motion: MotionSettings,
+  before: Springs | null,
+  now: Springs | null,
+): MotionSettings => {
+  if (isSame(before, now)) return plannable(motion, now);
+  const quality = qualityOf(motion, before);
+  if (quality === null) return plannable(motion, now);
+  return withQuality(motion, now === null ? "normal" : quality, now);
+};
+
+/** Shaping needs a measured machine. */
+export const plannable = (motion: MotionSettings, springs: Springs | null): MotionSettings =>
+  springs === null && (motion.shaper ?? "none") !== "none" ? { ...motion, shaper: "none" } : motion;
+
+const isSame = (a: Springs | null, b: Springs | null): boolean =>
+  a?.xHz === b?.xHz && a?.yHz === b?.yHz && a?.damping === b?.damping;

@@ -11,7 +11,7 @@ import { hasOneDrawing, ONE_DRAWING } from "./job-drawing.js";
 import { listedMachineSchema } from "./machine.js";
 import { nameSchema } from "./name.js";
 import { plotterSettingsSchema } from "./plotter-settings.js";
-import { motionSettingsSchema, penSettingsSchema, plotSettingsSchema } from "./settings.js";
+import { givenMotionSchema, givenPenSchema, givenSettingsSchema } from "./given-settings.js";
 
 /** Has either the text of a small drawing, or the id of a drawing uploaded before. */
 export const newJobSchema = z
@@ -20,7 +20,8 @@ export const newJobSchema = z
     drawing: z.string().min(1).optional(),
     /** From POST /drawings. */
     drawingId: z.string().max(100).optional(),
-    settings: plotSettingsSchema,
+    /** Laid over the plotter's settings; left out: these. */
+    settings: givenSettingsSchema.optional(),
     plotterId: z.string().max(100).optional(),
     /** Number of jobs to create. */
     copies: z.int().min(1).max(100).optional(),
@@ -37,7 +38,8 @@ export type NewJob = z.infer<typeof newJobSchema>;
 export const jobPatchSchema = z
   .object({
     name: nameSchema(200),
-    settings: plotSettingsSchema,
+    /** Laid over the job's settings. */
+    settings: givenSettingsSchema,
     /** Moves the job to another plotter's queue; only while queued. */
     plotterId: z.string().max(100),
   })
@@ -48,11 +50,11 @@ export type JobPatch = z.infer<typeof jobPatchSchema>;
 export const moveJobSchema = z.object({ beforeId: z.string().nullable() });
 export type MoveJob = z.infer<typeof moveJobSchema>;
 
-/** While plotting or held; takes effect within a second and is stored with the job. */
+/** While plotting or held; takes effect within a second and is stored with the job. Laid over the job's settings. */
 export const jobChangeSchema = z
   .object({
-    pen: penSettingsSchema,
-    motion: motionSettingsSchema,
+    pen: givenPenSchema,
+    motion: givenMotionSchema,
     speedPct: z.number().min(10).max(200),
   })
   .partial();
@@ -67,6 +69,8 @@ export type MovePlace = z.infer<typeof movePlaceSchema>;
 export const penRequestSchema = z.object({
   up: z.boolean(),
   heightPct: z.number().min(0).max(100).optional(),
+  /** Heights and waits, laid over the plotter's settings. */
+  settings: givenSettingsSchema.optional(),
 });
 export type PenRequest = z.infer<typeof penRequestSchema>;
 

@@ -20,7 +20,8 @@ const KINDS: Readonly<Record<string, string>> = {
 export function firstFault(error: z.ZodError): { readonly path: string; readonly words: string } {
   const issue = error.issues[0];
   if (issue === undefined) return { path: "", words: "it is not understood" };
-  return { path: issue.path.join("."), words: faultInWords(issue) };
+  const unknown = issue.code === "unrecognized_keys" ? issue.keys.slice(0, 1) : [];
+  return { path: [...issue.path, ...unknown].join("."), words: faultInWords(issue) };
 }
 
 /** A clause such as "it must be at least 3". */

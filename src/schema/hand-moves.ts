@@ -1,22 +1,26 @@
 /** Manual moves: the bodies of POST /plotters/:id/…, answered with the plotter. */
 import { z } from "zod";
-import { plotSettingsSchema } from "./settings.js";
+import { machineProfileSchema } from "./machine.js";
+import { givenSettingsSchema } from "./given-settings.js";
 
-/** Speeds, heights and machine of the move; default: those of the last job or move. */
-const settings = plotSettingsSchema.optional();
+/** Speeds and heights of the move, laid over the plotter's settings. */
+const settings = givenSettingsSchema.optional();
+/** A profile that is being set up: the move is made with it, instead of with the plotter's model. */
+const profile = machineProfileSchema.optional();
+const how = { settings, profile };
 /** A position, or a distance to either side. */
 const mm = z.number().min(-5_000).max(5_000);
 
 /** …/walk: pen up, to a position in mm from home. */
-export const walkRequestSchema = z.object({ xMm: mm, yMm: mm, settings });
+export const walkRequestSchema = z.object({ xMm: mm, yMm: mm, ...how });
 export type WalkRequest = z.infer<typeof walkRequestSchema>;
 
 /** …/jog: pen up, by a distance in mm. */
-export const jogRequestSchema = z.object({ dxMm: mm, dyMm: mm, settings });
+export const jogRequestSchema = z.object({ dxMm: mm, dyMm: mm, ...how });
 export type JogRequest = z.infer<typeof jogRequestSchema>;
 
 /** …/set-home, …/cycle-pen, …/test-line, …/test-patch. */
-export const handMoveRequestSchema = z.object({ settings });
+export const handMoveRequestSchema = z.object(how);
 export type HandMoveRequest = z.infer<typeof handMoveRequestSchema>;
 
 /** mm from home. */
@@ -30,17 +34,17 @@ export type BoxMm = z.infer<typeof boxMmSchema>;
 
 /** …/frame: around a job's drawing, placed by its settings, or around a box. */
 export const frameRequestSchema = z.union([
-  z.object({ jobId: z.string().max(100), settings }),
-  z.object({ boxMm: boxMmSchema, settings }),
+  z.object({ jobId: z.string().max(100), ...how }),
+  z.object({ boxMm: boxMmSchema, ...how }),
 ]);
 export type FrameRequest = z.infer<typeof frameRequestSchema>;
 
 /** …/square: draws a square to measure, to the right of and below the carriage. */
-export const squareRequestSchema = z.object({ sizeMm: z.number().min(5).max(500), settings });
+export const squareRequestSchema = z.object({ sizeMm: z.number().min(5).max(500), ...how });
 export type SquareRequest = z.infer<typeof squareRequestSchema>;
 
 /** …/servo: a raw position, 1/12 µs, for finding a servo's range by trial. */
-export const servoRequestSchema = z.object({ pos: z.int().min(1).max(65_535), settings });
+export const servoRequestSchema = z.object({ pos: z.int().min(1).max(65_535), ...how });
 export type ServoRequest = z.infer<typeof servoRequestSchema>;
 
 /** A manual move as data: its kind is the last part of the route above. */
@@ -55,13 +59,13 @@ export const handMoveSchema = z.discriminatedUnion("kind", [
   z.object({ kind: z.literal("test-line") }),
   /** Draws a small pattern at the current position, and comes back. */
   z.object({ kind: z.literal("test-patch") }),
-  walkRequestSchema.omit({ settings: true }).extend({ kind: z.literal("walk") }),
+  walkRequestSchema.omit({ settings: true, profile: true }).extend({ kind: z.literal("walk") }),
   /** May go beyond home, since this is how the user finds home. */
-  jogRequestSchema.omit({ settings: true }).extend({ kind: z.literal("jog") }),
+  jogRequestSchema.omit({ settings: true, profile: true }).extend({ kind: z.literal("jog") }),
   /** Moves around a box with the pen up, and back. */
   z.object({ kind: z.literal("frame"), boxMm: boxMmSchema }),
-  squareRequestSchema.omit({ settings: true }).extend({ kind: z.literal("square") }),
-  servoRequestSchema.omit({ settings: true }).extend({ kind: z.literal("servo") }),
+  squareRequestSchema.omit({ settings: true, profile: true }).extend({ kind: z.literal("square") }),
+  servoRequestSchema.omit({ settings: true, profile: true }).extend({ kind: z.literal("servo") }),
 ]);
 export type HandMove = z.infer<typeof handMoveSchema>;
 

@@ -3,6 +3,7 @@
  * one such record for each plotter. The plotter's model is `Plotter.machine`.
  */
 import { z } from "zod";
+import type { GivenSettings } from "./given-settings.js";
 import {
   motionSettingsSchema,
   penSettingsSchema,
@@ -48,6 +49,12 @@ export type PlotterSettings = z.infer<typeof plotterSettingsSchema>;
 export function plotterPartOf(settings: PlotSettings): Pick<PlotterSettings, "pen" | "pens"> {
   // Parsing leaves out `layers`.
   return { pen: plotterSettingsSchema.shape.pen.parse(settings.pen), pens: settings.pens };
+}
+
+/** The settings of a drawing for some other plotter: without this plotter's heights, and only with the pens it needs. */
+export function withoutPlotterPart({ pen, pens, ...settings }: PlotSettings): GivenSettings {
+  const used = new Set(Object.values(settings.layerPens));
+  return { ...settings, pen: { layers: pen.layers }, pens: pens.filter(({ id }) => used.has(id)) };
 }
 
 /**

@@ -69,10 +69,10 @@ export const prepareSettingsSchema = z.object({
     .default(null),
   place: z
     .object({
-      xMm: anywhere,
-      yMm: anywhere,
-      widthMm: positive(100_000).nullable(),
-      heightMm: positive(100_000).nullable(),
+      xMm: anywhere.default(0),
+      yMm: anywhere.default(0),
+      widthMm: positive(100_000).nullable().default(null),
+      heightMm: positive(100_000).nullable().default(null),
       /** Turns the box clockwise about its middle, after placing it. */
       turnDeg: numberSchema(PREPARE_TABLE.rotateDeg).optional(),
     })
@@ -92,7 +92,7 @@ export const motionSettingsSchema = z.object({
   draw: z.object(shapeWithDefaults(DRAW_TABLE)),
   travel: z.object(shapeWithDefaults(TRAVEL_TABLE)),
   fit: z.object(shapeWithDefaults(FIT_TABLE)).nullable().optional(),
-  ease: z.object(shapeOf(EASE_TABLE)).nullable().optional(),
+  ease: z.object(shapeWithDefaults(EASE_TABLE)).nullable().optional(),
   motorAccelStepsPerS2: numberSchema(MOTOR_ACCEL).nullable().optional(),
   speedXMmPerS: numberSchema(AXIS_TABLE.speedXMmPerS).nullable().optional(),
   speedYMmPerS: numberSchema(AXIS_TABLE.speedYMmPerS).nullable().optional(),
@@ -128,14 +128,18 @@ const replacedPenSchema = z.object({
  * height.
  */
 function upgradePen(stored: unknown): unknown {
+  if (typeof stored !== "object" || stored === null) return stored;
+  const pen = Object.fromEntries(
+    Object.entries(stored).filter(([key]) => key !== "clearPct" && key !== "hop"),
+  );
   const replaced = replacedPenSchema.safeParse(stored);
-  if (!replaced.success || "overlap" in (stored as object)) return stored;
+  if (!replaced.success || "overlap" in pen) return pen;
   const { upPct, downPct, clearPct = 100, hop } = replaced.data;
   const hopSharePct = hop && upPct > downPct ? (100 * (hop.upPct - downPct)) / (upPct - downPct) : 0;
   const clearSharePct = clearPct < 100 ? clearPct : 0;
   const contactPct = Math.round(Math.min(100, Math.max(hopSharePct, clearSharePct)));
-  if (contactPct === 0) return stored;
-  return { ...(stored as object), overlap: "fast", contactPct, ...(hop && { fullHeightMm: hop.longestMm }) };
+  if (contactPct === 0) return pen;
+  return { ...pen, overlap: "fast", contactPct, ...(hop && { fullHeightMm: hop.longestMm }) };
 }
 
 const penObject = z.object(penShape);

@@ -2,7 +2,7 @@
 import { z } from "zod";
 import { hasOneDrawing, ONE_DRAWING } from "./job-drawing.js";
 import { nameSchema } from "./name.js";
-import { plotSettingsSchema } from "./settings.js";
+import { givenSettingsSchema } from "./given-settings.js";
 
 /** A plotter by its name, or any plotter of one machine type. */
 export const sharedTargetSchema = z.union([
@@ -18,7 +18,8 @@ export const newSharedJobSchema = z
     drawing: z.string().min(1).optional(),
     /** From POST /drawings. */
     drawingId: z.string().max(100).optional(),
-    settings: plotSettingsSchema,
+    /** Laid over the settings of the plotter that draws it. */
+    settings: givenSettingsSchema.optional(),
     target: sharedTargetSchema,
   })
   .refine(hasOneDrawing, ONE_DRAWING);

@@ -122,6 +122,42 @@ describe("on a plotter whose servo is on another pin", () => {
   );
 
   it(
+    "plot and pen use the heights that a server has stored, and an option changes one of them",
+    async () => {
+      const store = Store.open(data);
+      store.savePlotter({ id: "main", name: null, device: "auto", machine: "nextdraw-2234" });
+      const pen = { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 71, downPct: 44 };
+      store.savePlotterSettings("main", { pen, pens: [], presets: [] });
+      store.close();
+      /** The servo commands that reach the board, as height in percent and pin. */
+      const sentBy = async (...args: string[]): Promise<{ err: string; sent: string[] }> => {
+        const received = vi.spyOn(line.board, "receive");
+        const { code, err } = await onBoard(...args);
+        const lines = received.mock.calls.map(([bytes]) => Buffer.from(bytes).toString()).join("");
+        received.mockRestore();
+        expect([code, lines]).toEqual([0, expect.not.stringContaining("SC,4")]);
+        // From 5400 at 0 % to 12600 at 100 %.
+        const found = [...lines.matchAll(/S2,(\d+),(\d)/g)].map(
+          ([, pos, pin]) => `${(Number(pos) - 5_400) / 72} on ${pin}`,
+        );
+        return { err, sent: [...new Set(found)].sort() };
+      };
+      expect((await sentBy("pen", "down")).sent).toContain("44 on 5");
+      expect((await sentBy("pen", "up")).sent).toEqual(["71 on 5"]);
+      expect((await sentBy("cycle-pen")).sent).toEqual(["44 on 5", "71 on 5"]);
+      expect((await sentBy("cycle-pen", "--pen-down", "25")).sent).toEqual(["25 on 5", "71 on 5"]);
+      const file = join(data, "a.svg");
+      expect((await sentBy("plot", file)).sent).toEqual(["44 on 5", "71 on 5"]);
+      const config = join(data, "job.json");
+      writeFileSync(config, JSON.stringify({ machine: "axidraw-v3", pen: { downPct: 33 } }));
+      const ofJob = await sentBy("plot", file, "--config", config);
+      expect(ofJob.sent).toEqual(["33 on 5", "71 on 5"]);
+      expect(ofJob.err).toContain("note: Its settings are for the AxiDraw V3.");
+    },
+    LIMIT_MS,
+  );
+
+  it(
     "nothing moves while the plotter is ambiguous",
     async () => {
       const server = Store.open(data);

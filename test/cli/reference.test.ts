@@ -120,6 +120,7 @@ const VALUES: Readonly<Record<string, string>> = {
   "--machine-file": "machine.json",
   "--config": "settings.json",
   "--only": "Layer 1",
+  "--pen": "Layer 1=Blue",
   "serve --port": "0",
   "logs --port": "1",
   "board --pty": "plotter",

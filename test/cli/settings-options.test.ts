@@ -142,7 +142,7 @@ describe("the settings' options", () => {
     expect(settings.pen).toEqual({ ...DEFAULT_PLOT_SETTINGS.pen, upPct: 75 });
     expect(settings.motion.draw).toEqual({ ...DEFAULT_PLOT_SETTINGS.motion.draw, speedMmPerS: 33 });
     for (const [text, fault] of [
-      ['{"pen":{"upPCT":75}}', /no setting pen\.upPCT/],
+      ['{"pen":{"upPCT":75}}', /pen\.upPCT: there is no such setting \(did you mean upPct\?\)/],
       ['{"pen":{"upPct":"high"}}', /pen\.json: pen\.upPct/],
       ["[1]", /not a JSON object/],
       ["{", /pen\.json/],

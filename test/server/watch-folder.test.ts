@@ -63,8 +63,7 @@ async function open(stableMs = 100): Promise<void> {
   });
   notices = new Notices({ store, announce, nowIso });
   const log = (line: string): void => void logged.push(line);
-  const withMachine = <T>(settings: T): T => settings;
-  folder = await WatchFolder.open(watched, { queue, files, store, notices, withMachine, log, stableMs });
+  folder = await WatchFolder.open(watched, { queue, files, store, notices, log, stableMs });
 }
 async function close(): Promise<void> {
   await folder.close();
@@ -241,7 +240,6 @@ describe("the watched folder", () => {
       store,
       notices,
       files: new DrawingFiles(dir, 1),
-      withMachine: <T>(one: T): T => one,
     };
     await expect(WatchFolder.open(join(dir, "none"), { ...parts, log: () => undefined })).rejects.toThrow(
       "does not exist",

@@ -153,8 +153,9 @@ describe("the alignment mark", () => {
 
   it.each(CORNERS)("is a cross at the %s, drawn with the pen's own correction and no stop", (corner) => {
     const placed = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, rotateDeg: 33, marginMm: 40 } };
-    const job = newJobSchema.parse(alignmentJob(placed, pen, corner, "Mark"));
-    const { strokes } = prepare(importSvg(job.drawing ?? ""), prepareSettingsOf(job.settings));
+    const job = alignmentJob(placed, pen, corner, "Mark");
+    expect(newJobSchema.safeParse(job).success).toBe(true);
+    const { strokes } = prepare(importSvg(job.drawing), prepareSettingsOf(job.settings));
     const { xMm, yMm } = markPlace(placed, corner);
     const [x, y] = [xMm - 1.5, yMm + 0.5];
     const expected = [x - 5, y, x + 5, y, x, y - 5, x, y + 5];

@@ -1,9 +1,8 @@
 /** Motion settings that depend on the machine: the quality stays the same when the machine's springs change. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, machineById } from "../../src/index.js";
-import { motionOfQuality, qualityOf } from "../../src/internal.js";
+import { motionForSprings, motionOfQuality, plannable, qualityOf, withQuality } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { motionForSprings, plannable, withQuality } from "../../web/state/motion-of-machine.js";
 import { withMachine } from "../../web/state/plotter-sync.js";
 import { fromPreset, withPreset } from "../../web/state/presets.js";
 

@@ -39,7 +39,7 @@ const openPage = () => {
     raise: (which: "upPct" | "downPct") => void actions.changeJobPen(job(), { [which]: shown()[which] + 1 }),
     apply: (pen: Pen) => void actions.changeJob("a", { pen }),
     answer: (k: number): Promise<void> => {
-      requests[k].resolve(withPen({ ...PEN, ...requests[k].change.pen }));
+      requests[k].resolve(withPen({ ...PEN, ...(requests[k].change.pen as Pen) }));
       return settle();
     },
     refuse: (k: number): Promise<void> => {

@@ -8,6 +8,7 @@ import type {
   CommandAnswer,
   Device,
   HandMove,
+  HandMoveRequest,
   HistoryRequest,
   Job,
   JobChange,
@@ -23,7 +24,6 @@ import type {
   Operator,
   Pairing,
   PenRequest,
-  PlotSettings,
   Plotter,
   PlotterPatch,
   PlotterSettings,
@@ -105,8 +105,7 @@ export interface Backend {
   setPlotterMachine(id: string, machine: string): Promise<Plotter>;
   movePen(id: string, request: PenRequest): Promise<Plotter>;
   motorsOff(id: string): Promise<Plotter>;
-  /** With the speeds and the machine of `settings`. */
-  moveByHand(id: string, move: HandMove, settings: PlotSettings): Promise<Plotter>;
+  moveByHand(id: string, move: HandMove, how: HandMoveRequest): Promise<Plotter>;
   /** A line for the board, as typed. */
   command(id: string, line: string): Promise<CommandAnswer>;
   /** Lets the user choose a port, and connects to it. Needs `features.asksForPort` and a click. */

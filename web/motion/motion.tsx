@@ -1,5 +1,5 @@
-import { QUALITIES, qualityOf, type Quality } from "../../src/internal.js";
-import { withQuality } from "../state/motion-of-machine.js";
+import { QUALITIES, qualityOf, withQuality, type Quality } from "../../src/internal.js";
+
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { motionText as words } from "./text.js";
 import { Button } from "../ui/button.js";

@@ -23,7 +23,7 @@ export const alignmentJob = (
   pen: PlotPen,
   corner: Corner,
   name: string,
-): NewJob & { readonly drawing: string } => {
+): NewJob & { readonly drawing: string; readonly settings: PlotSettings } => {
   const { paper, landscape } = settings.prepare;
   const { widthMm, heightMm } = orientedPaper(paper, landscape);
   const { xMm: x, yMm: y } = markPlace(settings, corner);

@@ -11,7 +11,7 @@ const MOVE_MM = 20;
 type Asked = "middle" | "x" | "y" | "check" | "home";
 
 /** Makes two short moves and asks which way the carriage went, to find out how the motors are wired. */
-export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
+export const DirectionStep = ({ profile, onNext }: StepProps) => {
   const [asked, setAsked] = useState<Asked>("middle");
   const [draft, setDraft] = useState(profile);
   const [xWent, setXWent] = useState<Direction>("right");
@@ -19,13 +19,12 @@ export const DirectionStep = ({ profile, settingsWith, onNext }: StepProps) => {
   const { moveByHand } = useActions();
   const [isMoving, setMoving] = useState(false);
   // Uses the profile of the moves: with another controller, the next move would reconnect and lose this home.
-  const setHome = async (): Promise<boolean> =>
-    (await moveByHand({ kind: "set-home" }, settingsWith(draft))) !== null;
+  const setHome = async (): Promise<boolean> => (await moveByHand({ kind: "set-home" }, draft)) !== null;
   // Sets home before each move: with a wrong profile, the carriage may be on the wrong side of the last home.
   const jog = async (x: number, y: number): Promise<void> => {
     setMoving(true);
     if (await setHome()) {
-      await moveByHand({ kind: "jog", dxMm: x, dyMm: y }, settingsWith(draft));
+      await moveByHand({ kind: "jog", dxMm: x, dyMm: y }, draft);
     }
     setMoving(false);
   };

@@ -1,5 +1,4 @@
 import { useId, useMemo, useState } from "react";
-import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions } from "../state/use-store.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
 import { wizardText as words } from "./wizard-text.js";
@@ -19,19 +18,19 @@ export const ServoStep = ({ profile, ...props }: StepProps) =>
   );
 
 /** The pen follows two sliders, which set the ends of the servo's range. */
-const EbbServoStep = ({ profile, settingsWith, onNext }: StepProps & { readonly profile: EbbMachine }) => {
+const EbbServoStep = ({ profile, onNext }: StepProps & { readonly profile: EbbMachine }) => {
   const { moveByHand } = useActions();
   const [draft, setDraft] = useState(profile);
   const follow = useMemo(
     () =>
-      servoFollower(({ pos, settings }: { pos: number; settings: PlotSettings }) =>
-        moveByHand({ kind: "servo", pos }, settings),
+      servoFollower((to: { pos: number; profile: EbbMachine }) =>
+        moveByHand({ kind: "servo", pos: to.pos }, to.profile),
       ),
     [moveByHand],
   );
   const take = (which: "servoPosAt0Pct" | "servoPosAt100Pct", pos: number): void => {
     setDraft(withController(draft, { [which]: pos }));
-    follow({ pos, settings: settingsWith(draft) });
+    follow({ pos, profile: draft });
   };
   return (
     <>

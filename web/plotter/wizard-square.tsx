@@ -11,7 +11,7 @@ import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 const SQUARE_MM = 100;
 
 /** A square is drawn and measured with a ruler. Its real size gives the steps per mm. */
-export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
+export const SquareStep = ({ profile, onNext }: StepProps) => {
   const { moveByHand } = useActions();
   const sizeMm = Math.min(SQUARE_MM, Math.floor(Math.min(profile.widthMm, profile.heightMm) / 2));
   const [[xMm, yMm], setSides] = useState<readonly [number, number]>([sizeMm, sizeMm]);
@@ -19,10 +19,7 @@ export const SquareStep = ({ profile, settingsWith, onNext }: StepProps) => {
   return (
     <>
       <p>{words.squareHint(sizeMm)}</p>
-      <Button
-        kind="primary"
-        onClick={() => void moveByHand({ kind: "square", sizeMm }, settingsWith(profile))}
-      >
+      <Button kind="primary" onClick={() => void moveByHand({ kind: "square", sizeMm }, profile)}>
         {words.drawSquare}
       </Button>
       <MmPair

@@ -1,10 +1,8 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
-import type { PlotSettings } from "../../src/schema/index.js";
 import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
-import { withMachine } from "../state/plotter-sync.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { wizardText as words } from "./wizard-text.js";
 import { copyOf } from "./profile.js";
@@ -26,9 +24,6 @@ export const Wizard = () => {
     copyOf(findMachine(store.getState().settings) ?? MACHINES[0], words.firstName, made),
   );
   const Step = STEPS[index];
-  // The page's plotter may be measured, and this one is not: its motion can't be shaped.
-  const settingsWith = (machine: MachineProfile): PlotSettings =>
-    withMachine(store.getState().settings, machine);
   const onNext = (next: MachineProfile): void => {
     setProfile(next);
     if (index === STEPS.length - 1) store.setState({ openDialog: null });
@@ -44,7 +39,7 @@ export const Wizard = () => {
         ))}
       </ol>
       <div className="wizard-step">
-        <Step key={index} profile={profile} settingsWith={settingsWith} onNext={onNext} />
+        <Step key={index} profile={profile} onNext={onNext} />
       </div>
       {index > 0 && (
         <Button kind="link" onClick={() => setIndex(index - 1)}>

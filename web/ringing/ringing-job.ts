@@ -19,7 +19,7 @@ import {
   type PlotSettings,
 } from "../../src/schema/index.js";
 
-export type SheetJob = NewJob & { readonly drawing: string };
+export type SheetJob = NewJob & { readonly drawing: string; readonly settings: PlotSettings };
 
 /** Min. distance between the lines of the second sheet, mm: keeps their ripples apart. */
 const MIN_NEXT_MM = 4;

@@ -1,6 +1,9 @@
 /** Requests about jobs, the queue and the plotter, as functions on the store. */
+import type { MachineProfile } from "../../src/index.js";
 import {
   ENDED_STATES,
+  machineProfileSchema,
+  withOffs,
   type HandMove,
   type Job,
   type JobChange,
@@ -48,10 +51,13 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     return job;
   };
 
-  const changeJob = async (id: string, change: JobChange): Promise<void> => {
+  const changeJob = async (
+    id: string,
+    change: JobChange & { readonly pen?: PlotSettings["pen"] },
+  ): Promise<void> => {
     const wantedPen = change.pen ? { jobId: id, pen: change.pen } : null;
     if (wantedPen) store.setState({ wantedPen });
-    const job = await attempt(`change ${id}`, () => backend.changeJob(id, change));
+    const job = await attempt(`change ${id}`, () => backend.changeJob(id, withOffs(change)));
     // A newer request has replaced this one, and its answer comes later.
     if (wantedPen === null || store.getState().wantedPen !== wantedPen) return;
     // The answer may come before the job's event.
@@ -90,7 +96,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     },
     saveToJob: async (id: string): Promise<void> => {
       const { settings } = store.getState();
-      const job = await attempt("save", () => backend.patchJob(id, { settings }));
+      const job = await attempt("save", () => backend.patchJob(id, { settings: withOffs(settings) }));
       if (!job) return;
       notify("info", stateText.saved(job.name));
       store.setState(({ drawing, settings: now }) =>
@@ -116,7 +122,8 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     movePen: async (up: boolean, heightPct: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
       if (!id) return notify("error", stateText.notConnected);
-      await attempt("pen", () => backend.movePen(id, { up, heightPct }));
+      const { pen } = store.getState().settings;
+      await attempt("pen", () => backend.movePen(id, { up, heightPct, settings: { pen } }));
     },
     motorsOff: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
@@ -124,10 +131,15 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     },
     /** Lets the user choose the port, where the page itself opens it. */
     connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
-    /** With the page's speeds and machine, or with those of `settings`. Null if it failed, and the user has seen why. */
-    moveByHand: async (move: HandMove, settings = store.getState().settings): Promise<Plotter | null> => {
-      const id = currentPlotter(store.getState())?.id;
-      return id ? attempt(move.kind, () => backend.moveByHand(id, move, settings)) : null;
+    /**
+     * With the page's speeds and heights; `profile`: of the machine that is being set up. Null if it failed, and the user
+     * has seen why.
+     */
+    moveByHand: async (move: HandMove, profile?: MachineProfile): Promise<Plotter | null> => {
+      const state = store.getState();
+      const id = currentPlotter(state)?.id;
+      const how = { settings: state.settings, profile: profile && machineProfileSchema.parse(profile) };
+      return id ? attempt(move.kind, () => backend.moveByHand(id, move, how)) : null;
     },
     /**
      * Plots a job that is not the drawing on the paper: at once, or after the running plot. Null: it could not be

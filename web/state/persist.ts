@@ -3,10 +3,9 @@
  * one of an older version, is replaced by its default. The rest stays.
  */
 import { z } from "zod";
-import { findMachine, LENGTH_UNITS } from "../../src/internal.js";
+import { findMachine, LENGTH_UNITS, plannable } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 import { COLOR_MODES } from "../scene/color-mode.js";
-import { plannable } from "./motion-of-machine.js";
 
 export const PAGE_KEY = "plotwright.page.v1";
 

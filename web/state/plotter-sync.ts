@@ -4,7 +4,7 @@
  * reached, the page plans with the values it has; when the server is back, the plotter's values apply.
  */
 import { MACHINES, type MachineProfile } from "../../src/index.js";
-import { findMachine } from "../../src/internal.js";
+import { findMachine, motionForSprings } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   machineProfileSchema,
@@ -15,7 +15,6 @@ import {
   type PlotterSettings,
 } from "../../src/schema/index.js";
 import { isSame } from "./is-same.js";
-import { motionForSprings } from "./motion-of-machine.js";
 import { createPlotterSaver, type Shown, type SyncParts } from "./plotter-saver.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate, otherOperator, type PageState } from "./store.js";
 

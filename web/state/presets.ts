@@ -1,9 +1,8 @@
 /**
  * Presets: named settings, for example for a pen or a paper. They belong to the plotter and are stored on the server.
  */
-import { findMachine } from "../../src/internal.js";
+import { findMachine, plannable } from "../../src/internal.js";
 import { MAX_PRESETS, presetSchema, type PlotSettings, type Preset } from "../../src/schema/index.js";
-import { plannable } from "./motion-of-machine.js";
 import type { TextStore } from "./persist.js";
 
 /** Where earlier versions stored presets in the browser. */

@@ -1,7 +1,12 @@
 import { useEffect, useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
-import type { Plotter, SharedJob, SharedTarget } from "../../src/schema/index.js";
+import {
+  withoutPlotterPart,
+  type Plotter,
+  type SharedJob,
+  type SharedTarget,
+} from "../../src/schema/index.js";
 import { profileOf } from "../state/plotter-sync.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { studioText as words } from "./text.js";
@@ -123,7 +128,13 @@ const ShareForm = ({ onSent }: { onSent(): void }) => {
   const named = plotters.find(({ id }) => id === to);
   const target: SharedTarget = named ? { plotter: named.name } : { machine: settings.machine };
   const send = async (): Promise<void> => {
-    if (!(await studio.shareJob({ name: drawing.name, settings, target }, drawing.text))) return;
+    if (
+      !(await studio.shareJob(
+        { name: drawing.name, settings: withoutPlotterPart(settings), target },
+        drawing.text,
+      ))
+    )
+      return;
     actions.notify("info", words.shareSent(drawing.name));
     onSent();
   };

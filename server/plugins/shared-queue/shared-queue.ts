@@ -8,9 +8,9 @@ import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
 import {
   nameSchema,
-  plotSettingsSchema,
+  givenSettingsSchema,
   SERVER_LOST_AFTER_MS,
-  type PlotSettings,
+  type GivenSettings,
   type SharedJob,
   type SharedTarget,
 } from "../../../src/schema/index.js";
@@ -45,14 +45,14 @@ const POLL_MS = 2_000;
 const payloadSchema = z.object({
   name: nameSchema(200),
   drawing: z.string().min(1),
-  settings: plotSettingsSchema,
+  settings: givenSettingsSchema.default({}),
 });
 
 export interface SentJob {
   readonly name: string;
   /** The drawing's text. */
   readonly drawing: string;
-  readonly settings: PlotSettings;
+  readonly settings?: GivenSettings | undefined;
   readonly target: SharedTarget;
 }
 
@@ -79,7 +79,7 @@ export class SharedQueue {
     this.#running = this.#round();
   }
 
-  async send({ name, drawing, settings, target }: SentJob): Promise<string> {
+  async send({ name, drawing, settings = {}, target }: SentJob): Promise<string> {
     return this.#parts.shared.send(name, targetText(target), JSON.stringify({ name, drawing, settings }));
   }
 

@@ -15,14 +15,14 @@ import { stat } from "node:fs/promises";
 import { basename, dirname, extname, join } from "node:path";
 import { watch, type FSWatcher } from "chokidar";
 import { PlotwrightError, type ErrorCode } from "../../../src/index.js";
-import { isDrawingName } from "../../../src/internal.js";
+import { isDrawingName, withGiven } from "../../../src/internal.js";
 import {
   firstFault,
   cleanName,
   DEFAULT_PLOT_SETTINGS,
-  plotSettingsSchema,
+  givenSettingsSchema,
+  type GivenSettings,
   type Job,
-  type PlotSettings,
 } from "../../../src/schema/index.js";
 import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
@@ -31,12 +31,10 @@ import type { Store } from "../../storage/store.js";
 import { settingsText, withDrawing, type WatchedDrawing } from "./watched-file.js";
 
 export interface WatchParts {
-  readonly queue: Pick<JobQueue, "add" | "list">;
+  readonly queue: Pick<JobQueue, "add" | "list" | "firstPlotter" | "settingsOf">;
   readonly files: DrawingFiles;
   readonly store: Pick<Store, "isSeen" | "saveSeen">;
   readonly notices: Pick<Notices, "add" | "list">;
-  /** Adds the profile when the settings name a custom machine. */
-  readonly withMachine: (settings: PlotSettings) => PlotSettings;
   readonly log: (line: string) => void;
   /** How long a file's size must stay the same; default 2 s. */
   readonly stableMs?: number;
@@ -134,8 +132,8 @@ export class WatchFolder {
   }
 
   async #add(path: string, name: string, sha256: string, file: WatchedDrawing): Promise<Job> {
-    const { queue, files, withMachine } = this.#parts;
-    const settings = withMachine(await settingsBeside(path, settingsOfLast(queue.list())));
+    const { queue, files } = this.#parts;
+    const settings = withGiven(lookOfLast(queue), await settingsBeside(path));
     const drawing = await files.add(file.chunks());
     if (drawing.bytes === 0) {
       await files.remove(drawing.id);
@@ -154,34 +152,49 @@ const isSettings = (path: string): boolean => /(^|\.)settings\.json$/.test(basen
 const isDrawing = (path: string): boolean =>
   isDrawingName(path) && !basename(path).startsWith(".") && !isSettings(path);
 
-function settingsOfLast(jobs: readonly Job[]): PlotSettings {
-  const newest = jobs.reduce<Job | null>(
-    (best, job) => (best === null || job.createdAt > best.createdAt ? job : best),
-    null,
-  );
-  if (newest === null) return DEFAULT_PLOT_SETTINGS;
-  const { settings } = newest;
-  const { prepare } = DEFAULT_PLOT_SETTINGS;
-  const { hiddenLayers, layerHatches, layerOrder, layerRepeats, place, rotateDeg, outside } = prepare;
-  const ofDrawing = { hiddenLayers, layerHatches, layerOrder, layerRepeats, place, rotateDeg, outside };
+/**
+ * The settings of the plotter's newest job, without its model and pens, which are the plotter's, and without what belongs
+ * to that job's drawing: placement and layers. The heights are the plotter's too, if they are set for it.
+ */
+function lookOfLast(queue: WatchParts["queue"]): GivenSettings {
+  const plotter = queue.firstPlotter();
+  const newest = queue
+    .list()
+    .filter(({ plotterId }) => plotterId === plotter)
+    .reduce<Job | null>((best, job) => (best === null || job.createdAt > best.createdAt ? job : best), null);
+  if (newest === null) return {};
+  const { prepare, motion, pen, penStops, sendAheadMs } = newest.settings;
+  const { place, rotateDeg, outside } = DEFAULT_PLOT_SETTINGS.prepare;
   return {
-    ...settings,
-    prepare: { ...settings.prepare, ...ofDrawing },
-    layerPens: DEFAULT_PLOT_SETTINGS.layerPens,
+    ...(queue.settingsOf(plotter).hasPen ? {} : { pen: { ...pen, layers: {} } }),
+    prepare: {
+      ...prepare,
+      hiddenLayers: [],
+      shownLayers: [],
+      layerHatches: [],
+      layerOrder: [],
+      layerRepeats: {},
+      place,
+      rotateDeg,
+      outside,
+    },
+    motion: { ...motion, layers: {} },
+    penStops,
+    sendAheadMs,
   };
 }
 
-async function settingsBeside(path: string, base: PlotSettings): Promise<PlotSettings> {
+async function settingsBeside(path: string): Promise<GivenSettings> {
   const name = basename(path, extname(path));
   for (const file of [join(dirname(path), `${name}.settings.json`), join(dirname(path), "settings.json")]) {
     const text = await settingsText(file);
     if (text === null) continue;
-    const result = plotSettingsSchema.partial().safeParse(parsed(text, file));
-    if (result.success) return plotSettingsSchema.parse({ ...base, ...result.data });
+    const result = givenSettingsSchema.safeParse(parsed(text, file));
+    if (result.success) return result.data;
     const { path: field, words } = firstFault(result.error);
     throw new PlotwrightError("bad-setting", `${basename(file)}: ${field}: ${words}.`);
   }
-  return base;
+  return {};
 }
 
 function parsed(text: string, file: string): unknown {

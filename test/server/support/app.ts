@@ -87,6 +87,7 @@ export async function startApp(
     announce,
     firstId: plotter.id,
     findBoards: () => Promise.resolve(options.boards ?? []),
+    withMachine: (settings) => settings,
     open: (row) => {
       if (row.id === plotter.id) return plotter;
       const other = new LedPlotter(row.id, row.name ?? row.id);
@@ -107,6 +108,7 @@ export async function startApp(
     files,
     planning: options.planning ?? LED_PLANNING,
     plotters,
+    settingsOf: (id, last) => registry.settingsOf(id, last),
     announce,
     nowIso,
     withChange: (before, after) => webhooks.note(before, after),

@@ -45,7 +45,7 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
     setPlotterMachine: (id, machine) => remote.patchPlotter(id, { machine }),
     movePen: (id, request) => remote.movePen(id, request),
     motorsOff: (id) => remote.motorsOff(id),
-    moveByHand: (id, move, settings) => remote.moveByHand(id, move, settings),
+    moveByHand: (id, move, how) => remote.moveByHand(id, move, how),
     command: (id, line) => remote.command(id, line),
     connect: async (id) => {
       await askForPort(client);

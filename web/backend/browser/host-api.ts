@@ -1,6 +1,7 @@
 /** The methods that pages call on the host. Arguments are checked by the schemas of src/schema. */
 import { PlotwrightError, type MachineProfile } from "../../../src/index.js";
 import { machineProfileSchema } from "../../../src/schema/index.js";
+import type { CustomMachines } from "../../../host/custom-machines.js";
 import type { Notices } from "../../../host/queue/notices.js";
 import type { JobAction } from "../backend.js";
 import { parseWith } from "../../../host/parse-with.js";
@@ -8,6 +9,7 @@ import { jobApi, type JobApiParts } from "./job-api.js";
 import { plotterApi, type PlotterApiParts } from "./plotter-api.js";
 
 interface HostParts extends JobApiParts, PlotterApiParts {
+  readonly machines: CustomMachines;
   readonly notices: Notices;
 }
 

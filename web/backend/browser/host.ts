@@ -1,8 +1,6 @@
 /** Opens a browser's host: the queue and the plotters, stored in IndexedDB. */
 import { PlotwrightError } from "../../../src/index.js";
-import { machineOf } from "../../../src/internal.js";
 import {
-  DEFAULT_PLOT_SETTINGS,
   machineProfileSchema,
   type PlotSettings,
   type ServerEvent,
@@ -85,13 +83,13 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     store,
     announce,
     findBoards: devices.findAll,
-    mustBeMachine: (machine) => void machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine })),
+    withMachine,
     firstId: FIRST_PLOTTER,
-    open: (row, isTaken) =>
+    open: (row, isTaken, settings) =>
       openNamedPlotter(row, {
         virtualSpeed: start.virtualSpeed,
         isTaken,
-        withMachine,
+        settings,
         log,
         clock,
         devices,
@@ -103,6 +101,8 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     files: drawings,
     planning: workerPlanning(drawings.read),
     plotters: registry.ports,
+    settingsOf: (id, last) => registry.settingsOf(id, last),
+    withMachine,
     announce,
     nowIso,
     stoppedMessage: STOPPED,

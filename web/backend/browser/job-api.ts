@@ -15,7 +15,6 @@ import {
   type NewJob,
   type QueueSettings,
 } from "../../../src/schema/index.js";
-import type { CustomMachines } from "../../../host/custom-machines.js";
 import { jobActions } from "../../../host/queue/job-actions.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { DrawingText } from "../../worker/drawing-text.js";
@@ -24,7 +23,6 @@ import { parseWith } from "../../../host/parse-with.js";
 
 export interface JobApiParts {
   readonly queue: JobQueue;
-  readonly machines: CustomMachines;
   readonly drawings: {
     /** Resolves with the drawing's id when it is stored. */
     add(drawing: DrawingText): Promise<string>;
@@ -36,31 +34,26 @@ export interface JobApiParts {
 const sizeOf = (drawing: DrawingText): number =>
   typeof drawing === "string" ? drawing.length : drawing.byteLength;
 
-export const jobApi = ({ queue, machines, drawings }: JobApiParts) => {
+export const jobApi = ({ queue, drawings }: JobApiParts) => {
   const actions: Readonly<Record<JobAction, (id: string) => Job | Promise<Job>>> = jobActions(queue);
   return {
     addJob: async (job: Omit<NewJob, "drawing" | "drawingId">, drawing: DrawingText): Promise<Job> => {
       if (sizeOf(drawing) === 0) throw new PlotwrightError("bad-file", "The file is empty.");
       // The schema requires a drawing or its id. Here the drawing is a separate argument.
       const wanted = parseWith(newJobSchema, { ...job, drawingId: "sent" });
-      const { copies, settings, name, plotterId, from } = wanted;
+      const { copies, settings = {}, name, plotterId, from } = wanted;
       const id = await drawings.add(drawing);
       return queue.add({
         name,
         plotterId,
         from,
         copies,
-        settings: machines.withMachine(settings),
+        settings,
         drawing: { id, bytes: sizeOf(drawing) },
       });
     },
-    patchJob: (id: string, patch: JobPatch): Promise<Job> => {
-      const { settings, ...others } = parseWith(jobPatchSchema, patch);
-      return queue.patch(id, {
-        ...others,
-        ...(settings === undefined ? {} : { settings: machines.withMachine(settings) }),
-      });
-    },
+    patchJob: (id: string, patch: JobPatch): Promise<Job> =>
+      queue.patch(id, parseWith(jobPatchSchema, patch)),
     actOnJob: (id: string, action: JobAction): Job | Promise<Job> => actions[action](id),
     changeJob: (id: string, change: JobChange): Promise<Job> =>
       queue.change(id, parseWith(jobChangeSchema, change)),

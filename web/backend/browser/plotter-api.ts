@@ -2,19 +2,18 @@
 import { usbIds } from "../../../src/internal.js";
 import {
   commandRequestSchema,
+  handMoveRequestSchema,
   handMoveSchema,
   penRequestSchema,
-  plotSettingsSchema,
   plotterPatchSchema,
   plotterSettingsSchema,
   type HandMove,
   type PenRequest,
-  type PlotSettings,
+  type HandMoveRequest,
   type Plotter,
   type PlotterPatch,
   type PlotterSettings,
 } from "../../../src/schema/index.js";
-import type { CustomMachines } from "../../../host/custom-machines.js";
 import type { PlotterPort } from "../../../host/plotter/plotter-port.js";
 import type { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { findFreePlotter, findPlotter } from "../../../host/queue/find-plotter.js";
@@ -24,10 +23,9 @@ import { parseWith } from "../../../host/parse-with.js";
 export interface PlotterApiParts {
   readonly queue: JobQueue;
   readonly registry: PlotterRegistry;
-  readonly machines: CustomMachines;
 }
 
-export const plotterApi = ({ queue, registry, machines }: PlotterApiParts) => {
+export const plotterApi = ({ queue, registry }: PlotterApiParts) => {
   const use = {
     isBusy: (id: string) => queue.isPlotterBusy(id),
     liveJobCount: (id: string) => queue.liveJobCount(id),
@@ -52,9 +50,9 @@ export const plotterApi = ({ queue, registry, machines }: PlotterApiParts) => {
     log: (id: string): string => plotterOf(id).log(),
 
     movePen: async (id: string, request: PenRequest): Promise<Plotter> => {
-      const { up, heightPct } = parseWith(penRequestSchema, request);
+      const { up, heightPct, settings } = parseWith(penRequestSchema, request);
       const plotter = freePlotter(id);
-      await plotter.pen(up, heightPct);
+      await plotter.pen(up, heightPct, queue.handSettings(id, { settings }));
       return plotter.snapshot();
     },
     motorsOff: async (id: string): Promise<Plotter> => {
@@ -62,10 +60,10 @@ export const plotterApi = ({ queue, registry, machines }: PlotterApiParts) => {
       await plotter.motorsOff();
       return plotter.snapshot();
     },
-    moveByHand: async (id: string, move: HandMove, settings: PlotSettings): Promise<Plotter> => {
+    moveByHand: async (id: string, move: HandMove, how: HandMoveRequest): Promise<Plotter> => {
       const wanted = parseWith(handMoveSchema, move);
       const plotter = freePlotter(id);
-      await plotter.move(wanted, machines.withMachine(parseWith(plotSettingsSchema, settings)));
+      await plotter.move(wanted, queue.handSettings(id, parseWith(handMoveRequestSchema, how)));
       return plotter.snapshot();
     },
     command: (id: string, line: string) =>

@@ -57,8 +57,8 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     setPlotterMachine: (id, machine) => ask(plotterSchema, "PATCH", pathOf("plotters", id), { machine }),
     movePen: (id, request) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/pen`, request),
     motorsOff: (id) => ask(plotterSchema, "POST", `${pathOf("plotters", id)}/motors-off`),
-    moveByHand: (id, { kind, ...numbers }, settings) =>
-      ask(plotterSchema, "POST", `${pathOf("plotters", id)}/${kind}`, { ...numbers, settings }),
+    moveByHand: (id, { kind, ...numbers }, how) =>
+      ask(plotterSchema, "POST", `${pathOf("plotters", id)}/${kind}`, { ...numbers, ...how }),
     command: (id, line) => ask(commandAnswerSchema, "POST", `${pathOf("plotters", id)}/command`, { line }),
     connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
     log: async (id) => (await send("GET", `${pathOf("plotters", id)}/log`)).text(),

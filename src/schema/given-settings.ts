@@ -1,0 +1,126 @@
+/**
+ * Settings as a caller gives them: any part of a job's settings, to be laid over those of the plotter. Unknown names are
+ * refused with the nearest known one: a misspelt height must not be ignored.
+ */
+import { z } from "zod";
+import type { DeepPartial } from "../settings/partial.js";
+import { machineProfileSchema } from "./machine.js";
+import {
+  motionSettingsSchema,
+  penSettingsSchema,
+  plotSettingsSchema,
+  type PlotSettings,
+} from "./settings.js";
+
+export type GivenSettings = DeepPartial<PlotSettings>;
+
+/** Refuses unknown names at every depth. `isPart`: fields may be left out, and then have no default. */
+function strict(schema: z.ZodType, isPart: boolean): z.ZodType {
+  const inner = (part: unknown): z.ZodType => strict(part as z.ZodType, isPart);
+  const whole = (part: unknown): z.ZodType => strict(part as z.ZodType, false);
+  if (schema instanceof z.ZodObject) {
+    const fields = Object.entries(schema.shape);
+    const shape = fields.map(
+      ([key, field]) => [key, isPart ? inner(field).optional() : inner(field)] as const,
+    );
+    return z.strictObject(Object.fromEntries(shape), { error: unknownName(fields.map(([key]) => key)) });
+  }
+  if (schema instanceof z.ZodDefault) {
+    return isPart ? inner(schema.unwrap()) : inner(schema.unwrap()).default(schema.def.defaultValue);
+  }
+  if (schema instanceof z.ZodOptional) return inner(schema.unwrap()).optional();
+  if (schema instanceof z.ZodNullable) return inner(schema.unwrap()).nullable();
+  if (schema instanceof z.ZodPipe) return schema.clone({ ...schema.def, out: inner(schema.def.out) });
+  if (schema instanceof z.ZodRecord) {
+    return schema.clone({ ...schema.def, valueType: whole(schema.valueType) });
+  }
+  if (schema instanceof z.ZodArray) return schema.clone({ ...schema.def, element: whole(schema.element) });
+  return schema;
+}
+
+/** Any part of a job's settings. A machine's profile is given as a whole. */
+export const givenSettingsSchema = z.strictObject(
+  {
+    ...(strict(plotSettingsSchema.omit({ customMachine: true }), true) as z.ZodObject).shape,
+    customMachine: machineProfileSchema.nullable().optional(),
+  },
+  { error: unknownName(Object.keys(plotSettingsSchema.shape)) },
+) as unknown as z.ZodType<GivenSettings>;
+
+export const givenPenSchema = strict(penSettingsSchema, true) as z.ZodType<GivenSettings["pen"]>;
+export const givenMotionSchema = strict(motionSettingsSchema, true) as z.ZodType<GivenSettings["motion"]>;
+
+/**
+ * Complete settings for laying over others: fields that are left out are switched off explicitly. Otherwise those of the
+ * settings below would stay.
+ */
+export const withOffs = <T extends Pick<GivenSettings, "pen" | "motion">>(settings: T): T => ({
+  ...settings,
+  ...(settings.pen && { pen: { ...offsIn(penSettingsSchema.def.out.shape), ...settings.pen } }),
+  ...(settings.motion && { motion: { ...offsIn(motionSettingsSchema.shape), ...settings.motion } }),
+});
+
+/** The optional fields, switched off: null, or an empty table by layer. */
+function offsIn(shape: z.ZodRawShape): Record<string, unknown> {
+  const offs = Object.entries(shape).flatMap(([key, field]) => {
+    const inner: unknown = field instanceof z.ZodOptional ? field.unwrap() : null;
+    if (inner instanceof z.ZodNullable) return [[key, null]];
+    return inner instanceof z.ZodRecord ? [[key, {}]] : [];
+  });
+  return Object.fromEntries(offs) as Record<string, unknown>;
+}
+
+/** What to say about a name that an object with these fields does not have. */
+function unknownName(known: readonly string[]): z.core.$ZodErrorMap {
+  return (issue) => {
+    if (issue.code !== "unrecognized_keys") return undefined;
+    const name = String((issue as z.core.$ZodIssueUnrecognizedKeys).keys[0]);
+    const elsewhere = settingPaths().find((path) => path.split(".").at(-1) === name);
+    return `there is no such setting (did you mean ${elsewhere ?? nearest(name, known)}?)`;
+  };
+}
+
+let paths: readonly string[] | null = null;
+/** The paths of all settings; `*` is the id of a layer or the number of an entry. */
+export function settingPaths(): readonly string[] {
+  return (paths ??= pathsIn(plotSettingsSchema.omit({ customMachine: true }), ""));
+}
+
+function pathsIn(schema: unknown, at: string): string[] {
+  if (schema instanceof z.ZodObject) {
+    return Object.entries(schema.shape as z.ZodRawShape).flatMap(([key, field]) => {
+      const path = at === "" ? key : `${at}.${key}`;
+      return [path, ...pathsIn(field, path)];
+    });
+  }
+  if (schema instanceof z.ZodRecord) return pathsIn(schema.valueType, `${at}.*`);
+  if (schema instanceof z.ZodArray) return pathsIn(schema.element, `${at}.*`);
+  if (schema instanceof z.ZodPipe) return pathsIn(schema.def.out, at);
+  const isWrapped =
+    schema instanceof z.ZodDefault || schema instanceof z.ZodOptional || schema instanceof z.ZodNullable;
+  return isWrapped ? pathsIn(schema.unwrap(), at) : [];
+}
+
+/** Longer names are compared by their beginning, since they come from outside. */
+const MAX_NAME = 60;
+
+/** The known name with the fewest letters to change, in any case. */
+function nearest(name: string, known: readonly string[]): string {
+  const distances = known.map((one) =>
+    editDistance(name.slice(0, MAX_NAME).toLowerCase(), one.toLowerCase()),
+  );
+  return String(known[distances.indexOf(Math.min(...distances))]);
+}
+
+/** Levenshtein distance, one row of its table at a time. */
+function editDistance(a: string, b: string): number {
+  let row = Array.from({ length: b.length + 1 }, (_, i) => i);
+  for (let i = 0; i < a.length; i++) {
+    const next = [i + 1];
+    for (let j = 0; j < b.length; j++) {
+      next.push(Math.min(next[j] + 1, row[j + 1] + 1, row[j] + (a[i] === b[j] ? 0 : 1)));
+    }
+    row = next;
+  }
+  return row[b.length];
+}
