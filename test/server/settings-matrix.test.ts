@@ -114,7 +114,7 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
     const file = join(dataDir, "a.svg");
     writeFileSync(file, SVG);
     const { code, out, err } = await cli("add", file, "--url", server.url, ...options);
-    expect([code, err]).toEqual([0, ""]);
+    expect([code, err]).toEqual([0, expect.not.stringContaining("note:")]);
     await plot(out.split("\t")[0]);
   };
   const watched = async (file: string, settings?: GivenSettings): Promise<void> => {
