@@ -18,7 +18,7 @@ import { stopIfCancelled, type Work } from "./work.js";
 
 /** A tile with fewer pairs of an edge and a segment is not divided. */
 const FEW_PAIRS = 50_000;
-/** Dividing goes on only if it leaves less than this share of the pairs. */
+/** Dividing continues only if it leaves less than this share of the pairs. */
 const WORTH_DIVIDING = 0.8;
 /** Smaller tiles are not divided, mm. */
 const SMALLEST_TILE = 0.1;

@@ -3,7 +3,13 @@ import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { rowsOf } from "./copies.js";
 import { queueTime } from "./queue-time.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate } from "../state/store.js";
-import { useActions, useIsConnected, useOlderJobs, usePageState, usePlotterJobs } from "../state/use-store.js";
+import {
+  useActions,
+  useIsConnected,
+  useOlderJobs,
+  usePageState,
+  usePlotterJobs,
+} from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Segments } from "../ui/choice.js";
 import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";

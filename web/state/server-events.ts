@@ -45,7 +45,8 @@ export const applyServerEvent = (state: PageState, event: ServerEvent): Change =
 
 /** The whole state, sent when the page has connected. The live report is dropped unless its job is still running. */
 const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
-  const { version, plotters, plotterSettings, jobs, hasOlderJobs, queues, operator, serverNotices } = snapshot;
+  const { version, plotters, plotterSettings, jobs, hasOlderJobs, queues, operator, serverNotices } =
+    snapshot;
   const { localName, machines } = snapshot;
   const isRunning = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
   return {
