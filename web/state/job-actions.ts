@@ -57,7 +57,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
   ): Promise<void> => {
     const wantedPen = change.pen ? { jobId: id, pen: change.pen } : null;
     if (wantedPen) store.setState({ wantedPen });
-    const job = await attempt(`change ${id}`, () => backend.changeJob(id, withOffs(change)));
+    const job = await attempt(`change ${id}`, () => backend.changeJob(id, change));
     // A newer request has replaced this one, and its answer comes later.
     if (wantedPen === null || store.getState().wantedPen !== wantedPen) return;
     // The answer may come before the job's event.

@@ -1,4 +1,4 @@
-import type { Job } from "../../src/schema/index.js";
+import { withOffs, type Job } from "../../src/schema/index.js";
 import { NudgeJob } from "../plotter/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
 import { activeJob, mayOperate, penOf, penWait } from "../state/store.js";
@@ -89,7 +89,7 @@ const ApplyChanges = ({ job }: { job: Job }) => {
     <>
       <Button
         kind="small"
-        onClick={() => void changeJob(job.id, { pen: settings.pen, motion: settings.motion })}
+        onClick={() => void changeJob(job.id, withOffs({ pen: settings.pen, motion: settings.motion }))}
       >
         {watchText.apply}
       </Button>
