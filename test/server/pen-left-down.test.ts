@@ -9,17 +9,18 @@ import { virtualBoardOf } from "../support/virtual-board-of.js";
 const LINE = strokesOf([10, 10, 200, 10]);
 
 /** A plot in the middle of its only stroke. */
-async function drawing(firmware: string) {
+async function drawing(firmware: string, settings = DEFAULT_PLOT_SETTINGS) {
   const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware, settings });
   await world.run(driver.start());
   const notes: string[] = [];
   const noted = (message: string): void => void notes.push(message);
-  const run = await world.run(driver.plot(new LocalPlanner(LINE), DEFAULT_PLOT_SETTINGS, { noted }));
+  const run = await world.run(driver.plot(new LocalPlanner(LINE), settings, { noted }));
   const ended = run.finished.catch(() => undefined);
   const board = virtualBoardOf(driver);
   await world.advance(3);
-  expect(board.state().penUp).toBe(false);
+  const { upPct, downPct } = settings.pen;
+  expect(board.state().penPct).toBeLessThan((upPct + downPct) / 2);
   return { world, driver, board, ended, notes };
 }
 
@@ -76,4 +77,15 @@ it("a program that ends lifts the pen with the first commands that it writes, wi
   const firstStop = lines.indexOf("ES");
   expect(lines.slice(firstStop, firstStop + 2)).toEqual(["ES", "SP,1,0"]);
   expect(board.state().penUp).toBe(true);
+});
+
+it("a pen on the second servo output, which the board does not report, is lifted too", async () => {
+  const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "nextdraw-8511" };
+  const { world, driver, board, ended } = await drawing("3.0.3", settings);
+  board.unplug();
+  await world.run(ended);
+  expect(board.state().penPct).toBe(settings.pen.downPct);
+  while (driver.state.connection !== "idle") await world.advance(0.05);
+  expect(board.state().penPct).toBe(settings.pen.upPct);
+  expect(driver.state.message).toContain("The pen rested on the paper for");
 });

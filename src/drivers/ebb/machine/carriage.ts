@@ -10,7 +10,7 @@ import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { sFromTicks } from "../../../units.js";
-import type { MachineEvents, SupplyState } from "../../driver.js";
+import type { MachineEvents, PenBefore, SupplyState } from "../../driver.js";
 import { boardRestarted, moveStopped, powerFailed, powerLost, stuck } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { delay } from "../../transport.js";
@@ -18,7 +18,7 @@ import { streamOf, type BoardState } from "../compile/command-stream.js";
 import { planEbbWalk } from "../compile/ebb-job.js";
 import { MAX_TICKS } from "../compile/leg.js";
 import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
-import { ebbOf } from "../protocol/ebb-controller.js";
+import { ebbOf, STANDARD_PIN } from "../protocol/ebb-controller.js";
 import { queueDepthOf } from "../protocol/firmware.js";
 import { parseSteps } from "../protocol/replies.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
@@ -85,15 +85,19 @@ export class Carriage {
   }
 
   /** Called after connecting. A board that was not restarted still has the position in its counters. */
-  async takeOver(): Promise<void> {
+  async takeOver(settings: MachineSettings, before: PenBefore | null): Promise<void> {
     const { features } = this.connection;
     if (features.hasStepQuery) await this.untilStill();
-    const penUp = await this.liftWhereLeft();
+    const reportsPen = ebbOf(machineOf(settings)).servoPin === STANDARD_PIN;
+    const penUp = reportsPen ? await this.liftWhereLeft() : before?.penUp === true;
+    if (!reportsPen && before !== null && !penUp) await this.movePen(true, settings);
     // Before `configure`, which begins a new watch.
     if (features.hasSupplyLatch && (await this.motorSupply.hasFailed())) await this.mark.clear();
     await this.configure();
     this.microstepMode = await this.mark.markedMode();
     if (this.microstepMode !== 0) {
+      // The board does not report such a pen, and an earlier program may have left it on the paper.
+      if (!reportsPen && before === null) await this.movePen(true, settings);
       await this.findPlace();
       this.motorsOn = true;
     }
