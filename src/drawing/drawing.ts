@@ -50,7 +50,12 @@ export interface DrawingPaths {
   readonly clip: Int32Array;
   /** Each shape is drawn at this share of the usual speed; left out: 1 for all. */
   readonly speedFactor?: Float64Array | undefined;
+  /** 1 for a shape that is only the page's background: it hides what it covers, but is never drawn. Left out: 0 for all. */
+  readonly background?: Uint8Array | undefined;
 }
+
+export const isBackground = ({ background }: DrawingPaths, shape: number): boolean =>
+  background?.[shape] === 1;
 
 /** The curves of one shape or clip. */
 export type Curves = Pick<DrawingPaths, "verbs" | "coords">;

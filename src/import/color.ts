@@ -15,6 +15,15 @@ export interface Color {
 
 const CACHE_LIMIT = 4096;
 const toRgb = converter("rgb");
+const toOklab = converter("oklab");
+
+/** The distance from white, in Oklab, below which a colour looks like paper: ivory, linen and #f0f0f0 do, #ebebeb does not. */
+const NEAR_WHITE = 0.05;
+
+export function isNearWhite(hex: string): boolean {
+  const color = toOklab(hex);
+  return color !== undefined && Math.hypot(1 - color.l, color.a, color.b) < NEAR_WHITE;
+}
 
 /** The colour, or null if the text is not one (the caller handles `currentColor` and `none`). */
 export const parseColor = remembered(CACHE_LIMIT, (text): Color | null => {

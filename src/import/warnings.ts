@@ -84,6 +84,8 @@ const WORDS = {
     `The file has ${n} groups at the top level: treated as one layer. Group them into layers.`,
   "page-size": (_n: number, details: string) =>
     `The file does not define its page size${details}. Check the size on the paper, or export with a width and height in mm.`,
+  background: (n: number) =>
+    `${many(n, "filled shape is", "filled shapes are")} taken as the background and not drawn. Give ${n === 1 ? "it" : "them"} a stroke to draw the outline.`,
   "animation-ignored": (n: number) =>
     `${many(n, "animation is", "animations are")} ignored: drawn as at the start.`,
   "not-supported": (n: number, details: string) =>

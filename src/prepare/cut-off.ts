@@ -1,5 +1,5 @@
 /** Finds the lines that the margins cut off, to show them on the page. */
-import type { Drawing } from "../drawing/drawing.js";
+import { isBackground, type Drawing } from "../drawing/drawing.js";
 import { boxContains, boxesTouch, grownBox, isEmptyBox, type Box } from "../geometry/box.js";
 import { filterLines, lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import type { PrepareSettings } from "../settings/prepare.js";
@@ -35,7 +35,7 @@ export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: 
   const wanted = new Uint8Array(drawing.paths.count);
   place.shapeBoxes().forEach((box, shape) => {
     if (isEmptyBox(box) || isFarAway(box) || boxContains(widened, box)) return;
-    if (isVisible[table.ofShape[shape]]) wanted[shape] = 1;
+    if (isVisible[table.ofShape[shape]] && !isBackground(drawing.paths, shape)) wanted[shape] = 1;
   });
   let lines = flattenShapes(drawing.paths, place.map, FLATTEN_MM, wanted, {});
   if (!settings.outlineFills) lines = strokedOnly(lines, drawing);

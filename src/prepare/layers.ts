@@ -1,5 +1,12 @@
 /** Assigns each shape to a layer: by group of the file, by stroke colour, or all in one. */
-import { PAIRS_OF_VERB, VERB_CLOSE, VERB_MOVE, type Drawing, type DrawingPaths } from "../drawing/drawing.js";
+import {
+  isBackground,
+  PAIRS_OF_VERB,
+  VERB_CLOSE,
+  VERB_MOVE,
+  type Drawing,
+  type DrawingPaths,
+} from "../drawing/drawing.js";
 import type { StrokeLayer } from "../drawing/stroke-set.js";
 import { distance } from "../geometry/polyline.js";
 import { parseLayerName } from "./layer-codes.js";
@@ -17,9 +24,9 @@ export interface FileLayer extends StrokeLayer {
 }
 
 export interface LayerTable {
-  /** Only layers that contain a shape, in the file's order. */
+  /** Only layers that contain a shape that is drawn, in the file's order. */
   readonly layers: readonly FileLayer[];
-  /** Index into `layers` for every shape. */
+  /** Index into `layers` for every shape; of no meaning for a background whose layer has nothing else. */
   readonly ofShape: Uint16Array;
 }
 
@@ -34,6 +41,7 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   const areas = new Float64Array(keyCount);
   const lengths = new Float64Array(keyCount);
   for (let shape = 0; shape < paths.count; shape++) {
+    if (isBackground(paths, shape)) continue;
     const key = keyOf(shape);
     const shapeMm = Math.max(lengthOf(paths, shape), DOT_MM);
     const widthMm = paths.strokeWidth[shape];

@@ -12,7 +12,7 @@
  * moved or fitted if the setting `outside` asks for it.
  */
 import { curveBoxOf } from "../drawing/curve-box.js";
-import { curvesOf, type Drawing } from "../drawing/drawing.js";
+import { curvesOf, isBackground, type Drawing } from "../drawing/drawing.js";
 import type { PaperSize } from "../drawing/paper.js";
 import { PlotwrightError } from "../errors.js";
 import {
@@ -224,9 +224,11 @@ function contentBox(drawing: Drawing, boxes: readonly Box[], whole: Box, map: Af
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => curveBoxOf(clip, map));
   // A shape that draws nothing makes `whole` infinite, so it counts as far away too.
-  if (page === null && clipBoxes.length === 0 && !isFarAway(whole)) return whole;
+  const isWhole = drawing.paths.background === undefined && page === null && clipBoxes.length === 0;
+  if (isWhole && !isFarAway(whole)) return whole;
   let content = EMPTY_BOX;
   boxes.forEach((shapeBox, shape) => {
+    if (isBackground(drawing.paths, shape)) return;
     let box = page ? intersectBoxes(shapeBox, page) : shapeBox;
     for (let clip = drawing.paths.clip[shape]; clip >= 0; clip = drawing.clips[clip].parent) {
       box = intersectBoxes(box, clipBoxes[clip]);

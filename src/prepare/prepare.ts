@@ -5,7 +5,7 @@
  * Hidden layers are processed until they are counted, so that the page can show their figures, and then dropped. They
  * hide nothing, and nothing hides them.
  */
-import type { Drawing } from "../drawing/drawing.js";
+import { isBackground, type Drawing } from "../drawing/drawing.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, totalLength, type Lines } from "../geometry/polyline.js";
 import { cropAreas, filledAreas, filledOnly } from "./areas.js";
@@ -48,6 +48,7 @@ import {
   hatchesOf,
   shapesOnPaper,
   strokedOnly,
+  withoutBackgrounds,
 } from "./shapes.js";
 import { simplifyLines } from "./simplify.js";
 import { reloopLines, smoothLines } from "./smooth.js";
@@ -118,6 +119,7 @@ export function prepare(
   const clipOf = clipRegions(drawing, place.map, settings.flattenMm);
   const dashOf = dashesOf(drawing, place);
   let lines = drawing.dashes.length > 0 ? dashLines(subpaths, dashOf, area) : subpaths;
+  lines = withoutBackgrounds(lines, drawing);
   if (!settings.outlineFills) lines = strokedOnly(lines, drawing);
 
   progress(0.15, "cutting");
@@ -140,8 +142,11 @@ export function prepare(
       drawing.paths.stroke[shape] < 0 &&
       (hatches?.[table.ofShape[shape]].spacingMm ?? 0) > 0;
     if (limit !== null && cutsAreas(whole, limit, isHatchOnly)) warnings.push(cutHatch(edge));
-    if (hatches !== null && areas.size === 0) warnings.push(nothingToFill(settings.hatchOutlines));
-    if (hatches !== null) lines = addHatch(lines, areas, (shape) => hatches[table.ofShape[shape]], options);
+    if (hatches !== null) {
+      const toHatch = new Map([...areas].filter(([shape]) => !isBackground(drawing.paths, shape)));
+      if (toHatch.size === 0) warnings.push(nothingToFill(settings.hatchOutlines));
+      lines = addHatch(lines, toHatch, (shape) => hatches[table.ofShape[shape]], options);
+    }
     if (settings.cropToPage && hatches !== null) lines = cropToPage(lines, drawing, place);
     if (settings.hideCovered)
       lines = hideCovered(

@@ -1,5 +1,5 @@
 /** The steps of `prepare` while lines still belong to shapes: select, dash, crop, hatch. */
-import type { DashPattern, Drawing } from "../drawing/drawing.js";
+import { isBackground, type DashPattern, type Drawing } from "../drawing/drawing.js";
 import {
   EMPTY_BOX,
   boxContains,
@@ -147,6 +147,10 @@ export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Li
   if (isUpright && boxContains(boxOfPoints(corners), boxOfPoints(lines.xy))) return lines;
   return cutLines(lines, () => page);
 }
+
+/** Removes the outlines of the page's background. */
+export const withoutBackgrounds = (lines: Lines, { paths }: Drawing): Lines =>
+  paths.background === undefined ? lines : filterLines(lines, (i) => !isBackground(paths, lines.tag[i]));
 
 /** Removes the outlines of shapes without a stroke. */
 export const strokedOnly = (lines: Lines, drawing: Drawing): Lines =>

@@ -4,14 +4,17 @@
  *   text ─ svg-tree ─> tree ─ cascade + style ─> computed styles ─┐
  *                        └─ svg-layers ─> layers ─────────────────┤
  *                                                                 └─ svg-walk ─> shapes ─ drawing-builder ─> Drawing
+ *                                                                                            backgrounds marks shapes
  *
  * Bad files throw PlotwrightError("bad-file") with line and column; minor problems become warnings. Time and
  * memory are linear in the text and in what copies (`use`) add; copies are limited.
  */
 import { checkText } from "../../check-arguments.js";
-import type { Drawing } from "../../drawing/drawing.js";
+import { curveBoxOf } from "../../drawing/curve-box.js";
+import { curvesOf, type Drawing } from "../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
+import { backgroundsOf } from "./backgrounds.js";
 import type { Cascade } from "./cascade.js";
 import type { Declared } from "./properties.js";
 import { DrawingBuilder } from "../drawing-builder.js";
@@ -125,6 +128,17 @@ function rootTransform(
 const isShown = (root: Declared): boolean => parseOpacity(root.get("opacity") ?? "1") !== 0;
 
 function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
+  const drawing = onPage(builder, page, warnings);
+  const { paths } = drawing;
+  const background = backgroundsOf(drawing);
+  if (background === null) return drawing;
+  background.forEach((isBackground, shape) => {
+    if (isBackground) warnings.add("background", curveBoxOf(curvesOf(paths, shape), IDENTITY));
+  });
+  return { ...drawing, paths: { ...paths, background }, warnings: warnings.toArray() };
+}
+
+function onPage(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
   if (page.pageFrom !== "extent" || builder.shapeCount === 0)
     return builder.finish(page.widthMm, page.heightMm, page.pageFrom);
   const { x0, y0, x1, y1 } = builder.extent();
