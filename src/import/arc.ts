@@ -24,8 +24,8 @@ function arcPieceCount(radius: number, sweep: number, tolerance: number): number
 
 /**
  * Draws an arc from the pen's position: centre (cx, cy), radii rx, ry, the ellipse rotated by `tilt`, from
- * angle `start` through `sweep` (all rad, as the ellipse's parameter). The last point is exactly (endX,
- * endY).
+ * angle `start` through `sweep` (all rad, as the ellipse's parameter). A negative radius mirrors the arc. The
+ * last point is exactly (endX, endY).
  */
 export function drawCentreArc(
   shape: ShapeBuffer,
@@ -40,7 +40,7 @@ export function drawCentreArc(
   endY: number,
   tolerance: number,
 ): void {
-  const pieces = arcPieceCount(Math.max(rx, ry), sweep, tolerance);
+  const pieces = arcPieceCount(Math.max(Math.abs(rx), Math.abs(ry)), sweep, tolerance);
   const step = sweep / pieces;
   const arm = (4 / 3) * Math.tan(step / 4);
   const cosT = Math.cos(tilt);

@@ -10,7 +10,7 @@ import {
 } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
 import { IDENTITY, type Affine } from "../geometry/affine.js";
-import { boxOfPoints, type Box } from "../geometry/box.js";
+import { boxOfPoints, EMPTY_BOX, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
 import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
 import { getOrAdd } from "./get-or-add.js";
@@ -145,10 +145,25 @@ export class DrawingBuilder {
     return curveBoxOf({ verbs: this.verbs.view(), coords: this.coords.data }, IDENTITY);
   }
 
+  /** As `extent`, without what lies outside the boxes of the clips. */
+  private clippedExtent(): Box {
+    let extent = EMPTY_BOX;
+    for (let shape = 0; shape < this.shapeCount; shape++) {
+      const verbs = this.verbs.data.subarray(this.verbOffsets.data[shape], this.verbOffsets.data[shape + 1]);
+      const coords = this.coords.data.subarray(this.coordOffsets.data[shape]);
+      let box = curveBoxOf({ verbs, coords }, IDENTITY);
+      for (let clip = this.clip.data[shape]; clip >= 0; clip = this.clips[clip].parent)
+        box = intersectBoxes(box, boxOfPoints(this.clips[clip].coords));
+      if (!isEmptyBox(box)) extent = uniteBoxes(extent, box);
+    }
+    return extent;
+  }
+
   /** For files without a page: the page is the drawing's extent. */
   finishAround(): Drawing {
-    if (this.shapeCount === 0) return this.finish(SMALLEST_SIDE, SMALLEST_SIDE);
-    const { x0, y0, x1, y1 } = this.extent();
+    const extent = this.clips.length === 0 ? this.extent() : this.clippedExtent();
+    if (isEmptyBox(extent)) return this.finish(SMALLEST_SIDE, SMALLEST_SIDE);
+    const { x0, y0, x1, y1 } = extent;
     this.translate(-x0, -y0);
     this.warnings.translate(-x0, -y0);
     return this.finish(Math.max(x1 - x0, SMALLEST_SIDE), Math.max(y1 - y0, SMALLEST_SIDE), "extent");

@@ -1,6 +1,6 @@
 /**
  * HPGL labels: position and size of their letters, set by SI SR DI DR DV SL LO ES (HP, "PCL 5 Technical
- * Reference", chapter 23). The plotter's letters all have the same width, so each letter is centred where the
+ * Reference", chapter 23), symbols (SM) and characters drawn by the file (UC). The plotter's letters all have the same width, so each letter is centred where the
  * plotter's would be.
  *
  *    ┌ W ┐ W/2            a cell is 1.5 W wide, a line 2 H high
@@ -17,9 +17,10 @@ import {
   translation,
   type Affine,
 } from "../../geometry/affine.js";
-import type { ShapeBuffer } from "../shape-buffer.js";
+import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import { CAPITAL_EM, type TextFont } from "../text/text-font.js";
 import { drawLine, layOutLine } from "../text/text-line.js";
+import type { HpglFrame } from "./hpgl-frame.js";
 
 const UNITS_PER_CM = 400;
 /** cm: the default on A4 plotters. */
@@ -40,10 +41,12 @@ interface Place {
 }
 
 export class HpglLabels {
-  private width = USUAL_WIDTH * UNITS_PER_CM;
-  private height = USUAL_HEIGHT * UNITS_PER_CM;
-  /** rad */
-  private angle = 0;
+  private size = [USUAL_WIDTH, USUAL_HEIGHT];
+  /** The size is in percent of the distance between P1 and P2, instead of cm. */
+  private isSizeRelative = false;
+  private direction = [1, 0];
+  /** The direction is in shares of the distance between P1 and P2. */
+  private isDirectionRelative = false;
   private slant = 0;
   private origin = 1;
   /** Direction from one letter to the next: 0 right, 1 down, 2 left, 3 up. */
@@ -54,42 +57,36 @@ export class HpglLabels {
   private extraWidth = 0;
   private extraHeight = 0;
 
-  /** Applies a setting; `corners` are P1 and P2. Returns false if the command does not concern labels. */
-  set(name: string, args: readonly number[], corners: readonly number[]): boolean {
-    const [first, second] = args;
-    const spanX = corners[2] - corners[0];
-    const spanY = corners[3] - corners[1];
+  constructor(private readonly frame: HpglFrame) {}
+
+  /** Applies a setting. */
+  set(name: string, [first, second]: readonly number[]): void {
     switch (name) {
       case "SI":
-        this.width = (first ?? USUAL_WIDTH) * UNITS_PER_CM;
-        this.height = (second ?? USUAL_HEIGHT) * UNITS_PER_CM;
-        return true;
       case "SR":
-        this.width = ((first ?? USUAL_RELATIVE_WIDTH) / 100) * Math.abs(spanX);
-        this.height = ((second ?? USUAL_RELATIVE_HEIGHT) / 100) * Math.abs(spanY);
-        return true;
+        this.isSizeRelative = name === "SR";
+        this.size = this.isSizeRelative
+          ? [first ?? USUAL_RELATIVE_WIDTH, second ?? USUAL_RELATIVE_HEIGHT]
+          : [first ?? USUAL_WIDTH, second ?? USUAL_HEIGHT];
+        return;
       case "DI":
-        this.angle = Math.atan2(second ?? 0, first ?? 1);
-        return true;
       case "DR":
-        this.angle = Math.atan2((second ?? 0) * spanY, (first ?? 1) * spanX);
-        return true;
+        this.isDirectionRelative = name === "DR";
+        this.direction = first === undefined || second === undefined ? [1, 0] : [first, second];
+        return;
       case "SL":
         this.slant = first ?? 0;
-        return true;
+        return;
       case "LO":
         this.origin = first ?? 1;
-        return true;
+        return;
       case "ES":
         this.extraWidth = first ?? 0;
         this.extraHeight = second ?? 0;
-        return true;
+        return;
       case "DV":
         this.path = Math.round(first ?? 0) & 3;
         this.isReversed = second === 1;
-        return true;
-      default:
-        return false;
     }
   }
 
@@ -132,6 +129,41 @@ export class HpglLabels {
     return { pen: this.beginsAtPen ? this.moved(at, column, row) : at, missing };
   }
 
+  /** Draws a symbol with its middle at the point. Returns whether the font lacks it. */
+  drawSymbol(char: string, font: TextFont, shape: ShapeBuffer, at: Place): boolean {
+    const missing: string[] = [];
+    const symbol = new ShapeBuffer();
+    this.drawRun([char], font, symbol, { x: 0, y: 0 }, missing);
+    symbol.finish();
+    const { x0, y0, x1, y1 } = curveBox(symbol);
+    shape.append(symbol, translation(at.x - (x0 + x1) / 2, at.y - (y0 + y1) / 2));
+    return missing.length > 0;
+  }
+
+  /**
+   * Draws a character from the file's own steps: each is a distance in x and y, or 99 to lower the pen, or -99 to lift
+   * it. A plain capital is 4 steps wide and 8 high.
+   */
+  drawUserCharacter(steps: readonly number[], shape: ShapeBuffer, at: Place): void {
+    const size = scaling(this.width / 4, this.height / 8);
+    const map = compose(this.mapAt(at), compose({ ...scaling(1), c: this.slant }, size));
+    let [x, y, isDown] = [0, 0, false];
+    for (let i = 0; i < steps.length;) {
+      if (Math.abs(steps[i]) >= 99) {
+        isDown = steps[i++] > 0;
+        continue;
+      }
+      if (i + 1 >= steps.length) return;
+      const from = [applyX(map, x, y), applyY(map, x, y)] as const;
+      x += steps[i++];
+      y += steps[i++];
+      const to = [applyX(map, x, y), applyY(map, x, y)] as const;
+      if (!isDown) continue;
+      if (shape.isEmpty || shape.x !== from[0] || shape.y !== from[1]) shape.moveTo(...from);
+      shape.lineTo(...to);
+    }
+  }
+
   private drawRun(
     letters: readonly string[],
     font: TextFont,
@@ -160,6 +192,23 @@ export class HpglLabels {
   /** Maps label coordinates (along the label, and up) to plotter units. */
   private mapAt({ x, y }: Place): Affine {
     return compose(translation(x, y), rotation(this.angle));
+  }
+
+  /** rad on the paper */
+  private get angle(): number {
+    const [shareX, shareY] = this.isDirectionRelative ? this.frame.spans : [1, 1];
+    const [x, y] = this.direction;
+    return this.frame.angle + Math.atan2(y * shareY, x * shareX);
+  }
+
+  private get width(): number {
+    const [spanX] = this.frame.spans;
+    return this.size[0] * (this.isSizeRelative ? Math.abs(spanX) / 100 : UNITS_PER_CM);
+  }
+
+  private get height(): number {
+    const [, spanY] = this.frame.spans;
+    return this.size[1] * (this.isSizeRelative ? Math.abs(spanY) / 100 : UNITS_PER_CM);
   }
 
   /** Letters are stacked vertically. */

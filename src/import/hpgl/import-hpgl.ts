@@ -1,339 +1,448 @@
 /**
- * Reads HPGL and HP-GL/2 as a Drawing with a layer for each pen: PU PD PA PR AA AR CI EA ER RA RR SP PE, scaling by IP
- * and SC, labels by LB. Language reference: HP, "PCL 5 Technical Reference", chapters 18 to 21. A plotter unit is
- * 0.025 mm; y is up.
+ * Reads HPGL and HP-GL/2 as a Drawing with a layer for each pen. hpgl-commands.ts lists all commands and what becomes
+ * of them; this file carries out those that matter on paper.
  */
 import type { Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
-import type { Affine } from "../../geometry/affine.js";
-import { drawCentreArc } from "../arc.js";
-import type { Box } from "../../geometry/box.js";
+import { boxOfPoints } from "../../geometry/box.js";
+import { RAD_PER_DEG } from "../../units.js";
 import { DrawingBuilder } from "../drawing-builder.js";
-import { getOrAdd } from "../get-or-add.js";
-import { readEncodedPolyline } from "./hpgl-encoded.js";
-import { HpglLabels } from "./hpgl-label.js";
 import { fontOf, type ImportOptions } from "../import-options.js";
-import { ShapeBuffer } from "../shape-buffer.js";
 import type { TextFont } from "../text/text-font.js";
 import { Warnings } from "../warnings.js";
+import { HpglCanvas } from "./hpgl-canvas.js";
+import { GROUP_OF } from "./hpgl-commands.js";
+import { readEncodedPolyline } from "./hpgl-encoded.js";
+import { HpglFrame } from "./hpgl-frame.js";
+import { HpglLabels } from "./hpgl-label.js";
+import { linesOfFill } from "./hpgl-polygon.js";
+import { HpglReader, type HpglCommand } from "./hpgl-reader.js";
+import {
+  arcAbout,
+  arcThrough,
+  chordAngle,
+  drawArc,
+  drawCircle,
+  drawRectangle,
+  drawTick,
+  drawWedge,
+  sweepOf,
+  TURN,
+  type HpglArc,
+} from "./hpgl-shapes.js";
 
-const MM_PER_PLOTTER_UNIT = 0.025;
-const ARC_TOLERANCE_MM = 2e-5;
-const MAX_PENS = 256;
-/** The colours of a usual pen carousel. Pens with higher numbers repeat them. */
-const PEN_COLORS = ["#000000", "#ff0000", "#008000", "#0000ff", "#ffa500", "#800080", "#00a0a0", "#808080"];
-const COMMAND = /([A-Za-z]{2})([^A-Za-z\u0003;]*)/y;
-const LABEL_END = "\u0003";
-const PAGE: Affine = { a: MM_PER_PLOTTER_UNIT, b: 0, c: 0, d: -MM_PER_PLOTTER_UNIT, e: 0, f: 0 };
-/** P1 and P2 until IP sets them, in plotter units. */
-const USUAL_CORNERS: readonly number[] = [0, 0, 10_000, 10_000];
-
-/** Commands that are ignored: they set what plotwright decides itself, or move nothing. */
-const SILENT = new Set(
-  "VS FS AS LA PW WU CO OW RO PS NR EC BP AC CV MC SM TR UL AP TD SD SA SS CA CS NP OA OC OE OI OS OF OP OH OD VA".split(
-    " ",
-  ),
-);
+/** Percent of the distance between P1 and P2. */
+const USUAL_TICK = 0.5;
+const SOLID_FILLS = [1, 2];
 
 /** Throws PlotwrightError("bad-file"). */
 export function importHpgl(text: string, options: ImportOptions): Drawing {
   return new HpglImport(text, fontOf(options)).run();
 }
 
+/** What DF and IN reset. */
+class Defaults {
+  isRelative = false;
+  /** CT: chords are given by their distance from the arc instead of their angle. */
+  areChordsDeviations = false;
+  /** The character of SM; "" for none. */
+  symbol = "";
+  fill: readonly number[] = [];
+  /** Where fills with lines begin, plotter units. */
+  anchor: readonly [x: number, y: number] = [0, 0];
+  ticks: readonly [up: number, down: number] = [USUAL_TICK, USUAL_TICK];
+  readonly labels: HpglLabels;
+
+  constructor(frame: HpglFrame) {
+    this.labels = new HpglLabels(frame);
+  }
+}
+
 class HpglImport {
   private readonly warnings = new Warnings();
   private readonly builder = new DrawingBuilder(this.warnings);
-  private readonly shape = new ShapeBuffer();
-  private readonly groups = new Map<number, number>();
-  private pen = 1;
-  private isDown = false;
-  private isRelative = false;
-  /** Plotter units. */
-  private x = 0;
-  private y = 0;
-  /** User units to plotter units. */
-  private scaleX = 1;
-  private scaleY = 1;
-  private originX = 0;
-  private originY = 0;
-  private corners = USUAL_CORNERS;
-  private labels = new HpglLabels();
-  private labelEnd = LABEL_END;
+  private readonly frame = new HpglFrame();
+  private readonly canvas: HpglCanvas;
+  private state = new Defaults(this.frame);
   /** Start of the last label: a new line begins there. */
   private labelStart = { x: 0, y: 0 };
-  private at = 0;
-  /** "turned" after a PG: what follows is on another page of the file. */
-  private page: "empty" | "used" | "turned" = "empty";
-  private commandCount = 0;
+  /** The label of BL. */
+  private buffered = "";
+  /** Where PM0 was. */
+  private polygonStart = { x: 0, y: 0 };
 
   constructor(
     private readonly text: string,
     /** The font for labels; null if labels are only reported. */
     private readonly font: TextFont | null,
-  ) {}
+  ) {
+    this.canvas = new HpglCanvas(this.builder, this.warnings, font?.kind === "outline");
+    this.canvas.diagonal = this.frame.diagonal;
+  }
 
   run(): Drawing {
-    const { text } = this;
-    while (this.at < text.length) {
-      COMMAND.lastIndex = this.at;
-      const match = COMMAND.exec(text);
-      if (match === null) {
-        this.at++;
-        continue;
-      }
-      this.at = COMMAND.lastIndex;
-      this.commandCount++;
-      const name = match[1].toUpperCase();
-      const start = COMMAND.lastIndex - match[2].length;
-      if (name === "PE") this.encoded(start);
-      else if (name === "LB") this.label(start);
-      else if (name === "DT") this.setLabelEnd(start);
-      else this.command(name, numbersIn(match[2]));
+    const reader = new HpglReader(this.text);
+    let count = 0;
+    for (let command = reader.next(); command !== null; command = reader.next()) {
+      count++;
+      this.carryOut(command);
     }
-    this.flush();
-    if (this.commandCount === 0) {
+    this.endPolygon("PM without PM2");
+    this.canvas.flush();
+    if (count === 0) {
       throw new PlotwrightError("bad-file", "This is not an HPGL file: it has no commands. Export it again.");
     }
     return this.builder.finishAround();
   }
 
-  private command(name: string, args: readonly number[]): void {
+  private carryOut(command: HpglCommand): void {
+    const { name, numbers } = command;
+    const group = GROUP_OF.get(name);
+    if (group === undefined) this.report(name);
+    else if (numbers.length < group.least)
+      this.warnings.add("attribute-fault", undefined, `${name}: too few numbers`);
+    else if (group.outcome === "reported") {
+      if (numbers.some((number) => number !== 0)) this.warnings.add(group.warning, undefined, name);
+    } else if (group.outcome !== "setting") this.draw(command);
+  }
+
+  /** For a command that is not drawn. */
+  private report(name: string): void {
+    this.canvas.forgetDot();
+    this.warnings.add("not-supported", undefined, name);
+  }
+
+  private fault(name: string, why: string): void {
+    this.warnings.add("attribute-fault", undefined, `${name}: ${why}`);
+  }
+
+  private draw({ name, numbers, text }: HpglCommand): void {
+    const { canvas, frame, state } = this;
+    const [first, second] = numbers;
     switch (name) {
       case "PU":
+        canvas.lift();
+        return this.coordinates(name, numbers);
       case "PD":
-        this.isDown = name === "PD";
-        if (!this.isDown) this.flush();
-        this.coordinates(args);
-        // A pen lowered without moving makes a dot, unless it continues from here.
-        if (this.isDown && args.length === 0) this.lineTo(this.x, this.y);
-        return;
+        if (numbers.length === 0) canvas.lower();
+        canvas.isDown = true;
+        return this.coordinates(name, numbers);
       case "PA":
       case "PR":
-        this.isRelative = name === "PR";
-        this.coordinates(args);
-        return;
-      case "SP":
-        this.flush();
-        this.pen = Math.min(MAX_PENS, Math.max(0, Math.round(args[0] ?? 0)));
-        this.isDown = false;
-        return;
-      case "IP":
-        this.corners =
-          args.length === 4
-            ? args
-            : args.length === 2
-              ? [...args, args[0] + 1000, args[1] + 1000]
-              : this.corners;
-        return;
-      case "SC":
-        this.scale(args);
-        return;
+        state.isRelative = name === "PR";
+        return this.coordinates(name, numbers);
+      case "PE":
+        return this.encoded(text);
       case "AA":
       case "AR":
-        if (args.length >= 3) this.arc(args, name === "AR");
-        return;
+        return this.arcAboutCentre(numbers, name === "AR");
+      case "AT":
+      case "RT":
+        return this.arcThroughPoint(numbers, name === "RT");
+      case "BZ":
+      case "BR":
+        return this.curves(numbers, name === "BR");
       case "CI":
-        if (args.length >= 1) this.circle(args[0] * this.scaleX);
+        return this.circle(first, second);
+      case "CT":
+        state.areChordsDeviations = first === 1;
         return;
       case "EA":
-      case "RA":
       case "ER":
+        this.rectangle(first, second, name === "ER");
+        return canvas.drawEdges();
+      case "RA":
       case "RR":
-        if (args.length >= 2) this.rectangle(args, name === "ER" || name === "RR");
+        this.rectangle(first, second, name === "RR");
+        return this.fill(true);
+      case "EW":
+        this.wedge(numbers);
+        return canvas.drawEdges();
+      case "WG":
+        this.wedge(numbers);
+        return this.fill(true);
+      case "PM":
+        return this.polygonMode(first ?? 0);
+      case "EP":
+        this.polygonMode(2);
+        return canvas.drawEdges();
+      case "FP":
+        this.polygonMode(2);
+        return this.fill(first !== 1);
+      case "FT":
+        state.fill = numbers;
         return;
-      case "IN":
-        this.flush();
-        this.isDown = false;
-        this.corners = USUAL_CORNERS;
-        this.setDefaults();
-        return;
-      case "DF":
-        this.setDefaults();
+      case "AC":
+        state.anchor = second === undefined ? [0, 0] : frame.onPaper(first, second);
         return;
       case "LT":
-        // Without numbers lines are solid; every type that has a number is a pattern.
-        if (args.length > 0) this.warnings.add("effect-ignored", undefined, `LT${args[0]}: drawn solid`);
+        return this.lineType(numbers);
+      case "UL":
+        canvas.endDashes();
+        if (!canvas.lineTypes.define(numbers)) this.fault(name, "not a line type");
+        return;
+      case "SP":
+        return canvas.selectPen(first ?? 0);
+      case "PC":
+        return canvas.setPenColor(numbers);
+      case "CR":
+        return canvas.setColorRange(numbers);
+      case "IN":
+      case "DF":
+        return this.reset(name);
+      case "IP":
+      case "IR":
+        return this.corners(name, numbers);
+      case "SC":
+        if (!frame.setScaling(numbers)) this.fault(name, "not a scale");
+        return this.warnOfGuessedPage(name);
+      case "RO":
+        if (!frame.setRotation(first ?? 0)) this.fault(name, "not a multiple of 90");
         return;
       case "IW":
-        // Without numbers the window is the whole page again.
-        if (args.length > 0) this.warnings.add("clip-ignored", undefined, name);
+        return this.inputWindow(numbers);
+      case "SM":
+        state.symbol = text;
         return;
-      case "PG":
-        this.flush();
-        if (this.page === "used") this.page = "turned";
+      case "BL":
+        this.buffered = text;
         return;
+      case "LB":
+      case "PB":
+        return this.label(name === "LB" ? text : this.buffered);
       case "CP":
-        this.moveByCells(args);
+        return this.moveByCells(numbers);
+      case "UC":
+        canvas.drawSolid((shape) => state.labels.drawUserCharacter(numbers, shape, canvas));
+        return this.moveByCells([1, 0]);
+      case "TL":
+        state.ticks = first === undefined ? [USUAL_TICK, USUAL_TICK] : [first, second ?? 0];
+        return;
+      case "XT":
+      case "YT":
+        return canvas.drawSolid((shape) => drawTick(shape, canvas, name === "XT", state.ticks, frame));
+      case "PG":
+      case "AF":
+      case "AH":
+      case "FR":
+        return canvas.turnPage(name);
+      case "DT":
+        // The reader needs it, and only the reader.
         return;
       default:
-        if (this.labels.set(name, args, this.corners)) return;
-        if (!SILENT.has(name)) this.warnings.add("not-supported", undefined, name);
+        // SI SR DI DR DV SL LO ES
+        state.labels.set(name, numbers);
     }
   }
 
-  /** DF keeps P1, P2 and the pen's state: only IN resets these. */
-  private setDefaults(): void {
-    this.isRelative = false;
-    this.scale([]);
-    this.labels = new HpglLabels();
-    this.labelEnd = LABEL_END;
+  /** DF keeps P1, P2, the rotation and the pen's state: only IN resets these. */
+  private reset(name: string): void {
+    const { canvas, frame } = this;
+    this.endPolygon(`PM without PM2 before ${name}`);
+    canvas.endDashes();
+    canvas.polygon.clear();
+    canvas.lineTypes.reset();
+    canvas.setWindow(null);
+    this.state = new Defaults(frame);
+    frame.setScaling([]);
+    if (name === "DF") return;
+    canvas.lift();
+    frame.reset();
+    canvas.diagonal = frame.diagonal;
+    canvas.setPenColor([]);
+    canvas.setColorRange([]);
   }
 
-  private coordinates(args: readonly number[]): void {
-    for (let i = 0; i + 1 < args.length; i += 2) this.goTo(args[i], args[i + 1]);
-  }
-
-  /** Goes to a point in user units. */
-  private goTo(ux: number, uy: number, isRelative = this.isRelative): void {
-    const [x, y] = this.plotterUnits(ux, uy, isRelative);
-    if (this.isDown) this.lineTo(x, y);
-    else this.flush();
-    this.x = x;
-    this.y = y;
-  }
-
-  /** A point in user units, from the origin or from the pen. */
-  private plotterUnits(ux: number, uy: number, isRelative: boolean): [x: number, y: number] {
-    return [
-      ux * this.scaleX + (isRelative ? this.x : this.originX),
-      uy * this.scaleY + (isRelative ? this.y : this.originY),
-    ];
-  }
-
-  private lineTo(x: number, y: number): void {
-    const { shape } = this;
-    if (shape.isEmpty) shape.moveTo(this.x, this.y);
-    shape.lineTo(x, y);
-  }
-
-  private scale(args: readonly number[]): void {
-    const [p1x, p1y, p2x, p2y] = this.corners;
-    if (args.length < 4) {
-      this.scaleX = this.scaleY = 1;
-      this.originX = this.originY = 0;
-      return;
+  private corners(name: string, numbers: readonly number[]): void {
+    const { canvas, frame } = this;
+    if (name === "IR" && numbers.length >= 2) {
+      frame.setRelativeCorners(numbers);
+      this.warnings.add("page-size", undefined, "IR");
+    } else {
+      frame.setCorners(numbers);
+      this.warnOfGuessedPage(name);
     }
-    const [x0, x1, y0, y1] = args;
-    // Type 2 gives a factor instead of the far corner.
-    this.scaleX = args[4] === 2 ? x1 : (p2x - p1x) / (x1 - x0);
-    this.scaleY = args[4] === 2 ? y1 : (p2y - p1y) / (y1 - y0);
-    if (!Number.isFinite(this.scaleX + this.scaleY)) this.scaleX = this.scaleY = 1;
-    this.originX = p1x - x0 * this.scaleX;
-    this.originY = p1y - y0 * this.scaleY;
+    canvas.endDashes();
+    canvas.diagonal = frame.diagonal;
   }
 
-  private arc(args: readonly number[], isRelative: boolean): void {
-    const [cx, cy] = this.plotterUnits(args[0], args[1], isRelative);
-    const radius = Math.hypot(this.x - cx, this.y - cy);
-    const start = Math.atan2(this.y - cy, this.x - cx);
-    const sweep = Math.max(-2 * Math.PI, Math.min(2 * Math.PI, (args[2] * Math.PI) / 180));
-    const endX = cx + radius * Math.cos(start + sweep);
-    const endY = cy + radius * Math.sin(start + sweep);
-    if (this.isDown && radius > 0) {
-      const { shape } = this;
-      if (shape.isEmpty) shape.moveTo(this.x, this.y);
-      drawCentreArc(shape, cx, cy, radius, radius, 0, start, sweep, endX, endY, TOLERANCE);
+  /** The scale depends on the plotter's page if the file does not place P1 and P2. */
+  private warnOfGuessedPage(name: string): void {
+    const { frame, warnings } = this;
+    if (frame.isScaledToCorners && !frame.areCornersGiven)
+      warnings.add("page-size", undefined, `${name} without P1 and P2`);
+  }
+
+  /** Points in user units, from the origin or from the pen. */
+  private coordinates(name: string, numbers: readonly number[]): void {
+    for (let i = 0; i + 1 < numbers.length; i += 2)
+      this.goTo(numbers[i], numbers[i + 1], this.state.isRelative);
+    if (numbers.length % 2 === 1) this.fault(name, "a number too many");
+  }
+
+  private goTo(x: number, y: number, isRelative: boolean): void {
+    const { canvas, state, font, warnings } = this;
+    canvas.goTo(...this.pointOnPaper(x, y, isRelative));
+    if (state.symbol === "" || canvas.isInPolygon) return;
+    if (font === null) warnings.add("text-not-drawn");
+    else if (state.labels.drawSymbol(state.symbol, font, canvas.letters, canvas))
+      warnings.add("glyphs-missing", undefined, `"${state.symbol}"`);
+  }
+
+  private pointOnPaper(x: number, y: number, isRelative: boolean): [x: number, y: number] {
+    const { canvas, frame } = this;
+    if (!isRelative) return frame.onPaper(x, y);
+    const [dx, dy] = frame.vectorOnPaper(x, y);
+    return [canvas.x + dx, canvas.y + dy];
+  }
+
+  /** The pen's position in user units. */
+  private get here(): [x: number, y: number] {
+    return this.frame.inUserUnits(this.canvas.x, this.canvas.y);
+  }
+
+  private arc(arc: HpglArc, chord: number | undefined): void {
+    const angle = chordAngle(chord, arc.radius, this.state.areChordsDeviations);
+    if (arc.radius > 0) this.canvas.draw((shape) => drawArc(shape, arc, angle, this.frame));
+  }
+
+  private arcAboutCentre([cx, cy, sweepDeg, chord]: readonly number[], isRelative: boolean): void {
+    const [x, y] = this.here;
+    this.arc(isRelative ? arcAbout(x + cx, y + cy, x, y, sweepDeg) : arcAbout(cx, cy, x, y, sweepDeg), chord);
+  }
+
+  private arcThroughPoint([mx, my, ex, ey, chord]: readonly number[], isRelative: boolean): void {
+    const [x, y] = this.here;
+    const [fromX, fromY] = isRelative ? [x, y] : [0, 0];
+    const arc = arcThrough(x, y, fromX + mx, fromY + my, fromX + ex, fromY + ey);
+    if (arc !== null) this.arc(arc, chord);
+    else this.canvas.goTo(...this.frame.onPaper(fromX + ex, fromY + ey));
+  }
+
+  /** Bézier curves; relative ones are from their own start. */
+  private curves(numbers: readonly number[], isRelative: boolean): void {
+    for (let i = 0; i + 5 < numbers.length; i += 6) {
+      const [x1, y1, x2, y2, x, y] = numbers.slice(i, i + 6);
+      const ends = [
+        ...this.pointOnPaper(x1, y1, isRelative),
+        ...this.pointOnPaper(x2, y2, isRelative),
+        ...this.pointOnPaper(x, y, isRelative),
+      ] as const;
+      this.canvas.draw((shape) => shape.cubicTo(...ends));
     }
-    this.x = endX;
-    this.y = endY;
+    if (numbers.length % 6 !== 0) this.fault(isRelative ? "BR" : "BZ", "an incomplete curve");
   }
 
-  /** Drawn regardless of the pen's state; the pen's position does not change. */
-  private circle(radius: number): void {
-    this.flush();
-    const r = Math.abs(radius);
-    if (!(r > 0)) return;
-    const { shape, x, y } = this;
-    shape.moveTo(x + r, y);
-    drawCentreArc(shape, x, y, r, r, 0, 0, 2 * Math.PI, x + r, y, TOLERANCE);
-    shape.close();
-    this.flush();
+  private circle(radius: number, chord: number | undefined): void {
+    const [x, y] = this.here;
+    const angle = chordAngle(chord, radius, this.state.areChordsDeviations);
+    const circle = { x, y, radius, start: 0, sweep: TURN };
+    if (radius !== 0) this.canvas.drawClosed((shape) => drawCircle(shape, circle, angle, this.frame));
   }
 
-  private rectangle(args: readonly number[], isRelative: boolean): void {
-    this.flush();
-    this.shape.rectangle(this.x, this.y, ...this.plotterUnits(args[0], args[1], isRelative));
-    this.flush();
+  /** From the pen's position to the opposite corner. */
+  private rectangle(x: number, y: number, isRelative: boolean): void {
+    const { canvas, frame, here } = this;
+    const corner = isRelative ? ([here[0] + x, here[1] + y] as const) : ([x, y] as const);
+    canvas.setPolygon((rings) => drawRectangle(rings, here, corner, frame));
   }
 
-  private encoded(from: number): void {
-    const end = this.text.indexOf(";", from);
-    this.at = end < 0 ? this.text.length : end + 1;
-    readEncodedPolyline(this.text.slice(from, end < 0 ? undefined : end), {
-      pen: (pen) => this.command("SP", [pen]),
+  /** A sector whose tip is the pen's position. */
+  private wedge([radius, startDeg, sweepDeg, chord]: readonly number[]): void {
+    const [x, y] = this.here;
+    const angle = chordAngle(chord, radius, this.state.areChordsDeviations);
+    const arc = { x, y, radius, start: startDeg * RAD_PER_DEG, sweep: sweepOf(sweepDeg) };
+    this.canvas.setPolygon((rings) => {
+      if (radius !== 0) drawWedge(rings, arc, angle, this.frame);
+    });
+  }
+
+  /** 0 begins a polygon, 1 ends a ring of it, 2 ends it. The pen returns to where the polygon began. */
+  private polygonMode(mode: number): void {
+    const { canvas } = this;
+    if (mode === 0) {
+      canvas.flush();
+      this.polygonStart = { x: canvas.x, y: canvas.y };
+      canvas.isInPolygon = true;
+      canvas.polygon.clear();
+      canvas.polygon.begin(canvas.x, canvas.y);
+    } else if (canvas.isInPolygon) {
+      canvas.polygon.end();
+      if (mode === 1) return;
+      canvas.isInPolygon = false;
+      canvas.place(this.polygonStart.x, this.polygonStart.y);
+    }
+  }
+
+  /** A polygon that is never ended is not drawn. */
+  private endPolygon(why: string): void {
+    const { canvas } = this;
+    if (!canvas.isInPolygon) return;
+    this.polygonMode(2);
+    if (!canvas.polygon.rings.isEmpty) this.warnings.add("not-supported", undefined, why);
+  }
+
+  /** Fills the polygon. */
+  private fill(evenOdd: boolean): void {
+    const { canvas, frame, state } = this;
+    const lines = linesOfFill(state.fill, state.anchor, frame);
+    if (lines.length > 0 && canvas.hatch(lines)) return;
+    const [type = SOLID_FILLS[0]] = state.fill;
+    if (!SOLID_FILLS.includes(type))
+      this.warnings.add("effect-ignored", undefined, `FT${type}: filled as a solid area`);
+    canvas.fillArea(evenOdd);
+  }
+
+  private lineType(numbers: readonly number[]): void {
+    const { canvas } = this;
+    canvas.endDashes();
+    if (numbers.length > 0) canvas.flush();
+    if (!canvas.lineTypes.select(numbers)) this.fault("LT", `no line type ${numbers[0]}`);
+    if (canvas.lineTypes.isAdaptive)
+      this.warnings.add("effect-ignored", undefined, `LT${numbers[0]}: dashes not fitted to each line`);
+  }
+
+  private inputWindow(numbers: readonly number[]): void {
+    const { canvas, frame } = this;
+    const [x0, y0, x1, y1] = numbers;
+    if (numbers.length < 4) canvas.setWindow(null);
+    else canvas.setWindow(boxOfPoints([...frame.onPaper(x0, y0), ...frame.onPaper(x1, y1)]));
+  }
+
+  private encoded(text: string): void {
+    const { canvas } = this;
+    readEncodedPolyline(text, {
+      pen: (pen) => canvas.selectPen(pen),
       move: (x, y, isUp, isAbsolute) => {
-        this.isDown = !isUp;
-        if (isUp) this.flush();
+        if (isUp) canvas.lift();
+        else canvas.isDown = true;
         this.goTo(x, y, !isAbsolute);
       },
     });
   }
 
-  private setLabelEnd(at: number): void {
-    const char = this.text.charAt(at);
-    const isNamed = char !== "" && char !== ";";
-    this.labelEnd = isNamed ? char : LABEL_END;
-    this.at = at + (isNamed ? 1 : 0);
-  }
-
   /** Drawn regardless of the pen's state. */
-  private label(from: number): void {
-    const { font, text, warnings } = this;
-    const end = text.indexOf(this.labelEnd, from);
-    this.at = end < 0 ? text.length : end + 1;
-    this.flush();
+  private label(text: string): void {
+    const { canvas, font, state, warnings } = this;
+    canvas.flush();
     if (font === null) {
       warnings.add("text-not-drawn");
       return;
     }
-    this.labelStart = { x: this.x, y: this.y };
-    const label = text.slice(from, end < 0 ? undefined : end);
-    const { pen, missing } = this.labels.draw(label, font, this.shape, this.labelStart);
-    const box = this.flush(font.kind === "outline");
+    this.labelStart = { x: canvas.x, y: canvas.y };
+    const { pen, missing } = state.labels.draw(text, font, canvas.letters, this.labelStart);
+    const box = canvas.flush();
     for (const char of missing) warnings.add("glyphs-missing", box ?? undefined, `"${char}"`);
-    this.x = pen.x;
-    this.y = pen.y;
+    canvas.place(pen.x, pen.y);
   }
 
   /** Moves by letters and lines; without numbers, to the next line. */
-  private moveByCells(args: readonly number[]): void {
-    this.flush();
-    const [cells = 0, lines = 0] = args;
-    const from = { x: this.x, y: this.y };
+  private moveByCells(numbers: readonly number[]): void {
+    const { canvas, state, labelStart } = this;
+    canvas.flush();
+    const [cells = 0, lines = 0] = numbers;
     const to =
-      args.length > 0 ? this.labels.moved(from, cells, lines) : this.labels.moved(this.labelStart, 0, -1);
-    this.x = to.x;
-    this.y = to.y;
+      numbers.length > 0 ? state.labels.moved(canvas, cells, lines) : state.labels.moved(labelStart, 0, -1);
+    canvas.place(to.x, to.y);
   }
-
-  private flush(isFilled = false): Box | null {
-    const { shape } = this;
-    shape.finish();
-    let box: Box | null = null;
-    if (!shape.isEmpty && this.pen > 0) {
-      const color = PEN_COLORS[(this.pen - 1) % PEN_COLORS.length];
-      const look = isFilled ? { stroke: null, fill: color } : { stroke: color, fill: null };
-      const where = (): string => `pen ${this.pen}`;
-      const isDrawn = this.builder.addShape(shape, PAGE, look, this.groupOf(this.pen), null, where);
-      if (isDrawn) {
-        box = this.builder.boxOfLast();
-        // Most files end with PG, which loses nothing. Only a page with something on it is reported.
-        if (this.page === "turned")
-          this.warnings.add("effect-ignored", undefined, "PG: drawn on top of the page before");
-        this.page = "used";
-      }
-    }
-    shape.clear();
-    return box;
-  }
-
-  private groupOf(pen: number): number {
-    return getOrAdd(this.groups, pen, () => this.builder.addGroup(`pen-${pen}`, `Pen ${pen}`, false));
-  }
-}
-
-const TOLERANCE = ARC_TOLERANCE_MM / MM_PER_PLOTTER_UNIT;
-
-function numbersIn(text: string): number[] {
-  return (text.match(/[+-]?(?:\d+\.?\d*|\.\d+)/g) ?? []).map(Number);
 }

@@ -47,7 +47,13 @@ const FILES: readonly (readonly [string, string])[] = [
   ],
   [
     "a.plt",
-    "IN;SP1;IP0,0,4000,4000;SC0,10,0,10;PU1,1;PD2,2,3,1;SC;SI0.3,0.45;PU400,500;LBPump 1:50\u0003LO15;DI1,1;SL0.3;LBup\u0003DT#;SR1,2;DR1,1;CP;CP2,1;LBxx\r\ny#PU10,10;PD;AA20,20,90;CI50;EA100,200;PE<=abc;PU;SP0;",
+    [
+      "IN;SP1;IP0,0,4000,4000;SC0,10,0,10;PU1,1;PD2,2,3,1;SC;SI0.3,0.45;PU400,500;LBPump 1:50\u0003LO15;DI1,1;SL0.3;",
+      "LBup\u0003DT#;SR1,2;DR1,1;CP;CP2,1;LBxx\r\ny#PU10,10;PD;AA20,20,90;CI50,20;EA100,200;PE<=abc;PU;",
+      'CO "x;PD";SC0,9,0,7,1,20,30;IW1,1,8,6;RO90;IR10,10,90;AT5,5,9,0;RT1,1,2,0,30;BZ1,2,3,2,4,0;BR1,2,3,2,4,0;',
+      "LT-3,2;UL3,1,2,3;PM0;PD5,1,5,5;CI2;PM1;PU6,6;PD7,6,6,7;PM2;FT3,1,45;FP;FT4;EP;EW3,10,200,45;WG3,0,360;CT1;",
+      "SM*;PD1,1;SM;UC4,7,99,0,1,-4,0;TL2,1;XT;YT;PC2,9,8,7;BLa#PB;\u001b%0A\u001b&l1O\u001b%1BLT0;PD3,3;PU;SP0;",
+    ].join(""),
   ],
 ];
 /** The first eight replace numbers. */

@@ -265,10 +265,14 @@ describe("HPGL", () => {
   });
 
   it.each([
-    ["line types", "LT2,4;PD400,0;", "effect-ignored", "(LT2: drawn solid)"],
-    ["lines of dots", "LT0;PD400,0;", "effect-ignored", "(LT0: drawn solid)"],
-    ["filled wedges", "PD400,0;WG800,0,90;", "not-supported", "(WG)"],
-    ["windows", "IW0,0,200,200;PD400,0;", "clip-ignored", "(IW)"],
+    [
+      "dashes that are fitted to each line",
+      "LT-2,4;PD400,0;",
+      "effect-ignored",
+      "(LT-2: dashes not fitted to each line)",
+    ],
+    ["shadings", "PD400,0;FT10,50;WG800,0,90;", "effect-ignored", "(FT10: filled as a solid area)"],
+    ["unknown commands", "PD400,0;QQ1,2;", "not-supported", "(QQ)"],
     [
       "pages on top of each other",
       "PD400,0;PG;PU0,0;PD400,400;PU;PD0,0;",

@@ -1,0 +1,133 @@
+/**
+ * Splits an HPGL file into commands: two letters and their parameters, up to a semicolon or the next command. Texts are
+ * read by their own rules, so that what they contain is never taken for commands. Escape sequences and
+ * the printer language PCL around HP-GL/2 are skipped.
+ */
+import { GROUP_OF } from "./hpgl-commands.js";
+
+export interface HpglCommand {
+  /** Two capital letters. */
+  readonly name: string;
+  readonly numbers: readonly number[];
+  /** The label, character or encoded line. */
+  readonly text: string;
+}
+
+const ETX = "\u0003";
+const BETWEEN_COMMANDS = /[^A-Za-z\u001b]*/y;
+const NAME = /[A-Za-z]{2}/y;
+/** Numbers and what separates them. */
+const NUMBERS = /[^A-Za-z";\u0003\u001b]*/y;
+const NUMBER = /[+-]?(?:\d+\.?\d*|\.\d+)/g;
+const MESSAGE = /[^;\r\n\u0003]*/y;
+/** A string without an end is taken to end with the line or at a semicolon. */
+const OPEN_STRING = /[^;\r\n]*/y;
+/** Leaves any printer language; lines for the print job may follow. */
+const JOB_LINES = /\u001b%-12345X(?:\s*@PJL[^\n]*)*/y;
+/** The first letter after the dot is a command to the port. Only a colon ends its numbers. */
+const PORT_COMMAND = /\u001b\.[^\u001b](?:[\d;, ]*:)?/y;
+/** To PCL. A reset (E) leads there only on printers, so only if HP-GL/2 is entered later. */
+const TO_PCL = /\u001b(?:%-?\d*A|E)/y;
+const OUT_OF_PCL = /\u001b%-?\d*B|(?=\u001b%-12345X)/g;
+const PCL_COMMAND = /\u001b(?:[!-/][^\u001bA-Z@]*[A-Z@]?|[0-~])?/y;
+
+export class HpglReader {
+  private at = 0;
+  private labelEnd = ETX;
+  private hasMoreHpgl = true;
+
+  constructor(private readonly text: string) {}
+
+  /** The next command; null at the end. */
+  next(): HpglCommand | null {
+    const { text } = this;
+    while (this.at < text.length) {
+      this.take(BETWEEN_COMMANDS);
+      if (text[this.at] === "\u001b") this.skipEscapeSequence();
+      else {
+        const name = this.take(NAME).toUpperCase();
+        if (name !== "") return this.parametersOf(name);
+        this.at++;
+      }
+    }
+    return null;
+  }
+
+  private parametersOf(name: string): HpglCommand {
+    if (name === "IN" || name === "DF") this.labelEnd = ETX;
+    switch (GROUP_OF.get(name)?.reads) {
+      case "label":
+        return { name, numbers: [], text: this.takeUntil(this.labelEnd) };
+      case "encoded":
+        return { name, numbers: [], text: this.takeUntil(";") };
+      case "character":
+        return { name, numbers: [], text: this.character(name) };
+      case "message":
+        return { name, numbers: [], text: this.message() };
+      default:
+        return { name, numbers: this.numbers(), text: "" };
+    }
+  }
+
+  private numbers(): number[] {
+    let text = this.take(NUMBERS);
+    while (this.text[this.at] === '"') {
+      this.string();
+      text += ` ${this.take(NUMBERS)}`;
+    }
+    return (text.match(NUMBER) ?? []).map(Number);
+  }
+
+  private message(): string {
+    while (this.text[this.at] === " ") this.at++;
+    return this.text[this.at] === '"' ? this.string() : this.take(MESSAGE);
+  }
+
+  /** A string in double quotes. */
+  private string(): string {
+    const end = this.text.indexOf('"', ++this.at);
+    return end < 0 ? this.take(OPEN_STRING) : this.takeUntil('"');
+  }
+
+  /** "" for none. */
+  private character(name: string): string {
+    const char = this.text[this.at] ?? "";
+    const isNamed = char > " " && char !== ";";
+    if (name === "DT") this.labelEnd = isNamed ? char : ETX;
+    if (!isNamed) return "";
+    this.at++;
+    return char;
+  }
+
+  private skipEscapeSequence(): void {
+    if (this.take(JOB_LINES) !== "" || this.take(PORT_COMMAND) !== "") return;
+    const toPcl = this.take(TO_PCL);
+    if (toPcl === "") this.take(PCL_COMMAND);
+    else if (!this.skipPcl() && toPcl.endsWith("A")) this.at = this.text.length;
+  }
+
+  /** Skips to the next HP-GL/2; returns false if there is none. */
+  private skipPcl(): boolean {
+    OUT_OF_PCL.lastIndex = this.at;
+    this.hasMoreHpgl = this.hasMoreHpgl && OUT_OF_PCL.test(this.text);
+    if (this.hasMoreHpgl) this.at = OUT_OF_PCL.lastIndex;
+    return this.hasMoreHpgl;
+  }
+
+  /** What matches here; "" if nothing does. */
+  private take(pattern: RegExp): string {
+    pattern.lastIndex = this.at;
+    const match = pattern.exec(this.text);
+    if (match === null) return "";
+    this.at = pattern.lastIndex;
+    return match[0];
+  }
+
+  /** The text before `end`, which is skipped. Without one, the rest. */
+  private takeUntil(end: string): string {
+    const from = this.at;
+    const at = this.text.indexOf(end, from);
+    this.at = at < 0 ? this.text.length : at + end.length;
+    return this.text.slice(from, at < 0 ? undefined : at);
+  }
+}
