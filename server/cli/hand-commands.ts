@@ -86,7 +86,7 @@ export const declareTestPatch: Declare = (command, { io }) => {
 
 export const declareFrame: Declare = (command, { io }) => {
   addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"])
-    .option("--only <layer...>", "around these layers only, by name or id")
+    .option("--only <layer...>", "around these layers only, by name, id or leading number")
     .action((file: string, options: OptionValues & FrameOptions) =>
       runFrame(file, handSettings(options, io), options, io),
     );

@@ -91,7 +91,7 @@ export function penChoice(text: string, before: readonly PenChoice[] = []): PenC
 /** For the commands that draw. */
 export const addLayerOptions = (command: Command): Command =>
   command
-    .option("--only <layer...>", "draw these layers only, by name or id")
+    .option("--only <layer...>", "draw these layers only, by name, id or leading number")
     .addOption(
       new Option("--pen <layer=name...>", "pen that draws a layer: one of the plotter's, by name").argParser(
         penChoice,

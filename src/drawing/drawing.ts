@@ -34,7 +34,7 @@ export interface DrawingPaths {
   /** count + 1 entries, as for `coordOffsets`. */
   readonly verbOffsets: Uint32Array;
   readonly coordOffsets: Uint32Array;
-  /** Index into `Drawing.groups`. */
+  /** Index into `Drawing.groups`: the innermost layer. */
   readonly group: Uint32Array;
   /** Index into `Drawing.colors`; −1 if the shape has no stroke (filled only). */
   readonly stroke: Int32Array;
@@ -65,14 +65,16 @@ export const curvesOf = (paths: DrawingPaths, shape: number): Curves => ({
   coords: paths.coords.subarray(paths.coordOffsets[shape], paths.coordOffsets[shape + 1]),
 });
 
-/** A layer of the file: a top-level group, or a child of a single outer group. */
+/** A layer of the file: a top-level group, or a child of a single outer group; or a sublayer, an Inkscape layer in a layer. */
 export interface DrawingGroup {
   /** Stable within the file: the group's id, or a generated one. */
   readonly id: string;
-  /** inkscape:label, else data-name, else id, else "Layer N". Plain text from the file: never HTML. */
+  /** inkscape:label, else serif:id, else data-name, else id, else "Layer N". Plain text from the file: never HTML. */
   readonly name: string;
   /** Hidden in the file (display:none on the group): not in the paths, but listed, with a warning. */
   readonly hidden: boolean;
+  /** For a sublayer: the index in `Drawing.groups` of the layer that contains it. It precedes this one. */
+  readonly parent?: number;
 }
 
 /** SVG stroke-dasharray and offset, in mm on the page. Even number of lengths, sum > 0. */
@@ -136,7 +138,7 @@ export interface Drawing {
    * extent. "proportions": only its proportions are known, from the viewBox of an SVG without a width and height.
    */
   readonly pageFrom?: "extent" | "proportions";
-  /** The file's layers. */
+  /** The file's layers, and their sublayers. */
   readonly groups: readonly DrawingGroup[];
   /** "#rrggbb", lower case, distinct, in order of first use. */
   readonly colors: readonly string[];

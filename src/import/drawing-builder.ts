@@ -49,6 +49,7 @@ export interface Look {
 
 export class DrawingBuilder {
   readonly groups: DrawingGroup[] = [];
+  private readonly groupIds = new Set<string>();
   readonly clips: ClipRegion[] = [];
   private readonly colors: string[] = [];
   private readonly colorIndex = new Map<string, number>();
@@ -89,11 +90,11 @@ export class DrawingBuilder {
   }
 
   /** Adds a group; a duplicate id gets a number appended. */
-  addGroup(id: string, name: string, hidden: boolean): number {
-    const taken = new Set(this.groups.map((group) => group.id));
+  addGroup(id: string, name: string, hidden: boolean, parent?: number): number {
     let unique = id;
-    for (let n = 2; taken.has(unique); n++) unique = `${id}-${n}`;
-    this.groups.push({ id: unique, name, hidden });
+    for (let n = 2; this.groupIds.has(unique); n++) unique = `${id}-${n}`;
+    this.groupIds.add(unique);
+    this.groups.push({ id: unique, name, hidden, ...(parent === undefined ? {} : { parent }) });
     return this.groups.length - 1;
   }
 
@@ -128,6 +129,15 @@ export class DrawingBuilder {
     this.dash.push(this.dashOf(dash));
     this.clip.push(clip === null ? -1 : clipIndexFor(clip, this.boxOfLast(), this.clips));
     return true;
+  }
+
+  /** Whether the group, or a sublayer of it, has a shape. */
+  hasShapes(group: number): boolean {
+    return this.group.view().some((of) => {
+      let at: number | undefined = of;
+      while (at !== undefined && at !== group) at = this.groups[at]?.parent;
+      return at === group;
+    });
   }
 
   /** The box of shapes [from, to). */

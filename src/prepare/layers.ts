@@ -1,4 +1,4 @@
-/** Assigns each shape to a layer: by group of the file, by stroke colour, or all in one. */
+/** Assigns each shape to a layer: by group or sublayer of the file, by stroke colour, or all in one. */
 import {
   isBackground,
   PAIRS_OF_VERB,
@@ -32,9 +32,13 @@ export interface LayerTable {
 
 export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   const { paths } = drawing;
-  const keyCount = mode === "group" ? drawing.groups.length : mode === "stroke" ? drawing.colors.length : 1;
-  const keyOf = (shape: number): number =>
-    mode === "group" ? paths.group[shape] : mode === "stroke" ? Math.max(inkOf(paths, shape), 0) : 0;
+  const groupOf = mode === "group" ? layerOfGroups(drawing) : null;
+  const isByGroup = mode === "group" || mode === "sublayer";
+  const keyCount = isByGroup ? drawing.groups.length : mode === "stroke" ? drawing.colors.length : 1;
+  const keyOf = (shape: number): number => {
+    if (isByGroup) return groupOf?.[paths.group[shape]] ?? paths.group[shape];
+    return mode === "stroke" ? Math.max(inkOf(paths, shape), 0) : 0;
+  };
 
   const inksOfKey: (Map<number, number> | undefined)[] = new Array(keyCount);
   /** Length times width, of the lines that have a width; and their length. */
@@ -67,6 +71,15 @@ export function layersOf(drawing: Drawing, mode: LayerMode): LayerTable {
   if (layers.length > 1)
     for (let shape = 0; shape < paths.count; shape++) ofShape[shape] = indexOfKey[keyOf(shape)];
   return { layers, ofShape };
+}
+
+/** By group, the layer that it belongs to. A sublayer whose name begins with "%" is a layer itself, which is not drawn. */
+function layerOfGroups({ groups }: Drawing): number[] {
+  const layerOf: number[] = [];
+  groups.forEach(({ name, parent }, k) => {
+    layerOf.push(parent === undefined || parseLayerName(name).skip ? k : layerOf[parent]);
+  });
+  return layerOf;
 }
 
 /**
@@ -131,7 +144,8 @@ function layerOf(
 ): FileLayer {
   const [[ink]] = [...inks].sort(([, a], [, b]) => b - a);
   const colors = { color: ink >= 0 ? drawing.colors[ink] : null, colorCount: inks.size, strokeWidthMm };
-  if (mode === "group") return { id: drawing.groups[key].id, name: drawing.groups[key].name, ...colors };
+  if (mode === "group" || mode === "sublayer")
+    return { id: drawing.groups[key].id, name: drawing.groups[key].name, ...colors };
   if (mode === "stroke") return { id: drawing.colors[key], name: drawing.colors[key], ...colors };
   return { id: "all", name: "All strokes", ...colors };
 }

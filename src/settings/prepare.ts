@@ -1,7 +1,7 @@
 import type { PaperSize } from "../drawing/paper.js";
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
-const LAYER_MODES = ["group", "stroke", "all"] as const;
+const LAYER_MODES = ["group", "sublayer", "stroke", "all"] as const;
 export type LayerMode = (typeof LAYER_MODES)[number];
 
 export const ORDER_MODES = ["none", "fast", "best"] as const;

@@ -195,6 +195,46 @@ describe("plotwright plan", () => {
   });
 });
 
+describe("--only", () => {
+  const layer = (name: string, y: number, inside = ""): string =>
+    `<g inkscape:groupmode="layer" inkscape:label="${name}"><path d="M10 ${y}h80"/>${inside}</g>`;
+  /** The names of the layers that are drawn. */
+  const drawn = async (content: string, ...only: string[]): Promise<string[]> => {
+    const file = join(dir, "numbers.svg");
+    writeFileSync(
+      file,
+      `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
+         width="100mm" height="100mm" viewBox="0 0 100 100" fill="none" stroke="black">${content}</svg>`,
+    );
+    const { out, err } = await cli("plan", file, "--strokes", "-", "--join", "0", "--only", ...only);
+    if (out === "") return [err];
+    const { layers } = JSON.parse(out) as { layers: { name: string; strokesMm: unknown[] }[] };
+    return layers.filter(({ strokesMm }) => strokesMm.length > 0).map(({ name }) => name);
+  };
+  const NUMBERED =
+    layer("1 black", 10) +
+    layer("!1+s50 grey", 20) +
+    layer("10 red", 30) +
+    layer("%1 help", 40) +
+    layer("01", 50);
+
+  it("takes all layers whose name begins with a number, as AxiDraw's software does", async () => {
+    expect(await drawn(NUMBERED, "1")).toEqual(["1 black", "!1+s50 grey", "01"]);
+    expect(await drawn(NUMBERED, "10")).toEqual(["10 red"]);
+    expect(await drawn(NUMBERED, "10", "%1 help")).toEqual(["10 red", "%1 help"]);
+    expect(await drawn(NUMBERED, "2")).toEqual([expect.stringMatching(/no layer "2"/)]);
+  });
+
+  it("takes sublayers by name or number, with all that is in them", async () => {
+    const inner = layer("2 leaves", 30, layer("%help", 35) + layer("veins", 40));
+    const nested = layer("Plant", 10, layer("stem", 20) + inner) + layer("Pot", 50);
+    expect(await drawn(nested, "stem")).toEqual(["stem"]);
+    expect(await drawn(nested, "2")).toEqual(["2 leaves", "veins"]);
+    expect(await drawn(nested, "Pot", "VEINS")).toEqual(["veins", "Pot"]);
+    expect(await drawn(nested, "Plant")).toEqual(["Plant"]);
+  });
+});
+
 describe("the size on the paper", () => {
   /** A line of `mm` across a page of 100 × 50 mm, or of another size. */
   const line = (mm: number, page = 'width="100mm" height="50mm" viewBox="0 0 100 50"'): string => {

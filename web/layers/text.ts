@@ -2,7 +2,7 @@
 export const layersText = {
   title: "Layers and pens",
   by: "Layers from",
-  modes: { group: "Groups", stroke: "Colours", all: "All in one" },
+  modes: { group: "Groups", sublayer: "Sublayers", stroke: "Colours", all: "All in one" },
   none: "The drawing has no strokes.",
   strokes: (count: string, isOne: boolean) => `${count} ${isOne ? "stroke" : "strokes"}`,
   colors: (count: string) => `${count} colours`,

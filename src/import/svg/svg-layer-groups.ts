@@ -9,6 +9,7 @@ import { attribute } from "./svg-tree.js";
 export class LayerGroups {
   /** The group for shapes outside every layer; −1 until needed. */
   private looseGroup = -1;
+  private readonly unseen: number[] = [];
 
   constructor(
     private readonly file: SvgFile,
@@ -20,9 +21,15 @@ export class LayerGroups {
   groupOf(element: number, tag: string, outer: Context): number {
     const { builder } = this;
     const { tree, layers } = this.file;
-    if (outer.uses !== null || tree.parents[element] !== layers.parent) return outer.group;
+    if (outer.uses !== null) return outer.group;
+    if (tree.parents[element] !== layers.parent) {
+      const isSublayer = tag === "g" && outer.group >= 0 && layers.isSplit && isMarkedLayer(tree, element);
+      if (!isSublayer) return outer.group;
+      const id = attribute(tree, element, "id") ?? `sublayer-${builder.groups.length}`;
+      return builder.addGroup(id, layerName(tree, element) ?? id, false, outer.group);
+    }
     const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
-    const number = builder.groups.length + 1;
+    const number = builder.groups.filter(({ parent }) => parent === undefined).length + 1;
     if (isLayer) {
       const name = layerName(tree, element) ?? `Layer ${number}`;
       return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
@@ -37,7 +44,17 @@ export class LayerGroups {
     this.warnOfHidden(group);
   }
 
-  warnOfHidden(group: number): void {
+  /** The layer's `visibility` is hidden, but elements inside may be visible. */
+  hideUnlessDrawn(group: number): void {
+    this.unseen.push(group);
+  }
+
+  /** Call when everything is drawn. */
+  finish(): void {
+    for (const group of this.unseen) if (!this.builder.hasShapes(group)) this.warnOfHidden(group);
+  }
+
+  private warnOfHidden(group: number): void {
     this.warnings.add("hidden-layer", undefined, this.builder.groups[group].name);
   }
 }

@@ -30,6 +30,11 @@ const NOT_CONTENT = new Set([
   "filter",
   "view",
   "script",
+  "WCB",
+  "plotdata",
+  "eggbot",
+  "MergeData",
+  "namedview",
 ]);
 const WRAPPERS = new Set(["g", "switch", "a", "svg"]);
 
@@ -87,10 +92,15 @@ const groupsIn = (tree: SvgTree, parent: number): number[] =>
 export const isMarkedLayer = (tree: SvgTree, element: number): boolean =>
   attribute(tree, element, "inkscape:groupmode") === "layer";
 
-/** inkscape:label, or data-name (Illustrator's original), or the id; null if it has none. */
+/** Where programs keep a layer's name as it was typed: Inkscape, Affinity, Illustrator. */
+const NAMES = ["inkscape:label", "serif:id", "data-name"];
+
+/** The name as it was typed, or the id; null if it has none. */
 export function layerName(tree: SvgTree, element: number): string | null {
-  const label = attribute(tree, element, "inkscape:label") ?? attribute(tree, element, "data-name");
-  if (label !== undefined && label.trim() !== "") return label.trim();
+  for (const name of NAMES) {
+    const typed = attribute(tree, element, name)?.trim() ?? "";
+    if (typed !== "") return typed;
+  }
   const id = attribute(tree, element, "id");
   return id === undefined || id.trim() === "" ? null : decodeId(id.trim());
 }

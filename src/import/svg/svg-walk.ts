@@ -42,12 +42,14 @@ const MAX_COPIED_COORDS = 50_000_000;
 const SPEED_ATTRIBUTE = "data-plotwright-speed";
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
-/** Elements that draw nothing at their place in the file. All others that are not drawn are reported. */
+/**
+ * Elements that draw nothing at their place in the file. All others that are not drawn are reported. The last five are
+ * data of AxiDraw's, EggBot's and Inkscape's software, which some files have without a prefix.
+ */
 const INVISIBLE = new Set(
   `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
-   meshgradient metadata mpath pattern radialGradient script solidcolor solidColor stop style symbol title view`.split(
-    /\s+/,
-  ),
+   meshgradient metadata mpath pattern radialGradient script solidcolor solidColor stop style symbol title view
+   WCB plotdata eggbot MergeData namedview`.split(/\s+/),
 );
 /** Not drawn either, but a `switch` may choose them. */
 const EMBEDDED = new Set(["image", "video", "audio", "canvas", "iframe"]);
@@ -94,6 +96,7 @@ export class SvgWalk {
   run(rootContext: Context): void {
     this.enterRoot(rootContext);
     while (this.step());
+    this.layerGroups.finish();
   }
 
   /** Visits the next element; false at the end. */
@@ -172,7 +175,7 @@ export class SvgWalk {
       if (group !== outer.group) this.layerGroups.hide(group);
       return;
     }
-    if (group !== outer.group && tag === "g" && !style.isVisible) this.layerGroups.warnOfHidden(group);
+    if (group !== outer.group && tag === "g" && !style.isVisible) this.layerGroups.hideUnlessDrawn(group);
     const transform = this.transformOf(element, style, declared, outer);
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);

@@ -5,7 +5,7 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 /** Prefixes of non-SVG attributes that are used. */
-const KEPT_PREFIXES = new Set(["inkscape", "xml"]);
+const KEPT_PREFIXES = new Set(["inkscape", "serif", "xml"]);
 
 interface Written {
   readonly name: string;

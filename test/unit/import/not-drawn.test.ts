@@ -12,7 +12,8 @@ const LINE = '<path d="M10 10H50" stroke="red"/>';
 const DRAWN = "a circle ellipse g line path polygon polyline rect svg switch symbol text use";
 /** Elements that browsers do not draw in place. Elements that refer to them are reported or drawn. */
 const INVISIBLE = `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
-  meshgradient metadata mpath pattern radialGradient script solidcolor stop style symbol title view`;
+  meshgradient metadata mpath pattern radialGradient script solidcolor stop style symbol title view
+  WCB plotdata eggbot MergeData namedview`;
 const REPORTED: Record<string, string> = {
   "image-not-drawn": "image",
   "foreign-object": "foreignObject",

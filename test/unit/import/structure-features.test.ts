@@ -1,7 +1,9 @@
 /** Small SVGs, one per feature of copies and layers. */
 import { describe, expect, it } from "vitest";
+import { prepare } from "../../../src/index.js";
+import { strokeCount } from "../../../src/internal.js";
 import type { Drawing } from "../../../src/drawing/drawing.js";
-import { codes, draw, shapes } from "./support/shapes.js";
+import { codes, draw, shapes, shapesOf } from "./support/shapes.js";
 
 const PATH = 'd="M0 0h1"';
 
@@ -129,6 +131,50 @@ describe("layers", () => {
     ]);
     expect(drawing.paths.count).toBe(1);
     expect(drawing.warnings[0].message).toContain("Off");
+  });
+
+  it("does not say that a hidden layer is not drawn if something in it is drawn", () => {
+    const visible = '<path d="M10 20H60" visibility="visible"/>';
+    const drawing = draw(g('id="A" visibility="hidden"', `<path ${PATH}/>${visible}`) + g('id="B"'));
+    expect(shapesOf(drawing)).toHaveLength(2);
+    expect(codes(drawing)).toEqual([]);
+    const inside = g('inkscape:groupmode="layer" id="C"', visible);
+    const nested = g('inkscape:groupmode="layer" id="A" visibility="hidden"', `<path ${PATH}/>${inside}`);
+    expect(codes(draw(nested + g('inkscape:groupmode="layer" id="B"')))).toEqual([]);
+    const { warnings } = draw(g('id="A" visibility="hidden"') + g('id="B"'));
+    expect(warnings.map(({ message }) => message).join()).toMatch(/^1 layer is hidden .*\(A\)/);
+  });
+
+  it("takes the names that were typed in Affinity and Illustrator", () => {
+    const serif = `xmlns:serif="http://www.serif.com/"`;
+    const body =
+      g(`${serif} id="-guides" serif:id="% guides"`) +
+      g('id="b" data-name="1 red"') +
+      g(`${serif} id="c" serif:id="2 & blue" data-name="c2"`.replace("&", "&amp;"));
+    expect(names(body)).toEqual(["% guides", "1 red", "2 & blue"]);
+    expect(prepare(draw(body)).strokes.layers.map(({ name }) => name)).toEqual(["1 red", "2 & blue"]);
+  });
+
+  it("lists Inkscape's sublayers with their layer, and leaves out those whose name begins with %", () => {
+    const layer = (name: string, content: string): string =>
+      g(`inkscape:groupmode="layer" inkscape:label="${name}"`, content);
+    const drawing = draw(
+      layer(
+        "Ink",
+        `<path ${PATH}/>${layer("1 red", `<path ${PATH}/>${layer("%help", `<path ${PATH}/>`)}`)}`,
+      ) + layer("Rest", `<path ${PATH}/>`),
+    );
+    expect(drawing.groups.map(({ name, parent }) => [name, parent])).toEqual([
+      ["Ink", undefined],
+      ["1 red", 0],
+      ["%help", 1],
+      ["Rest", undefined],
+    ]);
+    const shown = (layers: "group" | "sublayer"): string[] =>
+      prepare(drawing, { layers, joinMm: 0 }).strokes.layers.map(({ name }) => name);
+    expect(shown("group")).toEqual(["Ink", "Rest"]);
+    expect(shown("sublayer")).toEqual(["Ink", "1 red", "Rest"]);
+    expect(strokeCount(prepare(drawing, { joinMm: 0 }).strokes)).toBe(3);
   });
 
   it("treats hundreds of groups as data, not layers", () => {
