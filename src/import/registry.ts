@@ -8,6 +8,7 @@ import { checkText } from "../check-arguments.js";
 import type { Drawing } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
 import { importDxf } from "./dxf/import-dxf.js";
+import { isHpglBegun } from "./hpgl/hpgl-reader.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
 import { checkImportOptions, type ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
@@ -26,11 +27,6 @@ interface Format {
   readonly isBegun: (head: string) => boolean;
 }
 
-/** Escape sequences that may configure the port before HPGL's first command. */
-const PORT_SET_UP = /^(?:\u001b(?:\.[^;:()A-Za-z]*[;:()@]?|%-?\d*[A-Z]|[A-Z]))+/;
-const HPGL_START =
-  /^\s*(IN|DF|SP|PU|PD|PA|PR|IP|SC|VS|LT|PE|BP|CO|RO)\s*(?:[-\d;,"\s\u0003]|SP|PU|PD|PA|IP|SC)/i;
-
 const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
   svg: { name: "SVG", extensions: ["svg"], isBegun: (head) => head.startsWith("<") },
   dxf: {
@@ -41,7 +37,7 @@ const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
   hpgl: {
     name: "HPGL",
     extensions: ["hpgl", "hpg", "hgl", "plt"],
-    isBegun: (head) => HPGL_START.test(head.replace(PORT_SET_UP, "")),
+    isBegun: isHpglBegun,
   },
   json: { name: "JSON polylines", extensions: ["json"], isBegun: (head) => /^[{[]/.test(head) },
 };

@@ -1,8 +1,10 @@
 /** Decodes a file's bytes to text. The encoding comes from its first bytes, or from its XML declaration. */
+import { isHpglBegun } from "./hpgl/hpgl-reader.js";
 
 declare const TextDecoder: new (encoding: string) => { decode(bytes: Uint8Array): string };
 
 const HEAD_BYTES = 256;
+const CHUNK = 8192;
 const STARTS: readonly (readonly [encoding: string, bytes: readonly number[]])[] = [
   ["utf-8", [0xef, 0xbb, 0xbf]],
   ["utf-16be", [0xfe, 0xff]],
@@ -22,11 +24,27 @@ export function encodingOf(bytes: Uint8Array): string {
   return (/^\s*<\?xml\s[^>]*?encoding\s*=\s*["']([\w.:-]+)["']/.exec(head)?.[1] ?? "utf-8").toLowerCase();
 }
 
-/** Bytes that are invalid in the encoding become U+FFFD; an unknown encoding is read as UTF-8. */
+/**
+ * Bytes that are invalid in the encoding become U+FFFD; an unknown encoding is read as UTF-8. HPGL is no text in UTF-8:
+ * its encoded lines use all bytes, so each becomes the character with its number.
+ */
 export function textOfBytes(bytes: Uint8Array): string {
+  const text = decoded(bytes);
+  return text.includes("\ufffd") && isHpglBegun(text.slice(0, HEAD_BYTES)) ? charOfEachByte(bytes) : text;
+}
+
+function decoded(bytes: Uint8Array): string {
   try {
     return new TextDecoder(encodingOf(bytes)).decode(bytes);
   } catch {
     return new TextDecoder("utf-8").decode(bytes);
   }
+}
+
+/** TextDecoder can't do this: its "latin1" has other characters for 128 to 159. */
+function charOfEachByte(bytes: Uint8Array): string {
+  let text = "";
+  for (let at = 0; at < bytes.length; at += CHUNK)
+    text += String.fromCharCode(...bytes.subarray(at, at + CHUNK));
+  return text;
 }

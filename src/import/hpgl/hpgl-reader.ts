@@ -31,6 +31,14 @@ const TO_PCL = /\u001b(?:%-?\d*A|E)/y;
 const OUT_OF_PCL = /\u001b%-?\d*B|(?=\u001b%-12345X)/g;
 const PCL_COMMAND = /\u001b(?:[!-/][^\u001bA-Z@]*[A-Z@]?|[0-~])?/y;
 
+/** What may come before HPGL's first command: lines for a print job, and settings of the port or the printer. */
+const PREFACE = /^(?:\s*@PJL[^\n]*\n|\s*\u001b(?:\.[^;:()A-Za-z]*[;:()@]?|[%&(*]?[-a-z\d]*[A-Z]))+/;
+const FIRST_COMMAND =
+  /^\s*(IN|DF|SP|PU|PD|PA|PR|IP|SC|VS|LT|PE|BP|CO|RO)\s*(?:[-\d;,"\s\u0003]|SP|PU|PD|PA|IP|SC)/i;
+
+/** Whether a text is HPGL, judged by its beginning. */
+export const isHpglBegun = (head: string): boolean => FIRST_COMMAND.test(head.replace(PREFACE, ""));
+
 export class HpglReader {
   private at = 0;
   private labelEnd = ETX;

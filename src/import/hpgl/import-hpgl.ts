@@ -411,6 +411,8 @@ class HpglImport {
 
   private encoded(text: string): void {
     const { canvas } = this;
+    if (text.includes("\ufffd"))
+      return this.fault("PE", "bytes were lost when the file was read as text in UTF-8");
     readEncodedPolyline(text, {
       pen: (pen) => canvas.selectPen(pen),
       move: (x, y, isUp, isAbsolute) => {

@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import type { Drawing } from "../../../src/drawing/drawing.js";
 import { COMMAND_GROUPS } from "../../../src/import/hpgl/hpgl-commands.js";
 import { importDrawing } from "../../../src/import/registry.js";
+import { textOfBytes } from "../../../src/import/text-of-bytes.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
@@ -273,6 +274,44 @@ describe("curves of HPGL", () => {
     // The pen lowered for nothing else is a dot.
     expect(shapes("IN;SP1;PU0,0;PD;PU400,0;PD;PU;")).toEqual(["M0 0L0 0", "M10 0L10 0"]);
     expect(shapes("IN;SP1;PU0,0;PD;PA400,0;PU;")).toEqual(["M0 0L10 0"]);
+  });
+});
+
+describe("encoded lines of HPGL", () => {
+  /** A number in base 64: digits from 63, the last from 191; the lowest bit is the sign. */
+  const digits = (value: number): number[] => {
+    const out: number[] = [];
+    let rest = 2 * Math.abs(value) + (value < 0 ? 1 : 0);
+    for (; rest >= 64; rest = Math.floor(rest / 64)) out.push(63 + (rest % 64));
+    return [...out, 191 + rest];
+  };
+  const bytesOf = (...parts: (string | number[])[]): Uint8Array =>
+    Uint8Array.from(
+      parts.flatMap((part) => (typeof part === "string" ? [...part].map((c) => c.charCodeAt(0)) : part)),
+    );
+
+  it("are right from all bytes of a file, which is not text in UTF-8", () => {
+    for (const preface of [
+      "",
+      "\u001b.(",
+      "\u001bE\u001b&l2A\u001b%0B",
+      "\u001b%-12345X@PJL ENTER LANGUAGE=HPGL2\r\n",
+    ]) {
+      const file = bytesOf(
+        `${preface}IN;SP1;PE<=`,
+        [...digits(0), ...digits(0), ...digits(2000), ...digits(0), ...digits(-1000), ...digits(4000)],
+        ";PU;",
+      );
+      const drawing = importDrawing("a", textOfBytes(file));
+      expect(shapesOf(drawing), preface).toEqual(["M0 100L50 100L25 0"]);
+      expect(codes(drawing)).toEqual([]);
+    }
+  });
+
+  it("are reported instead of drawn if bytes were lost", () => {
+    const drawing = hpgl(`IN;${LINE}PE<=\ufffd\ufffd\ufffd\ufffd;PU;`);
+    expect(codes(drawing)).toEqual(["attribute-fault"]);
+    expect(drawing.paths.count).toBe(1);
   });
 });
 
