@@ -12,6 +12,8 @@ const PARALLEL_LINES = 3;
 const CROSSED_LINES = 4;
 /** Percent of the distance between P1 and P2. */
 const USUAL_SPACING = 1;
+/** 0.05 mm in plotter units: no pen draws closer lines apart. */
+const SMALLEST_SPACING = 2;
 
 export class HpglPolygon {
   readonly rings = new ShapeBuffer();
@@ -79,7 +81,7 @@ export class HpglPolygon {
   }
 }
 
-/** The parallel lines of a fill by FT3 and FT4, which begin at AC's anchor; none for other types. */
+/** The parallel lines of a fill by FT3 and FT4, which begin at AC's anchor; none for other types and if they are too close. */
 export function linesOfFill(
   [type, distance = 0, angleDeg = 0]: readonly number[],
   [x, y]: readonly [number, number],
@@ -88,6 +90,7 @@ export function linesOfFill(
   if (type !== PARALLEL_LINES && type !== CROSSED_LINES) return [];
   const spacing =
     distance > 0 ? distance * Math.abs(frame.scales[0]) : (USUAL_SPACING / 100) * frame.diagonal;
+  if (!(spacing >= SMALLEST_SPACING)) return [];
   return (type === PARALLEL_LINES ? [0] : [0, 90]).map((turnDeg) => {
     const angle = (angleDeg + turnDeg) * RAD_PER_DEG + frame.angle;
     const offset = { x: -spacing * Math.sin(angle), y: spacing * Math.cos(angle) };
