@@ -13,8 +13,7 @@ const BY_FACTORS = 2;
 export class HpglFrame {
   /** P1 and P2: x, y, x, y. */
   corners = USUAL_CORNERS;
-  /** Whether P1 and P2 are the file's own. */
-  areCornersGiven = false;
+  private areCornersGiven = false;
   /** User units to plotter units on the paper. */
   map: Affine = IDENTITY;
   /** Plotter units per user unit in x and y; negative if mirrored. */
@@ -44,6 +43,7 @@ export class HpglFrame {
   setRelativeCorners(percent: readonly number[]): void {
     const [, , pageX, pageY] = USUAL_CORNERS;
     this.setCorners(percent.map((share, i) => (share / 100) * (i % 2 === 0 ? pageX : pageY)));
+    this.areCornersGiven = false;
   }
 
   /** SC. Returns false for numbers that give no scale; plotter units are used then. */
@@ -60,9 +60,9 @@ export class HpglFrame {
     return true;
   }
 
-  /** Whether the scale depends on P1 and P2. */
-  get isScaledToCorners(): boolean {
-    return this.scaling.length > 0 && this.scaling[4] !== BY_FACTORS;
+  /** Whether the scale depends on the plotter's page: SC without an IP that places P1 and P2. */
+  get isGuessed(): boolean {
+    return this.scaling.length > 0 && this.scaling[4] !== BY_FACTORS && !this.areCornersGiven;
   }
 
   /** The angle by which the x axis is turned, rad. */

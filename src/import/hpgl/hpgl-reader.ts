@@ -91,10 +91,14 @@ export class HpglReader {
     return this.text[this.at] === '"' ? this.string() : this.take(MESSAGE);
   }
 
-  /** A string in double quotes. */
+  /** A string in double quotes; a doubled quote in it is a character. */
   private string(): string {
-    const end = this.text.indexOf('"', ++this.at);
-    return end < 0 ? this.take(OPEN_STRING) : this.takeUntil('"');
+    let text = "";
+    do {
+      const end = this.text.indexOf('"', ++this.at);
+      text += end < 0 ? this.take(OPEN_STRING) : `${this.takeUntil('"')}"`;
+    } while (this.text[this.at] === '"');
+    return text;
   }
 
   /** "" for none. */

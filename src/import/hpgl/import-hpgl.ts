@@ -68,6 +68,7 @@ class HpglImport {
   private labelStart = { x: 0, y: 0 };
   /** The label of BL. */
   private buffered = "";
+  private isGuessReported = false;
   /** Where PM0 was. */
   private polygonStart = { x: 0, y: 0 };
 
@@ -195,7 +196,7 @@ class HpglImport {
         return this.corners(name, numbers);
       case "SC":
         if (!frame.setScaling(numbers)) this.fault(name, "not a scale");
-        return this.warnOfGuessedPage(name);
+        return;
       case "RO":
         if (!frame.setRotation(first ?? 0)) this.fault(name, "not a multiple of 90");
         return;
@@ -255,22 +256,10 @@ class HpglImport {
 
   private corners(name: string, numbers: readonly number[]): void {
     const { canvas, frame } = this;
-    if (name === "IR" && numbers.length >= 2) {
-      frame.setRelativeCorners(numbers);
-      this.warnings.add("page-size", undefined, "IR");
-    } else {
-      frame.setCorners(numbers);
-      this.warnOfGuessedPage(name);
-    }
+    if (name === "IR") frame.setRelativeCorners(numbers);
+    else frame.setCorners(numbers);
     canvas.endDashes();
     canvas.diagonal = frame.diagonal;
-  }
-
-  /** The scale depends on the plotter's page if the file does not place P1 and P2. */
-  private warnOfGuessedPage(name: string): void {
-    const { frame, warnings } = this;
-    if (frame.isScaledToCorners && !frame.areCornersGiven)
-      warnings.add("page-size", undefined, `${name} without P1 and P2`);
   }
 
   /** Points in user units, from the origin or from the pen. */
@@ -291,6 +280,10 @@ class HpglImport {
 
   private pointOnPaper(x: number, y: number, isRelative: boolean): [x: number, y: number] {
     const { canvas, frame } = this;
+    if (frame.isGuessed && !this.isGuessReported) {
+      this.isGuessReported = true;
+      this.warnings.add("page-size", undefined, "SC without IP");
+    }
     if (!isRelative) return frame.onPaper(x, y);
     const [dx, dy] = frame.vectorOnPaper(x, y);
     return [canvas.x + dx, canvas.y + dy];

@@ -20,6 +20,7 @@ const sidesOf = (drawing: Drawing, shape = 0): number[] => {
 describe("texts in HPGL", () => {
   it.each([
     ["a comment", `IN;CO "PD4000,4000";${LINE}`],
+    ["a comment with quotes in it", `IN;CO "say ""PD4000,4000"" now"${LINE}`],
     ["a comment without an end", `IN;CO "PD4000,4000"${LINE}`],
     ["a comment without quotes", `IN;CO PD4000,4000 PU;${LINE}`],
     ["a comment whose quote is not closed", `IN;CO "PD4000,4000 PU;${LINE}`],
@@ -94,7 +95,8 @@ describe("coordinates of HPGL", () => {
   it("say when the scale is a guess, because the file does not place P1 and P2", () => {
     const warned = (settings: string): string[] => codes(hpgl(`IN;${settings}SP1;PU0,0;PD10,10;`));
     expect(warned("SC0,10,0,10;")).toEqual(["page-size"]);
-    expect(warned("IR0,0,50,50;")).toEqual(["page-size"]);
+    expect(warned("IR0,0,50,50;SC0,10,0,10;")).toEqual(["page-size"]);
+    expect(warned("SC0,10,0,10;IP0,0,4000,4000;")).toEqual([]);
     expect(warned("IP0,0,4000,4000;SC0,10,0,10;IP;")).toEqual(["page-size"]);
     expect(warned("IP0,0,4000,4000;SC0,10,0,10;")).toEqual([]);
     expect(warned("SC0,0.1,0,0.1,2;")).toEqual([]);
