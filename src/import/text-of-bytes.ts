@@ -5,6 +5,7 @@ declare const TextDecoder: new (encoding: string) => { decode(bytes: Uint8Array)
 
 const HEAD_BYTES = 256;
 const CHUNK = 8192;
+const NON_ASCII = /[\u0080-\uffff]/;
 const STARTS: readonly (readonly [encoding: string, bytes: readonly number[]])[] = [
   ["utf-8", [0xef, 0xbb, 0xbf]],
   ["utf-16be", [0xfe, 0xff]],
@@ -30,7 +31,19 @@ export function encodingOf(bytes: Uint8Array): string {
  */
 export function textOfBytes(bytes: Uint8Array): string {
   const text = decoded(bytes);
-  return text.includes("\ufffd") && isHpglBegun(text.slice(0, HEAD_BYTES)) ? charOfEachByte(bytes) : text;
+  if (!NON_ASCII.test(text) || !isHpglBegun(text.slice(0, HEAD_BYTES))) return text;
+  return text.includes("\ufffd") || hasEncodedBytes(text) ? charOfEachByte(bytes) : text;
+}
+
+/** Whether an encoded line of HPGL (PE) has other characters than ASCII: its bytes were valid UTF-8 by chance. */
+function hasEncodedBytes(text: string): boolean {
+  for (let at = text.indexOf("PE"); at >= 0; at = text.indexOf("PE", at)) {
+    const end = text.indexOf(";", at);
+    if (NON_ASCII.test(text.slice(at, end < 0 ? undefined : end))) return true;
+    if (end < 0) return false;
+    at = end;
+  }
+  return false;
 }
 
 function decoded(bytes: Uint8Array): string {

@@ -2,6 +2,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { importDrawing } from "../../../src/import/registry.js";
+import { textOfBytes } from "../../../src/import/text-of-bytes.js";
 import { countFor } from "../../support/full-run.js";
 
 const RUNS = { numRuns: countFor("PLOTWRIGHT_HPGL_CASES", 1_000, 100) };
@@ -36,7 +37,33 @@ const words = fc
 const without = (...chars: string[]): fc.Arbitrary<string> =>
   words.map((text) => [...text].filter((char) => !chars.includes(char)).join(""));
 
+/** A number of an encoded line in base 64: digits from 63, the last from 191; the lowest bit is the sign. */
+const digits = (value: number): number[] => {
+  const out: number[] = [];
+  let rest = 2 * Math.abs(value) + (value < 0 ? 1 : 0);
+  for (; rest >= 64; rest = Math.floor(rest / 64)) out.push(63 + (rest % 64));
+  return [...out, 191 + rest];
+};
+/** Small ones and zeros can be valid UTF-8 by chance. */
+const step = fc.oneof(coordinate, fc.integer({ min: -31, max: 31 }), fc.constant(0));
+const asciiBytes = (text: string): number[] => [...text].map((char) => char.charCodeAt(0));
+
 describe("HPGL of random lines", () => {
+  it("draws encoded lines from the bytes of a file as the same lines in numbers", () => {
+    fc.assert(
+      fc.property(fc.array(fc.tuple(step, step), { minLength: 1, maxLength: 6 }), (points) => {
+        const bytes = [
+          ...asciiBytes("IN;SP1;PU0,0;PE"),
+          ...points.flat().flatMap(digits),
+          ...asciiBytes(";PU;"),
+        ];
+        const encoded = importDrawing("a.plt", textOfBytes(Uint8Array.from(bytes)));
+        expect([...encoded.paths.coords]).toEqual(coordsOf(`IN;SP1;PU0,0;PR;PD${points.join()};PU;`));
+      }),
+      RUNS,
+    );
+  });
+
   it("draws no text of a comment, message, name or stored label", () => {
     const texts = [
       without('"').map((text) => `CO "${text}"`),
