@@ -38,7 +38,7 @@ describe("the stored drawings", () => {
     db.readDrawing = () => Promise.reject(new DOMException("Internal error.", "UnknownError"));
     await expect(drawingRecords(db).read("a")).rejects.toMatchObject({
       code: "bad-file",
-      message: "The browser can’t read this drawing: Internal error.",
+      message: "The browser can’t read this drawing: its storage for this site reports “Internal error.”.",
     });
   });
 });
