@@ -107,9 +107,10 @@ export interface Machine {
   readonly motorsOn: boolean | null;
   /**
    * How the machine was found, if it still knew its position when it was connected. Null after the first move, and for
-   * a carriage that may have been brought home by hand.
+   * a carriage that may have been brought home by hand. `wasLiftedAtEnd`: the pen was on the paper when a program ended in
+   * motion, and that program lifted it.
    */
-  readonly left: { readonly penUp: boolean } | null;
+  readonly left: { readonly penUp: boolean; readonly wasLiftedAtEnd?: boolean } | null;
   /** Where and how the next job begins; null while the position is unknown. */
   readonly state: MachineState | null;
   place(profile: MachineProfile): { readonly x: number; readonly y: number } | null;

@@ -151,7 +151,7 @@ describe("setting a plotter up", () => {
     const homedWith: string[] = [];
     page.on("request", (request) => {
       if (request.method() !== "POST" || !request.url().endsWith("/set-home")) return;
-      homedWith.push((request.postDataJSON() as { settings: { machine: string } }).settings.machine);
+      homedWith.push((request.postDataJSON() as { profile: { id: string } }).profile.id);
     });
     await button("Set up a plotter…", machinePanel()).click();
     await wizard().getByLabel("Most like").selectOption("axidraw-v3");

@@ -12,7 +12,7 @@ const WITH_WARNINGS = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" hei
 
 const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;
 
-const TALL = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="200mm" viewBox="0 0 100 200"><path d="M0 0L100 200M100 0L0 200" fill="none" stroke="#000"/></svg>`;
+const TALL = `<svg xmlns="http://www.w3.org/2000/svg" width="140mm" height="280mm" viewBox="0 0 100 200"><path d="M0 0L100 200M100 0L0 200" fill="none" stroke="#000"/></svg>`;
 
 /** Enough strokes that the planning is visible. */
 function manyStrokes(): string {
