@@ -340,10 +340,7 @@ export class PlotterDriver {
       boardName: machine.name,
       boardSerialNumber: connection.serialNumber,
       firmware: machine.firmware,
-      message:
-        machine.left?.penUp === false && !machine.left.wasLiftedAtEnd
-          ? penRested(this.#current, restedS)
-          : this.#welcome(connection),
+      message: machine.left?.penUp === false ? penRested(this.#current, restedS) : this.#welcome(connection),
     });
   }
 

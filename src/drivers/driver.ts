@@ -107,10 +107,9 @@ export interface Machine {
   readonly motorsOn: boolean | null;
   /**
    * How the machine was found, if it still knew its position when it was connected. Null after the first move, and for
-   * a carriage that may have been brought home by hand. `wasLiftedAtEnd`: the pen was on the paper when a program ended in
-   * motion, and that program lifted it.
+   * a carriage that may have been brought home by hand.
    */
-  readonly left: { readonly penUp: boolean; readonly wasLiftedAtEnd?: boolean } | null;
+  readonly left: { readonly penUp: boolean } | null;
   /** Where and how the next job begins; null while the position is unknown. */
   readonly state: MachineState | null;
   place(profile: MachineProfile): { readonly x: number; readonly y: number } | null;

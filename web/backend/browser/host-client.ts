@@ -48,10 +48,6 @@ export class HostClient {
       worker.postMessage(message);
     };
     document.addEventListener("visibilitychange", sendVisibility);
-    window.addEventListener("pagehide", ({ persisted }) => {
-      const message: PageVisibility = { isHidden: true, isClosing: true };
-      if (!persisted) worker.postMessage(message);
-    });
     sendVisibility();
     worker.onerror = (event) => this.#failed(reasonOf(event));
     this.#channel.onmessage = ({ data }: MessageEvent<Message>) => {

@@ -36,8 +36,6 @@ export interface Host {
   snapshot(): Snapshot;
   /** Resolves when all changes so far are stored. Rejects with a message for the user if that fails. */
   written(): Promise<void>;
-  /** Stops all motion at once and lifts the pens: the first thing that it writes to the boards. */
-  stopAndLift(): void;
   /** Stops a running plot, stores everything and releases the port. */
   close(): Promise<void>;
 }
@@ -141,7 +139,6 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
       db.written().catch((cause: unknown) => {
         throw new PlotwrightError("disk-full", browserText.onlyHere(storageReason(cause)), { cause });
       }),
-    stopAndLift: () => void registry.close(),
     close: async () => {
       await queue.close();
       await registry.close();

@@ -43,8 +43,6 @@ channel.onmessage = ({ data }: MessageEvent<Message>) => {
 
 self.onmessage = ({ data }: MessageEvent<PageVisibility>) => {
   isPageHidden = data.isHidden;
-  // Before the browser ends this worker, which would leave the pen on the paper.
-  if (data.isClosing === true) host?.stopAndLift();
 };
 
 function sendSnapshot({ snapshot }: Host, tab?: string): void {

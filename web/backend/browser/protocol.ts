@@ -27,8 +27,6 @@ export interface WorkerStart {
 /** Posted to the worker by its own page. */
 export interface PageVisibility {
   readonly isHidden: boolean;
-  /** The page is being closed or reloaded: the worker ends in a moment. */
-  readonly isClosing?: boolean;
 }
 
 export type ToHost =

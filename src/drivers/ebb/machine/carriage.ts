@@ -10,7 +10,7 @@ import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { sFromTicks } from "../../../units.js";
-import type { Machine, MachineEvents, PenBefore, SupplyState } from "../../driver.js";
+import type { MachineEvents, PenBefore, SupplyState } from "../../driver.js";
 import { boardRestarted, moveStopped, powerFailed, powerLost, stuck } from "../../faults.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { delay } from "../../transport.js";
@@ -58,7 +58,7 @@ export class Carriage {
   penMoving = false;
   motorsOn: boolean | null = null;
   /** The pen of a board that was left in the middle of a plot, as found when connecting; null after the first move. */
-  left: Machine["left"] = null;
+  left: { readonly penUp: boolean } | null = null;
   /** Underruns of all streams on this connection. */
   underrunCount = 0;
 
@@ -94,8 +94,7 @@ export class Carriage {
     // Before `configure`, which begins a new watch.
     if (features.hasSupplyLatch && (await this.motorSupply.hasFailed())) await this.mark.clear();
     await this.configure();
-    const { mode, wasLiftedAtEnd } = await this.mark.read();
-    this.microstepMode = mode;
+    this.microstepMode = await this.mark.markedMode();
     if (this.microstepMode !== 0) {
       // The board does not report such a pen, and an earlier program may have left it on the paper.
       if (!reportsPen && before === null) await this.movePen(true, settings);
@@ -104,7 +103,7 @@ export class Carriage {
     }
     // A carriage at home may have been brought there by hand since the plot, so its place says nothing about the plot.
     const isHome = this.state?.steps1 === 0 && this.state.steps2 === 0;
-    if (this.state && !(penUp && isHome)) this.left = { penUp: penUp && !wasLiftedAtEnd, wasLiftedAtEnd };
+    if (this.state && !(penUp && isHome)) this.left = { penUp };
   }
 
   /** Sets what the board forgets when it restarts. */
@@ -342,11 +341,8 @@ export class Carriage {
 
   /** Before the connection is closed during motion: stops and lifts the pen. */
   async stopAndLift(settings: MachineSettings): Promise<void> {
-    const wasDown = this.penUp === false && !this.penMoving;
     this.stopAtOnce();
-    const noted = wasDown ? this.mark.noteLiftedAtEnd() : null;
     await this.untilStill();
-    await noted;
     await this.movePen(true, settings);
   }
 

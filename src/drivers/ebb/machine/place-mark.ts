@@ -9,22 +9,11 @@ import type { BoardSession } from "../stream/session.js";
 const PLACE_KNOWN = 112;
 /** The mark while they do not count from home. */
 const SWITCHED_ON = 1;
-/** Added to the mark where the pen was on the paper when a program ended in motion and lifted it. */
-const LIFTED_AT_END = 8;
 const COARSEST_MODE = 5;
 /** Time for the motion that may block the board's parser, s. */
 const MOTION_S = 2;
 
-/** What the mark says. */
-export interface Marked {
-  /** The microstep mode, if the counters still count from home; otherwise 0. */
-  readonly mode: number;
-  readonly wasLiftedAtEnd: boolean;
-}
-const NOT_MARKED: Marked = { mode: 0, wasLiftedAtEnd: false };
-
 export class PlaceMark {
-  private value = 0;
   /** The query that returns the mark. */
   readonly query: string;
 
@@ -35,24 +24,17 @@ export class PlaceMark {
     this.query = features.hasFutureSyntax ? "QL,0" : "QL";
   }
 
-  /** Before firmware 2.7, a stop has to zero the counters, so they do not always count from home. */
-  async read(): Promise<Marked> {
+  /**
+   * The microstep mode, if the counters still count from home; otherwise 0. Before firmware 2.7, a stop has to zero the
+   * counters, so they do not always count from home.
+   */
+  async markedMode(): Promise<number> {
     const { session, features } = this;
-    if (!features.hasClear) return NOT_MARKED;
+    if (!features.hasClear) return 0;
     // A board that has restarted has its motors off (QE: from 2.8.0).
-    if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return NOT_MARKED;
-    const value = Number(await session.query(this.query)) - PLACE_KNOWN;
-    const wasLiftedAtEnd = value > LIFTED_AT_END;
-    const mode = wasLiftedAtEnd ? value - LIFTED_AT_END : value;
-    if (!(mode >= 1 && mode <= COARSEST_MODE)) return NOT_MARKED;
-    if (wasLiftedAtEnd) await this.set(mode, true);
-    else this.value = PLACE_KNOWN + mode;
-    return { mode, wasLiftedAtEnd };
-  }
-
-  /** Notes that the pen was on the paper, before a program ends that lifts it in motion. */
-  async noteLiftedAtEnd(): Promise<void> {
-    if (this.value > PLACE_KNOWN) await this.write(this.value + LIFTED_AT_END);
+    if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return 0;
+    const mode = Number(await session.query(this.query)) - PLACE_KNOWN;
+    return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
   }
 
   /** Call when the motors are on. Only if the counters count from home can the next connection find the position. */
@@ -74,7 +56,6 @@ export class PlaceMark {
 
   private async write(value: number): Promise<void> {
     const { session, features } = this;
-    this.value = value;
     if (features.hasStepQuery) await session.send(features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`);
   }
 }
