@@ -3,7 +3,6 @@
  * own `build.license` leaves out the dependencies of workers.
  */
 import { existsSync, readFileSync, readdirSync } from "node:fs";
-import { createRequire } from "node:module";
 import path from "node:path";
 
 const HERE = import.meta.dirname;
@@ -13,9 +12,6 @@ const FILE = "licences.txt";
 
 /** Data in our sources, which is not a package. */
 const IN_OUR_SOURCES = [{ title: "Hershey fonts, from hersheytext 2.0.0 (MIT)", file: "hershey-fonts.txt" }];
-
-/** Packages whose published file contains other packages, which the bundler therefore cannot see. */
-const CONTAINS = { "dxf-parser": ["loglevel"] };
 
 const LICENCE_FILE = /^(licen[cs]e|copying)/i;
 
@@ -59,8 +55,7 @@ export function licencesOf(files) {
 function addPackageFolders(moduleIds, folders) {
   for (const id of moduleIds) {
     const folder = packageFolder(id);
-    if (folder === null) continue;
-    for (const one of [folder, ...containedIn(folder)]) folders.add(one);
+    if (folder !== null) folders.add(folder);
   }
 }
 
@@ -69,13 +64,6 @@ function packageFolder(moduleId) {
   if (moduleId.startsWith("\0")) return null;
   const match = /^(.*\/node_modules\/(?:@[^/]+\/)?[^/]+)\//.exec(moduleId.replaceAll("\\", "/"));
   return match === null ? null : match[1];
-}
-
-/** The folders of the packages that this package's file contains. */
-function containedIn(folder) {
-  const { resolve } = createRequire(path.join(folder, "package.json"));
-  const names = CONTAINS[path.basename(folder)] ?? [];
-  return names.map((name) => path.dirname(resolve(`${name}/package.json`)).replaceAll("\\", "/"));
 }
 
 function licenceText(folders) {

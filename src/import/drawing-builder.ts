@@ -19,6 +19,8 @@ import type { Warnings } from "./warnings.js";
 
 /** One kilometre: far beyond any plotter, and small enough that calculations still resolve µm. */
 export const MAX_COORDINATE_MM = 1e6;
+/** For files without a page, whose coordinates may be those of a map: twice around the earth. */
+const MAX_ANYWHERE_MM = 1e11;
 
 /**
  * 400 MB. Even a file of 200 MB seldom needs more, but a few bytes of blocks and copies can expand to any
@@ -75,7 +77,14 @@ export class DrawingBuilder {
    */
   progress = 0;
 
-  constructor(private readonly warnings: Warnings) {
+  private readonly maxCoordinate: number;
+
+  /** @param place `isAnywhere`: the drawing may lie far from its origin; only its extent counts */
+  constructor(
+    private readonly warnings: Warnings,
+    { isAnywhere = false } = {},
+  ) {
+    this.maxCoordinate = isAnywhere ? MAX_ANYWHERE_MM : MAX_COORDINATE_MM;
     this.verbOffsets.push(0);
     this.coordOffsets.push(0);
   }
@@ -111,7 +120,7 @@ export class DrawingBuilder {
   ): boolean {
     const { coords, verbs } = this;
     this.reserveCoords(shape.coords.length);
-    if (!writeMapped(shape.coords, map, coords.data, coords.length)) {
+    if (!writeMapped(shape.coords, map, coords.data, coords.length, this.maxCoordinate)) {
       this.warnings.add("coordinates-out-of-range", undefined, where());
       return false;
     }
@@ -253,8 +262,8 @@ export class DrawingBuilder {
 /** An infinite or NaN width would make everything computed from it infinite or NaN. */
 const finiteWidth = (mm: number): number => (mm >= 0 ? Math.min(mm, MAX_COORDINATE_MM) : 0);
 
-/** Writes the mapped pairs into `to` from `at` on. Returns false if one is out of range or NaN. */
-function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: number): boolean {
+/** Writes the mapped pairs into `to` from `at` on. Returns false if one is beyond `max` or NaN. */
+function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: number, max: number): boolean {
   const from = source.data;
   const { a, b, c, d, e, f } = map;
   let inRange = true;
@@ -264,7 +273,7 @@ function writeMapped(source: PointBuffer, map: Affine, to: Float64Array, at: num
     to[at++] = x;
     to[at++] = y;
     // This form counts NaN as out of range.
-    if (!(Math.abs(x) <= MAX_COORDINATE_MM && Math.abs(y) <= MAX_COORDINATE_MM)) inRange = false;
+    if (!(Math.abs(x) <= max && Math.abs(y) <= max)) inRange = false;
   }
   return inRange;
 }

@@ -1,10 +1,10 @@
-/** Decodes a file's bytes to text. The encoding comes from its first bytes, or from its XML declaration. */
+/** Decodes a file's bytes to text. The encoding comes from its first bytes, its XML declaration, or its DXF header. */
+import { charOfEachByte, textOfDxf } from "./dxf/dxf-code-pages.js";
 import { isHpglBegun } from "./hpgl/hpgl-reader.js";
 
 declare const TextDecoder: new (encoding: string) => { decode(bytes: Uint8Array): string };
 
 const HEAD_BYTES = 256;
-const CHUNK = 8192;
 const NON_ASCII = /[\u0080-\uffff]/;
 const STARTS: readonly (readonly [encoding: string, bytes: readonly number[]])[] = [
   ["utf-8", [0xef, 0xbb, 0xbf]],
@@ -47,17 +47,11 @@ function hasEncodedBytes(text: string): boolean {
 }
 
 function decoded(bytes: Uint8Array): string {
+  const encoding = encodingOf(bytes);
   try {
-    return new TextDecoder(encodingOf(bytes)).decode(bytes);
+    const dxf = encoding === "utf-8" ? textOfDxf(bytes) : null;
+    return dxf ?? new TextDecoder(encoding).decode(bytes);
   } catch {
     return new TextDecoder("utf-8").decode(bytes);
   }
-}
-
-/** TextDecoder can't do this: its "latin1" has other characters for 128 to 159. */
-function charOfEachByte(bytes: Uint8Array): string {
-  let text = "";
-  for (let at = 0; at < bytes.length; at += CHUNK)
-    text += String.fromCharCode(...bytes.subarray(at, at + CHUNK));
-  return text;
 }

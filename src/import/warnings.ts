@@ -88,6 +88,8 @@ const WORDS = {
     `${many(n, "filled shape is", "filled shapes are")} taken as the background and not drawn. Give ${n === 1 ? "it" : "them"} a stroke to draw the outline.`,
   "animation-ignored": (n: number) =>
     `${many(n, "animation is", "animations are")} ignored: drawn as at the start.`,
+  "object-unreadable": (n: number, details: string) =>
+    `${many(n, "object has", "objects have")} a value that cannot be read and ${n === 1 ? "is" : "are"} left out${details}. Draw ${n === 1 ? "it" : "them"} again, or export the file again.`,
   "not-supported": (n: number, details: string) =>
     `${many(n, "object is", "objects are")} of a type that is not drawn${details}. Convert to plain lines and curves.`,
   "empty-drawing": () =>

@@ -2,15 +2,26 @@
  * The boundaries of a HATCH: polylines, or chains of lines, arcs and splines in either direction (AutoCAD DXF
  * reference, HATCH and its boundary path data). Each becomes a closed ring.
  */
-import type { DxfEntity, DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
 import { PAIRS_OF_VERB, VERB_CLOSE, VERB_CUBIC } from "../../drawing/drawing.js";
 import { IDENTITY } from "../../geometry/affine.js";
-import { drawDxfEntity } from "./dxf-shapes.js";
+import {
+  bulgedVertices,
+  numberIn,
+  numberOf,
+  numbersIn,
+  pointsIn,
+  requiredPoint,
+  splitAt,
+  type DxfGroup,
+  type DxfPoint,
+} from "./dxf-groups.js";
+import { arc, polyline, turnBetween, type Outline } from "./dxf-shapes.js";
+import { bSpline } from "./dxf-spline.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import { RAD_PER_DEG } from "../../units.js";
 
-/** The edges of a ring as entities. A polyline is one entity. */
-export type HatchLoop = readonly DxfEntity[];
+/** The outlines of a ring's edges. A polyline is one outline. */
+export type HatchLoop = readonly Outline[];
 
 const LOOP = 92;
 const IS_POLYLINE = 2;
@@ -26,7 +37,7 @@ export function readHatchLoops(groups: readonly DxfGroup[]): HatchLoop[] {
   const paths = splitAt(groups.slice(from, style < 0 ? undefined : style), LOOP);
   return ofStyle(paths, Number(groups[style]?.value ?? 0)).map(([flags, ...path]) =>
     (Number(flags.value) & IS_POLYLINE) !== 0
-      ? [{ type: "LWPOLYLINE", shape: true, vertices: bulgedVertices(path) }]
+      ? [polyline(bulgedVertices(path), true)]
       : splitAt(path, EDGE)
           .map(edgeOf)
           .filter((edge) => edge !== null),
@@ -44,75 +55,48 @@ function ofStyle(paths: readonly DxfGroup[][], style: number): readonly DxfGroup
   return kept.length > 0 ? kept : paths;
 }
 
-/** Splits before each group with that code; groups before the first are dropped. */
-function splitAt(groups: readonly DxfGroup[], code: number): DxfGroup[][] {
-  const parts: DxfGroup[][] = [];
-  for (const group of groups) {
-    if (group.code === code) parts.push([group]);
-    else parts.at(-1)?.push(group);
-  }
-  return parts;
-}
-
-/** Vertices from codes 10, 20 and 42; other groups between them are ignored. */
-export const bulgedVertices = (groups: readonly DxfGroup[]): DxfPoint[] =>
-  splitAt(groups, 10).map((vertex) => ({
-    x: Number(vertex[0].value),
-    y: numbersOf(vertex, 20)[0] ?? 0,
-    bulge: numbersOf(vertex, 42)[0] ?? 0,
-  }));
-
-function edgeOf([kind, ...groups]: readonly DxfGroup[]): DxfEntity | null {
-  const [at] = pointsOf(groups, 10);
-  const [to] = pointsOf(groups, 11);
-  const [size = 0] = numbersOf(groups, 40);
-  if (at === undefined) return null;
-  switch (kind.value) {
+function edgeOf([kind, ...groups]: readonly DxfGroup[]): Outline | null {
+  if (!groups.some(({ code }) => code === 10)) return null;
+  const at = requiredPoint(groups, 10);
+  const size = numberIn(groups, 40) ?? 0;
+  switch (numberOf(kind)) {
     case 1:
-      return { type: "LINE", vertices: [at, to ?? at] };
-    case 2:
-      return { type: "ARC", center: at, radius: size, ...anglesOf(groups, 1) };
-    case 3:
-      return {
-        type: "ELLIPSE",
-        center: at,
-        majorAxisEndPoint: to,
-        axisRatio: size,
-        ...anglesOf(groups, size),
-      };
+      return polyline([at, requiredPoint(groups, 11)], false);
+    case 2: {
+      const { start, end } = anglesOf(groups, 1);
+      return arc(at, size, size, 0, start, turnBetween(start, end));
+    }
+    case 3: {
+      const axis = requiredPoint(groups, 11);
+      const rx = Math.hypot(axis.x, axis.y);
+      const { start, end } = anglesOf(groups, size);
+      return arc(at, rx, rx * size, Math.atan2(axis.y, axis.x), start, turnBetween(start, end));
+    }
     case 4:
-      return {
-        type: "SPLINE",
-        degreeOfSplineCurve: numbersOf(groups, 94)[0] ?? 3,
-        knotValues: numbersOf(groups, 40),
-        controlPoints: pointsOf(groups, 10),
-      };
+      return bSpline(
+        numberIn(groups, 94) ?? 3,
+        pointsIn(groups, 10),
+        numbersIn(groups, 40),
+        numbersIn(groups, 42),
+      );
     default:
       return null;
   }
 }
 
 /** Anticlockwise, rad, as the ellipse's parameter. The file measures the angles of clockwise arcs clockwise. */
-function anglesOf(groups: readonly DxfGroup[], axisRatio: number): { startAngle: number; endAngle: number } {
-  const [start = 0] = numbersOf(groups, 50);
-  const [end = 360] = numbersOf(groups, 51);
-  if (Math.abs(end - start) > 360 - 1e-9) return { startAngle: 0, endAngle: TURN };
+function anglesOf(groups: readonly DxfGroup[], axisRatio: number): { start: number; end: number } {
+  const start = numberIn(groups, 50) ?? 0;
+  const end = numberIn(groups, 51) ?? 360;
+  if (Math.abs(end - start) > 360 - 1e-9) return { start: 0, end: TURN };
   const parameter = (deg: number): number => {
     const angle = deg * RAD_PER_DEG;
     return axisRatio === 1 ? angle : Math.atan2(Math.sin(angle), axisRatio * Math.cos(angle));
   };
-  const isClockwise = numbersOf(groups, 73)[0] === 0;
+  const isClockwise = numberIn(groups, 73) === 0;
   return isClockwise
-    ? { startAngle: parameter(-end), endAngle: parameter(-start) }
-    : { startAngle: parameter(start), endAngle: parameter(end) };
-}
-
-const numbersOf = (groups: readonly DxfGroup[], code: number): number[] =>
-  groups.filter((group) => group.code === code).map(({ value }) => Number(value));
-
-function pointsOf(groups: readonly DxfGroup[], code: number): DxfPoint[] {
-  const ys = numbersOf(groups, code + 10);
-  return numbersOf(groups, code).map((x, i) => ({ x, y: ys[i] ?? 0 }));
+    ? { start: parameter(-end), end: parameter(-start) }
+    : { start: parameter(start), end: parameter(end) };
 }
 
 /** Draws each loop as a closed ring, in the file's units, y up. */
@@ -121,7 +105,7 @@ export function drawHatch(loops: readonly HatchLoop[], shape: ShapeBuffer, arcTo
     const chain: Piece[] = [];
     for (const edge of loop) {
       const drawn = new ShapeBuffer();
-      drawDxfEntity(edge, drawn, arcTolerance);
+      edge(drawn, arcTolerance);
       drawn.finish();
       // A polyline or full circle is a ring by itself.
       if (drawn.verbs.data[drawn.verbs.length - 1] === VERB_CLOSE) shape.append(drawn, IDENTITY);

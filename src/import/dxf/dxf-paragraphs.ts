@@ -6,7 +6,7 @@
  *   │ a stack  ½  is aligned with its line: on the baseline, centred, or hanging from the top
  *   └ line distance is 5/3 of the letters' height, times the spacing; more where stacks would touch
  */
-import type { DxfPoint } from "dxf-parser/dist/dxf-parser.js";
+import type { DxfPoint } from "./dxf-groups.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";
 import { getOrAdd } from "../get-or-add.js";
 import { readMtext, type MtextFormat, type MtextParagraph, type MtextRun } from "./mtext-codes.js";

@@ -11,7 +11,7 @@
  * each line are sorted; inside and outside alternate (even-odd, as for islands). Dashes start at the line's
  * own base point.
  */
-import type { DxfGroup, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
+import { numberIn, numbersIn, splitAt, type DxfGroup, type DxfPoint } from "./dxf-groups.js";
 import { getOrAdd } from "../get-or-add.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 import { subpathsOf } from "../subpaths.js";
@@ -28,25 +28,21 @@ export interface PatternLine {
 
 const LINE_COUNT = 78;
 const LINE = 53;
+const SEED_COUNT = 98;
 /** Max lines and dashes of one hatch: more is a wrong scale, or as dense as a filled area. */
 const MAX_PIECES = 200_000;
 
 export function readPattern(groups: readonly DxfGroup[]): PatternLine[] {
   const from = groups.findIndex(({ code }) => code === LINE_COUNT);
-  const lines: { angleDeg: number; values: Map<number, number>; dashes: number[] }[] = [];
-  for (const { code, value } of from < 0 ? [] : groups.slice(from + 1)) {
-    // The seed points follow the pattern.
-    if (code === 98) break;
-    const number = Number(value);
-    if (code === LINE) lines.push({ angleDeg: number, values: new Map(), dashes: [] });
-    else if (code === 49) lines.at(-1)?.dashes.push(number);
-    else lines.at(-1)?.values.set(code, number);
-  }
-  return lines.map(({ angleDeg, values, dashes }) => ({
-    angleDeg,
-    base: { x: values.get(43) ?? 0, y: values.get(44) ?? 0 },
-    offset: { x: values.get(45) ?? 0, y: values.get(46) ?? 0 },
-    dashes,
+  if (from < 0) return [];
+  // The seed points follow the pattern.
+  const seeds = groups.findIndex(({ code }, i) => i > from && code === SEED_COUNT);
+  const at = (line: readonly DxfGroup[], code: number): number => numberIn(line, code) ?? 0;
+  return splitAt(groups.slice(from + 1, seeds < 0 ? undefined : seeds), LINE).map((line) => ({
+    angleDeg: at(line, LINE),
+    base: { x: at(line, 43), y: at(line, 44) },
+    offset: { x: at(line, 45), y: at(line, 46) },
+    dashes: numbersIn(line, 49),
   }));
 }
 

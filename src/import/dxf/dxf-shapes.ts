@@ -1,123 +1,61 @@
-/** DXF entities to verbs and coordinates in the file's units, y up. */
-import type { DxfEntity, DxfPoint } from "dxf-parser/dist/dxf-parser.js";
+/** Lines, arcs, ellipses, faces and meshes of a DXF as outlines in the file's units, y up. */
 import { drawCentreArc, drawSvgArc } from "../arc.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
+import {
+  bulgedVertices,
+  hasFlag,
+  numberIn,
+  OddValue,
+  pointIn,
+  pointsIn,
+  requiredIn,
+  requiredPoint,
+  splitAt,
+  type DxfGroup,
+  type DxfPoint,
+} from "./dxf-groups.js";
 
-/** Steps per span of a spline whose degree cannot be drawn as a Bézier. */
-const STEPS_PER_SPAN = 32;
+/** Draws lines into the shape. `tolerance` is the max error of its curves. */
+export type Outline = (shape: ShapeBuffer, tolerance: number) => void;
 
-/** Draws the entity; returns false for a type that has no lines. */
-export function drawDxfEntity(entity: DxfEntity, shape: ShapeBuffer, arcTolerance: number): boolean {
-  switch (entity.type) {
-    case "LINE":
-      drawVertices(entity.vertices ?? [], false, shape, arcTolerance);
-      return true;
-    case "LWPOLYLINE":
-    case "POLYLINE": {
-      // Control points of a fitted curve are not on it.
-      const vertices = (entity.vertices ?? []).filter((vertex) => vertex.splineControlPoint !== true);
-      drawVertices(vertices, entity.shape === true, shape, arcTolerance);
-      return true;
-    }
-    case "SOLID":
-    case "3DFACE": {
-      const [a, b, c, d] = entity.points ?? entity.vertices ?? [];
-      // A SOLID's third and fourth corners are swapped.
-      const corners = entity.type === "SOLID" && d !== undefined ? [a, b, d, c] : [a, b, c, d];
-      drawVertices(
-        corners.filter((corner) => corner !== undefined),
-        true,
-        shape,
-        arcTolerance,
-      );
-      return true;
-    }
-    case "POINT":
-      if (entity.position !== undefined)
-        drawVertices([entity.position, entity.position], false, shape, arcTolerance);
-      return true;
-    case "CIRCLE":
-    case "ARC":
-      drawArc(entity, shape, arcTolerance);
-      return true;
-    case "ELLIPSE":
-      drawDxfEllipse(entity, shape, arcTolerance);
-      return true;
-    case "SPLINE":
-      drawSpline(entity, shape);
-      return true;
-    default:
-      return false;
-  }
-}
+const TURN = 2 * Math.PI;
 
 /**
  * Vertices with bulges: bulge = tan(θ/4) for an arc of angle θ, positive if anticlockwise.
  * Radius = chord (1 + b²) / (4 |b|).
  */
-function drawVertices(
-  vertices: readonly DxfPoint[],
-  isClosed: boolean,
-  shape: ShapeBuffer,
-  arcTolerance: number,
-): void {
-  if (vertices.length === 0) return;
-  shape.moveTo(vertices[0].x, vertices[0].y);
-  const to = (from: DxfPoint, next: DxfPoint): void => {
-    const bulge = from.bulge ?? 0;
-    const chord = Math.hypot(next.x - from.x, next.y - from.y);
-    if (Math.abs(bulge) < 1e-9 || chord === 0) {
-      shape.lineTo(next.x, next.y);
-      return;
-    }
-    const radius = (chord * (1 + bulge * bulge)) / (4 * Math.abs(bulge));
-    drawSvgArc(shape, radius, radius, 0, Math.abs(bulge) > 1, bulge > 0, next.x, next.y, arcTolerance);
+export function polyline(vertices: readonly DxfPoint[], isClosed: boolean): Outline {
+  return (shape, tolerance) => {
+    if (vertices.length === 0) return;
+    shape.moveTo(vertices[0].x, vertices[0].y);
+    const to = (from: DxfPoint, next: DxfPoint): void => {
+      const bulge = from.bulge ?? 0;
+      const chord = Math.hypot(next.x - from.x, next.y - from.y);
+      if (Math.abs(bulge) < 1e-9 || chord === 0) {
+        shape.lineTo(next.x, next.y);
+        return;
+      }
+      const radius = (chord * (1 + bulge * bulge)) / (4 * Math.abs(bulge));
+      drawSvgArc(shape, radius, radius, 0, Math.abs(bulge) > 1, bulge > 0, next.x, next.y, tolerance);
+    };
+    for (let i = 1; i < vertices.length; i++) to(vertices[i - 1], vertices[i]);
+    if (!isClosed || vertices.length < 2) return;
+    const last = vertices[vertices.length - 1];
+    if ((last.bulge ?? 0) !== 0) to(last, vertices[0]);
+    shape.close();
   };
-  for (let i = 1; i < vertices.length; i++) to(vertices[i - 1], vertices[i]);
-  if (!isClosed || vertices.length < 2) return;
-  const last = vertices[vertices.length - 1];
-  if ((last.bulge ?? 0) !== 0) to(last, vertices[0]);
-  shape.close();
 }
 
-function drawArc(entity: DxfEntity, shape: ShapeBuffer, arcTolerance: number): void {
-  const { center, radius = 0 } = entity;
-  if (center === undefined || !(radius > 0)) return;
-  const isCircle = entity.type === "CIRCLE";
-  const start = isCircle ? 0 : (entity.startAngle ?? 0);
-  const sweep = isCircle ? 2 * Math.PI : turnBetween(start, entity.endAngle ?? 2 * Math.PI);
-  drawArcOf(shape, center, radius, radius, 0, start, sweep, arcTolerance);
-}
-
-function drawDxfEllipse(entity: DxfEntity, shape: ShapeBuffer, arcTolerance: number): void {
-  const { center, majorAxisEndPoint: axis, axisRatio = 1 } = entity;
-  if (center === undefined || axis === undefined) return;
-  const rx = Math.hypot(axis.x, axis.y);
-  const from = entity.startAngle ?? 0;
-  const to = entity.endAngle ?? 2 * Math.PI;
-  // With a normal that points down the ellipse runs clockwise: from a to b is anticlockwise from -b to -a.
-  const [start, end] = (entity.extrusionDirectionZ ?? 1) < 0 ? [-to, -from] : [from, to];
-  const sweep = turnBetween(start, end);
-  if (rx > 0)
-    drawArcOf(shape, center, rx, rx * axisRatio, Math.atan2(axis.y, axis.x), start, sweep, arcTolerance);
-}
-
-/** Anticlockwise angle from start to end; a full turn if they coincide. */
-function turnBetween(start: number, end: number): number {
-  const turn = (end - start) % (2 * Math.PI);
-  return turn > 1e-9 ? turn : turn + 2 * Math.PI;
-}
-
-function drawArcOf(
-  shape: ShapeBuffer,
+/** An arc of an ellipse, all angles rad; `start` and `sweep` as the ellipse's parameter, anticlockwise. */
+export function arc(
   center: DxfPoint,
   rx: number,
   ry: number,
   tilt: number,
   start: number,
   sweep: number,
-  arcTolerance: number,
-): void {
+): Outline {
+  if (!(rx > 0)) throw new OddValue("its radius is not above 0");
   const pointAt = (angle: number): [number, number] => {
     const x = rx * Math.cos(angle);
     const y = ry * Math.sin(angle);
@@ -126,100 +64,187 @@ function drawArcOf(
       center.y + x * Math.sin(tilt) + y * Math.cos(tilt),
     ];
   };
-  const isWhole = sweep > 2 * Math.PI - 1e-9;
+  const isWhole = sweep > TURN - 1e-9;
   const [x0, y0] = pointAt(start);
   const [x1, y1] = isWhole ? [x0, y0] : pointAt(start + sweep);
-  shape.moveTo(x0, y0);
-  drawCentreArc(shape, center.x, center.y, rx, ry, tilt, start, sweep, x1, y1, arcTolerance);
-  if (isWhole) shape.close();
+  return (shape, tolerance) => {
+    shape.moveTo(x0, y0);
+    drawCentreArc(shape, center.x, center.y, rx, ry, tilt, start, sweep, x1, y1, tolerance);
+    if (isWhole) shape.close();
+  };
 }
 
-function drawSpline(entity: DxfEntity, shape: ShapeBuffer): void {
-  const degree = entity.degreeOfSplineCurve ?? 3;
-  const points = entity.controlPoints ?? [];
-  const knots = entity.knotValues ?? [];
-  if (points.length > degree && knots.length === points.length + degree + 1 && degree >= 1) {
-    drawBSpline(points, knots, degree, shape);
-  } else {
-    drawThrough(entity.fitPoints ?? points, entity.closed === true, shape);
+/** Anticlockwise angle from start to end; a full turn if they coincide. */
+export function turnBetween(start: number, end: number): number {
+  const turn = (end - start) % TURN;
+  return turn > 1e-9 ? turn : turn + TURN;
+}
+
+/** With a normal that points down the ellipse runs clockwise: from a to b is anticlockwise from -b to -a. */
+export function readEllipse(groups: readonly DxfGroup[]): Outline {
+  const axis = requiredPoint(groups, 11);
+  const [from, to] = [numberIn(groups, 41) ?? 0, numberIn(groups, 42) ?? TURN];
+  const [start, end] = (numberIn(groups, 230) ?? 1) < 0 ? [-to, -from] : [from, to];
+  const rx = Math.hypot(axis.x, axis.y);
+  const ry = rx * (numberIn(groups, 40) ?? 1);
+  return arc(requiredPoint(groups, 10), rx, ry, Math.atan2(axis.y, axis.x), start, turnBetween(start, end));
+}
+
+/** SOLID and TRACE: the third and fourth corners are swapped. */
+export function readSolid(groups: readonly DxfGroup[]): Outline {
+  const [a, b, c] = [10, 11, 12].map((code) => requiredPoint(groups, code));
+  const d = pointIn(groups, 13);
+  return polyline(d === undefined ? [a, b, c] : [a, b, d, c], true);
+}
+
+/** Group 70 names the edges that are not seen. */
+export function readFace(groups: readonly DxfGroup[]): Outline {
+  const [a, b, c] = [10, 11, 12].map((code) => requiredPoint(groups, code));
+  const corners = [a, b, c, pointIn(groups, 13) ?? c];
+  if ((numberIn(groups, 70) ?? 0) === 0) return polyline(corners, true);
+  const edges = new EdgeSet(4);
+  corners.forEach((_, i) => {
+    if (!hasFlag(groups, 70, 1 << i)) edges.add(i, (i + 1) % 4);
+  });
+  return edges.outline(corners);
+}
+
+/** Edges of a mesh by the numbers of their ends. Edges that two faces share are drawn once. */
+class EdgeSet {
+  private readonly seen = new Set<number>();
+  private readonly ends: (readonly [number, number])[] = [];
+
+  constructor(private readonly pointCount: number) {}
+
+  add(from: number, to: number): void {
+    const [low, high] = [Math.min(from, to), Math.max(from, to)];
+    if (!(Number.isInteger(low) && Number.isInteger(high) && low >= 0 && high < this.pointCount))
+      throw new OddValue("a face refers to a vertex that it does not have");
+    const key = low * this.pointCount + high;
+    if (low === high || this.seen.has(key)) return;
+    this.seen.add(key);
+    this.ends.push([from, to]);
+  }
+
+  /** Edges that follow each other become one line. */
+  outline(points: readonly DxfPoint[]): Outline {
+    return (shape) => {
+      let at = -1;
+      for (const [from, to] of this.ends) {
+        if (from !== at) shape.moveTo(points[from].x, points[from].y);
+        shape.lineTo(points[to].x, points[to].y);
+        at = to;
+      }
+    };
   }
 }
+
+/** Flags of a POLYLINE and of its vertices. */
+const IS_CLOSED = 1;
+const IS_CLOSED_ACROSS = 32;
+export const IS_3D = 8;
+const IS_GRID = 16;
+const IS_POLYFACE = 64;
+export const IS_MESH = IS_GRID | IS_POLYFACE;
+/** Of a vertex: control points of a fitted curve or surface are not on it. */
+const IS_CONTROL_POINT = 16;
+const HAS_PLACE = 64;
+const IS_OF_POLYFACE = 128;
+
+export function readPolyline(
+  groups: readonly DxfGroup[],
+  records: readonly (readonly DxfGroup[])[],
+): Outline {
+  if (hasFlag(groups, 70, IS_POLYFACE)) return readPolyface(records);
+  const vertices = records.filter((vertex) => !hasFlag(vertex, 70, IS_CONTROL_POINT)).flatMap(bulgedVertices);
+  if (hasFlag(groups, 70, IS_GRID)) return readGrid(groups, vertices);
+  return polyline(vertices, hasFlag(groups, 70, IS_CLOSED));
+}
+
+/** A grid of m rows of n vertices. A smoothed surface has its own numbers of rows and columns. */
+function readGrid(groups: readonly DxfGroup[], vertices: readonly DxfPoint[]): Outline {
+  const isSmooth = (numberIn(groups, 75) ?? 0) !== 0;
+  const [m, n] = isSmooth
+    ? [requiredIn(groups, 73), requiredIn(groups, 74)]
+    : [requiredIn(groups, 71), requiredIn(groups, 72)];
+  if (!(m >= 1 && n >= 1 && m * n === vertices.length))
+    throw new OddValue(`a mesh of ${m} × ${n} has ${vertices.length} vertices`);
+  const rows = Array.from({ length: m }, (_, i) => vertices.slice(i * n, (i + 1) * n));
+  const columns = Array.from({ length: n }, (_, j) => rows.map((row) => row[j]));
+  const plain = ({ x, y }: DxfPoint): DxfPoint => ({ x, y });
+  const lines = [
+    ...rows.map((row) => polyline(row.map(plain), hasFlag(groups, 70, IS_CLOSED_ACROSS))),
+    ...columns.map((column) => polyline(column.map(plain), hasFlag(groups, 70, IS_CLOSED))),
+  ];
+  return (shape, tolerance) => {
+    for (const line of lines) line(shape, tolerance);
+  };
+}
+
+/** Vertices, then faces that name up to four of them from 1; a negative number begins an unseen edge. */
+function readPolyface(records: readonly (readonly DxfGroup[])[]): Outline {
+  const isFace = (vertex: readonly DxfGroup[]): boolean =>
+    hasFlag(vertex, 70, IS_OF_POLYFACE) && !hasFlag(vertex, 70, HAS_PLACE);
+  const points = records.filter((vertex) => !isFace(vertex)).map((vertex) => requiredPoint(vertex, 10));
+  const edges = new EdgeSet(points.length);
+  for (const face of records.filter(isFace)) {
+    const corners = [71, 72, 73, 74]
+      .map((code) => numberIn(face, code) ?? 0)
+      .filter((corner) => corner !== 0);
+    corners.forEach((corner, i) => {
+      if (corner > 0) edges.add(corner - 1, Math.abs(corners[(i + 1) % corners.length]) - 1);
+    });
+  }
+  return edges.outline(points);
+}
+
+/** The first level of a MESH: its vertices, then a list of faces, each a count and that many vertices. */
+export function readMesh(groups: readonly DxfGroup[]): Outline {
+  const [vertices = []] = splitAt(groups, 92);
+  const listAt = vertices.findIndex(({ code }) => code === 93);
+  if (listAt < 0) throw new OddValue("group 93 is missing");
+  const points = pointsIn(vertices.slice(0, listAt), 10);
+  const size = requiredIn(vertices.slice(listAt), 93);
+  const list = vertices
+    .slice(listAt + 1)
+    .filter(({ code }) => code === 90)
+    .slice(0, size)
+    .map(({ value }) => Number(value));
+  const edges = new EdgeSet(points.length);
+  for (let at = 0; at < list.length; at += list[at] + 1) {
+    if (!(list[at] >= 1)) throw new OddValue("a face has no corners");
+    const corners = list.slice(at + 1, at + 1 + list[at]);
+    corners.forEach((corner, i) => edges.add(corner, corners[(i + 1) % corners.length]));
+  }
+  return edges.outline(points);
+}
+
+/** Flag of an MLINE. */
+const IS_MLINE_CLOSED = 2;
 
 /**
- * Each span of a B-spline is a Bézier curve whose control points are its blossom at u_i … u_i, u_{i+1} …
- * u_{i+1} (Ramshaw 1987): exact for degrees 1 to 3.
+ * Parallel lines: at each vertex the lines lie on a common direction (13), each at its own distance, the first
+ * number (41) after its count (74).
  */
-function drawBSpline(
-  points: readonly DxfPoint[],
-  knots: readonly number[],
-  degree: number,
-  shape: ShapeBuffer,
-): void {
-  let isFirst = true;
-  for (let span = degree; span < points.length; span++) {
-    const u0 = knots[span];
-    const u1 = knots[span + 1];
-    if (!(u1 > u0)) continue;
-    const control = (ends: number): [number, number] =>
-      blossom(points, knots, degree, span, (r) => (r < ends ? u1 : u0));
-    if (isFirst) shape.moveTo(...control(0));
-    isFirst = false;
-    if (degree === 1) shape.lineTo(...control(1));
-    else if (degree === 2) shape.quadraticTo(...control(1), ...control(2));
-    else if (degree === 3) shape.cubicTo(...control(1), ...control(2), ...control(3));
-    else {
-      for (let i = 1; i <= STEPS_PER_SPAN; i++) {
-        const u = u0 + ((u1 - u0) * i) / STEPS_PER_SPAN;
-        shape.lineTo(...blossom(points, knots, degree, span, () => u));
-      }
-    }
-  }
-}
-
-/** de Boor's algorithm with a separate argument on each level. */
-function blossom(
-  points: readonly DxfPoint[],
-  knots: readonly number[],
-  degree: number,
-  span: number,
-  argument: (level: number) => number,
-): [number, number] {
-  const x: number[] = [];
-  const y: number[] = [];
-  for (let j = 0; j <= degree; j++) {
-    x.push(points[span - degree + j].x);
-    y.push(points[span - degree + j].y);
-  }
-  for (let level = 1; level <= degree; level++) {
-    const u = argument(level - 1);
-    for (let j = degree; j >= level; j--) {
-      const low = knots[span - degree + j];
-      const high = knots[span + j - level + 1];
-      const t = high > low ? (u - low) / (high - low) : 0;
-      x[j] = (1 - t) * x[j - 1] + t * x[j];
-      y[j] = (1 - t) * y[j - 1] + t * y[j];
-    }
-  }
-  return [x[degree], y[degree]];
-}
-
-/** A smooth curve through points, for files without control points (Catmull–Rom). */
-function drawThrough(points: readonly DxfPoint[], isClosed: boolean, shape: ShapeBuffer): void {
-  const n = points.length;
-  if (n === 0) return;
-  const at = (i: number): DxfPoint =>
-    isClosed ? points[(i + n) % n] : points[Math.min(n - 1, Math.max(0, i))];
-  shape.moveTo(points[0].x, points[0].y);
-  for (let i = 0; i < (isClosed ? n : n - 1); i++) {
-    const [a, b, c, d] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
-    shape.cubicTo(
-      b.x + (c.x - a.x) / 6,
-      b.y + (c.y - a.y) / 6,
-      c.x - (d.x - b.x) / 6,
-      c.y - (d.y - b.y) / 6,
-      c.x,
-      c.y,
-    );
-  }
-  if (isClosed) shape.close();
+export function readMultiLine(groups: readonly DxfGroup[]): Outline {
+  const vertices = splitAt(groups, 11).map((vertex) => {
+    const [at, across] = [requiredPoint(vertex, 11), requiredPoint(vertex, 13)];
+    return splitAt(vertex, 74)
+      .filter((element) => requiredIn(element, 74) > 0)
+      .map((element) => {
+        const distance = requiredIn(element, 41);
+        return { x: at.x + distance * across.x, y: at.y + distance * across.y };
+      });
+  });
+  const count = Math.min(...vertices.map(({ length }) => length));
+  if (vertices.length < 2 || count === 0) throw new OddValue("it has no lines");
+  const lines = Array.from({ length: count }, (_, line) =>
+    polyline(
+      vertices.map((elements) => elements[line]),
+      hasFlag(groups, 71, IS_MLINE_CLOSED),
+    ),
+  );
+  return (shape, tolerance) => {
+    for (const line of lines) line(shape, tolerance);
+  };
 }

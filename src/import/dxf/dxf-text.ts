@@ -7,7 +7,7 @@
  *   └ baseline ──────────────────────┘
  *     bottom: the lowest point of a "g"
  */
-import type { DxfPoint } from "dxf-parser/dist/dxf-parser.js";
+import type { DxfPoint } from "./dxf-groups.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";
 import { plainText } from "./mtext-codes.js";
 import type { ShapeBuffer } from "../shape-buffer.js";

@@ -1,18 +1,16 @@
-// Ambient declarations apply only where a program includes them, and this project has several programs.
-// eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./dxf-parser.d.ts" />
 /**
- * DXF (text form) to a Drawing: lines, arcs, circles, ellipses, polylines with bulges, splines, points,
- * solids, hatches as filled shapes or as pattern lines, texts and blocks, by layer. y is flipped, and the
- * page is the drawing's own extent.
+ * DXF (text form) to a Drawing, by layer. y is flipped, and the page is the drawing's own extent. What each
+ * entity draws is in the table of dxf-entities.ts.
  */
-import DxfParser, { type Dxf, type DxfEntity, type DxfLayer } from "dxf-parser/dist/dxf-parser.js";
-import type { Drawing } from "../../drawing/drawing.js";
+import type { DashPattern, Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import {
   IDENTITY,
+  applyX,
+  applyY,
   compose,
   largestScale,
+  meanScale,
   rotation,
   scaling,
   translation,
@@ -20,23 +18,27 @@ import {
 } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
 import { MM_PER_INCH } from "../../units.js";
-import { DrawingBuilder } from "../drawing-builder.js";
-import { DXF_HANDLERS } from "./dxf-handlers.js";
-import { drawHatch } from "./dxf-hatch.js";
-import { drawPattern } from "./dxf-pattern.js";
-import { drawDxfEntity } from "./dxf-shapes.js";
-import { drawDxfParagraphs } from "./dxf-paragraphs.js";
-import { drawDxfWriting } from "./dxf-text.js";
+import { DrawingBuilder, type Look } from "../drawing-builder.js";
 import { getOrAdd } from "../get-or-add.js";
 import { fontOf, type ImportOptions } from "../import-options.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { TextFont } from "../text/text-font.js";
 import { Warnings } from "../warnings.js";
+import type { BlockCopy, Content } from "./dxf-content.js";
+import type { DxfEntity } from "./dxf-entities.js";
+import { readDxfFile, type DxfFile, type DxfLayer } from "./dxf-file.js";
+import { keyOf } from "./dxf-groups.js";
+import { drawHatch } from "./dxf-hatch.js";
+import { dashesOf, endlessWithin } from "./dxf-lines.js";
+import { drawDxfParagraphs } from "./dxf-paragraphs.js";
+import { drawPattern } from "./dxf-pattern.js";
+import { drawDxfWriting } from "./dxf-text.js";
 
 /** mm per unit for the values of $INSUNITS that drawings use (AutoCAD DXF reference, HEADER). */
 const MM_OF_UNIT: Readonly<Record<number, number>> = {
   1: MM_PER_INCH,
   2: 12 * MM_PER_INCH,
+  3: 63_360 * MM_PER_INCH,
   4: 1,
   5: 10,
   6: 1000,
@@ -47,18 +49,17 @@ const MM_OF_UNIT: Readonly<Record<number, number>> = {
   13: 0.001,
   14: 100,
 };
-/** Tables in which the parser loops forever if they have no end. */
-const ENDLESS_TABLES: readonly string[] = ["LAYER", "VPORT"];
 const MAX_BLOCK_DEPTH = 16;
 const MAX_ENTITIES = 1_000_000;
 /** mm: max error of an arc in a drawing of unknown size; far below any pen width. */
 const ARC_TOLERANCE_MM = 2e-5;
 /** mm: max error of the ends of hatch lines at a curved border. */
 const CHORD_TOLERANCE_MM = 1e-3;
-/** Types in world coordinates, for any extrusion (AutoCAD DXF reference, Object Coordinate Systems). */
-const WORLD_TYPES: readonly string[] = ["LINE", "POINT", "3DFACE", "ELLIPSE", "SPLINE"];
 const BY_BLOCK = 0;
+const BY_LAYER = 256;
 const BLACK_OR_WHITE = 7;
+/** Holds the points that dimensions were measured from. Never plotted, whatever its entry says. */
+const DIMENSION_POINTS = "defpoints";
 
 /** Throws PlotwrightError("bad-file"). */
 export function importDxf(text: string, options: ImportOptions): Drawing {
@@ -68,66 +69,7 @@ export function importDxf(text: string, options: ImportOptions): Drawing {
       "This DXF is in the binary form. Save it as text (ASCII) DXF and try again.",
     );
   }
-  checkGroups(text);
-  return new DxfImport(parse(text), fontOf(options)).run(text);
-}
-
-/**
- * A DXF consists of groups of two lines, the first of them a number. After a lost or added line the parser
- * would confuse codes and values to the end of the file. In the tables of layers and views it loops forever
- * at anything but the next record.
- */
-function checkGroups(text: string): void {
-  // Split as the parser does, so that it sees exactly the groups checked here.
-  const lines = text.split(/\r\n|\r|\n/);
-  let previous = "";
-  /** Type of the records in the current table. */
-  let records: string | null = null;
-  for (let at = 0; at < lines.length; at += 2) {
-    const code = lines[at].trim();
-    const value = (lines[at + 1] ?? "").trim();
-    if (!/^-?\d{1,4}$/.test(code)) {
-      if (code === "" && isBlankFrom(lines, at)) return;
-      throw damagedAt(at, `"${code.slice(0, 20)}" is not a group code`);
-    }
-    const isStart = Number(code) === 0;
-    if (records !== null && isStart) {
-      if (value === "ENDTAB") records = null;
-      else if (value !== records) throw damagedAt(at, `the table of ${records}s has no end`);
-    } else if (previous === "TABLE" && ENDLESS_TABLES.includes(value)) records = value;
-    if (isStart && value === "EOF") return;
-    previous = isStart ? value : "";
-  }
-}
-
-function isBlankFrom(lines: readonly string[], from: number): boolean {
-  for (let at = from; at < lines.length; at++) if (lines[at].trim() !== "") return false;
-  return true;
-}
-
-const damagedAt = (line: number, what: string): PlotwrightError =>
-  new PlotwrightError(
-    "bad-file",
-    `The DXF is damaged at line ${line + 1}: ${what}. Save it again, preferably as DXF R12 or 2000.`,
-  );
-
-function parse(text: string): Dxf {
-  let dxf: Dxf | null = null;
-  let cause: unknown;
-  try {
-    const parser = new DxfParser();
-    for (const handler of DXF_HANDLERS) parser.registerEntityHandler(handler);
-    dxf = parser.parseSync(text);
-  } catch (error) {
-    cause = error;
-  }
-  if (dxf?.entities !== undefined) return dxf;
-  const why = cause instanceof Error ? cause.message : "it has no ENTITIES section";
-  throw new PlotwrightError(
-    "bad-file",
-    `The DXF is damaged: ${why.slice(0, 200)}. Save it again, preferably as DXF R12 or 2000.`,
-    { cause },
-  );
+  return new DxfImport(readDxfFile(text), fontOf(options)).run();
 }
 
 interface Pending {
@@ -135,14 +77,31 @@ interface Pending {
   next: number;
   readonly map: Affine;
   readonly depth: number;
-  /** Entities on layer 0 of a block, and colours "by block", take those of the insert. */
-  readonly insert: DxfEntity | null;
+  /** The copy's look; null at the top. Layer 0 and "by block" in a block take those of the copy. */
+  readonly inherited: Inherited | null;
+}
+
+interface Inherited {
+  readonly layer: string;
+  readonly color: string;
+  readonly linetype: string;
+}
+
+/** Where and how the contents of one entity are drawn. */
+interface Place {
+  readonly entity: DxfEntity;
+  readonly map: Affine;
+  readonly from: Pending;
+  readonly own: Inherited;
+  readonly group: number;
 }
 
 /** How the drawn shape is painted, and what to report once its place is known. */
 interface Paint {
   readonly isLine: boolean;
   readonly isFilled: boolean;
+  readonly isDashed?: boolean;
+  readonly evenOdd?: boolean;
   readonly report?: (box?: Box) => void;
   /** Parts in their own colours, 0xrrggbb, besides those in the entity's colour. */
   readonly colored?: readonly (readonly [number, ShapeBuffer])[];
@@ -150,43 +109,43 @@ interface Paint {
 
 class DxfImport {
   private readonly warnings = new Warnings();
-  private readonly builder = new DrawingBuilder(this.warnings);
+  private readonly builder = new DrawingBuilder(this.warnings, { isAnywhere: true });
   private readonly shape = new ShapeBuffer();
   private readonly groups = new Map<string, number>();
-  private readonly layers: Readonly<Record<string, DxfLayer>>;
   private readonly mmPerUnit: number;
   private entityCount = 0;
+  /** Lines without an end are drawn last: as far as the drawing reaches. */
+  private readonly endless: (Place & { readonly content: Content & { readonly kind: "endless" } })[] = [];
 
   constructor(
-    private readonly dxf: Dxf,
+    private readonly dxf: DxfFile,
     /** The font for text; null if text is only reported. */
     private readonly font: TextFont | null,
   ) {
-    this.layers = dxf.tables?.layer?.layers ?? {};
     this.mmPerUnit = this.findUnit();
   }
 
-  run(text: string): Drawing {
-    const entities = this.dxf.entities ?? [];
-    const model = entities.filter((entity) => entity.inPaperSpace !== true);
+  run(): Drawing {
+    const { entities, faults } = this.dxf;
+    for (const fault of faults) this.warnings.add("attribute-fault", undefined, fault);
+    const model = entities.filter((entity) => !entity.inPaperSpace);
     const map = scaling(this.mmPerUnit, -this.mmPerUnit);
     const stack: Pending[] = [
-      { entities: model.length > 0 ? model : entities, next: 0, map, depth: 0, insert: null },
+      { entities: model.length > 0 ? model : entities, next: 0, map, depth: 0, inherited: null },
     ];
     while (stack.length > 0) {
       const top = stack[stack.length - 1];
       if (top.next === top.entities.length) stack.pop();
       else this.visit(top.entities[top.next++], top, stack);
     }
-    this.reportUnread(text);
+    this.drawEndless();
     return this.builder.finishAround();
   }
 
   private findUnit(): number {
-    const header = this.dxf.header ?? {};
-    const known = MM_OF_UNIT[Number(header["$INSUNITS"] ?? 0)];
+    const known = MM_OF_UNIT[this.dxf.variable("$INSUNITS") ?? 0];
     if (known !== undefined) return known;
-    const mm = header["$MEASUREMENT"] === 0 ? MM_PER_INCH : 1;
+    const mm = this.dxf.variable("$MEASUREMENT") === 0 ? MM_PER_INCH : 1;
     this.warnings.add("page-size", undefined, `units taken as ${mm === 1 ? "mm" : "inches"}`);
     return mm;
   }
@@ -203,85 +162,136 @@ class DxfImport {
 
   private visit(entity: DxfEntity, from: Pending, stack: Pending[]): void {
     this.count(1);
-    if (entity.visible === false) return;
-    const layerName = this.layerOf(entity, from);
-    const layer = this.layers[layerName];
-    const isHidden = layer?.frozen === true || layer?.visible === false;
-    const group = this.groupOf(layerName, isHidden);
-    if (isHidden) return;
-    const extrusionZ = entity.extrusionDirection?.z ?? entity.extrusionDirectionZ ?? 1;
-    const isMirrored = extrusionZ < 0 && !WORLD_TYPES.includes(entity.type);
-    const map = isMirrored ? compose(from.map, scaling(-1, 1)) : from.map;
-    if (entity.type === "INSERT" || entity.type === "DIMENSION") {
-      this.pushInsert(entity, map, from, stack);
-      return;
+    if (!entity.isVisible) return;
+    const isInherited = entity.layer === "0" && from.inherited !== null;
+    const layerName = isInherited ? from.inherited.layer : entity.layer;
+    const layer = this.dxf.layers.get(keyOf(layerName));
+    const isShown =
+      layer === undefined
+        ? keyOf(layerName) !== DIMENSION_POINTS
+        : isPlotted(layer) && !layer.isOff && !layer.isFrozen;
+    const own = {
+      layer: layerName,
+      color: this.colorOf(entity, layer, from),
+      linetype: linetypeOf(entity, layer, from),
+    };
+    const copies = entity.contents.filter((content) => content.kind === "insert");
+    const group = isShown || copies.length === 0 ? this.groupOf(layer?.name ?? layerName, !isShown) : -1;
+    const map = entity.isMirrored ? compose(from.map, scaling(-1, 1)) : from.map;
+    const place = { entity, map, from, own, group };
+    // Only a frozen layer also hides what a block draws on other layers.
+    if (layer?.isFrozen !== true) for (const { copy } of copies) this.pushCopy(copy, place, isShown, stack);
+    if (!isShown) return;
+    for (const fault of entity.odd) {
+      const code = entity.isUnreadable ? "object-unreadable" : "attribute-fault";
+      this.warnings.add(code, undefined, `${entity.type} on layer ${layerName}: ${fault}`);
     }
-    if (entity.type === "ATTDEF") {
-      // In a block it only defines a prompt; the value is an ATTRIB.
-      if (from.depth === 0) this.warnings.add("text-not-drawn");
-      return;
+    for (const content of entity.contents) this.drawContent(content, place);
+  }
+
+  private drawContent(content: Content, place: Place): void {
+    const { from, own, map } = place;
+    switch (content.kind) {
+      case "insert":
+        return;
+      case "styled":
+        for (const one of content.contents(this.dxf.dimensionStyle(content.style)))
+          this.drawContent(one, place);
+        return;
+      case "endless":
+        this.endless.push({ ...place, content });
+        return;
+      case "not drawn":
+        if (content.name === "IMAGE") this.warnings.add("image-not-drawn");
+        else this.warnings.add("not-supported", undefined, content.name);
+        return;
     }
+    if (
+      content.kind === "text" &&
+      content.only !== undefined &&
+      (content.only === "in blocks") !== from.depth > 0
+    )
+      return;
     const { shape } = this;
     shape.clear();
-    const paint = this.draw(entity, largestScale(map));
+    const paint = this.draw(content, largestScale(map));
     shape.finish();
     if (paint === null) return;
-    const inks: readonly (readonly [string, ShapeBuffer])[] = [
-      [this.colorOf(entity, layer, from), shape],
-      ...(paint.colored ?? []).map(([color, colored]) => [hexColor(color), colored] as const),
-    ];
     const before = this.builder.shapeCount;
-    for (const [color, drawn] of inks) {
-      const look = {
-        stroke: paint.isLine ? color : null,
-        fill: paint.isFilled ? color : null,
-        evenOdd: entity.loops !== undefined,
-      };
-      const where = (): string => `${entity.type} on layer ${layerName}`;
-      if (!drawn.isEmpty) this.builder.addShape(drawn, map, look, group, null, where);
-    }
+    this.addShape(shape, own.color, paint, place);
+    for (const [color, colored] of paint.colored ?? []) this.addShape(colored, hexColor(color), paint, place);
     const count = this.builder.shapeCount;
     paint.report?.(count > before ? this.builder.boxOfShapes(before, count) : undefined);
   }
 
-  /** Draws into `shape`; returns null if the entity is not drawn. */
-  private draw(entity: DxfEntity, scale: number): Paint | null {
-    const { shape, warnings } = this;
-    const arcTolerance = ARC_TOLERANCE_MM / scale;
-    if (entity.writing !== undefined || entity.paragraphs !== undefined) return this.drawText(entity);
-    if (entity.loops !== undefined) return this.drawHatch(entity, arcTolerance, CHORD_TOLERANCE_MM / scale);
-    if (drawDxfEntity(entity, shape, arcTolerance))
-      return { isLine: true, isFilled: entity.type === "SOLID" };
-    warnings.add("not-supported", undefined, entity.type);
-    return null;
+  private addShape(drawn: ShapeBuffer, color: string, paint: Paint, place: Place): void {
+    if (drawn.isEmpty) return;
+    const look: Look = {
+      stroke: paint.isLine ? color : null,
+      fill: paint.isFilled ? color : null,
+      evenOdd: paint.evenOdd === true,
+      dash: paint.isDashed === true ? this.dashOf(place) : null,
+    };
+    const where = (): string => `${place.entity.type} on layer ${place.own.layer}`;
+    this.builder.addShape(drawn, place.map, look, place.group, null, where);
+  }
+
+  private dashOf({ entity, map, own: { linetype } }: Place): DashPattern | null {
+    if (SOLID_LINETYPES.includes(linetype)) return null;
+    const known = this.dxf.linetypes.get(linetype);
+    if (known === undefined) {
+      this.warnings.add("reference-missing", undefined, `linetype ${linetype}`);
+      return null;
+    }
+    if (known.hasLetters) this.warnings.add("effect-ignored", undefined, `letters of linetype ${linetype}`);
+    const scale = entity.linetypeScale * (this.dxf.variable("$LTSCALE") ?? 1);
+    return dashesOf(known.dashes, scale * meanScale(map));
+  }
+
+  /** Draws into `shape`; returns null if the content is not drawn. */
+  private draw(content: Drawable, scale: number): Paint | null {
+    const tolerance = ARC_TOLERANCE_MM / scale;
+    switch (content.kind) {
+      case "lines":
+        content.outline(this.shape, tolerance);
+        return {
+          isLine: true,
+          isFilled: content.isFilled === true,
+          isDashed: content.isNeverDashed !== true,
+        };
+      case "hatch":
+        return this.drawHatch(content, tolerance, CHORD_TOLERANCE_MM / scale);
+      default:
+        return this.drawText(content);
+    }
   }
 
   /** A pattern is drawn as its lines; a hatch without one is a filled shape. */
   private drawHatch(
-    { loops = [], pattern = [], isSolid }: DxfEntity,
+    { loops, pattern, isSolid }: Drawable & { readonly kind: "hatch" },
     arcTolerance: number,
     tolerance: number,
   ): Paint {
     const { shape, warnings } = this;
     const rings = new ShapeBuffer();
     drawHatch(loops, rings, arcTolerance);
-    if (isSolid !== true && drawPattern(rings, pattern, shape, tolerance))
-      return { isLine: true, isFilled: false };
+    if (!isSolid && drawPattern(rings, pattern, shape, tolerance)) return { isLine: true, isFilled: false };
     shape.append(rings, IDENTITY);
     const report = (box?: Box): void => warnings.add("gradient-fill", box);
-    return { isLine: false, isFilled: true, ...(isSolid === true ? {} : { report }) };
+    return { isLine: false, isFilled: true, evenOdd: true, ...(isSolid ? {} : { report }) };
   }
 
-  private drawText({ writing, paragraphs }: DxfEntity): Paint | null {
+  private drawText(content: Drawable & { readonly kind: "text" | "paragraphs" }): Paint | null {
     const { font, shape, warnings } = this;
     if (font === null) {
       warnings.add("text-not-drawn");
       return null;
     }
-    const missing = writing === undefined ? [] : [...drawDxfWriting(writing, font, shape)];
+    const missing: string[] = [];
     const colored: (readonly [number, ShapeBuffer])[] = [];
-    if (paragraphs !== undefined) {
-      const drawn = drawDxfParagraphs(paragraphs, font);
+    if (content.kind === "text") missing.push(...drawDxfWriting(content.writing, font, shape));
+    else {
+      const drawn = drawDxfParagraphs(content.paragraphs, font);
       missing.push(...drawn.missing);
       for (const [color, letters] of drawn.shapes) {
         if (color === null) shape.append(letters, IDENTITY);
@@ -296,76 +306,85 @@ class DxfImport {
     return { isLine: !isFilled, isFilled, report, colored };
   }
 
-  private pushInsert(entity: DxfEntity, map: Affine, from: Pending, stack: Pending[]): void {
-    const name = entity.type === "DIMENSION" ? entity.block : entity.name;
-    const block = name === undefined ? undefined : this.dxf.blocks?.[name];
-    if (block?.entities === undefined) {
-      this.warnings.add("reference-missing", undefined, `block ${name ?? ""}`);
+  private drawEndless(): void {
+    const { builder, endless, shape, warnings } = this;
+    if (endless.length === 0) return;
+    const box = builder.extent();
+    for (const { content, ...place } of endless) {
+      const { at, along, isBothWays } = content;
+      const { map } = place;
+      const [x, y] = [applyX(map, at.x, at.y), applyY(map, at.x, at.y)];
+      const to = [applyX(map, at.x + along.x, at.y + along.y), applyY(map, at.x + along.x, at.y + along.y)];
+      const ends = endlessWithin(box, x, y, to[0] - x, to[1] - y, isBothWays);
+      if (ends === null) {
+        warnings.add("not-supported", undefined, `${place.entity.type} outside the drawing`);
+        continue;
+      }
+      shape.clear();
+      shape.moveTo(ends[0], ends[1]);
+      shape.lineTo(ends[2], ends[3]);
+      const paint = { isLine: true, isFilled: false, isDashed: true };
+      this.addShape(shape, place.own.color, paint, { ...place, map: IDENTITY });
+    }
+  }
+
+  private pushCopy(copy: BlockCopy, place: Place, isShown: boolean, stack: Pending[]): void {
+    const { name, at, columns, rows } = copy;
+    const { map, from, own } = place;
+    const block = this.dxf.blocks.get(keyOf(name));
+    if (block === undefined) {
+      if (!isShown) return;
+      if (copy.instead === null) this.warnings.add("reference-missing", undefined, `block ${name}`);
+      else this.drawContent(copy.instead, place);
       return;
     }
     if (from.depth >= MAX_BLOCK_DEPTH) {
-      this.warnings.add("circular-use", undefined, `block ${name ?? ""}`);
+      this.warnings.add("circular-use", undefined, `block ${name}`);
       return;
     }
-    const isInsert = entity.type === "INSERT";
-    const at = (isInsert ? entity.position : undefined) ?? { x: 0, y: 0 };
-    const base = block.position ?? { x: 0, y: 0 };
-    const turn = rotation(((isInsert ? (entity.rotation ?? 0) : 0) * Math.PI) / 180);
-    const columns = isInsert ? copiesOf(entity.columnCount) : 1;
-    const rows = isInsert ? copiesOf(entity.rowCount) : 1;
+    const turn = rotation(copy.angleRad);
     this.count(columns * rows - 1);
     for (let i = 0; i < columns * rows; i++) {
-      const dx = (i % columns) * (entity.columnSpacing ?? 0);
-      const dy = Math.floor(i / columns) * (entity.rowSpacing ?? 0);
+      const dx = (i % columns) * copy.columnSpacing;
+      const dy = Math.floor(i / columns) * copy.rowSpacing;
       const placed = compose(compose(map, translation(at.x, at.y)), compose(turn, translation(dx, dy)));
-      const scaled = compose(placed, scaling(entity.xScale ?? 1, entity.yScale ?? 1));
+      const scaled = compose(placed, scaling(copy.xScale, copy.yScale));
       stack.push({
         entities: block.entities,
         next: 0,
-        map: compose(scaled, translation(-base.x, -base.y)),
+        map: compose(scaled, translation(-block.base.x, -block.base.y)),
         depth: from.depth + 1,
-        insert: entity,
+        inherited: own,
       });
     }
   }
 
-  private layerOf(entity: DxfEntity, from: Pending): string {
-    const own = entity.layer ?? "0";
-    return own === "0" && from.insert !== null ? (from.insert.layer ?? "0") : own;
-  }
-
   private groupOf(name: string, hidden: boolean): number {
-    return getOrAdd(this.groups, name, () => {
+    return getOrAdd(this.groups, keyOf(name), () => {
       if (hidden) this.warnings.add("hidden-layer", undefined, name);
       return this.builder.addGroup(name, name === "0" ? "Layer 0" : name, hidden);
     });
   }
 
   private colorOf(entity: DxfEntity, layer: DxfLayer | undefined, from: Pending): string {
-    const byBlock = entity.colorIndex === BY_BLOCK && from.insert !== null;
-    const own = byBlock ? from.insert : entity;
-    const hasOwn = own?.color !== undefined && own.colorIndex !== 256;
-    const index = hasOwn ? own.colorIndex : layer?.colorIndex;
-    const color = (hasOwn ? own.color : layer?.color) ?? 0;
+    if (entity.colorIndex === BY_BLOCK && from.inherited !== null) return from.inherited.color;
+    const hasOwn = entity.color !== undefined && entity.colorIndex !== BY_LAYER;
+    const index = hasOwn ? entity.colorIndex : layer?.colorIndex;
     // Index 7 is black or white, whichever contrasts with the background.
-    if (index === BLACK_OR_WHITE || index === -BLACK_OR_WHITE || !Number.isFinite(color)) return "#000000";
-    return hexColor(color);
-  }
-
-  /** Reports entity types that the parser skips silently. */
-  private reportUnread(text: string): void {
-    const start = text.search(/^\s*ENTITIES\s*$/m);
-    if (start < 0) return;
-    for (const [, kind] of text
-      .slice(start)
-      .matchAll(
-        /^[ \t]*0\r?\n[ \t]*(IMAGE|LEADER|MULTILEADER|MLINE|REGION|WIPEOUT|RAY|XLINE|TRACE|BODY|3DSOLID|OLE2FRAME)[ \t]*$/gm,
-      )) {
-      this.warnings.add("not-supported", undefined, kind);
-    }
+    if (index === BLACK_OR_WHITE || index === -BLACK_OR_WHITE) return "#000000";
+    return hexColor((hasOwn ? entity.color : layer?.color) ?? 0);
   }
 }
 
-/** NaN counts as 1. */
-const copiesOf = (count = 1): number => (count >= 1 ? Math.min(1000, count) : 1);
+type Drawable = Content & { readonly kind: "lines" | "hatch" | "text" | "paragraphs" };
+
+const SOLID_LINETYPES = ["continuous", "bylayer", "byblock", ""];
+
+const isPlotted = (layer: DxfLayer): boolean => layer.isPlotted && keyOf(layer.name) !== DIMENSION_POINTS;
+
+function linetypeOf(entity: DxfEntity, layer: DxfLayer | undefined, from: Pending): string {
+  if (entity.linetype === "byblock" && from.inherited !== null) return from.inherited.linetype;
+  return entity.linetype === "" || entity.linetype === "bylayer" ? (layer?.linetype ?? "") : entity.linetype;
+}
+
 const hexColor = (color: number): string => `#${(color & 0xffffff).toString(16).padStart(6, "0")}`;
