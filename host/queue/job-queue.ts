@@ -115,7 +115,7 @@ export class JobQueue {
     try {
       return await this.#add(wanted, requester);
     } catch (error) {
-      await this.#parts.files.remove(wanted.drawing.id);
+      await this.#discard(wanted.drawing.id);
       throw error;
     }
   }
@@ -222,7 +222,16 @@ export class JobQueue {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}. Cancel it before removing it.`);
     }
     const unused = this.#jobs.remove(id);
-    if (unused !== null) await this.#parts.files.remove(unused);
+    if (unused !== null) await this.#discard(unused);
+  }
+
+  /** Not an error: the job is gone or was not added, and the next start clears away a file that is left. */
+  async #discard(drawingId: string): Promise<void> {
+    try {
+      await this.#parts.files.remove(drawingId);
+    } catch (error) {
+      this.#parts.log?.(`the drawing ${drawingId} could not be removed: ${(error as Error).message}`);
+    }
   }
 
   /** Id of the job's stored drawing. */

@@ -56,6 +56,12 @@ const UNIT = "plotwright.service";
 const SERIAL_GROUPS = ["dialout", "uucp"];
 /** Options of `serve` whose value is a path. */
 const PATH_OPTIONS = ["--data", "--watch", "--cert", "--key"];
+/**
+ * Options of `serve` whose value may contain a password, and the environment variable that `serve` reads instead. Everyone
+ * on this computer can read a process's options in process lists and in `systemctl show`, so these values are in an
+ * EnvironmentFile.
+ */
+const SECRET_OPTIONS: Readonly<Record<string, string>> = { "--shared-queue": "PLOTWRIGHT_SHARED_QUEUE" };
 
 /** How long a server may take to start, on a slow computer, and how often its port is tried meanwhile. */
 const START_MS = 20_000;
@@ -100,9 +106,12 @@ export async function installService(
   host: ServiceHost = thisHost(),
 ): Promise<void> {
   const unit = unitText(options, server.args, host);
+  const secrets = secretsText(server.args);
   const path = unitPath(options, host);
+  const secretsPath = secretsPathOf(options, host);
   if (options.print === true) {
     io.out(`# ${path}\n${unit}`);
+    if (secrets !== "") io.out(`# ${secretsPath}\n${secrets.replace(/=.*$/gm, "=…")}`);
     return;
   }
   mustHaveSystemd(options, host);
@@ -113,14 +122,9 @@ export async function installService(
     );
   }
   await mustBeFree(options, server, host);
-  try {
-    mkdirSync(dirname(path), { recursive: true });
-    // Its options may have the password of a database.
-    writeFileSync(path, unit, { mode: 0o600 });
-    chmodSync(path, 0o600);
-  } catch (cause) {
-    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, { cause });
-  }
+  if (secrets === "") rmSync(secretsPath, { force: true });
+  else writePrivate(secretsPath, secrets);
+  writePrivate(path, unit);
   systemctl(options, host, ["daemon-reload"]);
   systemctl(options, host, ["enable", UNIT]);
   // Restart, not start: a running server must use the new unit.
@@ -132,6 +136,17 @@ export async function installService(
   await mustRun(options, server, host);
   const state = server.port === 0 ? "was started" : `runs on port ${server.port}`;
   io.out(`The server ${state}. It starts again by itself.\n`);
+}
+
+function writePrivate(path: string, text: string): void {
+  try {
+    mkdirSync(dirname(path), { recursive: true });
+    // The mode alone does not change that of a file which exists already.
+    if (existsSync(path)) chmodSync(path, 0o600);
+    writeFileSync(path, text, { mode: 0o600 });
+  } catch (cause) {
+    throw new PlotwrightError("bad-setting", `${path} can't be written: ${fileFault(cause)}.`, { cause });
+  }
 }
 
 /** Another program on the port would look like the server. */
@@ -175,6 +190,7 @@ export function uninstallService(options: ServiceOptions, io: CliIo, host: Servi
   // Remove the unit even if the server is not running.
   host.run("systemctl", [...scope(options), "disable", "--now", UNIT]);
   rmSync(path);
+  rmSync(secretsPathOf(options, host), { force: true });
   systemctl(options, host, ["daemon-reload"]);
   io.out(`${path} is removed. Jobs and settings are kept.\n`);
 }
@@ -199,7 +215,8 @@ export function serviceStatus(options: ServiceOptions, io: CliIo, host: ServiceH
 
 export function unitText(options: ServiceOptions, serveArgs: readonly string[], host: ServiceHost): string {
   const isSystem = options.system === true;
-  const args = [host.node, host.script, "serve", ...wholePaths(serveArgs)];
+  const { open, secrets } = splitSecrets(serveArgs);
+  const args = [host.node, host.script, "serve", ...wholePaths(open)];
   return [
     "[Unit]",
     "Description=plotwright, the pen plotter's server",
@@ -209,6 +226,8 @@ export function unitText(options: ServiceOptions, serveArgs: readonly string[], 
     // With the default, simple, a restart succeeds even if the user or node does not exist.
     "Type=exec",
     `ExecStart=${args.map(quoted).join(" ")}`,
+    // Not quoted: systemd takes the rest of the line as the path.
+    ...(secrets.size > 0 ? [`EnvironmentFile=${secretsPathOf(options, host).replace(/%/g, "%%")}`] : []),
     ...(isSystem ? [`User=${userOf(options, host)}`, ...serialGroupLine(host)] : []),
     "Restart=on-failure",
     "RestartSec=3",
@@ -221,6 +240,32 @@ export function unitText(options: ServiceOptions, serveArgs: readonly string[], 
     "",
   ].join("\n");
 }
+
+/** `secrets`: by environment variable; as for commander, the last of an option counts. */
+function splitSecrets(args: readonly string[]): {
+  open: readonly string[];
+  secrets: ReadonlyMap<string, string>;
+} {
+  const open: string[] = [];
+  const secrets = new Map<string, string>();
+  for (let i = 0; i < args.length; i++) {
+    const arg = args[i] ?? "";
+    const [name = "", ...value] = arg.split("=");
+    const variable = SECRET_OPTIONS[name];
+    if (variable === undefined) open.push(arg);
+    else secrets.set(variable, value.length > 0 ? value.join("=") : (args[++i] ?? ""));
+  }
+  return { open, secrets };
+}
+
+/** The text of the EnvironmentFile, with the characters escaped that systemd interprets; "" if nothing is secret. */
+const secretsText = (args: readonly string[]): string =>
+  [...splitSecrets(args).secrets]
+    .map(([name, value]) => `${name}="${value.replace(/[\\"`$]/g, "\\$&")}"\n`)
+    .join("");
+
+const secretsPathOf = (options: ServiceOptions, host: ServiceHost): string =>
+  unitPath(options, host).replace(/\.service$/, ".env");
 
 /** Left out if this computer has neither group: systemd would not start the server. */
 function serialGroupLine({ run }: ServiceHost): string[] {

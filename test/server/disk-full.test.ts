@@ -1,5 +1,5 @@
 /** A disk that fills up while a plot runs: the pen can still be stopped, and all reports are right. */
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
@@ -33,6 +33,7 @@ afterEach(async () => {
 const upload = (): Promise<Response> => fetch(`${app.url}/api/v1/jobs?name=a`, { method: "POST", body: SVG });
 const post = (action: string): Promise<Response> =>
   fetch(`${app.url}/api/v1/jobs/${id}/${action}`, { method: "POST" });
+const remove = (): Promise<Response> => fetch(`${app.url}/api/v1/jobs/${id}`, { method: "DELETE" });
 const job = async (): Promise<Job> =>
   jobSchema.parse(await (await fetch(`${app.url}/api/v1/jobs/${id}`)).json());
 const stored = (): Job => app.store.jobs().find((one) => one.id === id)!;
@@ -129,6 +130,49 @@ describe("while the disk is full", () => {
     }
     expect(app.queue.isPlotterBusy(app.plotter.id)).toBe(false);
     expect(app.drawingsOnDisk()).toHaveLength(2);
+  });
+
+  it.each([
+    "disk I/O error",
+    "database or disk is full",
+    "unable to open database file",
+    "attempt to write a readonly database",
+  ])("removing a job is refused with an explanation (%s), and the job is still there", async (fault) => {
+    const events = await EventStream.open(app.url);
+    run.end({ kind: "cancelled" });
+    await expect.poll(async () => (await job()).state).toBe("cancelled");
+    // The store begins a transaction, and SQLite fails within it.
+    const isUsed = vi.spyOn(app.store, "isUsed").mockImplementation(() => {
+      throw Object.assign(new Error(fault), { name: "SQLite3Error" });
+    });
+    const refused = await remove();
+    const { error } = apiErrorSchema.parse(await refused.json());
+    expect([refused.status, error.code, error.message]).toEqual([
+      507,
+      "disk-full",
+      expect.stringMatching(/disk is full or can't be written to\. Make room/),
+    ]);
+    expect((await job()).state).toBe("cancelled");
+    expect([app.store.jobs().length, app.queue.list().length]).toEqual([1, 1]);
+    expect(app.drawingsOnDisk()).toHaveLength(1);
+    isUsed.mockRestore();
+    expect((await remove()).status).toBe(200);
+    await events.find("job-removed");
+    expect([app.store.jobs(), app.drawingsOnDisk()]).toEqual([[], []]);
+    events.close();
+  });
+
+  it("a removed job is gone even if its drawing's file can't be removed", async () => {
+    run.end({ kind: "cancelled" });
+    await expect.poll(async () => (await job()).state).toBe("cancelled");
+    const file = join(app.dir, "drawings", app.drawingsOnDisk()[0]!);
+    // A folder in the file's place can't be removed as a file, whoever runs the test.
+    rmSync(file);
+    mkdirSync(file);
+    expect((await remove()).status).toBe(200);
+    expect([app.store.jobs(), app.queue.list()]).toEqual([[], []]);
+    expect(app.logged).toContainEqual(expect.stringContaining("could not be removed"));
+    expect((await remove()).status).toBe(404);
   });
 
   it("a paired device is still known, and an operator's turn may end", () => {

@@ -1,5 +1,5 @@
 /** The systemd service and the logs, on a simulated computer that only records its commands. */
-import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createServer, type AddressInfo } from "node:net";
 import { homedir, tmpdir } from "node:os";
 import { join } from "node:path";
@@ -138,6 +138,45 @@ describe("plotwright service", () => {
     expect(out).toMatch(/^# .*plotwright\.service\n\[Unit\]/);
     expect(out).toMatch(/ serve --port 9081\n/);
     expect(await runCli(["service", "install", "--print", "--", "--prot", "9081"], io, "1.0.0")).toBe(2);
+  });
+
+  it.each([
+    { system: false, given: (url: string) => ["--shared-queue", url] },
+    { system: true, given: (url: string) => [`--shared-queue=${url}`] },
+  ])("keeps a database's password out of the unit, in a private file (%o)", async ({ system, given }) => {
+    const url = 'postgres://ada:s3cret$1"\\=x@db.example/plots?sslmode=require';
+    const options = { system, ...(system && { user: "ada" }) };
+    const computer = host({ isRoot: system });
+    const path = system ? join(home, "etc/plotwright.service") : userUnit();
+    const secrets = path.replace(".service", ".env");
+    await installService(options, serve("--lan", ...given(url), "--no-mdns"), io, computer);
+    const unit = readFileSync(path, "utf8");
+    expect(unit).toMatch(/ serve --lan --no-mdns\nEnvironmentFile=/);
+    expect(unit).toContain(`\nEnvironmentFile=${secrets}\n`);
+    expect(unit).not.toMatch(/s3cret|postgres/);
+    expect(readFileSync(secrets, "utf8")).toBe(
+      'PLOTWRIGHT_SHARED_QUEUE="postgres://ada:s3cret\\$1\\"\\\\=x@db.example/plots?sslmode=require"\n',
+    );
+    expect(statSync(secrets).mode & 0o777).toBe(0o600);
+    expect(out + asked.join("\n")).not.toContain("s3cret");
+    // Private again, also if someone has opened it, and gone with the option.
+    chmodSync(secrets, 0o644);
+    active = () => true;
+    await installService(options, serve(...given("postgres://db/plots")), io, computer);
+    expect(statSync(secrets).mode & 0o777).toBe(0o600);
+    await installService(options, serve("--lan"), io, computer);
+    expect(existsSync(secrets)).toBe(false);
+    expect(readFileSync(path, "utf8")).not.toContain("EnvironmentFile");
+    await installService(options, serve(...given(url)), io, computer);
+    uninstallService(options, io, computer);
+    expect(existsSync(secrets)).toBe(false);
+  });
+
+  it("shows where a password goes with --print, but not the password", async () => {
+    const args = ["service", "install", "--print", "--", "--shared-queue", "postgres://ada:s3cret@db/plots"];
+    expect(await runCli(args, io, "1.0.0")).toBe(0);
+    expect(out).toMatch(/\n# .*plotwright\.env\nPLOTWRIGHT_SHARED_QUEUE=…\n$/);
+    expect(out).not.toContain("s3cret");
   });
 
   it("quotes what systemd would interpret", () => {

@@ -111,6 +111,7 @@ export async function startApp(
     settingsOf: (id, last) => registry.settingsOf(id, last),
     announce,
     nowIso,
+    log,
     withChange: (before, after) => webhooks.note(before, after),
     afterChange: () => webhooks.wake(),
   });
