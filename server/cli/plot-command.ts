@@ -1,5 +1,6 @@
 import type { Command, Option } from "commander";
 import { PlotwrightError } from "../../src/index.js";
+import { printed } from "./io.js";
 import { addData, addDevice, addLayerOptions, copies, seconds, type Declare } from "./options.js";
 import { resumePlot, runPlot, type PlotCommandOptions } from "./plot.js";
 import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
@@ -28,7 +29,7 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
         return;
       }
       const { settings, note } = plotterSettingsFromOptions(options);
-      if (note !== null && options.quiet !== true) io.err(`note: ${note}\n`);
+      if (note !== null && options.quiet !== true) io.err(printed`note: ${note}\n`);
       setExitCode(await runPlot(files, settings, options, io));
     });
 };

@@ -162,7 +162,7 @@ async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, 
         // Ctrl-C while the board was being connected.
         if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
         forget();
-        say(`${plot.name}: ${sizeInWords(planner.size)}\n`);
+        say(printed`${plot.name}: ${sizeInWords(planner.size)}\n`);
         return onPlotter(plotter, planner, plot, course, options, io);
       });
     } finally {
@@ -210,7 +210,7 @@ async function onPlotter(
   const journal = journalIn(record, () => progress, io);
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
   const held = from !== null && io.hasKeyboard;
-  const noted = (message: string): void => io.err(`\n${message}\n`);
+  const noted = (message: string): void => io.err(printed`\n${message}\n`);
   const start: PlotStart = { from, received, board, journal, noted, held };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));

@@ -1,6 +1,6 @@
 /** A drawing too large to be drawn in one part: the picture is complete in the end, zoomed out and zoomed in. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { colorCounts, waitForPicture } from "../support/page-actions.js";
+import { colorCounts, waitForPicture, waitForPlan } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
 /** Waves side by side, in short pieces and closer than the pen is wide: where one is missing, paper shows. */
@@ -48,6 +48,8 @@ beforeAll(async () => {
   test = await PageTest.open("large-drawing");
   await test.look("Ink");
   await test.drop("waves", SVG);
+  await test.page.getByRole("radio", { name: "Fit paper", exact: true }).check();
+  await waitForPlan(test.page);
   const box = (await canvas().boundingBox())!;
   // Between rulers, tools and legend, where stage.ts places the paper.
   middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 114) / 2 };

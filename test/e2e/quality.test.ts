@@ -1,7 +1,7 @@
 /** Quality: a choice of three sets speed, acceleration and corners together; the numbers can still be edited. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { motionOfQuality, type Quality } from "../../src/internal.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import type { MachineProfile } from "../../src/index.js";
 import { seriousFindings } from "../support/axe.js";
 import { chooseMeasuredPlotter, SPRINGS } from "../support/measured-plotter.js";
 import { PageTest } from "../support/page-test.js";
@@ -105,8 +105,9 @@ describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
     const answered = page.waitForResponse((response) => response.url().endsWith("/jog"));
     await press("Move 20 mm to the right");
     const answer = await answered;
-    const { settings } = answer.request().postDataJSON() as { settings: PlotSettings };
-    expect([answer.status(), settings.machine, settings.motion.shaper]).toEqual([200, "my-plotter", "none"]);
+    // A profile without springs: a shaped move would be refused.
+    const { profile } = answer.request().postDataJSON() as { profile: MachineProfile };
+    expect([answer.status(), profile.id, profile.springs ?? null]).toEqual([200, "my-plotter", null]);
     await page.keyboard.press("Escape");
   });
 

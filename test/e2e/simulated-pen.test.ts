@@ -41,7 +41,7 @@ describe("the view of the simulated pen", { timeout: PATIENCE_MS }, () => {
     const { trajectory } = planJob({ strokes }, job.settings, machineOf(job.settings), { firmware: "2.8.1" });
     const error = penError(strokes, trajectory, ASSUMED);
     expect(await maxMm()).toBeCloseTo(error.maxMm, 3);
-    expect(await legend().innerText()).toContain(`At most ${error.maxMm.toFixed(2)} mm`);
+    expect(await legend().innerText()).toContain(`At most ${Number(error.maxMm.toFixed(2))} mm`);
     for (const colorScheme of ["light", "dark"] as const) {
       await test.page.emulateMedia({ colorScheme });
       expect(await seriousFindings(test.page)).toEqual([]);

