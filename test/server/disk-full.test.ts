@@ -165,8 +165,8 @@ describe("while the disk is full", () => {
   it("a removed job is gone even if its drawing's file can't be removed", async () => {
     run.end({ kind: "cancelled" });
     await expect.poll(async () => (await job()).state).toBe("cancelled");
-    const file = join(app.dir, "drawings", app.drawingsOnDisk()[0]!);
-    // A folder in the file's place can't be removed as a file, whoever runs the test.
+    const file = join(app.dir, "drawings", app.drawingsOnDisk()[0]);
+    // A folder in the file's place can't be removed as a file, by any user.
     rmSync(file);
     mkdirSync(file);
     expect((await remove()).status).toBe(200);
