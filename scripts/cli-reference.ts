@@ -9,6 +9,7 @@ const NO_IO = {
   out: () => undefined,
   err: () => undefined,
   isTerminal: false,
+  status: () => undefined,
   hasKeyboard: false,
   onInterrupt: () => () => undefined,
   endWithin: () => undefined,

@@ -8,8 +8,13 @@ export interface CliIo {
   out(text: string): void;
   /** Writes messages and progress, made by `printed`. */
   err(text: string): void;
-  /** Whether the output is a terminal, so that a progress bar makes sense. */
+  /** Whether messages go to a terminal, so that a status line makes sense. */
   readonly isTerminal: boolean;
+  /**
+   * On a terminal, keeps this text in the line below all messages, in place of the one before; "" removes it.
+   * Elsewhere it does nothing.
+   */
+  status(text: string): void;
   /** Whether the input is a keyboard, so that a question makes sense. */
   readonly hasKeyboard: boolean;
   /**
@@ -42,17 +47,31 @@ const ENDS = ["SIGTERM", "SIGHUP", "disconnect"] as const;
 
 const STDIO = [0, 1, 2];
 
+/** Goes to the beginning of the terminal's line, and erases it. */
+const ERASED = "\r\u001b[K";
+/** Room for the "^C" that the terminal echoes after the status line. */
+const ECHO_COLUMNS = 4;
+
 export function processIo(): CliIo {
   // The reader may stop ("| head"), the terminal may close, the disk may be full: a plot continues regardless.
   for (const stream of [process.stdout, process.stderr]) stream.on("error", () => undefined);
   const terminals = STDIO.filter((fd) => isatty(fd));
   // At exit Node.js restores the modes of its terminals, and aborts if one of them is gone, unless that one is closed.
   process.once("exit", () => terminals.filter((fd) => !isatty(fd)).forEach((fd) => closeSync(fd)));
+  let status = "";
+  const erased = (): string => (status === "" ? "" : ERASED);
+  const shown = (): string => status.slice(0, process.stderr.columns - ECHO_COLUMNS);
   return {
     // Not filtered: results are also files of every kind, and the pairing code is drawn with colours.
     out: (text) => void process.stdout.write(text),
-    err: (text) => void process.stderr.write(harmless(text)),
+    err: (text) => void process.stderr.write(erased() + harmless(text) + shown()),
     isTerminal: process.stderr.isTTY,
+    status: (text) => {
+      if (!process.stderr.isTTY) return;
+      const before = erased();
+      status = text;
+      process.stderr.write(before + shown());
+    },
     // Not process.stdin.isTTY: opening stdin as a stream makes a pipe non-blocking, and reading it whole then fails.
     hasKeyboard: isatty(0),
     onInterrupt: (listener) => {

@@ -22,6 +22,7 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
     .option("--resume", "resume a plot that was interrupted")
     .option("--restart", "discard an interrupted plot and start from the beginning")
     .option("--quiet", "print nothing but errors")
+    .option("--json", "print progress and stops as JSON, one line for each")
     .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {
       if (options.resume === true) {
         mustFitResume(command);
@@ -35,7 +36,7 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
 };
 
 /** The other options belong to a new plot, and would have no effect. */
-const WITH_RESUME = ["--resume", "--device", "--virtual-speed", "--data", "--quiet"];
+const WITH_RESUME = ["--resume", "--device", "--virtual-speed", "--data", "--quiet", "--json"];
 
 function mustFitResume(command: Command): void {
   const other = command.options.find(

@@ -1,14 +1,12 @@
 /** Progress of a running plot, and the keys that control it. */
-import { SingleBar } from "cli-progress";
 import { OTHER_BOARD } from "../../host/plotter/board-id.js";
-import type { PlotProgress, PlotRun } from "../../host/plotter/types.js";
+import type { PlotRun } from "../../host/plotter/types.js";
 import type { PlotWait } from "../../src/schema/index.js";
 import { printed, type CliIo } from "./io.js";
-import { minutes } from "./plan.js";
+import type { PlotReport } from "./plot-report.js";
 
 export interface Watched {
-  readonly name: string;
-  readonly isQuiet: boolean;
+  readonly report: PlotReport;
   /** Resumed after an interruption: whether the board still knows the position, or is another board. */
   readonly resumed: { readonly position: keyof typeof POSITIONS } | null;
   /** Aborted when the process must end: the plot is then interrupted. */
@@ -18,12 +16,10 @@ export interface Watched {
 /** Runs until the plot ends. */
 export async function watch(
   run: PlotRun,
-  { name, isQuiet, resumed, end }: Watched,
+  { report, resumed, end }: Watched,
   io: CliIo,
 ): Promise<"done" | "cancelled" | "interrupted"> {
-  const say = isQuiet ? () => undefined : (text: string) => io.err(text);
   const isHeld = resumed !== null && io.hasKeyboard;
-  const bar = io.isTerminal && !isQuiet ? progressBar() : null;
   const control = new Control(run, io, isHeld);
   const mustEnd = (): void => control.mustEnd();
   end.addEventListener("abort", mustEnd);
@@ -33,25 +29,26 @@ export async function watch(
     io.onLine(() => control.resume()),
     () => end.removeEventListener("abort", mustEnd),
   ];
-  let elapsedS = 0;
-  run.onProgress((progress) => {
-    elapsedS = progress.elapsedS;
-    bar?.update(progress.progress * 100, timesOf(progress));
-  });
+  run.onProgress((progress) => report.progress(progress));
   run.onHeld((held, wait = null) => {
+    report.held(held, wait);
     if (wait !== null) control.waitsFor(wait);
     else if (held) control.paused();
   });
-  if (bar === null) say(printed`${resumed === null ? "Plotting" : "Resuming"} ${name}.\n`);
+  report.begins(resumed === null ? "Plotting" : "Resuming");
   if (isHeld) io.err(`${POSITIONS[resumed.position]} Enter resumes, Ctrl-C cancels.\n`);
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
-    if (outcome.kind === "cancelled") return control.isInterrupted ? "interrupted" : "cancelled";
-    bar?.update(100);
-    if (bar === null) say(printed`Done: ${name}, after ${minutes(elapsedS)}.\n`);
-    return "done";
+    const ended =
+      outcome.kind === "done"
+        ? "done"
+        : control.isInterrupted
+          ? ("interrupted" as const)
+          : ("cancelled" as const);
+    report.ends(ended);
+    return ended;
   } finally {
-    bar?.stop();
+    io.status("");
     forget.forEach((stop) => stop());
   }
 }
@@ -114,11 +111,11 @@ class Control {
     if (this.#isEnding) return;
     if (this.#held || !this.#io.hasKeyboard) {
       this.#cancelling = true;
-      this.#io.err("\nCancelling: the pen lifts and goes home.\n");
+      this.#io.err("Cancelling: the pen lifts and goes home.\n");
       this.#run.cancel().catch(this.#fail);
     } else {
       this.#held = true;
-      this.#io.err("\nPaused. Enter resumes, Ctrl-C again cancels.\n");
+      this.#io.err("Paused. Enter resumes, Ctrl-C again cancels.\n");
       this.#run.pause().catch(this.#fail);
     }
   }
@@ -126,7 +123,7 @@ class Control {
   mustEnd(): void {
     if (this.#isEnding) return;
     this.isInterrupted = true;
-    this.#io.err("\nInterrupted: the pen lifts.\n");
+    this.#io.err("Interrupted: the pen lifts.\n");
     this.#run.interrupt().catch(this.#fail);
   }
 
@@ -138,7 +135,7 @@ class Control {
   paused(): void {
     if (this.#held || this.#isEnding) return;
     this.#held = true;
-    this.#io.err(`\nPaused. ${this.#io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
+    this.#io.err(`Paused. ${this.#io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
   }
 
   /** A planned stop, for another pen. */
@@ -146,7 +143,7 @@ class Control {
     if (this.#isEnding) return;
     this.#held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
-    this.#io.err(printed`\nPut in ${what}. Enter resumes, Ctrl-C cancels.\n`);
+    this.#io.err(printed`Put in ${what}. Enter resumes, Ctrl-C cancels.\n`);
   }
 
   resume(): void {
@@ -155,19 +152,3 @@ class Control {
     this.#run.resume().catch(this.#fail);
   }
 }
-
-function progressBar(): SingleBar {
-  const bar = new SingleBar({
-    format: "{bar} {percentage} %  {elapsed} so far, {left} left",
-    barCompleteChar: "█",
-    barIncompleteChar: "░",
-    hideCursor: true,
-  });
-  bar.start(100, 0, { elapsed: "00:00:00", left: "…" });
-  return bar;
-}
-
-const timesOf = (progress: PlotProgress): { elapsed: string; left: string } => ({
-  elapsed: minutes(progress.elapsedS),
-  left: minutes(progress.remainingS),
-});

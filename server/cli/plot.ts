@@ -23,6 +23,7 @@ import { printed, type CliIo } from "./io.js";
 import { withPlotter } from "./machine-commands.js";
 import type { DeviceOptions } from "./options.js";
 import { PlotRecord, type InterruptedPlot } from "./plot-record.js";
+import { plotReport } from "./plot-report.js";
 import { cancelled, waitForPaper, watch } from "./plot-watch.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
@@ -33,6 +34,7 @@ export interface PlotCommandOptions extends DeviceOptions {
   readonly resume?: boolean;
   readonly restart?: boolean;
   readonly quiet?: boolean;
+  readonly json?: boolean;
   readonly data?: string;
 }
 
@@ -210,12 +212,13 @@ async function onPlotter(
   const journal = journalIn(record, () => progress, io);
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
   const held = from !== null && io.hasKeyboard;
-  const noted = (message: string): void => io.err(printed`\n${message}\n`);
+  const noted = (message: string): void => io.err(printed`${message}\n`);
   const start: PlotStart = { from, received, board, journal, noted, held };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : ({ position } as const);
-  const ended = await watch(run, { name, isQuiet: options.quiet === true, resumed, end }, io);
+  const report = plotReport(name, options, io);
+  const ended = await watch(run, { report, resumed, end }, io);
   // The motors stay on, so that the carriage stays where the plot is to be resumed.
   if (ended === "interrupted") return interrupted(record, io);
   try {
@@ -245,7 +248,7 @@ function journalIn(record: PlotRecord, progress: () => number, io: CliIo): NonNu
       try {
         record.save(entry, progress());
       } catch (error) {
-        if (!isReported) io.err(printed`\n${notStored(error)}\n`);
+        if (!isReported) io.err(printed`${notStored(error)}\n`);
         isReported = true;
       }
     },

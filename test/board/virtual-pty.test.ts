@@ -70,6 +70,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
         out: (text) => (said += text),
         err: () => started(),
         isTerminal: false,
+        status: () => undefined,
         hasKeyboard: false,
         onInterrupt: (listener) => {
           stop = () => listener(false);
@@ -111,6 +112,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
           heard();
         },
         isTerminal: false,
+        status: () => undefined,
         hasKeyboard: false,
         onInterrupt: (listener) => {
           stop = () => listener(false);
@@ -152,6 +154,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
           out: () => undefined,
           err: () => undefined,
           isTerminal: false,
+          status: () => undefined,
           hasKeyboard: false,
           onInterrupt: () => () => undefined,
           endWithin: () => undefined,

@@ -53,7 +53,7 @@ it(
     expect({ code, err }).toEqual({
       code: 0,
       err: expect.stringMatching(
-        /^whirling-triangles\.svg: drawn [^\n]*, 100 %\nPlotting whirling-triangles\.svg\.\nDone: whirling-triangles\.svg, after/,
+        /^whirling-triangles\.svg: drawn [^\n]*, 100 %\nPlotting whirling-triangles\.svg\.\n(?:\d+ % [^\n]*\n)*Done: whirling-triangles\.svg, after/,
       ) as string,
     });
   },

@@ -52,6 +52,26 @@ describe("plotwright plot", () => {
   );
 
   it(
+    "prints its progress as lines, or as one JSON object a line with --json",
+    async () => {
+      writeFileSync(file, SVG.replace("M1 2h9", "M1 2h18v16h-18z".repeat(60)));
+      const lines = (await plot(new CaughtIo(), file)).err.split("\n").slice(2, -2);
+      expect(lines.length).toBeGreaterThan(0);
+      for (const line of lines) expect(line).toMatch(/^\d+ % {2}00:0\d:\d\d so far, 00:0\d:\d\d left$/);
+      const { out, err } = await plot(new CaughtIo(), file, "--json");
+      const events = out
+        .trim()
+        .split("\n")
+        .map((line) => JSON.parse(line) as { event: string });
+      expect(events[0]).toEqual({ event: "started", name: "a.svg" });
+      expect(new Set(events.slice(1, -1).map(({ event }) => event))).toEqual(new Set(["progress"]));
+      expect(events.at(-1)).toMatchObject({ event: "done", name: "a.svg", progress: 1, remainingS: 0 });
+      expect(err).toBe("a.svg: drawn 18 × 16 mm, 100 %\n");
+    },
+    LIMIT_MS,
+  );
+
+  it(
     "waits for Enter between two plots, or for the given time",
     async () => {
       const io = new CaughtIo();

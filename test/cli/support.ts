@@ -31,6 +31,8 @@ export class CaughtIo implements CliIo {
 
   endWithin(): void {}
 
+  status(): void {}
+
   onLine(listener: (line: string) => void): () => void {
     this.#line.push(listener);
     return () => (this.#line = this.#line.filter((one) => one !== listener));

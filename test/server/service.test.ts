@@ -40,6 +40,7 @@ const io: CliIo = {
   out: (text) => (out += text),
   err: (text) => (out += text),
   isTerminal: false,
+  status: () => undefined,
   hasKeyboard: false,
   onInterrupt: () => () => undefined,
   endWithin: () => undefined,
