@@ -9,20 +9,19 @@ import path from "node:path";
 import { licencesOf } from "./licences.mjs";
 import { ROOT } from "./setup.mjs";
 
-/**
- * Packages of many small files, of which few are used: loading them one by one takes 70 ms. The bundle includes their
- * own dependencies. It must run in browsers too, and as an ES module: add only packages that do.
- */
-const BUNDLED = ["css-select", "css-tree", "culori"];
-
 const CHUNKS = path.join(ROOT, "dist", "chunks");
 
 const { dependencies, optionalDependencies } = JSON.parse(
   readFileSync(path.join(ROOT, "package.json"), "utf8"),
 );
-const external = [...Object.keys(dependencies), ...Object.keys(optionalDependencies)]
-  .filter((name) => !BUNDLED.includes(name))
-  .flatMap((name) => [name, `${name}/*`]);
+/**
+ * What users of the package install. Packages of many small files, of which few are used, are development dependencies
+ * and become part of the bundle: loading them one by one takes 70 ms. They must run in browsers too, and as ES modules.
+ */
+const external = [...Object.keys(dependencies), ...Object.keys(optionalDependencies)].flatMap((name) => [
+  name,
+  `${name}/*`,
+]);
 
 rmSync(CHUNKS, { recursive: true, force: true });
 const { metafile } = await build({

@@ -94,11 +94,14 @@ function mustBeWritable() {
   }
 }
 
+/** Without a network connection, npm gives up after 13 s. By default it tries for over a minute, silently. */
+const RETRIES = ["--fetch-retries=3", "--fetch-retry-mintimeout=1000", "--fetch-retry-factor=3"];
+
 export function ensureDependencies() {
   if (installedIsCurrent()) return;
   mustBeWritable();
   console.log("plotwright: installing packages (npm ci) …");
-  if (runNpm(["ci", "--include=dev", "--no-audit", "--no-fund"]) !== 0) {
+  if (runNpm(["ci", "--include=dev", "--no-audit", "--no-fund", ...RETRIES]) !== 0) {
     giveUp(
       "npm ci failed; its message is above. Is there a network connection? Then run the same command again.",
     );

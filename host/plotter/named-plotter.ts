@@ -31,7 +31,9 @@ export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions):
   let last: string | null = null;
   plotter.onChange(({ name, connection, message, device }) => {
     const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;
-    if (connection === "busy" || connection === "connecting" || line === last) return;
+    // It is closed if it is absent without a reason.
+    const isClosed = connection === "absent" && message === null;
+    if (connection === "busy" || connection === "connecting" || isClosed || line === last) return;
     last = line;
     log(line);
   });

@@ -4,6 +4,8 @@ import { PlotwrightError } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { createServer, type PlotwrightServer, type ServerOptions } from "../composition/create-server.js";
 import { lanAddresses, pairingText } from "../security/network.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { addressOfServer } from "../storage/data-lock.js";
 import { fileFault } from "../storage/file-fault.js";
 import { readText } from "./files.js";
 import { printed, type CliIo } from "./io.js";
@@ -42,7 +44,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
       resolve();
     }),
   );
-  const server = await createServer({
+  const server = await serverUnlessRunning(options, {
     port: options.port,
     ...(options.host === undefined ? {} : { host: options.host }),
     lan: options.lan === true,
@@ -60,6 +62,11 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     onNewPairing: () => void showPairing("A device was removed, so the links for pairing are new.\n"),
     log: (line) => io.err(printed`${line}\n`),
   });
+  if (typeof server === "string") {
+    io.out(`plotwright is already running: open ${server}\n`);
+    if (io.isTerminal || options.open === true) openBrowser(server, io);
+    return;
+  }
   const showPairing = async (why: string): Promise<void> => {
     if (options.lan !== true && options.pairAlways !== true) return;
     io.out(`${why}${await pairing(server, options.lan === true)}`);
@@ -71,6 +78,20 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
   await stopped;
   await server.close();
   io.endWithin(LINGER_MS);
+}
+
+/** The server, or the address of the one that already uses this data folder. */
+async function serverUnlessRunning(
+  { data = defaultDataDir() }: ServeCommandOptions,
+  options: ServerOptions,
+): Promise<PlotwrightServer | string> {
+  try {
+    return await createServer(options);
+  } catch (error) {
+    const url = error instanceof PlotwrightError && error.code === "conflict" ? addressOfServer(data) : null;
+    if (url === null) throw error;
+    return url;
+  }
 }
 
 async function pairing(server: PlotwrightServer, isLan: boolean): Promise<string> {

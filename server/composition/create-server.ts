@@ -9,6 +9,8 @@ import { createApp, type AppParts } from "../http/app.js";
 import { EventHub } from "../http/events.js";
 import { httpServer, listen, urlOf } from "../http/listen.js";
 import { Refusals } from "../http/refusals.js";
+import { noteAddress } from "../storage/data-lock.js";
+import { fileFault } from "../storage/file-fault.js";
 import { LogBook, readLog } from "../storage/log-book.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { createPlanning } from "../planning/planning.js";
@@ -103,9 +105,15 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     closing.addUrgent("the port", () => stopListening(http, parts.hub));
     const { port } = http.address() as AddressInfo;
     for (const plugin of plugins) plugin.listening?.({ port, isTls });
-    log(`plotwright ${parts.version} listens on port ${port}, plotters: ${registry.list().length}`);
+    log(`plotwright ${parts.version} has started, plotters: ${registry.list().length}`);
+    const url = urlOf(http, isTls);
+    try {
+      noteAddress(dataDir, url);
+    } catch (error) {
+      log(`the address could not be stored in ${dataDir}: ${fileFault(error)}`);
+    }
     return {
-      url: urlOf(http, isTls),
+      url,
       get pairing() {
         return paths();
       },

@@ -81,18 +81,40 @@ function tryLink(from: string, to: string): boolean {
   }
 }
 
+/**
+ * Adds the server's address to its lock, for people who start a second server.
+ *
+ * @throws Error of the file system
+ */
+export function noteAddress(dir: string, url: string): void {
+  const path = join(dir, "server.lock");
+  const draft = `${path}.${randomBytes(6).toString("hex")}`;
+  try {
+    writeFileSync(draft, JSON.stringify({ ...thisProcess(), url }), { mode: 0o600 });
+    renameSync(draft, path);
+  } finally {
+    rmSync(draft, { force: true });
+  }
+}
+
+/** The address of the running server that uses the folder; null if there is none, or it does not listen yet. */
+export function addressOfServer(dir: string): string | null {
+  const owner = readOwner(join(dir, "server.lock"));
+  return owner !== null && isAlive(owner) ? (owner.url ?? null) : null;
+}
+
 function release(path: string, mine: ProcessOwner): void {
   const owner = readOwner(path);
   if (owner?.pid === mine.pid && owner.began === mine.began) rmSync(path, { force: true });
 }
 
-function readOwner(path: string): ProcessOwner | null {
+function readOwner(path: string): (ProcessOwner & { readonly url?: string }) | null {
   try {
     const value: unknown = JSON.parse(readFileSync(path, "utf8"));
     if (typeof value !== "object" || value === null) return null;
-    const { pid, began } = value as Record<string, unknown>;
+    const { pid, began, url } = value as Record<string, unknown>;
     return typeof pid === "number" && Number.isInteger(pid) && pid > 0 && typeof began === "string"
-      ? { pid, began }
+      ? { pid, began, ...(typeof url === "string" ? { url } : {}) }
       : null;
   } catch {
     return null;

@@ -1,9 +1,11 @@
-/** What else may have the name of the data folder's lock. */
+/** The lock of a data folder: what else may have its name, and a second server. */
 import { execFileSync } from "node:child_process";
 import { lstatSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, describe, expect, it } from "vitest";
+import { createServer } from "../../server/index.js";
 import { lockDataDir } from "../../server/storage/data-lock.js";
+import { cli } from "../cli/support.js";
 import { temporaryFolder } from "../support/server-process.js";
 
 const undo: (() => unknown)[] = [];
@@ -25,5 +27,18 @@ describe("the lock of a data folder", () => {
       }),
     );
     expect(lstatSync(path).isFile()).toBe(false);
+  });
+
+  it("tells a second server where the first one is", async () => {
+    const folder = temporaryFolder("lock");
+    undo.push(folder.remove);
+    const server = await createServer({ port: 0, device: "virtual", dataDir: folder.path });
+    const second = () => cli("serve", "--device", "virtual", "--data", folder.path, "--port", "0");
+    expect(await second()).toEqual({
+      code: 0,
+      out: `plotwright is already running: open ${server.url}\n`,
+      err: "",
+    });
+    await server.close();
   });
 });
