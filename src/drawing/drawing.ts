@@ -138,6 +138,8 @@ export interface Drawing {
    * extent. "proportions": only its proportions are known, from the viewBox of an SVG without a width and height.
    */
   readonly pageFrom?: "extent" | "proportions";
+  /** With how many px per inch the file was read, if the size of its page is given in px. */
+  readonly pxPerInch?: number;
   /** The file's layers, and their sublayers. */
   readonly groups: readonly DrawingGroup[];
   /** "#rrggbb", lower case, distinct, in order of first use. */

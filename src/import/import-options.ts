@@ -9,7 +9,7 @@ export type TextMode = (typeof TEXT_MODES)[number];
 
 /** How to read a file. Every option has a default. */
 export interface ImportOptions {
-  /** SVG: px per inch, also for numbers without a unit. Default 96, as in CSS. Files of some programs use 72 or 90. */
+  /** SVG: px per inch, also for numbers without a unit. Default: as the program that wrote the file, otherwise 96, as in CSS. */
   readonly pxPerInch?: number;
   /**
    * How text is drawn: in the built-in single-stroke letters (default), as outlines of `font`, or not at all.

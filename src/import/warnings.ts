@@ -1,5 +1,6 @@
 /** Collects features that will not be drawn as seen on screen, counted by kind, with the first few positions. */
 import type { DrawingWarning } from "../drawing/drawing.js";
+import { PX_NOTE } from "../drawing/px-size.js";
 import { isEmptyBox, type Box } from "../geometry/box.js";
 import { getOrAdd } from "./get-or-add.js";
 
@@ -86,6 +87,8 @@ const WORDS = {
     `The file does not define its page size${details}. Check the size on the paper, or export with a width and height in mm.`,
   background: (n: number) =>
     `${many(n, "filled shape is", "filled shapes are")} taken as the background and not drawn. Give ${n === 1 ? "it" : "them"} a stroke to draw the outline.`,
+  [PX_NOTE]: (_n: number, details: string) =>
+    `The file's lengths are in px, so its size is a guess${details}. Check the size on the paper, and set --px-per-inch if it is wrong.`,
   "animation-ignored": (n: number) =>
     `${many(n, "animation is", "animations are")} ignored: drawn as at the start.`,
   "object-unreadable": (n: number, details: string) =>

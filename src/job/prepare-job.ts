@@ -1,5 +1,6 @@
 /** Prepares the drawing of a job, and checks that there are strokes, that they are on the paper, and that the machine reaches them. */
 import type { Drawing } from "../drawing/drawing.js";
+import { withPxPerInch } from "../drawing/px-size.js";
 import { strokeCount } from "../drawing/stroke-set.js";
 import type { JobSettings } from "../drivers/machine-job.js";
 import { PlotwrightError } from "../errors.js";
@@ -25,11 +26,13 @@ export interface PreparedJob {
  * @throws PlotwrightError "bad-file" if nothing is left to draw, "out-of-bounds", "bad-setting", "cancelled"
  */
 export function prepareJob(
-  drawing: Drawing,
+  imported: Drawing,
   settings: JobSettings & Pick<PenSetup, "pens" | "layerPens"> & { readonly prepare: PrepareSettings },
   machine: MachineProfile,
   work: Work = {},
 ): PreparedJob {
+  // The note about the size of a px disappears if the user has chosen it.
+  const drawing = withPxPerInch(imported, settings.prepare.pxPerInch);
   const prepared = prepare(drawing, prepareSettingsOf(settings), work);
   const fileWarnings = drawing.warnings.map(({ message }) => message);
   const warnings = [...fileWarnings, ...prepared.warnings];

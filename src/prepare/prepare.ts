@@ -6,6 +6,7 @@
  * hide nothing, and nothing hides them.
  */
 import { isBackground, type Drawing } from "../drawing/drawing.js";
+import { withPxPerInch } from "../drawing/px-size.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, totalLength, type Lines } from "../geometry/polyline.js";
 import { cropAreas, filledAreas, filledOnly } from "./areas.js";
@@ -87,18 +88,19 @@ export interface Prepared {
  * @throws PlotwrightError "bad-setting" for a wrong setting, or if the margins leave no room; "cancelled"
  */
 export function prepare(
-  drawing: Drawing,
+  imported: Drawing,
   changes: Partial<PrepareSettings> = {},
   options: Work = {},
 ): Prepared {
   checkObject(
     "prepare",
     "the drawing",
-    drawing,
+    imported,
     ["paths", "groups"],
     "what importSvg or importDrawing returns",
   );
   const settings = completeSettings(changes);
+  const drawing = withPxPerInch(imported, settings.pxPerInch);
   const progress = (done: number, step: string): void => {
     stopIfCancelled(options);
     options.onProgress?.(done, step);

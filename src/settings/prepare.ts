@@ -122,6 +122,18 @@ export const PREPARE_TABLE = {
     flag: "--fit",
     default: "auto",
   },
+  pxPerInch: {
+    kind: "number",
+    label: "Resolution of the file",
+    about: "size of the px of a file whose page is given in px",
+    aboutAuto: "guessed from the program that wrote the file, otherwise 96",
+    flag: "--px-per-inch",
+    default: "auto",
+    min: 1,
+    max: 10_000,
+    unit: "px/in",
+    step: 1,
+  },
   outside: {
     kind: "choice",
     label: "What lies outside the paper",

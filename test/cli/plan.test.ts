@@ -89,6 +89,21 @@ describe("plotwright plan", () => {
     }
   });
 
+  it("says which px per inch make the page a paper, and reads the file with them", async () => {
+    const file = join(dir, "a4.svg");
+    writeFileSync(
+      file,
+      `<svg xmlns="http://www.w3.org/2000/svg" width="2480" height="3508"><path d="M300 300H1500" stroke="#000"/></svg>`,
+    );
+    const guessed = await cli("plan", file);
+    expect(guessed.out).toContain("--px-per-inch 300 gives A4");
+    const { code, out } = await cli("plan", file, "--px-per-inch", "300");
+    expect([code, out.split("\n")[0]]).toEqual([0, "drawn 0 × 101.6 mm, 100 %, turned by 90°"]);
+    expect(out).not.toContain("note:");
+    const wrong = await cli("plan", file, "--px-per-inch", "0");
+    expect([wrong.code, wrong.err]).toEqual([2, expect.stringContaining("--px-per-inch")]);
+  });
+
   it("prints the commands to stdout with -, from motors-on to motors-off", async () => {
     const { code, out } = await cli("plan", sample(firstSample), "--commands", "-");
     expect(code).toBe(0);

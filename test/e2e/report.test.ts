@@ -66,6 +66,31 @@ describe("the report", () => {
     expect(await test.page.locator(".report").count()).toBe(0);
   });
 
+  it("reads a page in px as a paper with one click, and goes back with another", async () => {
+    const size = async (): Promise<string> =>
+      (await test.page.locator(".drawn-size span").innerText()).replace(/\u202f/g, " ");
+    const file = (height: number): string =>
+      `<svg xmlns="http://www.w3.org/2000/svg" width="2480" height="${height}"><path d="M300 300H1500V900" fill="none" stroke="#000"/></svg>`;
+    await test.drop("scan", file(3508));
+    const note = test.page.locator(".report li", { hasText: "px per inch" });
+    await note.getByRole("button", { name: "Read as A4 at 300 px per inch" }).click();
+    await test.planned();
+    // 1200 × 600 px, on upright A4 or turned with it.
+    expect(await size()).toMatch(/^Drawn (101\.6 × 50\.8|50\.8 × 101\.6) mm, 100 %/);
+    expect(await test.page.locator(".report").count()).toBe(0);
+    await test.group("Paper");
+    const field = test.page.getByLabel("Resolution of the file");
+    expect(await field.first().inputValue()).toBe("300");
+    await test.page.getByRole("button", { name: "Guess the resolution" }).click();
+    await test.planned();
+    expect(await note.count()).toBe(1);
+    // Another file is read with its own px again.
+    await note.getByRole("button", { name: "Read as A4 at 300 px per inch" }).click();
+    await test.planned();
+    await test.drop("other scan", file(3000));
+    expect(await field.first().inputValue()).toBe("96");
+  });
+
   it("works with a finger on a phone, with the paper in view", async () => {
     const context = await test.browser.newContext({
       viewport: { width: 390, height: 844 },

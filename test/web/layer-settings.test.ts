@@ -132,6 +132,13 @@ describe("another drawing on the paper", () => {
   });
 });
 
+describe("another file on the paper", () => {
+  it("is not read with the last one's px per inch", () => {
+    const read = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, pxPerInch: 300 } };
+    expect(forOtherDrawing(read).prepare.pxPerInch).toBe("auto");
+  });
+});
+
 describe("a preset", () => {
   it("restores pens, layers and their order, and does not change the paper", () => {
     const kept = moveLayer(setLayerPen(addPen(DEFAULTS, { name: "Brush" }), "sky", "pen-1"), rows, "sun", 0);

@@ -1,6 +1,9 @@
-import { DRAWING_EXTENSIONS } from "../../src/internal.js";
+import { DRAWING_EXTENSIONS, PX_NOTE } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import type { Planned } from "../worker/protocol.js";
+import { useFilesPage } from "./drawn-size.js";
 import { ExportPanel } from "./export.js";
+import { paperLabel } from "./paper.js";
 import { drawingText as words, reportText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { ChooseFile } from "../ui/choose-file.js";
@@ -88,6 +91,7 @@ const Report = () => {
                 {reportText.show}
               </Button>
             )}
+            {code === PX_NOTE && <OtherPapers planned={planned} />}
           </li>
         ))}
         {planned.layoutWarnings.map((note) => (
@@ -96,4 +100,18 @@ const Report = () => {
       </ul>
     </div>
   );
+};
+
+/** Buttons that read the file with the px per inch that make its page a paper. */
+const OtherPapers = ({ planned }: { planned: Planned }) => {
+  const takePage = useFilesPage();
+  return planned.otherPapers.map(({ name, pxPerInch }) => {
+    const factor = (planned.pxPerInch ?? pxPerInch) / pxPerInch;
+    const page = { widthMm: planned.pageWidthMm * factor, heightMm: planned.pageHeightMm * factor };
+    return (
+      <Button key={name + pxPerInch} kind="link" onClick={() => takePage(page, { pxPerInch })}>
+        {reportText.paper(paperLabel(name), pxPerInch)}
+      </Button>
+    );
+  });
 };

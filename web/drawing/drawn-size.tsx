@@ -1,4 +1,11 @@
-import { canBePaper, findMachine, isEmptyBox, isOnFilesPage, onFilesPage } from "../../src/internal.js";
+import {
+  canBePaper,
+  findMachine,
+  isEmptyBox,
+  isOnFilesPage,
+  onFilesPage,
+  type PaperSize,
+} from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { formatNumber, formatSize } from "../ui/format.js";
@@ -28,23 +35,26 @@ const scaleInWords = ({ scaleX, scaleY }: Planned["size"]): string => {
   return [...new Set(percents)].join(" × ");
 };
 
-const UseFilesPage = ({ planned }: { planned: Planned }) => {
+/** A change that makes the paper the file's page, at true size, perhaps together with other settings. */
+export const useFilesPage = () => {
   const store = usePageStore();
   const { changeSettings } = useActions();
+  return (page: PaperSize, part: Partial<Planned["settings"]["prepare"]> = {}): void => {
+    store.setState({ typedPaper: null });
+    changeSettings("file's page", (settings) => ({
+      ...settings,
+      prepare: onFilesPage({ ...settings.prepare, ...part }, page, findMachine(settings)),
+    }));
+  };
+};
+
+const UseFilesPage = ({ planned }: { planned: Planned }) => {
+  const takePage = useFilesPage();
   const page = { widthMm: planned.pageWidthMm, heightMm: planned.pageHeightMm };
   const isOnIt = usePageState((state) => isOnFilesPage(state.settings.prepare, page));
   if (isOnIt || !canBePaper(page)) return null;
   return (
-    <Button
-      kind="link"
-      onClick={() => {
-        store.setState({ typedPaper: null });
-        changeSettings("file's page", (settings) => ({
-          ...settings,
-          prepare: onFilesPage(settings.prepare, page, findMachine(settings)),
-        }));
-      }}
-    >
+    <Button kind="link" onClick={() => takePage(page)}>
       {words.useFilesPage}
     </Button>
   );

@@ -34,6 +34,8 @@ const nameOfPaper = ({ widthMm, heightMm }: PrepareSettings["paper"]): PaperName
     (name) => PAPER_SIZES[name].widthMm === widthMm && PAPER_SIZES[name].heightMm === heightMm,
   ) ?? CUSTOM;
 
+export const paperLabel = (name: PaperName): string => name.replace("in", " in").replace("x", " × ");
+
 export const PaperPanel = () => {
   const prepare = usePageState((state) => state.settings.prepare);
   const lengthUnit = usePageState((state) => state.view.lengthUnit);
@@ -68,7 +70,7 @@ export const PaperPanel = () => {
         label={words.size}
         value={isCustom ? CUSTOM : name}
         options={[
-          ...PAPER_NAMES.map((value) => ({ value, label: value.replace("in", " in").replace("x", " × ") })),
+          ...PAPER_NAMES.map((value) => ({ value, label: paperLabel(value) })),
           { value: CUSTOM, label: words.custom },
         ]}
         onChange={(value) => {
@@ -110,6 +112,7 @@ export const PaperPanel = () => {
         }
       />
       {prepare.place && <PlaceFields place={prepare.place} />}
+      <Resolution prepare={prepare} />
       <div className="field-with-button">
         <SettingField
           setting={PREPARE_TABLE.rotateDeg}
@@ -161,6 +164,27 @@ export const PaperPanel = () => {
         />
       </SettingsGroup>
     </SettingsGroup>
+  );
+};
+
+/** For a file whose page is given in px. */
+const Resolution = ({ prepare }: { prepare: PrepareSettings }) => {
+  const pxPerInch = usePageState((state) => state.planned?.pxPerInch ?? null);
+  const change = usePrepareChange();
+  if (pxPerInch === null) return null;
+  return (
+    <>
+      <SettingField
+        setting={PREPARE_TABLE.pxPerInch}
+        value={prepare.pxPerInch === "auto" ? pxPerInch : prepare.pxPerInch}
+        onChange={(value) => change("resolution", { pxPerInch: value })}
+      />
+      {prepare.pxPerInch !== "auto" && (
+        <Button kind="link" onClick={() => change("resolution", { pxPerInch: "auto" })}>
+          {words.guessPx}
+        </Button>
+      )}
+    </>
   );
 };
 

@@ -48,6 +48,7 @@ export const outsideText = {
 export const reportText = {
   title: "Not drawn as on screen",
   show: "Show where",
+  paper: (name: string, pxPerInch: number) => `Read as ${name} at ${pxPerInch} px per inch`,
 };
 
 export const paperText = {
@@ -80,6 +81,7 @@ export const paperText = {
   left: "Left",
   mirrors: { none: "Off", leftRight: "Left–right", upDown: "Up–down" },
   autoTurn: "Turn to fit the paper",
+  guessPx: "Guess the resolution",
   rotateQuarter: "Turn by 90°",
 };
 

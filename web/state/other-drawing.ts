@@ -6,7 +6,7 @@ const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
 
 /**
  * The settings for another drawing: without those of single layers, except layers identified by a colour, and without
- * the answer to what happens outside the paper.
+ * the answer to what happens outside the paper, and without the resolution of the file.
  */
 export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
   const kept = <T>(byLayer: Readonly<Record<string, T>> | undefined): Record<string, T> =>
@@ -17,6 +17,7 @@ export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
     prepare: {
       ...prepare,
       outside: DEFAULT_PLOT_SETTINGS.prepare.outside,
+      pxPerInch: DEFAULT_PLOT_SETTINGS.prepare.pxPerInch,
       hiddenLayers: [],
       shownLayers: [],
       layerOrder: prepare.layerOrder.filter(isColorId),

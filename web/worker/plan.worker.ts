@@ -17,11 +17,13 @@ import {
   boxOfPoints,
   unreachedCount,
   machineOf,
+  otherPapers,
   penStopsOf,
   placeDrawing,
   prepareSettingsOf,
   strokeCount,
   unusedSettings,
+  withPxPerInch,
   type Placement,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
@@ -90,10 +92,11 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   const { id, drawingKey, settings, firmware } = request;
   let stage: PlanFault["stage"] = "import";
   try {
-    const drawing = await drawingOf(request);
+    const read = await drawingOf(request);
     scope.postMessage({ type: "imported", id, drawingKey }, []);
     if (await isSuperseded()) return null;
     stage = "plan";
+    const drawing = withPxPerInch(read, settings.prepare.pxPerInch);
     const { result: ready, placement, cutOff, besidePaper } = preparedOf(drawingKey, drawing, request);
     if (await isSuperseded()) return null;
     const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
@@ -105,6 +108,8 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       settings,
       pageWidthMm: drawing.widthMm,
       pageHeightMm: drawing.heightMm,
+      pxPerInch: drawing.pxPerInch ?? null,
+      otherPapers: otherPapers(drawing),
       pageToPaper: placement.map,
       layout: placement.layout,
       size: ready.size,

@@ -5,6 +5,7 @@ import type {
   DrawingWarning,
   DrawnSize,
   OutsidePaper,
+  PaperInPx,
   PenStop,
   Placement,
   PreparedLayer,
@@ -55,6 +56,10 @@ export interface Planned {
   readonly settings: PlotSettings;
   readonly pageWidthMm: number;
   readonly pageHeightMm: number;
+  /** Px per inch of the file's page; null if it is not given in px. */
+  readonly pxPerInch: number | null;
+  /** The papers that the page would be with other px per inch. */
+  readonly otherPapers: readonly PaperInPx[];
   /** Maps the file's page to the paper, both in mm: x′ = a x + c y + e, y′ = b x + d y + f. */
   readonly pageToPaper: Placement["map"];
   /** The drawing's box on the paper, before anything is cut off; null for an empty drawing. */

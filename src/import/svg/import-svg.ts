@@ -12,8 +12,9 @@
 import { checkText } from "../../check-arguments.js";
 import { curveBoxOf } from "../../drawing/curve-box.js";
 import { curvesOf, type Drawing } from "../../drawing/drawing.js";
+import { otherPapers, PX_NOTE } from "../../drawing/px-size.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
-import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
+import { MM_PER_INCH, MM_PER_PX, PX_PER_INCH } from "../../units.js";
 import { backgroundsOf } from "./backgrounds.js";
 import type { Cascade } from "./cascade.js";
 import type { Declared } from "./properties.js";
@@ -25,6 +26,7 @@ import { SvgPaintServers } from "./svg-paint-servers.js";
 import { SvgGeometry } from "./svg-geometry.js";
 import { SvgFile } from "./svg-file.js";
 import { pageOf, type SvgPage } from "./svg-page.js";
+import { guessPxPerInch, type PxGuess } from "./px-per-inch.js";
 import { SvgPainter } from "./svg-painter.js";
 import { parseSvgTree, type SvgTree } from "./svg-tree.js";
 import { SvgWalk } from "./svg-walk.js";
@@ -49,23 +51,32 @@ export function importSvg(text: string, options: ImportOptions = {}): Drawing {
   checkImportOptions(options);
   const warnings = new Warnings();
   // The tree is out of scope when the columns are assembled, which halves the peak memory.
-  const { builder, page } = draw(text, options, warnings);
-  return finish(builder, page, warnings);
+  const { builder, page, pxPerInch } = draw(text, options, warnings);
+  const drawing = finish(builder, page, warnings);
+  return page.isInPx ? { ...drawing, pxPerInch } : drawing;
+}
+
+/** A page, and the px per inch it was read with. */
+interface SizedPage {
+  readonly page: SvgPage;
+  readonly pxPerInch: number;
 }
 
 function draw(
   text: string,
   options: ImportOptions,
   warnings: Warnings,
-): { readonly builder: DrawingBuilder; readonly page: SvgPage } {
+): SizedPage & { readonly builder: DrawingBuilder } {
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
   const file = new SvgFile(parseSvgTree(text), fontOf(options), languages);
   const { tree, cascade, layers } = file;
   reportParsing(tree, cascade, warnings);
 
   const root = cascade.declaredOf(0);
-  const pxPerInch = options.pxPerInch ?? PX_PER_INCH;
-  const page = pageOf(tree, root, pxPerInch);
+  const { page, pxPerInch } =
+    options.pxPerInch === undefined
+      ? guessedPage(text, tree, root, warnings)
+      : sizedPage(tree, root, options.pxPerInch);
   const context = rootContext(page, root, pxPerInch);
   const builder = new DrawingBuilder(warnings);
   if (!layers.isSplit) warnings.add("too-many-layers", undefined, undefined, layers.groupCount);
@@ -76,8 +87,43 @@ function draw(
   const walk = new SvgWalk(file, geometry, clips, painter, builder, warnings);
   if (isShown(root)) walk.run(context);
   for (const selector of cascade.slowSelectors) warnings.add("style-slow", undefined, selector.slice(0, 80));
-  return { builder, page };
+  return { builder, page, pxPerInch };
 }
+
+/** The page with the px per inch of the program that wrote the file, if it is known, otherwise CSS's. */
+function guessedPage(text: string, tree: SvgTree, root: Declared, warnings: Warnings): SizedPage {
+  const usual = pageOf(tree, root, PX_PER_INCH);
+  const { isInPx, pageFrom, widthMm, heightMm } = usual;
+  const isPagePx = isInPx && pageFrom !== "extent";
+  const pagePx = isPagePx ? { width: widthMm / MM_PER_PX, height: heightMm / MM_PER_PX } : null;
+  const guess = usual.areUnitsPx ? guessPxPerInch(text, pagePx) : null;
+  const guessed = guess?.pxPerInch ?? null;
+  const sized = guessed === null ? { page: usual, pxPerInch: PX_PER_INCH } : sizedPage(tree, root, guessed);
+  notePx(sized, guess, warnings);
+  return sized;
+}
+
+/** With the given px per inch, a viewBox tells the size of the page too. */
+function sizedPage(tree: SvgTree, root: Declared, pxPerInch: number): SizedPage {
+  const { pageFrom, ...page } = pageOf(tree, root, pxPerInch);
+  return { page: pageFrom === "extent" ? { ...page, pageFrom } : page, pxPerInch };
+}
+
+/** Says which px per inch were guessed, and which would make the page a paper. */
+function notePx({ page, pxPerInch }: SizedPage, guess: PxGuess | null, warnings: Warnings): void {
+  const others = page.isInPx ? otherPapers({ ...page, pxPerInch }) : [];
+  if (guess === null && others.length === 0) return;
+  const { pageFrom, widthMm, heightMm } = page;
+  const size = pageFrom === undefined ? `${mmInWords(widthMm)} × ${mmInWords(heightMm)} mm at ` : "";
+  const details = [
+    pageFrom === "proportions" ? "only its proportions are known" : `${size}${pxPerInch} px per inch`,
+    ...(guess === null ? [] : [`written by ${guess.program}`]),
+    ...others.map(({ name, pxPerInch: other }) => `--px-per-inch ${other} gives ${name}`),
+  ];
+  warnings.add(PX_NOTE, undefined, details.join("; "));
+}
+
+const mmInWords = (mm: number): string => String(Math.round(mm * 10) / 10);
 
 function reportParsing(tree: SvgTree, cascade: Cascade, warnings: Warnings): void {
   for (const repair of tree.repairs) warnings.add("xml-repaired", undefined, repair);
@@ -141,8 +187,6 @@ function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Dra
 function onPage(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
   if (page.pageFrom !== "extent" || builder.shapeCount === 0)
     return builder.finish(page.widthMm, page.heightMm, page.pageFrom);
-  const { x0, y0, x1, y1 } = builder.extent();
-  const size = `taken from the drawing: ${(x1 - x0).toFixed(1)} × ${(y1 - y0).toFixed(1)} mm`;
-  warnings.add("page-size", undefined, size);
+  warnings.add("page-size", undefined, "taken from the drawing");
   return builder.finishAround();
 }

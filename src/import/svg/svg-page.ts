@@ -16,7 +16,11 @@ export interface SvgPage {
   readonly viewportWidth: number;
   readonly viewportHeight: number;
   /** How the page is known if the file does not define its size. "extent": the drawing's own extent will be the page. */
-  readonly pageFrom?: Drawing["pageFrom"];
+  readonly pageFrom?: NonNullable<Drawing["pageFrom"]>;
+  /** The size of the page depends on the px per inch, and so does the size of everything on it. */
+  readonly isInPx: boolean;
+  /** The size of the drawing's units depends on the px per inch, perhaps on a page in other units. */
+  readonly areUnitsPx: boolean;
 }
 
 /** Ten times the largest roll of paper; anything larger is a mistake. */
@@ -35,43 +39,53 @@ export function pageOf(tree: SvgTree, root: Declared, pxPerInch: number): SvgPag
   // CSS applies before the attributes.
   const width = firstMm([root.get("width"), attribute(tree, 0, "width")], mmPerPx);
   const height = firstMm([root.get("height"), attribute(tree, 0, "height")], mmPerPx);
+  const isInPx = (width?.isInPx ?? true) && (height?.isInPx ?? true);
   if (box === null) {
-    const widthMm = checked(width ?? DEFAULT_WIDTH_PX * mmPerPx, "wide");
-    const heightMm = checked(height ?? DEFAULT_HEIGHT_PX * mmPerPx, "high");
+    const widthMm = checked(width?.mm ?? DEFAULT_WIDTH_PX * mmPerPx, "wide");
+    const heightMm = checked(height?.mm ?? DEFAULT_HEIGHT_PX * mmPerPx, "high");
     return {
       widthMm,
       heightMm,
       map: scaling(mmPerPx),
       viewportWidth: widthMm / mmPerPx,
       viewportHeight: heightMm / mmPerPx,
+      isInPx,
+      areUnitsPx: true,
       ...(width === null || height === null ? { pageFrom: "extent" } : {}),
     };
   }
   const ratio = box.width / box.height;
-  const widthMm = checked(width ?? (height === null ? box.width * mmPerPx : height * ratio), "wide");
-  const heightMm = checked(height ?? (width === null ? box.height * mmPerPx : width / ratio), "high");
+  const widthMm = checked(width?.mm ?? (height === null ? box.width * mmPerPx : height.mm * ratio), "wide");
+  const heightMm = checked(height?.mm ?? (width === null ? box.height * mmPerPx : width.mm / ratio), "high");
   return {
     widthMm,
     heightMm,
     map: viewBoxMap(box, widthMm, heightMm, attribute(tree, 0, "preserveAspectRatio")),
     viewportWidth: box.width,
     viewportHeight: box.height,
+    isInPx,
+    areUnitsPx: isInPx,
     // A browser gives such a drawing the size of its window.
     ...(width === null && height === null ? { pageFrom: "proportions" } : {}),
   };
 }
 
+interface Side {
+  readonly mm: number;
+  readonly isInPx: boolean;
+}
+
 const PIXEL_UNITS = new Set(["", "px"]);
 
 /** mm of the first absolute length > 0; percentages and `auto` leave the size to the viewBox. */
-function firstMm(candidates: readonly (string | undefined)[], mmPerPx: number): number | null {
+function firstMm(candidates: readonly (string | undefined)[], mmPerPx: number): Side | null {
   for (const text of candidates) {
     if (text === undefined) continue;
     const parts = splitLength(text);
     const px = absolutePx(text);
     if (parts === null || px === null || !(px > 0)) continue;
-    const mm = PIXEL_UNITS.has(parts.unit) ? px * mmPerPx : px * (MM_PER_INCH / PX_PER_INCH);
-    return tidy(mm);
+    const isInPx = PIXEL_UNITS.has(parts.unit);
+    return { mm: tidy(px * (isInPx ? mmPerPx : MM_PER_INCH / PX_PER_INCH)), isInPx };
   }
   return null;
 }
