@@ -1,20 +1,9 @@
-/** Writes docs/http-reference.md: every route of the server, from the descriptions that its OpenAPI document has too. */
+/** Writes docs/http-reference.md: every operation of the server, from the table that its routes are made of. */
 import path from "node:path";
 import prettier from "prettier";
 import { z, type ZodType } from "zod";
-import { ACCESS_ROUTES } from "../server/http/access-routes.js";
-import type { ApiRoute } from "../server/http/api-route.js";
-import { DRAWING_ROUTES } from "../server/http/drawing-routes.js";
-import { HAND_MOVE_ROUTES } from "../server/http/hand-move-routes.js";
-import { JOB_ROUTES } from "../server/http/job-routes.js";
-import { MACHINE_ROUTES } from "../server/http/machine-routes.js";
-import { OPERATOR_ROUTES } from "../server/http/operator-routes.js";
-import { PLOTTER_ROUTES } from "../server/http/plotter-routes.js";
-import { SAMPLE_ROUTES } from "../server/http/sample-routes.js";
-import { STATE_ROUTES } from "../server/http/state-routes.js";
-import { SHARED_ROUTES } from "../server/plugins/shared-queue/shared-routes.js";
-import { WEBHOOK_ROUTES } from "../server/plugins/webhooks/webhook-routes.js";
 import * as schemaEntry from "../src/schema/index.js";
+import { OPERATIONS, type Operation, type OperationGroup } from "../src/schema/index.js";
 import { fieldDocs } from "./field-docs.js";
 
 const TITLE = `# HTTP reference
@@ -26,19 +15,26 @@ All paths are below \`/api/v1\`. Bodies and responses are JSON unless stated oth
 request, a field with a default may be left out.
 `;
 
-const SECTIONS: readonly { readonly title: string; readonly routes: readonly ApiRoute[] }[] = [
-  { title: "State and events", routes: STATE_ROUTES },
-  { title: "Drawings", routes: DRAWING_ROUTES },
-  { title: "Jobs", routes: JOB_ROUTES },
-  { title: "Plotters", routes: PLOTTER_ROUTES },
-  { title: "Moves by hand", routes: HAND_MOVE_ROUTES },
-  { title: "Machines", routes: MACHINE_ROUTES },
-  { title: "Samples", routes: SAMPLE_ROUTES },
-  { title: "Operator, pairing and logs", routes: OPERATOR_ROUTES },
-  { title: "Access", routes: ACCESS_ROUTES },
-  { title: "Webhooks", routes: WEBHOOK_ROUTES },
-  { title: "Shared queue", routes: SHARED_ROUTES },
-];
+/** The headings; groups of one heading follow each other. */
+const TITLES: Readonly<Record<OperationGroup, string>> = {
+  state: "State and events",
+  drawings: "Drawings",
+  jobs: "Jobs",
+  plotters: "Plotters",
+  moves: "Moves by hand",
+  console: "Moves by hand",
+  machines: "Machines",
+  samples: "Samples",
+  operator: "Operator, pairing and logs",
+  access: "Access",
+  webhooks: "Webhooks",
+  sharedJobs: "Shared queue",
+};
+
+const operationsUnder = (title: string): readonly Operation[] =>
+  Object.entries<Readonly<Record<string, Operation>>>(OPERATIONS)
+    .filter(([group]) => TITLES[group as OperationGroup] === title)
+    .flatMap(([, operations]) => Object.values(operations));
 
 /** The parts of a JSON schema that zod writes. */
 interface Schema {
@@ -67,23 +63,24 @@ const DOCS = fieldDocs(path.join(import.meta.dirname, "..", "src", "schema"));
 
 export async function httpReference(): Promise<string> {
   const writer = new TypeWriter();
-  const sections = SECTIONS.map(({ title, routes }) => {
-    return `## ${title}\n\n${routes.map((one) => routeText(one, writer)).join("\n\n")}`;
+  const sections = [...new Set(Object.values(TITLES))].map((title) => {
+    const texts = operationsUnder(title).map((one) => operationText(one, writer));
+    return `## ${title}\n\n${texts.join("\n\n")}`;
   });
   const markdown = [TITLE, ...sections, `## Types\n\n${writer.namedTypes()}`].join("\n\n");
   const style = await prettier.resolveConfig(path.join(import.meta.dirname, "..", "package.json"));
   return prettier.format(markdown, { ...style, parser: "markdown" });
 }
 
-export const routeHeading = ({ method, path: at }: Pick<ApiRoute, "method" | "path">): string =>
+export const routeHeading = ({ method, path: at }: Pick<Operation, "method" | "path">): string =>
   `### ${method.toUpperCase()} ${at}`;
 
-function routeText(one: ApiRoute, writer: TypeWriter): string {
-  const { about, body, answer, status = 200 } = one;
+function operationText(one: Operation, writer: TypeWriter): string {
+  const { about, body, answer, status } = one;
   const parts = [routeHeading(one), `${about}.`];
   if (body === "file") parts.push("Body: the file itself.");
   else if (body !== undefined) parts.push(writer.inWords("Body", body));
-  if (answer === "text") parts.push(`Response ${status}: plain text.`);
+  if (answer === "text" || answer === "file") parts.push(`Response ${status}: plain text.`);
   else if (answer === "events") parts.push(`Response ${status}: a stream of ${writer.link("ServerEvent")}.`);
   else parts.push(writer.inWords(`Response ${status}`, answer));
   return parts.join("\n\n");

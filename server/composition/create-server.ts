@@ -88,7 +88,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     };
     const app = createApp({
       ...parts,
-      plugins: plugins.flatMap(({ routes }) => routes ?? []),
+      plugins: plugins.flatMap(({ operations }) => operations ?? []),
       pairing,
       log,
       serverLog: async () => {

@@ -4,62 +4,20 @@
  */
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
-import { PlotwrightError } from "../../src/index.js";
-import type { Pairing } from "../../src/schema/index.js";
-import type { MachineFiles } from "../storage/machine-files.js";
-import { drawingBoxMm } from "../planning/drawing-box.js";
-import { lane } from "../../host/planning/lane.js";
-import type { DrawingFiles } from "../storage/drawing-files.js";
-import type { JobQueue } from "../../host/queue/job-queue.js";
-import type { Access } from "../security/access.js";
-import type { OperatorLock } from "../security/operator-lock.js";
-import type { Notices } from "../../host/queue/notices.js";
-import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
-import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
-import { ACCESS_ROUTES, accessRoutes } from "./access-routes.js";
-import type { ApiPart } from "./api-route.js";
+import type { Operation } from "../../src/schema/index.js";
+import { limitRequests, pairRoutes, requireLocal, requireRole } from "./auth.js";
 import { Browsers, requireOperator } from "./browser.js";
-import { limitRequests, pairRoutes, requireRole } from "./auth.js";
-import { DRAWING_ROUTES, drawingRoutes } from "./drawing-routes.js";
 import { errorResponder, notFound } from "./errors.js";
-import type { EventHub } from "./events.js";
 import { guardHosts, guardPaths } from "./guard.js";
-import { HAND_MOVE_ROUTES, handMoveRoutes, type HandMoveParts } from "./hand-move-routes.js";
-import { JOB_ROUTES, jobRoutes } from "./job-routes.js";
-import { MACHINE_ROUTES, machineRoutes } from "./machine-routes.js";
 import { openApiText } from "./openapi.js";
-import { OPERATOR_ROUTES, operatorRoutes } from "./operator-routes.js";
-import { PLOTTER_ROUTES, plotterRoutes } from "./plotter-routes.js";
+import { missingPlugins, offeredOperations, operationRoutes } from "./operation-routes.js";
 import type { Refusals } from "./refusals.js";
-import { SAMPLE_ROUTES, sampleRoutes } from "./sample-routes.js";
-import { STATE_ROUTES, stateRoutes } from "./state-routes.js";
+import { serverHandlers, serverResponders, type ServerParts } from "./server-operations.js";
 
-export interface AppParts {
-  readonly version: string;
-  readonly queue: JobQueue;
-  readonly files: DrawingFiles;
-  readonly uploads: UploadedDrawings;
-  readonly registry: PlotterRegistry;
-  readonly hub: EventHub;
-  readonly operatorLock: OperatorLock;
-  readonly notices: Notices;
-  /** Routes of the plug-ins that are loaded. */
-  readonly plugins: readonly ApiPart[];
-  /** Links that pair a device. */
-  readonly pairing: () => Promise<Pairing>;
-  /** The server's log so far. */
-  readonly serverLog: () => Promise<string>;
-  /** Built-in and custom machine profiles. */
-  readonly machines: MachineFiles;
+export interface AppParts extends ServerParts {
   readonly allowedHosts: readonly string[];
-  /** The server's mDNS name, which it accepts as Host; null while it has none. */
-  readonly localName: () => string | null;
-  /** Folders with the built page and with the samples. */
+  /** Folder with the built page. */
   readonly webDir: string;
-  readonly samplesDir: string;
-  /** Sessions and keys; normally required only of clients on other computers. */
-  readonly access: Access;
-  readonly log: (line: string) => void;
   readonly refusals: Refusals;
 }
 
@@ -79,7 +37,7 @@ export function createApp(parts: AppParts): Express {
   app.use(browsers.routes());
   app.use("/api", requireRole(access, isRunning, refusals));
   app.use("/api", requireOperator(browsers, parts.operatorLock, isRunning));
-  app.use("/api/v1", apiRoutes(parts, browsers));
+  app.use("/api/v1", noStore, apiRoutes(parts, browsers).router);
   app.use("/api", notFound);
   app.use(pageRoutes(parts.webDir));
   app.use(notFound);
@@ -87,67 +45,32 @@ export function createApp(parts: AppParts): Express {
   return app;
 }
 
-/** The parts of the API, those of the plug-ins included. */
-export function apiParts(
+/** The operations that this server offers, and the routes to them. */
+export function apiRoutes(
   parts: AppParts,
   browsers = new Browsers(parts.access),
-  openApi = (): Promise<string> => Promise.resolve("{}"),
-): readonly ApiPart[] {
-  const { queue, files, uploads, machines, registry } = parts;
-  const plotters = registry.ports;
-  return [
-    { path: "", router: stateRoutes(parts, browsers, openApi), routes: STATE_ROUTES },
-    { path: "", router: operatorRoutes({ ...parts, plotters, browsers }), routes: OPERATOR_ROUTES },
-    { path: "", router: plotterRoutes(registry, queue, parts.log), routes: PLOTTER_ROUTES },
-    { path: "/plotters", router: handMoveRoutes(handMoveParts(parts)), routes: HAND_MOVE_ROUTES },
-    { path: "/access", router: accessRoutes(parts.access), routes: ACCESS_ROUTES },
-    { path: "/drawings", router: drawingRoutes(uploads), routes: DRAWING_ROUTES },
-    { path: "/jobs", router: jobRoutes({ queue, files, uploads }), routes: JOB_ROUTES },
-    { path: "/machines", router: machineRoutes(machines), routes: MACHINE_ROUTES },
-    { path: "/samples", router: sampleRoutes(parts.samplesDir), routes: SAMPLE_ROUTES },
-    ...parts.plugins,
-  ];
-}
-
-function handMoveParts({ registry, queue, files }: AppParts): HandMoveParts {
-  const turn = lane(2);
-  return {
-    plotters: registry.ports,
-    queue,
-    jobBoxMm: (id) =>
-      turn({ client: id }, () => drawingBoxMm(files.path(queue.drawingOf(id)), queue.get(id).settings)),
-  };
-}
-
-/** Messages for the routes of plug-ins that are not loaded. */
-const WITHOUT_PLUGIN: Readonly<Record<string, string>> = {
-  "/shared-jobs": "This server has no shared queue. Start it with serve --shared-queue to use one.",
-  "/webhooks": "Webhooks are switched off on this server.",
-};
-
-function apiRoutes(parts: AppParts, browsers: Browsers): Router {
-  const router = Router();
-  router.use((_request, response, next) => {
-    response.set("Cache-Control", "no-store");
-    next();
-  });
+): { readonly router: Router; readonly operations: readonly Operation[] } {
   let text: Promise<string> | null = null;
-  const all = apiParts(parts, browsers, () => {
-    text ??= openApiText(
-      parts.version,
-      all.flatMap(({ routes }) => routes),
-    );
-    return text;
+  const openApi = (): Promise<string> => (text ??= openApiText(parts.version, operations));
+  const handlers = serverHandlers(parts);
+  const responders = serverResponders(parts, browsers, openApi);
+  const operations = Object.values(offeredOperations({ handlers, responders })).flatMap((group = {}) =>
+    Object.values(group),
+  );
+  const router = operationRoutes({
+    handlers,
+    responders,
+    maxBytes: parts.files.maxBytes,
+    requireLocal: requireLocal(parts.access, parts.refusals),
   });
-  for (const part of all) router.use(part.path === "" ? "/" : part.path, part.router);
-  for (const [path, message] of Object.entries(WITHOUT_PLUGIN)) {
-    if (all.some((part) => part.path === path)) continue;
-    router.use(path, () => {
-      throw new PlotwrightError("not-found", message);
-    });
-  }
-  return router;
+  router.use(missingPlugins(handlers));
+  return { router, operations };
 }
+
+const noStore: express.RequestHandler = (_request, response, next) => {
+  response.set("Cache-Control", "no-store");
+  next();
+};
 
 /** Built files have a hash in their name and never change; the page itself is revalidated on each load. */
 function pageRoutes(webDir: string): Router {

@@ -6,7 +6,7 @@ import type { IncomingMessage } from "node:http";
 import { Router, type Request, type RequestHandler } from "express";
 import { ipKeyGenerator, rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
-import type { Role } from "../../src/schema/index.js";
+import { OPERATIONS, type Operation, type Role } from "../../src/schema/index.js";
 import { SESSION_DAYS, type Access } from "../security/access.js";
 import type { Refusals } from "./refusals.js";
 
@@ -66,16 +66,48 @@ function whyNot({ headers }: Request, role: Role | null): string {
 /** Whether a job is on a plotter now. */
 export type IsRunning = (jobId: string) => boolean;
 
+const ALL: readonly Operation[] = Object.values<Readonly<Record<string, Operation>>>(OPERATIONS).flatMap(
+  (group) => Object.values(group),
+);
+const STOPS = ALL.filter(({ role }) => role === "stop").map((one) => ({
+  isCancel: one === OPERATIONS.jobs.cancel,
+  path: new RegExp(`^/api/v1${one.path.replace(":id", "([^/]+)")}$`, "i"),
+}));
+/** The first parts of the paths whose answers only operators may read. */
+const SECRETS: ReadonlySet<string> = new Set(
+  ALL.filter(({ method, role }) => method === "get" && role === "operate").map(({ path }) =>
+    String(path.split("/")[1]),
+  ),
+);
+
 /** Stopping a plot needs no operator role: the person closest to the plotter must be able to do it. */
 export function isStop({ method, baseUrl, path }: Request, isRunning: IsRunning): boolean {
-  const match = /^\/api\/v1\/jobs\/([^/]+)\/(pause|cancel|emergency-stop)$/i.exec(baseUrl + path);
-  // Cancelling a job that is only queued is not a stop.
-  return method === "POST" && match !== null && (match[2] !== "cancel" || isRunning(match[1] ?? ""));
+  if (method !== "POST") return false;
+  return STOPS.some((stop) => {
+    const match = stop.path.exec(baseUrl + path);
+    // Cancelling a job that is only queued is not a stop.
+    return match !== null && (!stop.isCancel || isRunning(match[1] ?? ""));
+  });
 }
 
-/** Access keys, webhooks and logs may contain secrets, so only operators may read them. */
+/** Access keys, webhooks and logs may contain secrets, so only operators may read them, and whatever is below them. */
 const maySee = ({ method, path }: Request): boolean =>
-  SAFE_METHODS.has(method) && !/^\/v1\/(access|webhooks|logs)(\/|$)/i.test(path);
+  SAFE_METHODS.has(method) && !SECRETS.has(/^\/v1\/([^/]*)/i.exec(path)?.[1]?.toLowerCase() ?? "");
+
+/** For the links that pair a device: anyone with such a link gets access. */
+export const requireLocal =
+  (access: Access, refusals: Refusals): RequestHandler<Record<string, string>> =>
+  (request, _response, next) => {
+    if (isTrusted(request, access)) {
+      next();
+      return;
+    }
+    refusals.note(request, "pairing links are only for this computer");
+    throw new PlotwrightError(
+      "not-allowed",
+      "Pairing links are shown only on the computer where the server runs, and in its terminal.",
+    );
+  };
 
 /** GET /pair?token=…: sets a session cookie, then forwards to the page. */
 export function pairRoutes(access: Access, refusals: Refusals, log: (line: string) => void): Router {

@@ -7,7 +7,7 @@
  */
 import { createHash, randomBytes } from "node:crypto";
 import { Router, type Request } from "express";
-import type { Operator } from "../../src/schema/index.js";
+import { OPERATIONS, type Operator } from "../../src/schema/index.js";
 import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import { SESSION_COOKIE, bearerOf, cookieOf, isStop, type IsRunning } from "./auth.js";
@@ -93,7 +93,8 @@ export function requireOperator(
   const router = Router();
   router.use((request, _response, next) => {
     const isFree = SAFE_METHODS.has(request.method) || isStop(request, isRunning);
-    const browser = isFree || request.path === "/v1/operator/take" ? null : browsers.of(request);
+    const browser =
+      isFree || request.path === `/v1${OPERATIONS.operator.take.path}` ? null : browsers.of(request);
     if (browser !== null) operatorLock.act(browser);
     next();
   });

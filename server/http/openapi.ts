@@ -1,23 +1,22 @@
-/** The API as an OpenAPI 3.1 document, generated from the zod schemas. */
+/** The API as an OpenAPI 3.1 document, generated from the table of operations. */
 import { z, type ZodType } from "zod";
-import { apiErrorSchema, serverEventSchema } from "../../src/schema/index.js";
-import type { ApiRoute } from "./api-route.js";
+import { apiErrorSchema, serverEventSchema, type Operation } from "../../src/schema/index.js";
 
 /**
- * The document as JSON. It is generated route by route with pauses: this thread also streams to the board,
+ * The document as JSON. It is generated operation by operation with pauses: this thread also streams to the board,
  * and generating everything in one go would take so long that a running plot would underrun.
  */
-export async function openApiText(version: string, routes: readonly ApiRoute[]): Promise<string> {
+export async function openApiText(version: string, operations: readonly Operation[]): Promise<string> {
   const paths: Record<string, Record<string, object>> = {};
-  for (const apiRoute of routes) {
-    const path = `/api/v1${apiRoute.path.replace(/:(\w+)/g, "{$1}")}`;
-    paths[path] = { ...paths[path], [apiRoute.method]: operation(apiRoute) };
+  for (const one of operations) {
+    const path = `/api/v1${one.path.replace(/:(\w+)/g, "{$1}")}`;
+    paths[path] = { ...paths[path], [one.method]: described(one) };
     await new Promise((resolve) => setImmediate(resolve));
   }
   return JSON.stringify({ openapi: "3.1.0", info: { title: "plotwright", version }, paths });
 }
 
-function operation({ path, about, body, answer, status = 200 }: ApiRoute): object {
+function described({ path, about, body, answer, status }: Operation): object {
   const names = [...path.matchAll(/:(\w+)/g)].map((match) => match[1]);
   return {
     summary: about,
@@ -47,8 +46,8 @@ function operation({ path, about, body, answer, status = 200 }: ApiRoute): objec
   };
 }
 
-function contentOf(answer: ApiRoute["answer"]): object {
-  if (answer === "text") return { "text/plain": { schema: { type: "string" } } };
+function contentOf(answer: Operation["answer"]): object {
+  if (answer === "text" || answer === "file") return { "text/plain": { schema: { type: "string" } } };
   if (answer === "events")
     return { "text/event-stream": { schema: jsonSchema(serverEventSchema, "output") } };
   return { "application/json": { schema: jsonSchema(answer, "output") } };

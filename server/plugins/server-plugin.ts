@@ -5,7 +5,7 @@
  *
  *   created ──the queue loads its jobs──> start(host) ──the port is open──> listening(address) ──> close()
  */
-import type { ApiPart } from "../http/api-route.js";
+import type { ServerHandlers } from "../http/operation-routes.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { Notices } from "../../host/queue/notices.js";
@@ -23,7 +23,7 @@ export interface ServerPlugin {
 }
 
 export interface RunningPlugin {
-  readonly routes?: ApiPart;
+  readonly operations?: ServerHandlers;
   /** The server accepts requests. */
   listening?(address: ServerAddress): void;
   close(): Promise<void> | void;

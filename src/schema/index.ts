@@ -11,3 +11,5 @@ export * from "./studio.js";
 export * from "./machine.js";
 export * from "./hand-moves.js";
 export * from "./shared.js";
+export * from "./operation.js";
+export * from "./operations.js";

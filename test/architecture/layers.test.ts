@@ -147,9 +147,11 @@ describe("host", () => {
     expect(wrong.map(write)).toEqual([]);
   });
 
-  it("has folders that are layers: planning, plotter, queue", () => {
+  it("has folders that are layers: planning, plotter, queue, operations", () => {
     const level = (file: string): number =>
-      ["host", "host/planning", "host/plotter", "host/queue"].indexOf(path.posix.dirname(file));
+      ["host", "host/planning", "host/plotter", "host/queue", "host/operations"].indexOf(
+        path.posix.dirname(file),
+      );
     expect(inside.filter(({ from, to }) => level(from) < level(to)).map(write)).toEqual([]);
     expect(cycleOfFiles("host", SOURCES)).toEqual([]);
   });

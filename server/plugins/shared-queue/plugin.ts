@@ -5,7 +5,7 @@ import { claimsWithoutSharing } from "../../queue/shared-claims.js";
 import type { Store } from "../../storage/store.js";
 import type { PluginCore, ServerPlugin } from "../server-plugin.js";
 import { SharedQueue } from "./shared-queue.js";
-import { SHARED_ROUTES, sharedRoutes } from "./shared-routes.js";
+import { sharedJobOperations } from "./shared-job-operations.js";
 import { SharedStore } from "./shared-store.js";
 
 export interface SharedQueueOptions {
@@ -45,11 +45,7 @@ export function sharedQueuePlugin(options: SharedQueueOptions, { store, log }: P
       });
       shared = queueOfServers;
       return {
-        routes: {
-          path: "/shared-jobs",
-          router: sharedRoutes(queueOfServers, files, uploads),
-          routes: SHARED_ROUTES,
-        },
+        operations: { sharedJobs: sharedJobOperations(queueOfServers, files, uploads) },
         close: () => queueOfServers.close(),
       };
     },

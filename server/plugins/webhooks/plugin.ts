@@ -1,6 +1,6 @@
 /** The plug-in that notifies other programs of finished, waiting and failed jobs. */
+import type { ServerHandlers } from "../../http/operation-routes.js";
 import type { PluginCore, ServerPlugin } from "../server-plugin.js";
-import { WEBHOOK_ROUTES, webhookRoutes } from "./webhook-routes.js";
 import { WebhookStore } from "./webhook-store.js";
 import { Webhooks } from "./webhooks.js";
 
@@ -19,9 +19,20 @@ export function webhooksPlugin({ store, plotters, log }: PluginCore): ServerPlug
     start: () => {
       webhooks.start();
       return {
-        routes: { path: "/webhooks", router: webhookRoutes(webhooks, log), routes: WEBHOOK_ROUTES },
+        operations: { webhooks: webhookOperations(webhooks, log) },
         close: () => webhooks.close(),
       };
     },
   };
 }
+
+export const webhookOperations = (webhooks: Webhooks, log: (line: string) => void) =>
+  ({
+    list: () => ({ webhooks: webhooks.list() }),
+    add: (wanted) => {
+      const added = webhooks.add(wanted);
+      log(`webhook ${JSON.stringify(added.webhook.name)} added (${new URL(added.webhook.url).host})`);
+      return added;
+    },
+    remove: (id) => webhooks.remove(id),
+  }) satisfies ServerHandlers["webhooks"];

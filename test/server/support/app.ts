@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { prepareDataDir } from "../../../server/storage/data-dir.js";
-import { apiParts, createApp, type AppParts } from "../../../server/http/app.js";
+import { apiRoutes, createApp, type AppParts } from "../../../server/http/app.js";
 import { EventHub } from "../../../server/http/events.js";
 import { MachineFiles } from "../../../server/storage/machine-files.js";
 import { httpServer, type TlsFiles } from "../../../server/http/listen.js";
@@ -17,14 +17,13 @@ import { OperatorLock } from "../../../server/security/operator-lock.js";
 import { pairingLinks } from "../../../server/security/network.js";
 import type { FoundBoard } from "../../../server/serial/find-boards.js";
 import { Webhooks } from "../../../server/plugins/webhooks/webhooks.js";
-import { WEBHOOK_ROUTES, webhookRoutes } from "../../../server/plugins/webhooks/webhook-routes.js";
+import { webhookOperations } from "../../../server/plugins/webhooks/plugin.js";
 import { WebhookStore } from "../../../server/plugins/webhooks/webhook-store.js";
-import type { ServerEvent } from "../../../src/schema/index.js";
+import type { Operation, ServerEvent } from "../../../src/schema/index.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Planning } from "../../../server/planning/planning.js";
 import { UploadedDrawings } from "../../../server/storage/uploaded-drawings.js";
-import type { ApiRoute } from "../../../server/http/api-route.js";
 import { Store } from "../../../server/storage/store.js";
 import { Access } from "../../../server/security/access.js";
 import { LED_PLANNING, LedPlotter } from "./fakes.js";
@@ -44,7 +43,7 @@ export interface TestApp {
   /** "method path" of every route below /api/v1. */
   routes(): string[];
   /** What the OpenAPI document is made of. */
-  documented(): readonly ApiRoute[];
+  documented(): readonly Operation[];
   drawingsOnDisk(): string[];
   /** From now on requests have to arrive that fast. */
   hurry(headersMs: number, wholeMs: number): void;
@@ -134,7 +133,7 @@ export async function startApp(
     hub,
     operatorLock,
     notices,
-    plugins: [{ path: "/webhooks", router: webhookRoutes(webhooks, log), routes: WEBHOOK_ROUTES }],
+    plugins: [{ webhooks: webhookOperations(webhooks, log) }],
     pairing: () =>
       pairingLinks("http://192.168.1.4:9080", true, { operatePath: "/pair?a", watchPath: "/pair?b" }),
     serverLog: () => Promise.resolve(logged.join("\n")),
@@ -160,14 +159,12 @@ export async function startApp(
     webhooks,
     more,
     routes: () =>
-      apiParts(parts).flatMap(({ path, router }) =>
-        router.stack.flatMap(({ route }) =>
-          (route?.stack ?? []).map(
-            ({ method }) => `${method} ${path}${route?.path === "/" ? "" : route?.path}`,
-          ),
+      apiRoutes(parts).router.stack.flatMap(({ route }) =>
+        [...new Set((route?.stack ?? []).map(({ method }) => method))].map(
+          (method) => `${method} ${route?.path}`,
         ),
       ),
-    documented: () => apiParts(parts).flatMap(({ routes }) => routes),
+    documented: () => apiRoutes(parts).operations,
     logged,
     refusals,
     drawingsOnDisk: () => readdirSync(join(dir, "drawings")),

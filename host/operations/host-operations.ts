@@ -1,0 +1,166 @@
+/** The handlers of the operations that every host has: the server, and the page without one. */
+import { PlotwrightError } from "../../src/index.js";
+import type {
+  BoxMm,
+  FrameRequest,
+  HandMove,
+  HandMoveRequest,
+  OperationHandlers,
+  Plotter,
+} from "../../src/schema/index.js";
+import type { CustomMachines } from "../custom-machines.js";
+import type { Requester } from "../planning/lane.js";
+import type { PlotterPort } from "../plotter/plotter-port.js";
+import type { PlotterRegistry, PlotterUse } from "../plotter/plotter-registry.js";
+import { findFreePlotter, findPlotter } from "../queue/find-plotter.js";
+import type { JobQueue } from "../queue/job-queue.js";
+import type { Notices } from "../queue/notices.js";
+import type { StoredDrawing } from "../storage.js";
+
+export interface HostParts {
+  readonly queue: JobQueue;
+  readonly registry: PlotterRegistry;
+  readonly notices: Notices;
+  readonly machines: Pick<CustomMachines, "list" | "save" | "remove">;
+  readonly uploads: {
+    /** Stores the text of a drawing. */
+    addText(text: string): Promise<StoredDrawing>;
+    /** Hands an uploaded drawing over to the caller. Throws `not-found`. */
+    claim(id: string): StoredDrawing;
+  };
+  /** The box of a job's drawing as its settings place it on the machine. */
+  readonly jobBoxMm: (jobId: string) => Promise<BoxMm>;
+  readonly log: (line: string) => void;
+}
+
+export const hostOperations = (parts: HostParts) =>
+  ({
+    state: {
+      history: (wanted) => parts.queue.older(wanted),
+      queue: () => parts.queue.settings(),
+      setQueue: (settings) => parts.queue.saveSettings(settings),
+    },
+    jobs: jobOperations(parts),
+    plotters: plotterOperations(parts),
+    moves: moveOperations(parts),
+    console: {
+      command: (id, { line }) => findFreePlotter(parts.registry.ports, parts.queue, id).command(line),
+    },
+    machines: machineOperations(parts),
+    operator: { dismissNotice: (id) => parts.notices.remove(id) },
+  }) satisfies OperationHandlers<Requester>;
+
+const jobOperations = ({ queue, uploads }: HostParts) =>
+  ({
+    add: async ({ drawing, drawingId, settings = {}, ...rest }, requester) => {
+      const stored =
+        drawingId === undefined ? await uploads.addText(drawing ?? "") : uploads.claim(drawingId);
+      return queue.add({ ...rest, settings, drawing: stored }, requester);
+    },
+    get: (id) => queue.get(id),
+    patch: (id, patch, requester) => queue.patch(id, patch, requester),
+    move: (id, { beforeId }) => queue.move(id, beforeId),
+    // Shortly after the host has started it is still looking for boards, so these two wait until it knows.
+    start: async (id) => {
+      await queue.plotterSettled(id);
+      return queue.start(id);
+    },
+    recover: async (id) => {
+      await queue.plotterSettled(id);
+      return queue.recover(id);
+    },
+    pause: (id) => queue.pause(id),
+    resume: (id) => queue.resume(id),
+    cancel: (id) => queue.cancel(id),
+    requeue: (id) => queue.requeue(id),
+    "emergency-stop": (id) => queue.emergencyStop(id),
+    change: (id, change) => queue.change(id, change),
+    place: (id, by) => queue.movePlace(id, by),
+    "check-place": (id) => queue.checkPlace(id),
+    duplicate: (id) => queue.duplicate(id),
+    remove: (id) => queue.remove(id),
+  }) satisfies OperationHandlers<Requester>["jobs"];
+
+const plotterOperations = ({ queue, registry, log }: HostParts) => {
+  const find = (id: string): PlotterPort => findPlotter(registry.ports, id);
+  const findFree = (id: string): PlotterPort => findFreePlotter(registry.ports, queue, id);
+  const use: PlotterUse = {
+    isBusy: (id) => queue.isPlotterBusy(id),
+    liveJobCount: (id) => queue.liveJobCount(id),
+  };
+  return {
+    devices: async () => ({ devices: await registry.devices() }),
+    add: (wanted) => {
+      const plotter = registry.add(wanted);
+      log(`plotter "${plotter.name}" added`);
+      return plotter;
+    },
+    get: (id) => find(id).snapshot(),
+    patch: (id, patch) => registry.patch(id, patch, use),
+    remove: async (id) => {
+      await registry.remove(id, use);
+      log(`plotter ${id} removed`);
+    },
+    queue: (id) => queue.settings(find(id).id),
+    setQueue: (id, settings) => queue.saveSettings(settings, id),
+    settings: (id) => registry.settings()[find(id).id] ?? null,
+    saveSettings: (id, settings) => registry.saveSettings(id, settings),
+    log: (id) => find(id).log(),
+    pen: async (id, { up, heightPct, settings }) => {
+      const plotter = findFree(id);
+      await plotter.pen(up, heightPct, queue.handSettings(id, { settings }));
+      return plotter.snapshot();
+    },
+    motorsOff: async (id) => {
+      const plotter = findFree(id);
+      await plotter.motorsOff();
+      return plotter.snapshot();
+    },
+  } satisfies OperationHandlers<Requester>["plotters"];
+};
+
+const moveOperations = ({ queue, registry, jobBoxMm }: HostParts) => {
+  const perform = async (id: string, move: HandMove, how: HandMoveRequest): Promise<Plotter> => {
+    const plotter = findFreePlotter(registry.ports, queue, id);
+    await plotter.move(move, queue.handSettings(id, how));
+    return plotter.snapshot();
+  };
+  /** The body of a move has its numbers and `how` side by side. */
+  const handler =
+    <Kind extends HandMove["kind"]>(kind: Kind) =>
+    (id: string, { settings, profile, ...numbers }: HandMoveRequest & Numbers<Kind>): Promise<Plotter> =>
+      perform(id, { kind, ...numbers } as unknown as HandMove, { settings, profile });
+  return {
+    home: handler("home"),
+    walk: handler("walk"),
+    jog: handler("jog"),
+    "set-home": handler("set-home"),
+    "cycle-pen": handler("cycle-pen"),
+    frame: async (id, { settings, profile, ...around }: FrameRequest) => {
+      const boxMm = "boxMm" in around ? around.boxMm : await jobBoxMm(around.jobId);
+      const given = settings ?? ("jobId" in around ? queue.get(around.jobId).settings : undefined);
+      return perform(id, { kind: "frame", boxMm }, { settings: given, profile });
+    },
+    "test-line": handler("test-line"),
+    "test-patch": handler("test-patch"),
+    square: handler("square"),
+    servo: handler("servo"),
+  } satisfies OperationHandlers<Requester>["moves"];
+};
+
+type Numbers<Kind> = Omit<Extract<HandMove, { readonly kind: Kind }>, "kind">;
+
+const machineOperations = ({ machines }: HostParts) =>
+  ({
+    list: () => ({ machines: machines.list() }),
+    save: (id, machine) => {
+      if (machine.id !== id) {
+        throw new PlotwrightError(
+          "bad-setting",
+          `id: it is ${machine.id} in the profile, but ${id} in the path.`,
+        );
+      }
+      return machines.save(machine);
+    },
+    remove: (id) => machines.remove(id),
+  }) satisfies OperationHandlers<Requester>["machines"];

@@ -1,0 +1,126 @@
+/** The operations of a server: those of every host, and those about its files, its users and its log. */
+import type { RequestHandler } from "express";
+import { readFile, readdir } from "node:fs/promises";
+import { join } from "node:path";
+import { PlotwrightError } from "../../src/index.js";
+import type { BoxMm, Pairing } from "../../src/schema/index.js";
+import { hostOperations } from "../../host/operations/host-operations.js";
+import { lane } from "../../host/planning/lane.js";
+import { drawingBoxMm } from "../planning/drawing-box.js";
+import type { DrawingFiles } from "../storage/drawing-files.js";
+import { bundleText } from "../storage/log-book.js";
+import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
+import type { Access } from "../security/access.js";
+import type { Browsers } from "./browser.js";
+import { jobResponders } from "./job-routes.js";
+import { bytesOf, type Responders, type ServerHandlers } from "./operation-routes.js";
+import { stateResponders, type StateParts } from "./state-routes.js";
+
+export interface ServerParts extends StateParts {
+  readonly files: DrawingFiles;
+  readonly uploads: UploadedDrawings;
+  /** Operations of the plug-ins that are loaded. */
+  readonly plugins: readonly ServerHandlers[];
+  /** Links that pair a device. */
+  readonly pairing: () => Promise<Pairing>;
+  /** The server's log so far. */
+  readonly serverLog: () => Promise<string>;
+  /** Folder with the samples. */
+  readonly samplesDir: string;
+  readonly log: (line: string) => void;
+}
+
+/** Those of the plug-ins included. */
+export const serverHandlers = (parts: ServerParts): ServerHandlers => {
+  const host = hostOperations({
+    ...parts,
+    uploads: {
+      addText: (text) => parts.files.add([Buffer.from(text, "utf8")]),
+      claim: (id) => parts.uploads.claim(id),
+    },
+    jobBoxMm: jobBoxMm(parts),
+  });
+  return {
+    ...host,
+    samples: sampleOperations(parts.samplesDir),
+    operator: {
+      ...host.operator,
+      pairing: () => parts.pairing(),
+      logs: async () =>
+        bundleText({
+          version: parts.version,
+          serverLog: await parts.serverLog(),
+          jobs: parts.queue.list(),
+          plotters: [...parts.registry.ports.values()].map((port) => ({
+            plotter: port.snapshot(),
+            log: port.log(),
+          })),
+        }),
+    },
+    access: accessOperations(parts.access),
+    ...parts.plugins.reduce((all, one) => ({ ...all, ...one }), {}),
+  };
+};
+
+/** `openApi`: the text of the OpenAPI document. */
+export const serverResponders = (
+  parts: ServerParts,
+  browsers: Browsers,
+  openApi: () => Promise<string>,
+): Responders => ({
+  state: stateResponders(parts, browsers, openApi),
+  drawings: { upload: receiveDrawing(parts.uploads) },
+  jobs: jobResponders(parts),
+  operator: {
+    take: (request, response) => {
+      const browser = browsers.of(request);
+      if (browser === null) {
+        throw new PlotwrightError(
+          "bad-setting",
+          "Only a browser can take over; scripts may act at any time.",
+        );
+      }
+      response.json({ operator: parts.operatorLock.take(browser) });
+    },
+  },
+});
+
+const accessOperations = (access: Access) =>
+  ({
+    list: () => ({ entries: access.list() }),
+    addKey: ({ name, role }) => access.createKey(name, role),
+    revoke: (id) => access.revoke(id),
+  }) satisfies ServerHandlers["access"];
+
+const receiveDrawing =
+  (uploads: UploadedDrawings): RequestHandler<Record<string, string>> =>
+  async (request, response) => {
+    response.status(201).json({ id: await uploads.add(bytesOf(request)) });
+  };
+
+/** Measures the drawings of two jobs at a time. */
+function jobBoxMm({ queue, files }: ServerParts): (id: string) => Promise<BoxMm> {
+  const turn = lane(2);
+  return (id) =>
+    turn({ client: id }, () => drawingBoxMm(files.path(queue.drawingOf(id)), queue.get(id).settings));
+}
+
+/** The drawings that come with plotwright. */
+const sampleOperations = (dir: string) => {
+  const names = async (): Promise<string[]> =>
+    (await readdir(dir).catch(() => [])).filter((name) => name.endsWith(".svg")).sort();
+  return {
+    list: async () => ({ samples: (await names()).map((name) => ({ name, title: titleOf(name) })) }),
+    // Only names in the listing are opened, so no name can refer to a file outside the folder.
+    get: async (name) => {
+      if ((await names()).includes(name)) return readFile(join(dir, name), "utf8");
+      throw new PlotwrightError("not-found", `There is no sample ${name}.`);
+    },
+  } satisfies ServerHandlers["samples"];
+};
+
+/** "many-short-strokes.svg" -> "Many short strokes" */
+function titleOf(name: string): string {
+  const words = name.replace(/\.svg$/, "").replaceAll("-", " ");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}

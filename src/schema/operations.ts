@@ -1,0 +1,351 @@
+/**
+ * The one table of operations: everything that clients can ask of a server, or a page of its own host. The server's
+ * routes and guards, the OpenAPI document, docs/http-reference.md and the clients of page and command line are made
+ * from it. The handlers are in host/operations/ and, for what only a server has, in server/.
+ *
+ * To add an operation: its row here, its handler, and the code that calls it.
+ */
+import { z, type ZodType } from "zod";
+import { accessEntrySchema, meSchema, newKeySchema } from "./access.js";
+import {
+  historyRequestSchema,
+  jobChangeSchema,
+  jobPageSchema,
+  jobPatchSchema,
+  moveJobSchema,
+  movePlaceSchema,
+  newJobSchema,
+  operatorSchema,
+  penRequestSchema,
+  plotterSchema,
+  queueSettingsSchema,
+  snapshotSchema,
+} from "./api.js";
+import {
+  commandAnswerSchema,
+  commandRequestSchema,
+  frameRequestSchema,
+  handMoveRequestSchema,
+  jogRequestSchema,
+  servoRequestSchema,
+  squareRequestSchema,
+  walkRequestSchema,
+} from "./hand-moves.js";
+import { jobSchema } from "./job.js";
+import { machineListSchema, machineProfileSchema } from "./machine.js";
+import { operation, type ClientOf, type HandlersOf } from "./operation.js";
+import { plotterSettingsSchema } from "./plotter-settings.js";
+import { newSharedJobSchema, sharedJobSchema } from "./shared.js";
+import {
+  deviceSchema,
+  newPlotterSchema,
+  newWebhookSchema,
+  pairingSchema,
+  plotterPatchSchema,
+  webhookSchema,
+} from "./studio.js";
+
+/** The answer of operations that return no data. */
+const okSchema = z.object({ ok: z.literal(true) });
+const idSchema = z.object({ id: z.string() });
+
+/** A change of a job or plotter. */
+const CHANGE = { maxBodyBytes: 200_000 } as const;
+/** Small enough to be parsed in the server's thread, which also streams to the board. */
+const NEW_JOB = { maxBodyBytes: 8_000_000, status: 201 } as const;
+
+/** An action on a job that needs no further data. */
+const action = <const Name extends string, const More extends { readonly role?: "stop" }>(
+  name: Name,
+  about: string,
+  more?: More,
+) => operation("post", `/jobs/:id/${name}`, about, jobSchema, more);
+
+const move = <const Kind extends string, Body extends ZodType>(kind: Kind, about: string, body: Body) =>
+  operation("post", `/plotters/:id/${kind}`, about, plotterSchema, {
+    body,
+    isBodyOptional: true,
+    maxBodyBytes: 1_048_576,
+  });
+
+export const OPERATIONS = {
+  state: {
+    get: operation(
+      "get",
+      "/state",
+      "Returns the state of the server: everything but older jobs of the history",
+      snapshotSchema,
+    ),
+    history: operation(
+      "get",
+      "/history",
+      "Returns up to 50 ended jobs: those after the job ?after=ID of the history, or the newest ones, of all plotters or of ?plotterId=ID",
+      jobPageSchema,
+      { query: historyRequestSchema },
+    ),
+    events: operation("get", "/events", "Streams a snapshot, then every change", "events"),
+    me: operation("get", "/me", "Returns the role and identity of the caller", meSchema),
+    openApi: operation(
+      "get",
+      "/openapi.json",
+      "Returns the OpenAPI description of this interface",
+      z.looseObject({}),
+    ),
+    queue: operation("get", "/queue", "Returns the queue settings of the first plotter", queueSettingsSchema),
+    setQueue: operation(
+      "patch",
+      "/queue",
+      "Changes the queue settings of the first plotter",
+      queueSettingsSchema,
+      { body: queueSettingsSchema },
+    ),
+  },
+
+  drawings: {
+    upload: operation(
+      "post",
+      "/drawings",
+      "Uploads a drawing, the file as the body; use its id in POST /jobs within ten minutes",
+      idSchema,
+      { body: "file", status: 201 },
+    ),
+  },
+
+  jobs: {
+    add: operation(
+      "post",
+      "/jobs",
+      "Adds a job from JSON with an uploaded drawing's id or, up to 8 MB, with its text; or from the file itself as the body with ?name=",
+      jobSchema,
+      { body: newJobSchema, ...NEW_JOB },
+    ),
+    get: operation("get", "/jobs/:id", "Returns a job", jobSchema),
+    drawing: operation("get", "/jobs/:id/drawing", "Returns the uploaded file", "file"),
+    patch: operation("patch", "/jobs/:id", "Changes name, settings or plotter of a job", jobSchema, {
+      body: jobPatchSchema,
+      ...CHANGE,
+    }),
+    move: operation("post", "/jobs/:id/move", "Moves a job in the queue", okSchema, {
+      body: moveJobSchema,
+      ...CHANGE,
+    }),
+    start: action("start", "Starts plotting"),
+    pause: action("pause", "Slows down to a stop and lifts the pen", { role: "stop" }),
+    resume: action("resume", "Resumes a paused job"),
+    cancel: action("cancel", "Cancels a job: the pen lifts and goes home", { role: "stop" }),
+    requeue: action("requeue", "Queues an ended job again"),
+    recover: action("recover", "Continues an interrupted or cancelled job, paused at first"),
+    "emergency-stop": action("emergency-stop", "Stops at once, without slowing down", { role: "stop" }),
+    change: operation(
+      "post",
+      "/jobs/:id/change",
+      "Changes pen heights and speeds while plotting",
+      jobSchema,
+      { body: jobChangeSchema, ...CHANGE },
+    ),
+    place: operation(
+      "post",
+      "/jobs/:id/place",
+      "Moves the place from which a paused job resumes",
+      jobSchema,
+      { body: movePlaceSchema, ...CHANGE },
+    ),
+    "check-place": action("check-place", "Moves to the place where a paused job resumes, with the pen up"),
+    duplicate: operation("post", "/jobs/:id/duplicate", "Queues a copy of a job", jobSchema, { status: 201 }),
+    remove: operation("delete", "/jobs/:id", "Removes a job", okSchema),
+  },
+
+  plotters: {
+    devices: operation(
+      "get",
+      "/devices",
+      "Lists the boards that are plugged in",
+      z.object({ devices: z.array(deviceSchema) }),
+    ),
+    add: operation("post", "/plotters", "Adds a plotter", plotterSchema, {
+      body: newPlotterSchema,
+      status: 201,
+    }),
+    get: operation("get", "/plotters/:id", "Returns a plotter", plotterSchema),
+    patch: operation(
+      "patch",
+      "/plotters/:id",
+      "Changes name, device or machine of a plotter",
+      plotterSchema,
+      { body: plotterPatchSchema },
+    ),
+    remove: operation("delete", "/plotters/:id", "Removes a plotter without jobs", okSchema),
+    queue: operation(
+      "get",
+      "/plotters/:id/queue",
+      "Returns the queue settings of a plotter",
+      queueSettingsSchema,
+    ),
+    setQueue: operation(
+      "patch",
+      "/plotters/:id/queue",
+      "Changes the queue settings of a plotter",
+      queueSettingsSchema,
+      { body: queueSettingsSchema },
+    ),
+    settings: operation(
+      "get",
+      "/plotters/:id/settings",
+      "Returns heights, pens and presets of a plotter; null if nothing was set",
+      plotterSettingsSchema.nullable(),
+    ),
+    saveSettings: operation(
+      "put",
+      "/plotters/:id/settings",
+      "Stores heights, pens and presets of a plotter",
+      plotterSettingsSchema,
+      { body: plotterSettingsSchema, maxBodyBytes: 2_097_152 },
+    ),
+    log: operation("get", "/plotters/:id/log", "Returns the commands and replies of the connection", "text", {
+      attachment: "plotwright-:id.log",
+    }),
+    pen: operation("post", "/plotters/:id/pen", "Lifts or lowers the pen", plotterSchema, {
+      body: penRequestSchema,
+    }),
+    motorsOff: operation(
+      "post",
+      "/plotters/:id/motors-off",
+      "Switches the motors off, so that the carriage can be pushed by hand",
+      plotterSchema,
+    ),
+  },
+
+  /** The names are the kinds of `HandMove`. */
+  moves: {
+    home: move(
+      "home",
+      "Lifts the pen and moves home, to the limit switches if the machine has them",
+      handMoveRequestSchema,
+    ),
+    walk: move("walk", "Moves to a position in mm from home, pen up", walkRequestSchema),
+    jog: move("jog", "Moves by a distance in mm, pen up", jogRequestSchema),
+    "set-home": move("set-home", "Makes the current position home", handMoveRequestSchema),
+    "cycle-pen": move("cycle-pen", "Lowers the pen and lifts it again", handMoveRequestSchema),
+    frame: move("frame", "Moves around a job's drawing or a box and back, pen up", frameRequestSchema),
+    "test-line": move("test-line", "Draws a line of 20 mm near the current position", handMoveRequestSchema),
+    "test-patch": move(
+      "test-patch",
+      "Draws a small test pattern at the current position",
+      handMoveRequestSchema,
+    ),
+    square: move("square", "Draws a square for measuring", squareRequestSchema),
+    servo: move("servo", "Sets a raw servo position", servoRequestSchema),
+  },
+
+  console: {
+    command: operation("post", "/plotters/:id/command", "Sends one line to the board", commandAnswerSchema, {
+      body: commandRequestSchema,
+      maxBodyBytes: 1_048_576,
+    }),
+  },
+
+  machines: {
+    list: operation("get", "/machines", "Lists the machine profiles", machineListSchema),
+    save: operation("put", "/machines/:id", "Stores a custom machine profile", machineProfileSchema, {
+      body: machineProfileSchema,
+      maxBodyBytes: 102_400,
+    }),
+    remove: operation("delete", "/machines/:id", "Removes a custom machine profile", okSchema),
+  },
+
+  samples: {
+    list: operation(
+      "get",
+      "/samples",
+      "Lists the sample drawings",
+      z.object({ samples: z.array(z.object({ name: z.string(), title: z.string() })) }),
+    ),
+    get: operation("get", "/samples/:name", "Returns a sample drawing", "text"),
+  },
+
+  operator: {
+    take: operation(
+      "post",
+      "/operator/take",
+      "Makes the calling browser the operator",
+      z.object({ operator: operatorSchema }),
+    ),
+    dismissNotice: operation("delete", "/notices/:id", "Dismisses a notice", okSchema),
+    // Anyone with such a link gets access.
+    pairing: operation(
+      "post",
+      "/pairing",
+      "Returns the links that pair a device; only on the server's computer",
+      pairingSchema,
+      { role: "local" },
+    ),
+    logs: operation("get", "/logs", "Returns all logs as one text, for a bug report", "text", {
+      role: "operate",
+      attachment: "plotwright-logs.txt",
+    }),
+  },
+
+  access: {
+    list: operation(
+      "get",
+      "/access",
+      "Lists sessions and keys",
+      z.object({ entries: z.array(accessEntrySchema) }),
+      { role: "operate" },
+    ),
+    addKey: operation(
+      "post",
+      "/access/keys",
+      "Creates a key",
+      z.object({ entry: accessEntrySchema, secret: z.string() }),
+      { body: newKeySchema, status: 201 },
+    ),
+    revoke: operation("delete", "/access/:id", "Revokes a session or key", okSchema),
+  },
+
+  webhooks: {
+    list: operation(
+      "get",
+      "/webhooks",
+      "Lists the webhooks",
+      z.object({ webhooks: z.array(webhookSchema) }),
+      { role: "operate" },
+    ),
+    add: operation(
+      "post",
+      "/webhooks",
+      "Adds a webhook; its secret is returned only here",
+      z.object({ webhook: webhookSchema, secret: z.string() }),
+      { body: newWebhookSchema, status: 201 },
+    ),
+    remove: operation("delete", "/webhooks/:id", "Removes a webhook", okSchema),
+  },
+
+  sharedJobs: {
+    list: operation(
+      "get",
+      "/shared-jobs",
+      "Lists the jobs of the shared queue, newest first",
+      z.object({ jobs: z.array(sharedJobSchema) }),
+    ),
+    add: operation(
+      "post",
+      "/shared-jobs",
+      "Adds a job to the shared queue, for a plotter's name or a machine",
+      idSchema,
+      { body: newSharedJobSchema, status: 201, maxBodyBytes: 1_048_576 },
+    ),
+    giveBack: operation(
+      "post",
+      "/shared-jobs/:id/give-back",
+      "Gives back a job that an unreachable server took but did not start, so that another server can take it",
+      okSchema,
+    ),
+    withdraw: operation("delete", "/shared-jobs/:id", "Withdraws a job that no server has taken", okSchema),
+  },
+} as const;
+
+export type Operations = typeof OPERATIONS;
+export type OperationGroup = keyof Operations;
+export type OperationClient = ClientOf<Operations>;
+export type OperationHandlers<Context> = HandlersOf<Operations, Context>;
