@@ -5,7 +5,7 @@
  * The text of the snapshot is kept until something changes, and all clients get the same bytes of it and of each event:
  * the memory that slow clients take does not grow with their number.
  */
-import { Readable } from "node:stream";
+import { pipeline } from "node:stream/promises";
 import { setImmediate as nextTurn } from "node:timers/promises";
 import type { Request, Response } from "express";
 import { LimitedProgress } from "../../host/limited-progress.js";
@@ -19,13 +19,20 @@ const SNAPSHOT_MS = 1_000;
 const RETRY_FROM_MS = 1_000;
 const RETRY_RANGE_MS = 3_000;
 
+/**
+ * Each session or key gets one snapshot at a time: the system takes megabytes for each client that does not read, and a
+ * flood of such clients would delay all answers. One that has not read for this time lets the next one begin, so that a
+ * device that was suspended is not kept waiting by its own old connection.
+ */
+const STUCK_MS = 2_000;
+
 /** What is written to one client before others have their turn. The system takes megabytes at once, which takes time. */
 const SLICE_BYTES = 65_536;
 
 interface Stream {
   readonly callerId: string;
-  /** Events that wait until the snapshot is sent; null: it is. */
-  waiting: Buffer[] | null;
+  /** Events after the snapshot that wait until it is sent; "snapshot": it is not made yet; null: all is sent. */
+  waiting: Buffer[] | "snapshot" | null;
 }
 
 export class EventHub {
@@ -33,6 +40,8 @@ export class EventHub {
   readonly #events = new LimitedProgress((event) => this.#write(`data: ${JSON.stringify(event)}\n\n`));
   readonly #heartbeat: NodeJS.Timeout;
   #snapshot: { readonly text: Buffer; readonly atMs: number } | null = null;
+  /** The callers to whom a snapshot is being sent, with the clients that wait for their turn. */
+  readonly #waiting = new Map<string, (() => void)[]>();
   #isClosed = false;
 
   constructor() {
@@ -55,8 +64,18 @@ export class EventHub {
     return this.#snapshot.text;
   }
 
+  /** Answers with the snapshot. `callerId`: the session or key that asks. */
+  answer(response: Response, callerId: string, make: () => Snapshot): Promise<void> {
+    return this.#inTurn(response, callerId, async (isRead) => {
+      const text = this.snapshotText(make);
+      response.type("json").set("Content-Length", String(text.length));
+      await send(text, response, isRead);
+      response.end();
+    });
+  }
+
   /** `callerId`: the session or key that asks, so that the stream can be ended with it. */
-  open(request: Request, response: Response, callerId: string, make: () => Snapshot): void {
+  async open(request: Request, response: Response, callerId: string, make: () => Snapshot): Promise<void> {
     response.writeHead(200, {
       "Content-Type": "text/event-stream; charset=utf-8",
       "Cache-Control": "no-store",
@@ -64,19 +83,45 @@ export class EventHub {
     });
     const retryMs = Math.round(RETRY_FROM_MS + RETRY_RANGE_MS * Math.random());
     response.write(`retry: ${retryMs}\n\ndata: {"type":"snapshot","snapshot":`);
-    const stream: Stream = { callerId, waiting: [] };
+    const stream: Stream = { callerId, waiting: "snapshot" };
     this.#streams.set(response, stream);
-    const snapshot = inSlices(this.snapshotText(make));
-    snapshot.pipe(response, { end: false });
-    snapshot.once("end", () => {
+    request.on("close", () => this.#streams.delete(response));
+    await this.#inTurn(response, callerId, async (isRead) => {
+      const text = this.snapshotText(make);
+      const events: Buffer[] = [];
+      stream.waiting = events;
+      if (!(await send(text, response, isRead))) return;
       response.write("}\n\n");
-      for (const event of stream.waiting ?? []) response.write(event);
+      for (const event of events) response.write(event);
       stream.waiting = null;
     });
-    request.on("close", () => {
-      this.#streams.delete(response);
-      snapshot.destroy();
-    });
+  }
+
+  /** Transfers to a caller one after the other. `transfer` calls `isRead` whenever the client reads on. */
+  async #inTurn(
+    response: Response,
+    callerId: string,
+    transfer: (isRead: () => void) => Promise<void>,
+  ): Promise<void> {
+    const before = this.#waiting.get(callerId);
+    if (before === undefined) this.#waiting.set(callerId, []);
+    else await new Promise<void>((resolve) => before.push(resolve));
+    let hasPassed = false;
+    const pass = (): void => {
+      if (hasPassed) return;
+      hasPassed = true;
+      // The newest first: older ones may be those of a page that was reloaded.
+      const next = this.#waiting.get(callerId)?.pop();
+      if (next === undefined) this.#waiting.delete(callerId);
+      else next();
+    };
+    const stuck = setTimeout(pass, STUCK_MS).unref();
+    try {
+      if (!response.closed) await transfer(() => stuck.refresh());
+    } finally {
+      clearTimeout(stuck);
+      pass();
+    }
   }
 
   /** Ends the streams of a session or key that has ended. */
@@ -99,6 +144,8 @@ export class EventHub {
   #write(text: string): void {
     const bytes = Buffer.from(text);
     for (const [response, { waiting }] of this.#streams) {
+      // The snapshot will have everything that is announced before.
+      if (waiting === "snapshot") continue;
       const unsentBytes = waiting?.reduce((sum, { length }) => sum + length, 0) ?? response.writableLength;
       if (unsentBytes > MAX_UNSENT_BYTES) {
         this.#streams.delete(response);
@@ -109,11 +156,16 @@ export class EventHub {
   }
 }
 
-/** The same bytes without a copy, one slice in each turn of the event loop. */
-export const inSlices = (bytes: Buffer): Readable => Readable.from(slicesOf(bytes), { highWaterMark: 1 });
+/** The same bytes without a copy, one slice in each turn of the event loop. False: the client has closed. */
+const send = (bytes: Buffer, response: Response, isRead: () => void): Promise<boolean> =>
+  pipeline(slicesOf(bytes, isRead), response, { end: false }).then(
+    () => true,
+    () => false,
+  );
 
-async function* slicesOf(bytes: Buffer): AsyncGenerator<Buffer> {
+async function* slicesOf(bytes: Buffer, isRead: () => void): AsyncGenerator<Buffer> {
   for (let from = 0; from < bytes.length; from += SLICE_BYTES) {
+    isRead();
     yield bytes.subarray(from, from + SLICE_BYTES);
     await nextTurn();
   }

@@ -1,4 +1,5 @@
 /** The server's whole state, its event stream, the caller, the API itself. */
+import type { Request } from "express";
 import type { Snapshot } from "../../src/schema/index.js";
 import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
@@ -8,7 +9,7 @@ import type { OperatorLock } from "../security/operator-lock.js";
 import type { MachineFiles } from "../storage/machine-files.js";
 import { callerOf } from "./auth.js";
 import type { Browsers } from "./browser.js";
-import { inSlices, type EventHub } from "./events.js";
+import type { EventHub } from "./events.js";
 import type { Responders } from "./operation-routes.js";
 
 export interface StateParts {
@@ -41,20 +42,18 @@ export const stateResponders = (parts: StateParts, browsers: Browsers, openApi: 
     machines: parts.machines.list(),
     ...queue.recent(),
   });
+  const callerIdOf = (request: Request): string => callerOf(request, parts.access)?.id ?? "";
   return {
     openApi: async (_request, response) => {
       response.type("json").send(await openApi());
     },
-    get: (_request, response) => {
-      const text = hub.snapshotText(snapshot);
-      const slices = inSlices(text);
-      response.on("close", () => slices.destroy());
-      slices.pipe(response.type("json").set("Content-Length", String(text.length)));
+    get: async (request, response) => {
+      await hub.answer(response, callerIdOf(request), snapshot);
     },
-    events: (request, response) => {
+    events: async (request, response) => {
       const browser = browsers.of(request);
       if (browser !== null) request.on("close", operatorLock.streamOpened(browser.id));
-      hub.open(request, response, callerOf(request, parts.access)?.id ?? "", snapshot);
+      await hub.open(request, response, callerIdOf(request), snapshot);
     },
     me: (request, response) => {
       const { id = null, name = null } = browsers.of(request) ?? {};

@@ -21,11 +21,11 @@ afterEach(async () => {
   await app.close();
 });
 
-const post = (path: string, body: unknown, method = "POST"): Promise<Response> =>
+const post = (path: string, body: unknown, method = "POST", headers = {}): Promise<Response> =>
   fetch(`${app.url}/api/v1${path}`, {
     method,
     body: JSON.stringify(body),
-    headers: { "Content-Type": "application/json" },
+    headers: { "Content-Type": "application/json", ...headers },
   });
 const state = async (): Promise<Snapshot> =>
   snapshotSchema.parse(await (await fetch(`${app.url}/api/v1/state`)).json());
@@ -38,15 +38,29 @@ const settingsOf = (layerCount: number): typeof DEFAULT_PLOT_SETTINGS => ({
 const LARGE = settingsOf(3_800);
 
 /** Sends a request, and reads nothing of the answer. */
-async function unread(path: string): Promise<Socket> {
+async function unread(path: string, headers = ""): Promise<Socket> {
   const { hostname, port } = new URL(app.url);
   const socket = connect(Number(port), hostname);
   sockets.push(socket);
   socket.on("error", () => undefined).pause();
   await new Promise((resolve) => {
-    socket.write(`GET /api/v1${path} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n`, resolve);
+    socket.write(`GET /api/v1${path} HTTP/1.1\r\nHost: 127.0.0.1\r\n${headers}\r\n`, resolve);
   });
   return socket;
+}
+
+/** Sends requests, and reads only the first bytes of each answer. `begun` has those whose answer has begun. */
+async function hardlyRead(path: string, count: number): Promise<{ begun: Set<Socket>; all: Socket[] }> {
+  const begun = new Set<Socket>();
+  const all = await Promise.all(Array.from({ length: count }, () => unread(path)));
+  for (const socket of all) {
+    socket.once("data", () => {
+      begun.add(socket);
+      socket.pause();
+    });
+    socket.resume();
+  }
+  return { begun, all };
 }
 
 /** One change of the state, by any way in. */
@@ -153,16 +167,58 @@ describe("the state", () => {
   });
 
   it("is kept once for all clients that do not read it, and these are disconnected", async () => {
-    await hurry();
-    await post("/jobs", { name: "a", drawing: SVG, copies: 100, settings: LARGE });
+    await hurry({ trustsLoopback: false });
+    const count = 30;
+    const keys = Array.from({ length: count }, () => `Bearer ${app.access.createKey("a", "operate").secret}`);
+    const wanted = { name: "a", drawing: SVG, copies: 100, settings: LARGE };
+    expect((await post("/jobs", wanted, "POST", { Authorization: keys[0] })).status).toBe(201);
     const before = process.memoryUsage().external;
     for (const path of ["/state", "/events"]) {
-      const count = 30;
-      await Promise.all(Array.from({ length: count }, () => unread(path)));
+      await Promise.all(keys.map((key) => unread(path, `Authorization: ${key}\r\n`)));
       await expect.poll(() => app.connectionCount()).toBeGreaterThanOrEqual(count);
       expect(process.memoryUsage().external - before).toBeLessThan(100_000_000);
       await expect.poll(() => app.connectionCount()).toBeLessThan(count / 2);
     }
+  });
+
+  it("is sent to one client of a session at a time, and to the next when that one reads no more", async () => {
+    await post("/jobs", { name: "a", drawing: SVG, copies: 100, settings: LARGE });
+    const { begun } = await hardlyRead("/state", 3);
+    await expect.poll(() => begun.size).toBe(1);
+    // Nothing else waits for it.
+    for (let count = 0; count < 20; count++) {
+      expect((await fetch(`${app.url}/api/v1/me`)).status).toBe(200);
+    }
+    expect(begun.size).toBe(1);
+    expect((await state()).jobs).toHaveLength(100);
+    await expect.poll(() => begun.size).toBe(3);
+  });
+
+  // 20 clients that are still there and do not read would take longer.
+  it("does not wait for clients that have closed their connection", { timeout: 35_000 }, async () => {
+    await post("/jobs", { name: "a", drawing: SVG, copies: 100, settings: LARGE });
+    const { begun, all } = await hardlyRead("/events", 20);
+    await expect.poll(() => begun.size).toBeGreaterThan(0);
+    for (const socket of all) socket.destroy();
+    const answers = await Promise.all([1, 2, 3].map(() => fetch(`${app.url}/api/v1/state`)));
+    const texts = await Promise.all(answers.map((answer) => answer.text()));
+    for (const text of texts) expect(text.length).toBeGreaterThan(5_000_000);
+  });
+
+  it("has what changed while a client waited for its turn, and events tell the rest", async () => {
+    await post("/jobs", { name: "a", drawing: SVG, copies: 100, settings: LARGE });
+    const { begun, all } = await hardlyRead("/state", 1);
+    await expect.poll(() => begun.size).toBe(1);
+    const page = await EventStream.open(app.url);
+    app.notices.add("before");
+    expect(page.seen).toEqual([]);
+    all[0]?.destroy();
+    const { snapshot } = await page.find("snapshot");
+    expect(snapshot.serverNotices.map(({ message }) => message)).toEqual(["before"]);
+    app.notices.add("after");
+    await page.find("notice", ({ notice }) => notice.message === "after");
+    expect(page.seen.map(({ type }) => type)).toEqual(["snapshot", "notice"]);
+    page.close();
   });
 
   it("reaches a client that reads slowly, and its event stream stays open", async () => {
@@ -187,9 +243,9 @@ describe("the state", () => {
 });
 
 /** From now on, clients that do not read are disconnected soon. */
-async function hurry(): Promise<void> {
+async function hurry(options: Parameters<typeof startApp>[0] = {}): Promise<void> {
   await app.close();
-  app = await startApp({ times: { unreadTimeout: 2_000 } });
+  app = await startApp({ ...options, times: { unreadTimeout: 2_000 } });
 }
 
 /** The same data folder, opened again. */
