@@ -134,7 +134,14 @@ export type { BoardStatistics, VirtualBoardState } from "./drivers/ebb/virtual/v
 export type { StreamProgress } from "./drivers/ebb/stream/stream-commands.js";
 export { Streamer } from "./drivers/ebb/stream/streamer.js";
 export type { StreamOptions } from "./drivers/ebb/stream/stream-types.js";
-export { controllerOf, driverOf, firmwareFor, isPlannedAlike, usbIds } from "./drivers/registry.js";
+export {
+  controllerOf,
+  driverOf,
+  firmwareAdvice,
+  firmwareFor,
+  isPlannedAlike,
+  usbIds,
+} from "./drivers/registry.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
 export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";
 export type {

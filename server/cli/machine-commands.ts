@@ -1,7 +1,7 @@
 /** Runs the single commands to the machine: pen, manual moves, a raw line, info. */
 import type { HandMove, PlotSettings } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
-import { printableJson } from "../../src/internal.js";
+import { firmwareAdvice, machineOf, printableJson } from "../../src/internal.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import { openPlotter } from "../plotter/open-plotter.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
@@ -84,6 +84,7 @@ export async function runInfo(
       io.out(`${printableJson({ name, kind, device, firmware, penUp, motorsOn, xMm, yMm })}\n`);
       return;
     }
+    const advice = firmwareAdvice(machineOf(settings), { kind, firmware });
     const known = (value: unknown): string => (value === null ? "not known" : String(value));
     io.out(
       [
@@ -93,6 +94,7 @@ export async function runInfo(
         `pen       ${penUp === null ? "not known" : penUp ? "up" : "down"}`,
         `motors    ${motorsOn === null ? "not known" : motorsOn ? "on" : "off"}`,
         `place     ${xMm === null || yMm === null ? "not known" : `${xMm.toFixed(2)}, ${yMm.toFixed(2)} mm`}`,
+        ...(advice === null ? [] : [`note      ${advice}`]),
         "",
       ].join("\n"),
     );

@@ -5,7 +5,7 @@
  */
 import { basename } from "node:path";
 import { importDrawing, PlotwrightError } from "../../src/index.js";
-import { machineOf, sizeInWords } from "../../src/internal.js";
+import { firmwareAdvice, machineOf, sizeInWords } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
@@ -164,6 +164,8 @@ async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, 
         // Ctrl-C while the board was being connected.
         if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
         forget();
+        const advice = firmwareAdvice(machineOf(settings), plotter.snapshot());
+        if (advice !== null) say(printed`note: ${advice}\n`);
         say(printed`${plot.name}: ${sizeInWords(planner.size)}\n`);
         return onPlotter(plotter, planner, plot, course, options, io);
       });

@@ -81,6 +81,8 @@ export interface FirmwareRules {
   isOwn(firmware: string): boolean;
   /** Whether a plan with these pen settings for one version is also right for the other; null: the version is unknown. */
   isPlannedAlike(pen: PenSettings, a: string | null, b: string | null): boolean;
+  /** What users of this version should know, in one sentence; null: nothing. */
+  advice(firmware: string): string | null;
 }
 
 /** Makes a job from strokes, and from settings with the codes of the layer names applied. */

@@ -42,6 +42,15 @@ export function firmwareFor(machine: MachineProfile, firmware: string | null): s
   return firmware !== null && controllerOf(machine).firmware.isOwn(firmware) ? firmware : null;
 }
 
+/** What users of a connected board should know about its firmware, in one sentence; null: nothing, or it is unknown. */
+export function firmwareAdvice(
+  machine: MachineProfile,
+  board: { readonly kind: "serial" | "virtual"; readonly firmware: string | null },
+): string | null {
+  const own = firmwareFor(machine, board.firmware);
+  return board.kind === "virtual" || own === null ? null : controllerOf(machine).firmware.advice(own);
+}
+
 /** Whether a plan with these pen settings for one version is also right for the other. */
 export function isPlannedAlike(
   machine: MachineProfile,

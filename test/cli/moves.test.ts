@@ -47,6 +47,22 @@ describe("moves by hand from the command line", () => {
     expect(await place()).toMatchObject({ motorsOn: false });
   });
 
+  it("tell users of an older firmware what it can miss, and so does a plot", async () => {
+    const sentence = /\bnote:? +Before firmware 3\.0\.0, this board can miss a motor supply failure of less/g;
+    expect((await onBoard("info")).out.match(sentence)).toHaveLength(1);
+    const file = join(folder, "short.svg");
+    writeFileSync(file, SVG.replace("H90M10 40H90", "H11"));
+    expect((await onBoard("plot", file)).err.match(sentence)).toHaveLength(1);
+    const newer = await PtyBoard.open({ speed: SPEED, firmware: "3.0.3" });
+    try {
+      const { out } = await cli("info", "--device", newer.path, "--virtual-speed", String(SPEED));
+      expect(out).toMatch(/firmware {2}3\.0\.3\n/);
+      expect(out).not.toContain("note");
+    } finally {
+      await newer.close();
+    }
+  });
+
   it("go around a drawing with the pen up", async () => {
     const file = join(folder, "lines.svg");
     writeFileSync(file, SVG);

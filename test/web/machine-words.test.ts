@@ -1,6 +1,16 @@
+import { createElement } from "react";
+import { renderToStaticMarkup } from "react-dom/server";
 import { describe, expect, it } from "vitest";
-import { MACHINES, type MachineProfile } from "../../src/index.js";
-import { homeWords } from "../../web/plotter/machine-words.js";
+import { MACHINES, machineById, type MachineProfile } from "../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type Plotter } from "../../src/schema/index.js";
+import type { Backend } from "../../web/backend/backend.js";
+import { MachineSetUp } from "../../web/plotter/machine.js";
+import type { Actions } from "../../web/state/actions.js";
+import { DEFAULT_VIEW } from "../../web/state/persist.js";
+import { createPageStore } from "../../web/state/store.js";
+import { PageContext } from "../../web/state/use-store.js";
+import { makePlotter } from "./fixtures.js";
+import { adviceWords, homeWords } from "../../web/plotter/machine-words.js";
 
 describe("the words about home", () => {
   it("are only for a plotter without limit switches", () => {
@@ -9,5 +19,39 @@ describe("the words about home", () => {
     const withSwitches: MachineProfile = { ...machine, controller: { ...machine.controller, homing } };
     expect(homeWords(machine)).toContain("no limit switches");
     expect(homeWords(withSwitches)).toBeNull();
+  });
+});
+
+describe("the words about the firmware", () => {
+  const axidraw = machineById("axidraw-v3");
+  const board = (firmware: string | null, kind: "serial" | "virtual" = "serial"): Plotter =>
+    makePlotter("one", { firmware, kind });
+
+  it.each(["2.0.0", "2.4.4", "2.8.1", "2.99.99"])("tell what firmware %s can miss", (firmware) => {
+    expect(adviceWords(board(firmware), axidraw)).toMatch(/^Before firmware 3\.0\.0, .* less than 0\.3 s/);
+  });
+
+  it("are left out where they are not true or not known", () => {
+    for (const firmware of ["3.0.0", "3.0.3", "4.1.0", "Grbl 1.1h", null]) {
+      expect(adviceWords(board(firmware), axidraw)).toBeNull();
+    }
+    expect(adviceWords(board("2.8.1", "virtual"), axidraw)).toBeNull();
+    expect(adviceWords(board("2.8.1"), null)).toBeNull();
+    const grbl = MACHINES.find(({ controller }) => controller.kind === "grbl");
+    expect(adviceWords(board("Grbl 1.1h"), grbl ?? null)).toBeNull();
+  });
+
+  it("stand once with the facts about the plotter", () => {
+    const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
+    const state = { ...store.getState(), plotters: [board("2.8.1")], plotterId: "one" };
+    const page = { ...store, getState: () => state, getInitialState: () => state };
+    const html = renderToStaticMarkup(
+      createElement(
+        PageContext,
+        { value: { store: page, backend: { features: {} } as Backend, actions: {} as Actions } },
+        createElement(MachineSetUp, null, null),
+      ),
+    );
+    expect(html.match(/Before firmware 3\.0\.0/g)).toHaveLength(1);
   });
 });

@@ -1,5 +1,6 @@
 /** What a plotter is doing, in words, from its connection and its job. */
 import type { MachineProfile } from "../../src/index.js";
+import { firmwareAdvice } from "../../src/internal.js";
 import type { Job, Plotter } from "../../src/schema/index.js";
 import { penWait } from "../state/store.js";
 import { plotterText as words } from "./text.js";
@@ -38,3 +39,7 @@ export const lampOf = ({ connection }: Plotter, job: Job | null): Lamp => {
 /** Where home is; null if the plotter finds it by its limit switches. */
 export const homeWords = (machine: MachineProfile | null): string | null =>
   machine?.controller["homing"] ? null : words.homeHint;
+
+/** What to know about the firmware of a real board; null: nothing. */
+export const adviceWords = (plotter: Plotter, machine: MachineProfile | null): string | null =>
+  machine && firmwareAdvice(machine, plotter);

@@ -11,7 +11,7 @@ import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand } from "./pen-at-hand.js";
-import { homeWords, lampOf, penWords, plotterWords } from "./machine-words.js";
+import { adviceWords, homeWords, lampOf, penWords, plotterWords } from "./machine-words.js";
 import { saveFile } from "../ui/save-file.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
@@ -104,19 +104,23 @@ const PlotterName = ({ plotter }: { plotter: Plotter }) => {
 };
 
 const PlotterFacts = ({ plotter }: { plotter: Plotter }) => {
+  const advice = usePageState(({ settings }) => adviceWords(plotter, findMachine(settings)));
   const { xMm, yMm } = plotter;
   const place =
     xMm === null || yMm === null ? words.unknown : `${formatFixed(xMm, 1)}, ${formatFixed(yMm, 1)} mm`;
   return (
-    <Facts
-      className="facts"
-      rows={[
-        [words.position, place],
-        [words.pen, penWords(plotter)],
-        [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
-        [words.firmware, plotter.firmware ?? words.unknown],
-      ]}
-    />
+    <>
+      <Facts
+        className="facts"
+        rows={[
+          [words.position, place],
+          [words.pen, penWords(plotter)],
+          [words.motors, plotter.motorsOn === null ? words.unknown : plotter.motorsOn ? words.on : words.off],
+          [words.firmware, plotter.firmware ?? words.unknown],
+        ]}
+      />
+      {advice !== null && <p className="note">{advice}</p>}
+    </>
   );
 };
 

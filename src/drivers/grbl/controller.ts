@@ -11,7 +11,11 @@ export const description: ControllerDescription = {
   // Many other devices have the same USB chips as these boards.
   usbIds: [],
   // The plan does not depend on the version.
-  firmware: { isOwn: (firmware) => firmware.startsWith("Grbl"), isPlannedAlike: () => true },
+  firmware: {
+    isOwn: (firmware) => firmware.startsWith("Grbl"),
+    isPlannedAlike: () => true,
+    advice: () => null,
+  },
   unusedSettings: UNUSED_SETTINGS,
 };
 

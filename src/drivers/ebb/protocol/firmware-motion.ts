@@ -24,11 +24,15 @@ const limitsMotion = (firmware: string | null): boolean =>
 export const dropsAtStroke = (firmware: string | null): boolean =>
   firmware === null || queueDepthOf(firmwareFeatures(firmware)) === 1;
 
+const SUPPLY_ADVICE =
+  "Before firmware 3.0.0, this board can miss a motor supply failure of less than 0.3 s, and would then draw the rest beside its place: check the plug of the power supply, or update the firmware.";
+
 /** A version of an EBB is a bare number; those of other controllers begin with their name. */
 export const ebbFirmware: FirmwareRules = {
   isOwn: (firmware) => /^v?\d/.test(firmware),
   isPlannedAlike: ({ overlap }, a, b) =>
     limitsMotion(a) === limitsMotion(b) && (overlap !== "fast" || dropsAtStroke(a) === dropsAtStroke(b)),
+  advice: (firmware) => (firmwareFeatures(firmware).hasSupplyLatch ? null : SUPPLY_ADVICE),
 };
 
 /**
