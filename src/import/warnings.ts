@@ -93,6 +93,8 @@ const WORDS = {
     `${many(n, "animation is", "animations are")} ignored: drawn as at the start.`,
   "object-unreadable": (n: number, details: string) =>
     `${many(n, "object has", "objects have")} a value that cannot be read and ${n === 1 ? "is" : "are"} left out${details}. Draw ${n === 1 ? "it" : "them"} again, or export the file again.`,
+  "paper-space": (n: number) =>
+    `${many(n, "object is", "objects are")} on a sheet in paper space and not drawn: the model is. To plot the sheet, export its layout as a drawing.`,
   "not-supported": (n: number, details: string) =>
     `${many(n, "object is", "objects are")} of a type that is not drawn${details}. Convert to plain lines and curves.`,
   "empty-drawing": () =>

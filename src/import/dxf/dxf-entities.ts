@@ -4,6 +4,7 @@
  */
 import { RAD_PER_DEG } from "../../units.js";
 import { aciColor } from "./aci-color.js";
+import { IDENTITY, type Affine } from "../../geometry/affine.js";
 import { readDimension, readLeader, readMultiLeader } from "./dxf-dimensions.js";
 import {
   bulgedVertices,
@@ -23,6 +24,7 @@ import { readHatchLoops } from "./dxf-hatch.js";
 import type { BlockCopy, Content } from "./dxf-content.js";
 import type { DxfParagraphs } from "./dxf-paragraphs.js";
 import { readPattern } from "./dxf-pattern.js";
+import { angleInPlane, planeAtPlace, planeOf, vectorIn } from "./dxf-plane.js";
 import {
   arc,
   IS_3D,
@@ -52,8 +54,8 @@ export interface DxfEntity {
   /** Key of its linetype; "" for by layer. */
   readonly linetype: string;
   readonly linetypeScale: number;
-  /** Seen from below: its x axis points to the left. */
-  readonly isMirrored: boolean;
+  /** Maps its coordinates to those of the drawing. */
+  readonly plane: Affine;
   /** Empty for a part of another entity, and for what is never on paper. */
   readonly contents: readonly Content[];
   /** Values that cannot be used. If `contents` is null the whole entity is left out. */
@@ -67,13 +69,13 @@ interface EntityKind {
   /** Drawn as CAD programs do; drawn with simplifications that docs/import.md names; or only reported. */
   readonly how: "drawn" | "alike" | "reported";
   readonly read?: Reader;
-  /** In world coordinates, whatever its extrusion (AutoCAD DXF reference, Object Coordinate Systems). */
-  readonly isInWorld?: boolean | ((groups: readonly DxfGroup[]) => boolean);
+  /** Left out: its coordinates are those of its own plane. */
+  readonly plane?: (groups: readonly DxfGroup[]) => Affine;
 }
 
 const lines = (outline: Outline): readonly Content[] => [{ kind: "lines", outline }];
 const drawn = (read: Reader): EntityKind => ({ how: "drawn", read });
-const inWorld = (kind: EntityKind): EntityKind => ({ ...kind, isInWorld: true });
+const inWorld = (kind: EntityKind): EntityKind => ({ ...kind, plane: () => IDENTITY });
 const alike = (read: Reader): EntityKind => ({ how: "alike", read });
 const reported: EntityKind = { how: "reported" };
 
@@ -97,14 +99,14 @@ export const DXF_ENTITIES: ReadonlyMap<string, EntityKind> = new Map<string, Ent
   ["ACAD_PROXY_ENTITY", reported],
   ["ACAD_TABLE", alike((groups) => [{ kind: "insert", copy: { ...copyOf(groups), xScale: 1, yScale: 1 } }])],
   ["ARC", drawn((groups) => lines(readArc(groups)))],
-  ["ARC_DIMENSION", alike(readDimension)],
+  ["ARC_DIMENSION", inWorld(alike(readDimension))],
   ["ATTDEF", drawn(readAttributeDefinition)],
   ["ATTRIB", drawn((groups) => (hasFlag(groups, 70, IS_INVISIBLE) ? [] : text(74)(groups, [])))],
   ["BODY", reported],
   ["CIRCLE", drawn((groups) => lines(readCircle(groups)))],
   ["COORDINATION MODEL", reported],
   ["DGNUNDERLAY", reported],
-  ["DIMENSION", alike(readDimension)],
+  ["DIMENSION", inWorld(alike(readDimension))],
   ["DWFUNDERLAY", reported],
   ["ELLIPSE", inWorld(drawn((groups) => lines(readEllipse(groups))))],
   ["EXTRUDEDSURFACE", reported],
@@ -114,7 +116,8 @@ export const DXF_ENTITIES: ReadonlyMap<string, EntityKind> = new Map<string, Ent
     drawn((groups) => [
       {
         kind: "hatch",
-        isSolid: numberIn(groups, 70) === 1,
+        // A fill from one colour to another is solid too.
+        isSolid: numberIn(groups, 70) === 1 && numberIn(groups, 450) !== 1,
         loops: readHatchLoops(groups),
         pattern: readPattern(groups),
       },
@@ -123,7 +126,7 @@ export const DXF_ENTITIES: ReadonlyMap<string, EntityKind> = new Map<string, Ent
   ["HELIX", inWorld(drawn((groups) => lines(readSpline(beforeSubclass(groups, "AcDbHelix")))))],
   ["IMAGE", reported],
   ["INSERT", drawn((groups) => [{ kind: "insert", copy: copyOf(groups) }])],
-  ["LARGE_RADIAL_DIMENSION", alike(readDimension)],
+  ["LARGE_RADIAL_DIMENSION", inWorld(alike(readDimension))],
   ["LEADER", inWorld(alike(readLeader))],
   ["LIGHT", reported],
   [
@@ -137,7 +140,14 @@ export const DXF_ENTITIES: ReadonlyMap<string, EntityKind> = new Map<string, Ent
   ["MESH", inWorld(alike((groups) => lines(readMesh(groups))))],
   ["MLEADER", inWorld(alike(readMultiLeader))],
   ["MLINE", inWorld(alike((groups) => lines(readMultiLine(groups))))],
-  ["MTEXT", drawn((groups) => [{ kind: "paragraphs", paragraphs: readParagraphs(groups) }])],
+  [
+    "MTEXT",
+    {
+      how: "drawn",
+      read: (groups) => [{ kind: "paragraphs", paragraphs: readParagraphs(groups) }],
+      plane: planeAtPlace,
+    },
+  ],
   ["MULTILEADER", inWorld(alike(readMultiLeader))],
   ["NURBSURFACE", reported],
   ["OLE2FRAME", reported],
@@ -158,7 +168,7 @@ export const DXF_ENTITIES: ReadonlyMap<string, EntityKind> = new Map<string, Ent
     {
       how: "drawn",
       read: (groups, vertices) => lines(readPolyline(groups, vertices)),
-      isInWorld: (groups) => hasFlag(groups, 70, IS_3D | IS_MESH),
+      plane: (groups) => (hasFlag(groups, 70, IS_3D | IS_MESH) ? IDENTITY : planeOf(groups)),
     },
   ],
   ["RAY", inWorld(alike(endless(false)))],
@@ -216,8 +226,10 @@ export function readEntity(
   const kind = DXF_ENTITIES.get(type);
   const odd: string[] = [];
   let contents: readonly Content[] = [];
+  let plane = IDENTITY;
   let isUnreadable = false;
   try {
+    plane = (kind?.plane ?? planeOf)(groups);
     contents = kind?.read?.(groups, vertices) ?? [{ kind: "not drawn", name: type }];
   } catch (error) {
     if (!(error instanceof OddValue)) throw error;
@@ -235,7 +247,6 @@ export function readEntity(
   };
   const colorIndex = common(62);
   const trueColor = common(420);
-  const { isInWorld = false } = kind ?? {};
   return {
     type,
     layer: nameIn(groups, 8) || "0",
@@ -245,9 +256,7 @@ export function readEntity(
     color: trueColor ?? (colorIndex === undefined ? undefined : aciColor(Math.abs(colorIndex))),
     linetype: keyOf(nameIn(groups, 6)),
     linetypeScale: common(48) ?? 1,
-    isMirrored:
-      (common(230) ?? 1) < 0 &&
-      !(typeof isInWorld === "boolean" ? isInWorld : !isUnreadable && isInWorld(groups)),
+    plane,
     contents,
     odd,
     isUnreadable,
@@ -275,13 +284,15 @@ function readArc(groups: readonly DxfGroup[]): Outline {
 }
 
 function copyOf(groups: readonly DxfGroup[]): BlockCopy {
+  const [xScale, yScale] = [41, 42].map((code) => numberIn(groups, code) ?? 1);
+  if (xScale === 0 || yScale === 0) throw new OddValue("its scale is 0");
   const copies = (code: number): number =>
     Math.min(1000, Math.max(1, Math.trunc(numberIn(groups, code) ?? 1)));
   return {
     name: nameIn(groups, 2),
     at: pointIn(groups, 10) ?? { x: 0, y: 0 },
-    xScale: numberIn(groups, 41) ?? 1,
-    yScale: numberIn(groups, 42) ?? 1,
+    xScale,
+    yScale,
     angleRad: (numberIn(groups, 50) ?? 0) * RAD_PER_DEG,
     columns: copies(70),
     rows: copies(71),
@@ -311,7 +322,7 @@ function readWriting(groups: readonly DxfGroup[], content: string, valignCode: n
 
 function readParagraphs(groups: readonly DxfGroup[]): DxfParagraphs {
   const along = pointIn(groups, 11);
-  const turned = along === undefined ? undefined : Math.atan2(along.y, along.x) / RAD_PER_DEG;
+  const turned = along === undefined ? undefined : angleInPlane(groups, vectorIn(groups, 11)) / RAD_PER_DEG;
   return {
     // Long texts are split into pieces; the last has code 1.
     text: groups

@@ -27,13 +27,16 @@ export interface DxfPoint {
 export class OddValue extends Error {}
 
 const COMMENT = 999;
+/** Data of an application are between "{NAME" and "}". They may have the codes of the entity. */
+const APPLICATION_DATA = 102;
 /** Codes of texts. A long one is split, also at blanks. */
 const TEXTS: ReadonlySet<string> = new Set(["1", "3"]);
 
 /** The records up to EOF. Throws PlotwrightError("bad-file") if codes and values are out of step. */
 export function* readRecords(text: string): Generator<DxfRecord> {
-  const lines = text.split(/\r\n|\r|\n/);
+  const lines = text.split(/\r*\n|\r/);
   let record: { type: string; groups: DxfGroup[] } | null = null;
+  let isOfApplication = false;
   for (let at = 0; at + 1 < lines.length; at += 2) {
     const code = lines[at].trim();
     const value = TEXTS.has(code) ? lines[at + 1] : lines[at + 1].trim();
@@ -41,15 +44,19 @@ export function* readRecords(text: string): Generator<DxfRecord> {
       if (code === "" && isBlankFrom(lines, at)) break;
       throw damaged(`at line ${at + 1}`, `"${code.slice(0, 20)}" is not a group code`);
     }
+    if (Number(code) === APPLICATION_DATA) isOfApplication = value.startsWith("{");
     if (Number(code) !== 0) {
-      if (Number(code) !== COMMENT) record?.groups.push({ code: Number(code), value });
+      if (Number(code) !== COMMENT && !isOfApplication) record?.groups.push({ code: Number(code), value });
       continue;
     }
+    isOfApplication = false;
     if (record !== null) yield record;
     record = { type: value.toUpperCase(), groups: [] };
     if (record.type === "EOF") return;
   }
-  throw damaged("at its end", "it has no EOF, so a part of the file is missing");
+  // Some programs leave out EOF.
+  if (record?.type === "ENDSEC") yield record;
+  else throw damaged("at its end", "it has no EOF, so a part of the file is missing");
 }
 
 function isBlankFrom(lines: readonly string[], from: number): boolean {

@@ -1,6 +1,6 @@
 /** Lines, arcs, ellipses, faces and meshes of a DXF as outlines in the file's units, y up. */
 import { drawCentreArc, drawSvgArc } from "../arc.js";
-import type { ShapeBuffer } from "../shape-buffer.js";
+import { ShapeBuffer } from "../shape-buffer.js";
 import {
   bulgedVertices,
   hasFlag,
@@ -14,6 +14,7 @@ import {
   type DxfGroup,
   type DxfPoint,
 } from "./dxf-groups.js";
+import { cross, normalOf, vectorIn } from "./dxf-plane.js";
 
 /** Draws lines into the shape. `tolerance` is the max error of its curves. */
 export type Outline = (shape: ShapeBuffer, tolerance: number) => void;
@@ -80,14 +81,22 @@ export function turnBetween(start: number, end: number): number {
   return turn > 1e-9 ? turn : turn + TURN;
 }
 
-/** With a normal that points down the ellipse runs clockwise: from a to b is anticlockwise from -b to -a. */
+/** From a unit circle: its x axis becomes the long axis, its y axis the short one, in the plane of the ellipse. */
 export function readEllipse(groups: readonly DxfGroup[]): Outline {
-  const axis = requiredPoint(groups, 11);
-  const [from, to] = [numberIn(groups, 41) ?? 0, numberIn(groups, 42) ?? TURN];
-  const [start, end] = (numberIn(groups, 230) ?? 1) < 0 ? [-to, -from] : [from, to];
-  const rx = Math.hypot(axis.x, axis.y);
-  const ry = rx * (numberIn(groups, 40) ?? 1);
-  return arc(requiredPoint(groups, 10), rx, ry, Math.atan2(axis.y, axis.x), start, turnBetween(start, end));
+  const centre = requiredPoint(groups, 10);
+  requiredPoint(groups, 11);
+  const long = vectorIn(groups, 11);
+  const ratio = numberIn(groups, 40) ?? 1;
+  const short = cross(normalOf(groups), long).map((length) => length * ratio);
+  if (!(Math.hypot(...long) > 0 && ratio !== 0)) throw new OddValue("its radius is not above 0");
+  const [start, end] = [numberIn(groups, 41) ?? 0, numberIn(groups, 42) ?? TURN];
+  const unitArc = arc({ x: 0, y: 0 }, 1, 1, 0, start, turnBetween(start, end));
+  const map = { a: long[0], b: long[1], c: short[0], d: short[1], e: centre.x, f: centre.y };
+  return (shape, tolerance) => {
+    const drawn = new ShapeBuffer();
+    unitArc(drawn, tolerance / Math.max(Math.hypot(...long), Math.hypot(...short)));
+    shape.append(drawn, map);
+  };
 }
 
 /** SOLID and TRACE: the third and fourth corners are swapped. */

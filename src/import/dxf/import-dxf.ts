@@ -34,6 +34,8 @@ import { drawDxfParagraphs } from "./dxf-paragraphs.js";
 import { drawPattern } from "./dxf-pattern.js";
 import { drawDxfWriting } from "./dxf-text.js";
 
+/** mm */
+const US_SURVEY_FOOT = 1_200_000 / 3_937;
 /** mm per unit for the values of $INSUNITS that drawings use (AutoCAD DXF reference, HEADER). */
 const MM_OF_UNIT: Readonly<Record<number, number>> = {
   1: MM_PER_INCH,
@@ -46,8 +48,16 @@ const MM_OF_UNIT: Readonly<Record<number, number>> = {
   8: MM_PER_INCH / 1e6,
   9: MM_PER_INCH / 1000,
   10: 36 * MM_PER_INCH,
+  11: 1e-7,
+  12: 1e-6,
   13: 0.001,
   14: 100,
+  15: 10_000,
+  16: 100_000,
+  21: US_SURVEY_FOOT,
+  22: US_SURVEY_FOOT / 12,
+  23: 3 * US_SURVEY_FOOT,
+  24: 5_280 * US_SURVEY_FOOT,
 };
 const MAX_BLOCK_DEPTH = 16;
 const MAX_ENTITIES = 1_000_000;
@@ -129,6 +139,7 @@ class DxfImport {
     const { entities, faults } = this.dxf;
     for (const fault of faults) this.warnings.add("attribute-fault", undefined, fault);
     const model = entities.filter((entity) => !entity.inPaperSpace);
+    if (model.length > 0) this.reportSheets();
     const map = scaling(this.mmPerUnit, -this.mmPerUnit);
     const stack: Pending[] = [
       { entities: model.length > 0 ? model : entities, next: 0, map, depth: 0, inherited: null },
@@ -140,6 +151,21 @@ class DxfImport {
     }
     this.drawEndless();
     return this.builder.finishAround();
+  }
+
+  /** The sheets that the file lays out in paper space: their frames and titles. */
+  private reportSheets(): void {
+    const { entities, blocks } = this.dxf;
+    const others = [...blocks].filter(([name]) => name.startsWith("*paper_space"));
+    const onSheets = [
+      ...entities.filter((entity) => entity.inPaperSpace),
+      ...others.flatMap(([, block]) => block.entities),
+    ];
+    // A viewport only shows a part of model space.
+    const lost = onSheets.filter(
+      ({ type, isVisible, contents }) => isVisible && type !== "VIEWPORT" && contents.length > 0,
+    );
+    if (lost.length > 0) this.warnings.add("paper-space", undefined, undefined, lost.length);
   }
 
   private findUnit(): number {
@@ -177,7 +203,7 @@ class DxfImport {
     };
     const copies = entity.contents.filter((content) => content.kind === "insert");
     const group = isShown || copies.length === 0 ? this.groupOf(layer?.name ?? layerName, !isShown) : -1;
-    const map = entity.isMirrored ? compose(from.map, scaling(-1, 1)) : from.map;
+    const map = entity.plane === IDENTITY ? from.map : compose(from.map, entity.plane);
     const place = { entity, map, from, own, group };
     // Only a frozen layer also hides what a block draws on other layers.
     if (layer?.isFrozen !== true) for (const { copy } of copies) this.pushCopy(copy, place, isShown, stack);

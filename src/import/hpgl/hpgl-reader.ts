@@ -11,17 +11,21 @@ export interface HpglCommand {
   readonly numbers: readonly number[];
   /** The label, character or encoded line. */
   readonly text: string;
+  /** The text has no end, so the rest of the file would belong to it. */
+  readonly isOpen?: boolean;
 }
 
 const ETX = "\u0003";
 const BETWEEN_COMMANDS = /[^A-Za-z\u001b]*/y;
 const NAME = /[A-Za-z]{2}/y;
-/** Numbers and what separates them. */
-const NUMBERS = /[^A-Za-z";\u0003\u001b]*/y;
-const NUMBER = /[+-]?(?:\d+\.?\d*|\.\d+)/g;
+/** Numbers and what separates them. HPGL has no exponents, but programs write them, and no command is one letter. */
+const NUMBERS = /(?:[^A-Za-z";\u0003\u001b]|(?<=[\d.])[Ee](?=[+-]?\d))*/y;
+const NUMBER = /[+-]?(?:\d+\.?\d*|\.\d+)(?:[Ee][+-]?\d+)?/g;
 const MESSAGE = /[^;\r\n\u0003]*/y;
-/** A string without an end is taken to end with the line or at a semicolon. */
-const OPEN_STRING = /[^;\r\n]*/y;
+/** A text without an end is taken to end with the line or at a semicolon. */
+const OPEN_TEXT = /[^;\r\n]*/y;
+/** The label terminator of DT, and whether it is drawn. A space is one, too. */
+const TERMINATOR = /([^\0\n\r\u001b;])(?:,\s*(\d))?/y;
 /** Leaves any printer language; lines for the print job may follow. */
 const JOB_LINES = /\u001b%-12345X(?:\s*@PJL[^\n]*)*/y;
 /** The first letter after the dot is a command to the port. Only a colon ends its numbers. */
@@ -42,6 +46,9 @@ export const isHpglBegun = (head: string): boolean => FIRST_COMMAND.test(head.re
 export class HpglReader {
   private at = 0;
   private labelEnd = ETX;
+  private isLabelEndDrawn = false;
+  /** Terminators that do not occur again in the file. */
+  private readonly lastEnds = new Set<string>();
   private hasMoreHpgl = true;
 
   constructor(private readonly text: string) {}
@@ -62,14 +69,14 @@ export class HpglReader {
   }
 
   private parametersOf(name: string): HpglCommand {
-    if (name === "IN" || name === "DF") this.labelEnd = ETX;
+    if (name === "IN" || name === "DF") this.setTerminator(null);
     switch (GROUP_OF.get(name)?.reads) {
       case "label":
-        return { name, numbers: [], text: this.takeUntil(this.labelEnd) };
+        return this.label(name);
       case "encoded":
         return { name, numbers: [], text: this.takeUntil(";") };
       case "character":
-        return { name, numbers: [], text: this.character(name) };
+        return { name, numbers: [], text: name === "DT" ? this.terminator() : this.symbol() };
       case "message":
         return { name, numbers: [], text: this.message() };
       default:
@@ -96,17 +103,37 @@ export class HpglReader {
     let text = "";
     do {
       const end = this.text.indexOf('"', ++this.at);
-      text += end < 0 ? this.take(OPEN_STRING) : `${this.takeUntil('"')}"`;
+      text += end < 0 ? this.take(OPEN_TEXT) : `${this.takeUntil('"')}"`;
     } while (this.text[this.at] === '"');
     return text;
   }
 
+  private label(name: string): HpglCommand {
+    const { labelEnd, isLabelEndDrawn } = this;
+    if (!this.lastEnds.has(labelEnd) && !this.text.includes(labelEnd, this.at)) this.lastEnds.add(labelEnd);
+    if (this.lastEnds.has(labelEnd)) return { name, numbers: [], text: this.take(OPEN_TEXT), isOpen: true };
+    const text = this.takeUntil(labelEnd);
+    return { name, numbers: [], text: isLabelEndDrawn ? `${text}${labelEnd}` : text };
+  }
+
+  private terminator(): string {
+    TERMINATOR.lastIndex = this.at;
+    const match = TERMINATOR.exec(this.text);
+    if (match !== null) this.at = TERMINATOR.lastIndex;
+    this.setTerminator(match);
+    return this.labelEnd;
+  }
+
+  private setTerminator(match: readonly string[] | null): void {
+    const [, char = ETX, mode] = match ?? [];
+    this.labelEnd = char;
+    this.isLabelEndDrawn = mode === "0";
+  }
+
   /** "" for none. */
-  private character(name: string): string {
+  private symbol(): string {
     const char = this.text[this.at] ?? "";
-    const isNamed = char > " " && char !== ";";
-    if (name === "DT") this.labelEnd = isNamed ? char : ETX;
-    if (!isNamed) return "";
+    if (char <= " " || char === ";") return "";
     this.at++;
     return char;
   }

@@ -97,8 +97,9 @@ class HpglImport {
   }
 
   private carryOut(command: HpglCommand): void {
-    const { name, numbers } = command;
+    const { name, numbers, isOpen = false } = command;
     const group = GROUP_OF.get(name);
+    if (isOpen) this.fault(name, "its text has no end");
     if (group === undefined) this.report(name);
     else if (numbers.length < group.least)
       this.warnings.add("attribute-fault", undefined, `${name}: too few numbers`);

@@ -1,33 +1,11 @@
 /** Each kind of DXF entity as a CAD program plots it: layers, splines, linetypes, filled shapes, meshes, notes. */
-import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { importDrawing } from "../../../src/import/registry.js";
 import { strokeCount } from "../../../src/drawing/stroke-set.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import type { Drawing } from "../../../src/index.js";
-import { DXF_ENTITIES } from "../../../src/import/dxf/dxf-entities.js";
+import { drawParts as draw, lineOn as line } from "./support/dxf.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
-interface Parts {
-  readonly header?: string;
-  readonly tables?: string;
-  readonly blocks?: string;
-}
-
-/** Groups separated by "|", code and value by a blank; in mm. */
-const draw = (entities: string, { header = "", tables = "", blocks = "" }: Parts = {}): Drawing =>
-  importDrawing(
-    "a.dxf",
-    [
-      `0 SECTION|2 HEADER|9 $INSUNITS|70 4${header}|0 ENDSEC`,
-      `0 SECTION|2 TABLES${tables}|0 ENDSEC|0 SECTION|2 BLOCKS${blocks}|0 ENDSEC`,
-      `0 SECTION|2 ENTITIES${entities}|0 ENDSEC|0 EOF`,
-    ]
-      .join("|")
-      .replace(/\||(?<=(?:^|\|)\d+) /g, "\n"),
-  );
-const line = (layer: string, y: number, more = ""): string =>
-  `|0 LINE|8 ${layer}${more}|10 0|20 ${y}|11 50|21 ${y}`;
 const layer = (name: string, more = ""): string => `|0 LAYER|2 ${name}|70 0|62 7|6 CONTINUOUS${more}`;
 const message = ({ warnings }: Drawing, code: string): string | undefined =>
   warnings.find((warning) => warning.code === code)?.message;
@@ -375,38 +353,5 @@ describe("an entity", () => {
     const drawing = draw(`|0 MULTILEADER|8 0${context}${leader}|301 }|172 2`);
     expect(drawing.paths.count).toBe(4);
     expect(codes(drawing)).toEqual(["text-substituted"]);
-  });
-});
-
-describe("the table of entities", () => {
-  it.each([...DXF_ENTITIES].filter(([, { how }]) => how === "reported").map(([name]) => name))(
-    "%s is reported and not drawn",
-    (name) => {
-      const drawing = draw(`${line("0", 0)}|0 ${name}|8 0|10 0|20 0|11 9|21 9|69 2`);
-      expect(shapesOf(drawing)).toEqual(["M0 0L50 0"]);
-      expect(codes(drawing)).toEqual([name === "IMAGE" ? "image-not-drawn" : "not-supported"]);
-    },
-  );
-
-  it("is the one of the documentation", () => {
-    const text = readFileSync(new URL("../../../docs/import.md", import.meta.url), "utf8");
-    const [, section] = text.split("\n## DXF\n");
-    const rows = section.split("\n## ")[0].matchAll(/^\| (`[^|]*`) *\| (drawn|alike|reported) *\|/gm);
-    const documented = [...rows].flatMap(([, names, how]) =>
-      Array.from(names.matchAll(/`([^`]+)`/g), ([, name]) => [name, how]),
-    );
-    const inCode = [...DXF_ENTITIES].map(([name, { how }]) => [name, how]);
-    expect(new Map(documented as [string, string][])).toEqual(new Map(inCode as [string, string][]));
-    expect(documented.length).toBe(inCode.length);
-  });
-
-  it("has all entities of the DXF reference", () => {
-    const reference =
-      "3DFACE 3DSOLID ACAD_PROXY_ENTITY ARC ATTDEF ATTRIB BODY CIRCLE DIMENSION ELLIPSE HATCH HELIX IMAGE INSERT LEADER LIGHT LINE LWPOLYLINE MESH MLINE MULTILEADER MTEXT OLEFRAME OLE2FRAME POINT POLYLINE RAY REGION SECTION SEQEND SHAPE SOLID SPLINE SUN SURFACE ACAD_TABLE TEXT TOLERANCE TRACE PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY VERTEX VIEWPORT WIPEOUT XLINE EXTRUDEDSURFACE LOFTEDSURFACE PLANESURFACE REVOLVEDSURFACE SWEPTSURFACE";
-    expect(reference.split(" ").filter((name) => !DXF_ENTITIES.has(name))).toEqual([]);
-  });
-
-  it("an entity that is in no table is reported by its name", () => {
-    expect(message(draw(`${line("0", 0)}|0 ACME_WALL|8 0`), "not-supported")).toContain("ACME_WALL");
   });
 });

@@ -1,9 +1,6 @@
-import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import type { Drawing } from "../../../src/drawing/drawing.js";
-import { COMMAND_GROUPS } from "../../../src/import/hpgl/hpgl-commands.js";
 import { importDrawing } from "../../../src/import/registry.js";
-import { textOfBytes } from "../../../src/import/text-of-bytes.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { codes, pointsOf, shapesOf } from "./support/shapes.js";
 
@@ -44,6 +41,32 @@ describe("texts in HPGL", () => {
     const drawing = hpgl(text);
     expect(shapesOf(drawing)).toEqual(["M0 0L25 0"]);
     expect(codes(drawing)).toEqual([]);
+  });
+
+  it.each(["\u0004", "#", " ", "P"])("end at the terminator %j of DT, whatever is in them", (end) => {
+    const label = (terminator: string, text: string): string =>
+      shapes(`${LINE}${terminator}LB${text}`).join();
+    const [usual] = [label("", `a;b${ETX}${LINE}`)];
+    expect(label(`DT${end};`, `a;b${end}${LINE}`)).toBe(usual);
+    expect(label(`DT${end},1;`, `a;b${end}${LINE}`)).toBe(usual);
+    // IN sets the usual one again.
+    expect(label(`DT${end};IN;`, `a;b${ETX}${LINE}`)).toBe(label("IN;", `a;b${ETX}${LINE}`));
+  });
+
+  it("show their terminator if DT asks for it", () => {
+    expect(shapes(`${LINE}DT#,0;LBa#`)).toEqual(shapes(`${LINE}LBa#${ETX}`));
+  });
+
+  it("without an end are no longer than their line, and this is said", () => {
+    const drawing = hpgl(`IN;${LINE}PU0,400;LBhi;\nPU0,800;PD1000,800;PU;`);
+    expect(shapesOf(drawing)).toHaveLength(3);
+    expect(shapesOf(drawing)[2]).toBe("M0 0L25 0");
+    expect(drawing.warnings.map(({ message }) => message)).toEqual([
+      expect.stringContaining("LB: its text has no end"),
+    ]);
+    // Many of them are read in linear time.
+    const many = "LBhi;PU0,0;PD9,0;".repeat(20_000);
+    expect(hpgl(`IN;${many}`).warnings[0]).toMatchObject({ code: "attribute-fault", count: 20_000 });
   });
 
   it("include a stored label, drawn once for each PB", () => {
@@ -149,6 +172,10 @@ describe("coordinates of HPGL", () => {
     const drawing = hpgl("IN;IP0,0,4000,4000;SC5,5,0,10;SP1;PU0,0;PD4000,0;");
     expect(codes(drawing)).toEqual(["attribute-fault"]);
     expect(shapesOf(drawing)).toEqual(["M0 0L100 0"]);
+  });
+
+  it("may have exponents, as programs write them", () => {
+    expect(shapes("IN;SP1;PU0,0;PD1e3,0,1.5E+3,2e-5;PU")).toEqual(["M0 0L25 0L37.5 0"]);
   });
 
   it("report numbers that are missing", () => {
@@ -279,44 +306,6 @@ describe("curves of HPGL", () => {
   });
 });
 
-describe("encoded lines of HPGL", () => {
-  /** A number in base 64: digits from 63, the last from 191; the lowest bit is the sign. */
-  const digits = (value: number): number[] => {
-    const out: number[] = [];
-    let rest = 2 * Math.abs(value) + (value < 0 ? 1 : 0);
-    for (; rest >= 64; rest = Math.floor(rest / 64)) out.push(63 + (rest % 64));
-    return [...out, 191 + rest];
-  };
-  const bytesOf = (...parts: (string | number[])[]): Uint8Array =>
-    Uint8Array.from(
-      parts.flatMap((part) => (typeof part === "string" ? [...part].map((c) => c.charCodeAt(0)) : part)),
-    );
-
-  it("are right from all bytes of a file, which is not text in UTF-8", () => {
-    for (const preface of [
-      "",
-      "\u001b.(",
-      "\u001bE\u001b&l2A\u001b%0B",
-      "\u001b%-12345X@PJL ENTER LANGUAGE=HPGL2\r\n",
-    ]) {
-      const file = bytesOf(
-        `${preface}IN;SP1;PE<=`,
-        [...digits(0), ...digits(0), ...digits(2000), ...digits(0), ...digits(-1000), ...digits(4000)],
-        ";PU;",
-      );
-      const drawing = importDrawing("a", textOfBytes(file));
-      expect(shapesOf(drawing), preface).toEqual(["M0 100L50 100L25 0"]);
-      expect(codes(drawing)).toEqual([]);
-    }
-  });
-
-  it("are reported instead of drawn if bytes were lost", () => {
-    const drawing = hpgl(`IN;${LINE}PE<=\ufffd\ufffd\ufffd\ufffd;PU;`);
-    expect(codes(drawing)).toEqual(["attribute-fault"]);
-    expect(drawing.paths.count).toBe(1);
-  });
-});
-
 describe("symbols and own characters in HPGL", () => {
   it("are drawn at each point, their middle on it, with the pen up or down", () => {
     const drawing = hpgl("IN;SP1;SM*;PU1000,1000;PA2000,1000;SM;PU;PU0,0;PD100,0;");
@@ -410,41 +399,4 @@ describe("line types and windows of HPGL", () => {
     expect(hpgl("IN;SP1;PC1,255,128,0;PU0,0;PD400,0;PC1;PD800,0;").colors).toEqual(["#ff8000", "#000000"]);
     expect(hpgl("IN;CR0,100,0,100,0,100;PC3,100,0,50;SP3;PU0,0;PD400,0;").colors).toEqual(["#ff0080"]);
   });
-});
-
-describe("the table of HPGL commands", () => {
-  /** HP 7475A, Interfacing and Programming Manual. */
-  const HP7475A =
-    "AA AR CA CI CP CS DC DF DI DP DR DT EA ER EW FT IM IN IP IW LB LT OA OC OD OE OF OH OI OO OP OS OW PA PD PR PS PT PU RA RO RR SA SC SI SL SM SP SR SS TL UC VS WG XT YT";
-  /** PCL 5 Technical Reference and HP-GL/2 Reference Guide. */
-  const HPGL2 =
-    "AA AC AD AR AT BP BR BZ CF CI CO CP CR CT DF DI DL DR DT DV EA EC EP ER ES EW FI FN FP FR FT IN IP IR IW LA LB LM LO LT MC MG MT NP NR OD OE OH OI OP OS PA PC PD PE PG PM PP PR PS PU PW QL RA RF RO RP RR RT SA SB SC SD SI SL SM SP SR SS ST SV TD TR UL VS WG WU";
-  const names = COMMAND_GROUPS.flatMap((group) => group.names);
-
-  it("has each command of HP-GL and HP-GL/2 once", () => {
-    expect([...HP7475A.split(" "), ...HPGL2.split(" ")].filter((name) => !names.includes(name))).toEqual([]);
-    expect(names.filter((name, i) => names.indexOf(name) !== i)).toEqual([]);
-  });
-
-  it("is the one in the document", () => {
-    const page = readFileSync(new URL("../../../docs/import.md", import.meta.url), "utf8");
-    const rows = [...page.matchAll(/^\| `([A-Z]{2}(?: [A-Z]{2})*)` +\| (\w+) +\| (.*?) +\|$/gm)].map((row) =>
-      row.slice(1),
-    );
-    const OUTCOMES = { drawn: "drawn", alike: "alike", reported: "reported", setting: "nothing" };
-    expect(rows).toEqual(
-      COMMAND_GROUPS.map(({ names: all, outcome, about }) => [all.join(" "), OUTCOMES[outcome], about]),
-    );
-  });
-
-  it.each(COMMAND_GROUPS.flatMap((group) => group.names.map((name) => [name, group] as const)))(
-    "tells the truth about %s",
-    (name, { outcome, warning, reads }) => {
-      const parameters = reads === "numbers" || reads === "encoded" ? "1,1,1,1,1,1" : `A${ETX}`;
-      const warnings = codes(hpgl(`IN;${LINE}${name}${parameters};IN;SP1;PU0,0;PD90,90;`));
-      if (outcome === "reported") expect(warnings).toEqual([warning]);
-      else expect(warnings).not.toContain("not-supported");
-      if (outcome === "setting") expect(warnings).toEqual([]);
-    },
-  );
 });

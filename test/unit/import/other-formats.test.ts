@@ -89,8 +89,8 @@ describe("DXF", () => {
   });
 
   it.each([
-    ["11 40 21 0", [50, 70], [90, 50]],
-    ["11 0 21 40", [70, 50], [50, 10]],
+    ["11 40 21 0", [90, 50], [50, 70]],
+    ["11 0 21 40", [50, 10], [70, 50]],
   ])("draws an ellipse clockwise if its extrusion points down: %s", (axis, start, end) => {
     const quarter = `41 0 42 ${Math.PI / 2}`;
     const drawing = draw(`${FRAME} 0 ELLIPSE 8 0 10 50 20 50 ${axis} 40 0.5 ${quarter} ${DOWN}`);

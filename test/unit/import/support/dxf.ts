@@ -30,3 +30,28 @@ export function drawDxf(entities: string, options: ImportOptions = {}, blocks = 
   ];
   return importDrawing("a.dxf", lines.join("\n").replace(/^(\d+) /gm, "$1\n"), options);
 }
+
+interface DxfParts {
+  readonly header?: string;
+  readonly tables?: string;
+  readonly blocks?: string;
+}
+
+/** A file of these parts. Groups separated by "|", code and value by a blank; in mm. */
+export const drawParts = (
+  entities: string,
+  { header = "", tables = "", blocks = "" }: DxfParts = {},
+): Drawing =>
+  importDrawing(
+    "a.dxf",
+    [
+      `0 SECTION|2 HEADER|9 $INSUNITS|70 4${header}|0 ENDSEC`,
+      `0 SECTION|2 TABLES${tables}|0 ENDSEC|0 SECTION|2 BLOCKS${blocks}|0 ENDSEC`,
+      `0 SECTION|2 ENTITIES${entities}|0 ENDSEC|0 EOF`,
+    ]
+      .join("|")
+      .replace(/\||(?<=(?:^|\|)\d+) /g, "\n"),
+  );
+/** A horizontal line of 50 mm. */
+export const lineOn = (layer: string, y: number, more = ""): string =>
+  `|0 LINE|8 ${layer}${more}|10 0|20 ${y}|11 50|21 ${y}`;
