@@ -1,4 +1,5 @@
 /** Commands that list boards and plotter models. */
+import type { FoundBoard } from "../../host/plotter/devices.js";
 import { printableJson } from "../../src/internal.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles } from "../storage/machine-files.js";
@@ -19,9 +20,15 @@ export const declareMachines: Declare = (command, { io }) => {
   addJson(addData(command)).action((options: ListOptions) => runMachines(options, io));
 };
 
+const VIRTUAL: FoundBoard = {
+  path: "virtual",
+  description: "the built-in virtual board",
+  serialNumber: null,
+};
+
 async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
   const { findBoards } = await import("../serial/find-boards.js");
-  const boards = await findBoards();
+  const boards = [...(await findBoards()), VIRTUAL];
   if (json === true) {
     io.out(`${printableJson(boards)}\n`);
     return;
@@ -29,7 +36,6 @@ async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
   for (const { path, description, serialNumber } of boards) {
     io.out(printed`${path}\t${description}${serialNumber === null ? "" : ` (${serialNumber})`}\n`);
   }
-  io.out("virtual\tthe built-in virtual board\n");
 }
 
 function runMachines({ data, json }: ListOptions, io: CliIo): void {

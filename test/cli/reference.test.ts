@@ -198,7 +198,11 @@ const EFFECTS: readonly (readonly [string, readonly string[], RegExp])[] = [
   ["plan", ["drawing.svg", "--machine", "typewriter"], /no machine "typewriter"/],
   ["plan", ["drawing.svg", "--machine-file", "none.json"], /none\.json/],
   ["plan", ["drawing.svg", "--config", "none.json"], /none\.json/],
-  ["devices", ["--json"], /^\[\]\s*$/],
+  [
+    "devices",
+    ["--json"],
+    /^\[\{"path":"virtual","description":"the built-in virtual board","serialNumber":null\}\]\s*$/,
+  ],
   ["machines", ["--json"], /^\[\{"id":"axidraw-v3"/],
   ["info", ["--json"], /"firmware":/],
   ["queue", ["--json"], /^[[{]/],
