@@ -142,6 +142,7 @@ export {
   isPlannedAlike,
   usbIds,
 } from "./drivers/registry.js";
+export { scaledClock } from "./drivers/transport.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
 export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";
 export type {

@@ -1,6 +1,13 @@
 /** Finds and opens a plotter, real or virtual, and lets its driver identify it. */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
-import type { Driver, Machine, MachineEvents, UsbId, VirtualMachine } from "../../src/internal.js";
+import {
+  scaledClock,
+  type Driver,
+  type Machine,
+  type MachineEvents,
+  type UsbId,
+  type VirtualMachine,
+} from "../../src/internal.js";
 import type { Devices } from "./devices.js";
 
 export interface ConnectOptions {
@@ -67,18 +74,6 @@ async function firstBoard({
 function identified(transport: Transport, options: ConnectOptions): Promise<Machine> {
   const { driver, clock, speed, events } = options;
   return driver.identify(transport, { clock, machineClock: scaledClock(clock, speed), speed, events });
-}
-
-/**
- * The clock of a virtual board that runs `speed` times faster than real time. The streamer uses it too, so the motion
- * sent ahead is the same in board time at any speed.
- */
-function scaledClock(clock: Clock, speed: number): Clock {
-  if (speed === 1) return clock;
-  return {
-    nowS: () => clock.nowS() * speed,
-    after: (delayS, callback) => clock.after(delayS / speed, callback),
-  };
 }
 
 /** Adds the device to the message of an error. */

@@ -27,6 +27,18 @@ export interface Clock {
 export const delay = (clock: Clock, delayS: number): Promise<void> =>
   new Promise((resolve) => void clock.after(delayS, resolve));
 
+/**
+ * The clock of a virtual board that runs `speed` times faster than real time. The streamer uses it too, so the motion
+ * sent ahead is the same in board time at any speed.
+ */
+export function scaledClock(clock: Clock, speed: number): Clock {
+  if (speed === 1) return clock;
+  return {
+    nowS: () => clock.nowS() * speed,
+    after: (delayS, callback) => clock.after(delayS / speed, callback),
+  };
+}
+
 /** Asks a long computation to stop. An AbortSignal fits. */
 export interface Cancellation {
   readonly aborted: boolean;

@@ -296,6 +296,25 @@ describe("cutting and replacing", () => {
   });
 });
 
+describe("streamCommands on a board's own clock", () => {
+  it("takes the board's time on a fast board, and no time on one of infinite speed", async () => {
+    const stream = makeStream(wavyRows(500, 20));
+    const playedAt = async (speed: number): Promise<number> => {
+      const world = new ManualClock();
+      const board = new VirtualBoard({ clock: world, speed });
+      const session = new BoardSession(board.transport(), { clock: world });
+      await world.run(session.identify());
+      await world.run(session.send("EM,1,1"));
+      const startS = world.nowS();
+      const report = await world.run(streamCommands(session, stream, { clock: board.clock }));
+      expect(report).toMatchObject({ complete: true, exact: true, underrunCount: 0 });
+      return world.nowS() - startS;
+    };
+    expect(await playedAt(50)).toBeCloseTo(stream.planS[stream.count] / 50, 1);
+    expect(await playedAt(Infinity)).toBe(0);
+  });
+});
+
 describe("a stream that sends no command", () => {
   it("because it has none reports its progress and the board's position", async () => {
     const rig = await newRig();

@@ -19,12 +19,13 @@ import { pctFromServoPos } from "../protocol/servo-height.js";
 import { sFromTicks, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { DrawnPolyline } from "../../drawn-polylines.js";
-import type { Clock, Transport } from "../../transport.js";
+import { scaledClock, type Clock, type Transport } from "../../transport.js";
 import { VirtualLink } from "../../virtual-link.js";
 import type { BoardStatistics } from "./board-totals.js";
 import { BoardCore, type VirtualServo } from "./core.js";
 import { DrawnLine } from "./drawn-line.js";
 import { InputLines } from "./input.js";
+import { InstantClock } from "./instant-clock.js";
 import { Interpreter } from "./interpreter.js";
 import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 import { SwingingLine } from "./swinging-line.js";
@@ -88,7 +89,9 @@ export interface VirtualBoardState {
 export class VirtualBoard {
   /** The version that it reports. */
   readonly firmware: string;
-  private readonly clock: Clock;
+  /** Counts board seconds, for `streamCommands`. At infinite speed, waiting takes no real time. */
+  readonly clock: Clock;
+  private readonly realClock: Clock;
   private readonly speed: number;
   private readonly machine: MachineProfile;
   private readonly parseTicks: number;
@@ -125,14 +128,21 @@ export class VirtualBoard {
     );
     const speed = options.speed ?? 1;
     if (!(speed > 0)) throw new RangeError(`speed is ${speed}: expected more than 0`);
-    this.clock = options.clock;
+    this.realClock = options.clock;
+    this.clock =
+      speed === Infinity
+        ? new InstantClock(options.clock, {
+            nowS: () => this.core.nowTick / TICKS_PER_S,
+            wait: (untilS) => (this.core.nowTick = Math.max(this.core.nowTick, untilS * TICKS_PER_S)),
+          })
+        : scaledClock(options.clock, speed);
     this.firmware = options.firmware ?? "2.8.1";
     this.speed = speed;
     this.machine = options.machine ?? machineById("axidraw-v3");
     this.parseTicks = (options.parseMs ?? 0) * TICKS_PER_MS;
     this.inputLimit = options.inputBytes ?? 256;
     this.systemLimit = options.systemBytes ?? 4_096;
-    this.startS = this.clock.nowS();
+    this.startS = options.clock.nowS();
     const { recordLine = true, servo = null, springs } = options;
     const line = springs ? new SwingingLine(this.machine, springs) : new DrawnLine(this.machine);
     this.core = new BoardCore(firmwareFeatures(this.firmware), this.machine, recordLine ? line : null, servo);
@@ -349,7 +359,7 @@ export class VirtualBoard {
 
   private clockTick(): number {
     if (this.speed === Infinity) return this.core.nowTick;
-    return (this.clock.nowS() - this.startS) * this.speed * TICKS_PER_S;
+    return (this.realClock.nowS() - this.startS) * this.speed * TICKS_PER_S;
   }
 
   /** Processes all events that are due, in order. */
@@ -418,7 +428,7 @@ export class VirtualBoard {
     const tick = this.nextTick();
     if (tick === Infinity || this.speed === Infinity || this.isClosed) return;
     const delayS = (tick - this.core.nowTick) / (TICKS_PER_S * this.speed);
-    this.cancelTimer = this.clock.after(Math.max(0, delayS), () => {
+    this.cancelTimer = this.realClock.after(Math.max(0, delayS), () => {
       this.cancelTimer = null;
       this.run();
     });
