@@ -11,10 +11,11 @@ import type {
 import type { CustomMachines } from "../custom-machines.js";
 import type { Requester } from "../planning/lane.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
-import type { PlotterRegistry, PlotterUse } from "../plotter/plotter-registry.js";
+import type { PlotterRegistry } from "../plotter/plotter-registry.js";
 import { findFreePlotter, findPlotter } from "../queue/find-plotter.js";
 import type { JobQueue } from "../queue/job-queue.js";
 import type { Notices } from "../queue/notices.js";
+import type { UploadedDrawings } from "../queue/uploaded-drawings.js";
 import type { StoredDrawing } from "../storage.js";
 
 export interface HostParts {
@@ -22,12 +23,9 @@ export interface HostParts {
   readonly registry: PlotterRegistry;
   readonly notices: Notices;
   readonly machines: Pick<CustomMachines, "list" | "save" | "remove">;
-  readonly uploads: {
-    /** Stores the text of a drawing. */
-    addText(text: string): Promise<StoredDrawing>;
-    /** Hands an uploaded drawing over to the caller. Throws `not-found`. */
-    claim(id: string): StoredDrawing;
-  };
+  readonly uploads: UploadedDrawings;
+  /** Stores the text of a drawing. */
+  readonly storeText: (text: string) => Promise<StoredDrawing>;
   /** The box of a job's drawing as its settings place it on the machine. */
   readonly jobBoxMm: (jobId: string) => Promise<BoxMm>;
   readonly log: (line: string) => void;
@@ -50,11 +48,10 @@ export const hostOperations = (parts: HostParts) =>
     operator: { dismissNotice: (id) => parts.notices.remove(id) },
   }) satisfies OperationHandlers<Requester>;
 
-const jobOperations = ({ queue, uploads }: HostParts) =>
+const jobOperations = ({ queue, uploads, storeText }: HostParts) =>
   ({
     add: async ({ drawing, drawingId, settings = {}, ...rest }, requester) => {
-      const stored =
-        drawingId === undefined ? await uploads.addText(drawing ?? "") : uploads.claim(drawingId);
+      const stored = drawingId === undefined ? await storeText(drawing ?? "") : uploads.claim(drawingId);
       return queue.add({ ...rest, settings, drawing: stored }, requester);
     },
     get: (id) => queue.get(id),
@@ -84,10 +81,6 @@ const jobOperations = ({ queue, uploads }: HostParts) =>
 const plotterOperations = ({ queue, registry, log }: HostParts) => {
   const find = (id: string): PlotterPort => findPlotter(registry.ports, id);
   const findFree = (id: string): PlotterPort => findFreePlotter(registry.ports, queue, id);
-  const use: PlotterUse = {
-    isBusy: (id) => queue.isPlotterBusy(id),
-    liveJobCount: (id) => queue.liveJobCount(id),
-  };
   return {
     devices: async () => ({ devices: await registry.devices() }),
     add: (wanted) => {
@@ -96,9 +89,9 @@ const plotterOperations = ({ queue, registry, log }: HostParts) => {
       return plotter;
     },
     get: (id) => find(id).snapshot(),
-    patch: (id, patch) => registry.patch(id, patch, use),
+    patch: (id, patch) => registry.patch(id, patch, queue),
     remove: async (id) => {
-      await registry.remove(id, use);
+      await registry.remove(id, queue);
       log(`plotter ${id} removed`);
     },
     queue: (id) => queue.settings(find(id).id),

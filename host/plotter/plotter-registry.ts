@@ -42,8 +42,8 @@ interface RegistryParts {
 
 /** How jobs that have not ended use a plotter. */
 export interface PlotterUse {
-  readonly isBusy: (plotterId: string) => boolean;
-  readonly liveJobCount: (plotterId: string) => number;
+  isPlotterBusy(plotterId: string): boolean;
+  liveJobCount(plotterId: string): number;
 }
 
 export class PlotterRegistry {
@@ -136,7 +136,7 @@ export class PlotterRegistry {
     if (typeof patch.machine === "string") this.#mustBeMachine(patch.machine);
     const isMoved = device !== row.device;
     const isOther = machine !== row.machine;
-    if ((isMoved || isOther) && use.isBusy(id)) {
+    if ((isMoved || isOther) && use.isPlotterBusy(id)) {
       throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
     }
     const next = { id, name, device, machine };
@@ -165,7 +165,7 @@ export class PlotterRegistry {
   reconnect(id: string, use: PlotterUse): Promise<Plotter> {
     return this.#inTurn(async () => {
       const { row, port } = this.#find(id);
-      if (use.isBusy(id)) {
+      if (use.isPlotterBusy(id)) {
         throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
       }
       await port.close();

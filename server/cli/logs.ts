@@ -1,4 +1,5 @@
 /** `plotwright logs`: all logs as one text, for a support request. */
+import { OPERATIONS, requestOf } from "../../src/schema/index.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { bundleText, readLog } from "../storage/log-book.js";
 import { mustBeDataFolder, writeOut } from "./files.js";
@@ -27,7 +28,7 @@ export async function runLogs(options: LogsOptions, io: CliIo, version: string):
 
 async function fromServer(port: number): Promise<string | null> {
   try {
-    const response = await fetch(`http://127.0.0.1:${port}/api/v1/logs`, {
+    const response = await fetch(`http://127.0.0.1:${port}${requestOf(OPERATIONS.operator.logs, {}).path}`, {
       signal: AbortSignal.timeout(PATIENCE_MS),
     });
     const text = await response.text();

@@ -1,14 +1,19 @@
-/** A client for a running server's HTTP interface (docs/api.md). */
+/** A client of a running server, made from the table of operations. */
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import {
   apiErrorSchema,
+  clientOf,
   jobSchema,
   listedMachineSchema,
   meSchema,
+  OPERATIONS,
   plotterSettingsSchema,
+  requestOf,
   type Job,
   type NewJob,
+  type Operation,
+  type OperationInput,
 } from "../../src/schema/index.js";
 
 export const DEFAULT_URL = "http://127.0.0.1:9080";
@@ -28,10 +33,8 @@ const stateSchema = z.object({
 });
 export type ServerState = z.infer<typeof stateSchema>;
 
-const uploadSchema = z.object({ id: z.string() });
-
 export async function serverState(options: ServerOptions): Promise<ServerState> {
-  return ask(options, "state", stateSchema);
+  return (await send(options, { ...OPERATIONS.state.get, answer: stateSchema }, {})) as ServerState;
 }
 
 /** Uploads the drawing's file as it is, then adds the job. */
@@ -40,27 +43,23 @@ export async function addJob(
   job: Omit<NewJob, "drawing" | "drawingId">,
   drawing: Buffer<ArrayBuffer>,
 ): Promise<Job> {
-  const { id: drawingId } = await ask(options, "drawings", uploadSchema, { method: "POST", body: drawing });
-  const body = JSON.stringify({ ...job, drawingId } satisfies NewJob);
-  const headers = { "Content-Type": "application/json" };
-  return ask(options, "jobs", jobSchema, { method: "POST", body, headers });
+  const { drawings, jobs } = clientOf(OPERATIONS, (one, input) => send(options, one, input));
+  const { id: drawingId } = await drawings.upload(new Uint8Array(drawing).buffer);
+  return jobs.add({ ...job, drawingId });
 }
 
-async function ask<T>(
-  { url, key }: ServerOptions,
-  path: string,
-  schema: z.ZodType<T>,
-  init: RequestInit = {},
-): Promise<T> {
-  const headers = { ...init.headers, ...(key === undefined ? {} : { Authorization: `Bearer ${key}` }) };
-  const response = await fetch(new URL(`/api/v1/${path}`, url), { ...init, headers }).catch(
-    (cause: unknown) => {
-      throw new PlotwrightError("disconnected", noAnswer(url, cause), { cause });
-    },
-  );
+async function send({ url, key }: ServerOptions, one: Operation, input: OperationInput): Promise<unknown> {
+  const { path, headers, body, method } = requestOf(one, input);
+  const response = await fetch(new URL(path, url), {
+    method,
+    headers: { ...headers, ...(key === undefined ? {} : { Authorization: `Bearer ${key}` }) },
+    ...(body === undefined ? {} : { body }),
+  }).catch((cause: unknown) => {
+    throw new PlotwrightError("disconnected", noAnswer(url, cause), { cause });
+  });
   const answer: unknown = await response.json().catch(() => null);
-  const result = schema.safeParse(answer);
-  if (response.ok && result.success) return result.data;
+  const result = one.answer instanceof z.ZodType ? one.answer.safeParse(answer) : null;
+  if (response.ok && result?.success === true) return result.data;
   const fault = apiErrorSchema.safeParse(answer);
   if (response.ok || !fault.success) {
     throw new PlotwrightError(
@@ -95,7 +94,9 @@ const PATIENCE_MS = 1_000;
 export async function serverHint(error: unknown): Promise<unknown> {
   if (!(error instanceof PlotwrightError) || !["no-board", "busy"].includes(error.code)) return error;
   const signal = AbortSignal.timeout(PATIENCE_MS);
-  const answer: unknown = await fetch(new URL("/api/v1/me", DEFAULT_URL), { signal })
+  const answer: unknown = await fetch(new URL(requestOf(OPERATIONS.state.me, {}).path, DEFAULT_URL), {
+    signal,
+  })
     .then((response) => response.json())
     .catch(() => null);
   // It may require a key, and refuse this request.

@@ -27,7 +27,7 @@ import { NODE_PARTS } from "../plotter/node-plotter.js";
 import { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import { findBoards } from "../serial/find-boards.js";
 import type { PluginHost, RunningPlugin } from "../plugins/server-plugin.js";
-import { UploadedDrawings } from "../storage/uploaded-drawings.js";
+import { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
 import { jobHooksOf, loadPlugins } from "./load-plugins.js";
 import type { ServerOptions } from "./server-options.js";
 

@@ -4,7 +4,7 @@
  */
 import express, { Router, type Express } from "express";
 import helmet from "helmet";
-import type { Operation } from "../../src/schema/index.js";
+import { API_PATH, type Operation } from "../../src/schema/index.js";
 import { limitRequests, pairRoutes, requireLocal, requireRole } from "./auth.js";
 import { Browsers, requireOperator } from "./browser.js";
 import { errorResponder, notFound } from "./errors.js";
@@ -37,7 +37,7 @@ export function createApp(parts: AppParts): Express {
   app.use(browsers.routes());
   app.use("/api", requireRole(access, isRunning, refusals));
   app.use("/api", requireOperator(browsers, parts.operatorLock, isRunning));
-  app.use("/api/v1", noStore, apiRoutes(parts, browsers).router);
+  app.use(API_PATH, noStore, apiRoutes(parts, browsers).router);
   app.use("/api", notFound);
   app.use(pageRoutes(parts.webDir));
   app.use(notFound);

@@ -6,7 +6,7 @@ import type { IncomingMessage } from "node:http";
 import { Router, type Request, type RequestHandler } from "express";
 import { ipKeyGenerator, rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
-import { OPERATIONS, type Operation, type Role } from "../../src/schema/index.js";
+import { API_PATH, OPERATIONS, type Operation, type Role } from "../../src/schema/index.js";
 import { SESSION_DAYS, type Access } from "../security/access.js";
 import type { Refusals } from "./refusals.js";
 
@@ -71,7 +71,7 @@ const ALL: readonly Operation[] = Object.values<Readonly<Record<string, Operatio
 );
 const STOPS = ALL.filter(({ role }) => role === "stop").map((one) => ({
   isCancel: one === OPERATIONS.jobs.cancel,
-  path: new RegExp(`^/api/v1${one.path.replace(":id", "([^/]+)")}$`, "i"),
+  path: new RegExp(`^${API_PATH}${one.path.replace(":id", "([^/]+)")}$`, "i"),
 }));
 /** The first parts of the paths whose answers only operators may read. */
 const SECRETS: ReadonlySet<string> = new Set(

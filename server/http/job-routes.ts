@@ -4,7 +4,13 @@ import { basename } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { isDrawingName } from "../../src/internal.js";
-import { cleanName, givenSettingsSchema, nameSchema, type GivenSettings } from "../../src/schema/index.js";
+import {
+  API_PATH,
+  cleanName,
+  givenSettingsSchema,
+  nameSchema,
+  type GivenSettings,
+} from "../../src/schema/index.js";
 import { parseWith } from "../../host/parse-with.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
@@ -29,7 +35,7 @@ const addFromFile =
     const wanted = wantedIn(request);
     const drawing = await files.addFile(bytesOf(request));
     const job = await queue.add({ ...wanted, drawing }, requesterOf(request, response));
-    response.status(201).location(`/api/v1/jobs/${job.id}`).json(job);
+    response.status(201).location(`${API_PATH}/jobs/${job.id}`).json(job);
   };
 
 function wantedIn({ query: { name, settings, plotterId } }: Request<Record<string, string>>) {

@@ -1,6 +1,6 @@
 /** The API as an OpenAPI 3.1 document, generated from the table of operations. */
 import { z, type ZodType } from "zod";
-import { apiErrorSchema, serverEventSchema, type Operation } from "../../src/schema/index.js";
+import { API_PATH, apiErrorSchema, serverEventSchema, type Operation } from "../../src/schema/index.js";
 
 /**
  * The document as JSON. It is generated operation by operation with pauses: this thread also streams to the board,
@@ -9,7 +9,7 @@ import { apiErrorSchema, serverEventSchema, type Operation } from "../../src/sch
 export async function openApiText(version: string, operations: readonly Operation[]): Promise<string> {
   const paths: Record<string, Record<string, object>> = {};
   for (const one of operations) {
-    const path = `/api/v1${one.path.replace(/:(\w+)/g, "{$1}")}`;
+    const path = `${API_PATH}${one.path.replace(/:(\w+)/g, "{$1}")}`;
     paths[path] = { ...paths[path], [one.method]: described(one) };
     await new Promise((resolve) => setImmediate(resolve));
   }

@@ -2,6 +2,7 @@
 import express, { Router, type Request, type RequestHandler, type Response } from "express";
 import { PlotwrightError } from "../../src/index.js";
 import {
+  API_PATH,
   OPERATIONS,
   type Operation,
   type OperationGroup,
@@ -90,7 +91,7 @@ const performer =
 function sendJson(response: Response, { path, status }: Operation, answer: unknown): void {
   const { id } = (answer ?? {}) as { readonly id?: string };
   const isNewItem = status === 201 && id !== undefined && ITEM_PATHS.has(`${path}/:id`);
-  if (isNewItem) response.location(`/api/v1${path}/${id}`);
+  if (isNewItem) response.location(`${API_PATH}${path}/${id}`);
   response.status(status).json(answer);
 }
 

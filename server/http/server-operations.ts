@@ -9,7 +9,7 @@ import { lane } from "../../host/planning/lane.js";
 import { drawingBoxMm } from "../planning/drawing-box.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import { bundleText } from "../storage/log-book.js";
-import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
+import type { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
 import type { Access } from "../security/access.js";
 import type { Browsers } from "./browser.js";
 import { jobResponders } from "./job-routes.js";
@@ -34,10 +34,7 @@ export interface ServerParts extends StateParts {
 export const serverHandlers = (parts: ServerParts): ServerHandlers => {
   const host = hostOperations({
     ...parts,
-    uploads: {
-      addText: (text) => parts.files.add([Buffer.from(text, "utf8")]),
-      claim: (id) => parts.uploads.claim(id),
-    },
+    storeText: (text) => parts.files.add([Buffer.from(text, "utf8")]),
     jobBoxMm: jobBoxMm(parts),
   });
   return {
@@ -69,7 +66,7 @@ export const serverResponders = (
   openApi: () => Promise<string>,
 ): Responders => ({
   state: stateResponders(parts, browsers, openApi),
-  drawings: { upload: receiveDrawing(parts.uploads) },
+  drawings: { upload: receiveDrawing(parts) },
   jobs: jobResponders(parts),
   operator: {
     take: (request, response) => {
@@ -93,9 +90,11 @@ const accessOperations = (access: Access) =>
   }) satisfies ServerHandlers["access"];
 
 const receiveDrawing =
-  (uploads: UploadedDrawings): RequestHandler<Record<string, string>> =>
+  ({ files, uploads }: ServerParts): RequestHandler<Record<string, string>> =>
   async (request, response) => {
-    response.status(201).json({ id: await uploads.add(bytesOf(request)) });
+    const drawing = await files.addFile(bytesOf(request));
+    uploads.keep(drawing);
+    response.status(201).json({ id: drawing.id });
   };
 
 /** Measures the drawings of two jobs at a time. */

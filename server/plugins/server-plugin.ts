@@ -12,7 +12,7 @@ import type { Notices } from "../../host/queue/notices.js";
 import type { JobHooks } from "../../host/queue/queue-parts.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import type { Store } from "../storage/store.js";
-import type { UploadedDrawings } from "../storage/uploaded-drawings.js";
+import type { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
 
 export interface ServerPlugin {
   /** Its name in the log when the server closes, such as "the webhooks". */

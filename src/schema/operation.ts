@@ -35,6 +35,12 @@ type Details = Pick<Operation, "body" | "isBodyOptional" | "query" | "attachment
 
 const MAX_BODY_BYTES = 10_240;
 
+/** An operation whose exact path and schemas the types of its clients and handlers need. */
+type Row<Path, Answer, More> = Omit<Operation, "path" | "answer" | "body" | "query"> & {
+  readonly path: Path;
+  readonly answer: Answer;
+} & Pick<More, Extract<keyof More, "body" | "query">>;
+
 /** A row of the table. Default: only operators may change something. */
 export const operation = <
   const Path extends string,
@@ -46,7 +52,7 @@ export const operation = <
   about: string,
   answer: Answer,
   more?: More,
-): Operation & { readonly path: Path; readonly answer: Answer } & More =>
+): Row<Path, Answer, More> =>
   ({
     method,
     path,
@@ -56,7 +62,7 @@ export const operation = <
     role: method === "get" ? "watch" : "operate",
     maxBodyBytes: MAX_BODY_BYTES,
     ...more,
-  }) as Operation & { readonly path: Path; readonly answer: Answer } & More;
+  }) as unknown as Row<Path, Answer, More>;
 
 /** The text of a drawing, or its bytes. */
 export type FileContent = string | ArrayBuffer;
@@ -122,8 +128,26 @@ export const clientOf = <Table extends OperationTable>(
     }),
   ) as unknown as ClientOf<Table>;
 
-/** The path of a request below /api/v1, with its id and query. */
-export const requestPath = ({ path, query }: Operation, { id = "", sent }: OperationInput): string => {
+/** Where the operations are on a server. */
+export const API_PATH = "/api/v1";
+
+export interface OperationRequest {
+  readonly method: string;
+  /** From the server's root, with id and query. */
+  readonly path: string;
+  readonly headers: Readonly<Record<string, string>>;
+  readonly body?: string | FileContent;
+}
+
+/** The HTTP request of an operation. A file is sent unchanged, any other body as JSON. */
+export const requestOf = (one: Operation, input: OperationInput): OperationRequest => {
+  const request = { method: one.method.toUpperCase(), path: API_PATH + pathOf(one, input), headers: {} };
+  if (one.body === undefined || input.sent === undefined) return request;
+  if (one.body === "file") return { ...request, body: input.sent as FileContent };
+  return { ...request, body: JSON.stringify(input.sent), headers: { "content-type": "application/json" } };
+};
+
+const pathOf = ({ path, query }: Operation, { id = "", sent }: OperationInput): string => {
   const full = path.replace(/:\w+/, encodeURIComponent(id));
   if (query === undefined || sent === undefined) return full;
   const fields = Object.entries(sent as Record<string, unknown>).filter(([, value]) => value !== undefined);

@@ -4,8 +4,8 @@ import {
   newJobSchema,
   type HistoryRequest,
   type JobPage,
+  type OperationClient,
 } from "../../src/schema/index.js";
-import type { Backend } from "../../web/backend/backend.js";
 import { createServerBackend } from "../../web/backend/server/server-backend.js";
 import { createActions, type Actions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
@@ -13,7 +13,10 @@ import { createPageStore } from "../../web/state/store.js";
 import type { Planned } from "../../web/worker/protocol.js";
 import { makeJob } from "./fixtures.js";
 
-function makePage(more: Partial<Backend> = {}) {
+type Calls = { readonly [Group in keyof OperationClient]?: Partial<OperationClient[Group]> };
+
+/** `more`: what the backend answers otherwise. */
+function makePage(more: Calls = {}) {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
   let isServerUp = false;
   const sent: (string | Blob)[] = [];
@@ -23,7 +26,13 @@ function makePage(more: Partial<Backend> = {}) {
       ? Promise.resolve(Response.json({ samples: [], id: "upload" }))
       : Promise.reject(new Error("refused"));
   });
-  const backend = { ...fromServer, ...more };
+  const { state, jobs, samples } = more;
+  const backend = {
+    ...fromServer,
+    state: { ...fromServer.state, ...state },
+    jobs: { ...fromServer.jobs, ...jobs },
+    samples: { ...fromServer.samples, ...samples },
+  };
   const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
@@ -249,7 +258,7 @@ describe("a drawing that arrives late", () => {
   const makeSlowPage = () => {
     const arrivals = new Map<string, (svg: string) => void>();
     const arriving = (name: string): Promise<string> => new Promise((resolve) => arrivals.set(name, resolve));
-    const page = makePage({ sample: arriving, jobDrawing: arriving });
+    const page = makePage({ samples: { get: arriving }, jobs: { drawing: arriving } });
     const slowFile = {
       name: "late.svg",
       arrayBuffer: async () => new TextEncoder().encode(await arriving("late")).buffer,
@@ -316,11 +325,11 @@ describe("the older jobs of the history", () => {
       { jobs: [makeJob("c", { state: "done" }), makeJob("d", { state: "done" })], hasOlderJobs: true },
       { jobs: [makeJob("e", { state: "failed" })], hasOlderJobs: false },
     ];
-    const olderJobs = (wanted: HistoryRequest): Promise<JobPage> => {
+    const history = (wanted: HistoryRequest): Promise<JobPage> => {
       asked.push(wanted);
       return Promise.resolve(pages.shift()!);
     };
-    const { store, actions } = makePage({ olderJobs });
+    const { store, actions } = makePage({ state: { history } });
     const own = { state: "done", plotterId: "other" } as const;
     store.setState({ jobs: [makeJob("a"), makeJob("b", own), makeJob("c", { state: "done" })] });
     await actions.fetchOlderJobs("other");

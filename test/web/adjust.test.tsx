@@ -22,9 +22,12 @@ const openPage = (settings = DEFAULT_PLOT_SETTINGS) => {
   store.setState({ link: "connected", plotters: [makePlotter("virtual")] });
   const sent = makeJob("a", { state: "plotting" });
   const backend = {
-    addJob: () => Promise.resolve(sent),
-    actOnJob: () => Promise.resolve(sent),
-    jobDrawing: () => Promise.resolve("<svg/>"),
+    drawings: { upload: () => Promise.resolve({ id: "upload" }) },
+    jobs: {
+      add: () => Promise.resolve(sent),
+      start: () => Promise.resolve(sent),
+      drawing: () => Promise.resolve("<svg/>"),
+    },
   } as unknown as Backend;
   const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });

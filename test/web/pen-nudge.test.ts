@@ -22,8 +22,10 @@ const openPage = () => {
   const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
   const requests: { change: JobChange; resolve(job: Job): void; reject(error: Error): void }[] = [];
   const backend = {
-    changeJob: (_id: string, change: JobChange) =>
-      new Promise<Job>((resolve, reject) => requests.push({ change, resolve, reject })),
+    jobs: {
+      change: (_id: string, change: JobChange) =>
+        new Promise<Job>((resolve, reject) => requests.push({ change, resolve, reject })),
+    },
   } as unknown as Backend;
   const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });

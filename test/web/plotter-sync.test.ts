@@ -30,22 +30,26 @@ class Plotters {
   readonly #pages: { readonly store: PageStore; readonly follow: () => void }[] = [];
 
   readonly backend = {
-    savePlotterSettings: (id: string, settings: PlotterSettings) => {
-      this.putCount++;
-      if (this.isOthers) return Promise.reject(new BackendFault("not-operator", "Anna is operating."));
-      if (this.refuses) return Promise.reject(new Error("Somebody else is operating."));
-      this.stored[id] = plotterSettingsSchema.parse(JSON.parse(JSON.stringify(settings)));
-      this.tell();
-      return Promise.resolve(this.stored[id]);
+    plotters: {
+      saveSettings: (id: string, settings: PlotterSettings) => {
+        this.putCount++;
+        if (this.isOthers) return Promise.reject(new BackendFault("not-operator", "Anna is operating."));
+        if (this.refuses) return Promise.reject(new Error("Somebody else is operating."));
+        this.stored[id] = plotterSettingsSchema.parse(JSON.parse(JSON.stringify(settings)));
+        this.tell();
+        return Promise.resolve(this.stored[id]);
+      },
+      patch: (id: string, { machine }: { readonly machine: string }) => {
+        this.machine = machine;
+        this.tell();
+        return Promise.resolve(makePlotter(id, { machine }));
+      },
     },
-    setPlotterMachine: (id: string, machine: string) => {
-      this.machine = machine;
-      this.tell();
-      return Promise.resolve(makePlotter(id, { machine }));
-    },
-    takeOver: () => {
-      this.isOthers = false;
-      return Promise.resolve();
+    operator: {
+      take: () => {
+        this.isOthers = false;
+        return Promise.resolve();
+      },
     },
   } as unknown as Backend;
 
@@ -245,7 +249,7 @@ describe("a job that is opened", () => {
   };
   const open = async (state: "done" | "paused") => {
     const plotters = new Plotters();
-    Object.assign(plotters.backend, { jobDrawing: () => Promise.resolve("<svg/>") });
+    Object.assign(plotters.backend, { jobs: { drawing: () => Promise.resolve("<svg/>") } });
     const page = plotters.open({ jobs: [makeJob("a", { settings: old, state })] });
     await page.setUp(71);
     await page.actions.openJob(page.store.getState().jobs[0]);

@@ -118,21 +118,24 @@ describe("an action that only the operator may do", () => {
   const makePage = () => {
     const store = makeStore();
     let isOperator = false;
+    const duplicate = vi.fn((id: string) =>
+      isOperator
+        ? Promise.resolve(makeJob(id))
+        : Promise.reject(new BackendFault("not-operator", "Somebody else is operating.")),
+    );
+    const take = () => {
+      isOperator = true;
+      return Promise.resolve({ operator: { id: "this", name: "Anna" } });
+    };
+    const server = createServerBackend(() => Promise.reject(new Error("no server")));
     const backend = {
-      ...createServerBackend(() => Promise.reject(new Error("no server"))),
-      duplicateJob: vi.fn((id: string) =>
-        isOperator
-          ? Promise.resolve(makeJob(id))
-          : Promise.reject(new BackendFault("not-operator", "Somebody else is operating.")),
-      ),
-      takeOver: () => {
-        isOperator = true;
-        return Promise.resolve(null);
-      },
+      ...server,
+      jobs: { ...server.jobs, duplicate },
+      operator: { ...server.operator, take },
     };
     const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
     const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
-    return { store, actions, backend };
+    return { store, actions, duplicate };
   };
   const question = async (store: ReturnType<typeof makeStore>) =>
     vi.waitFor(() => {
@@ -142,11 +145,11 @@ describe("an action that only the operator may do", () => {
     });
 
   it("asks whether to take over, and is then done", async () => {
-    const { store, actions, backend } = makePage();
+    const { store, actions, duplicate } = makePage();
     const done = actions.duplicateJob("a");
     (await question(store)).answer(true);
     expect((await done)?.id).toBe("a");
-    expect(backend.duplicateJob).toHaveBeenCalledTimes(2);
+    expect(duplicate).toHaveBeenCalledTimes(2);
     expect(store.getState().takeOverQuestion).toBeNull();
   });
 

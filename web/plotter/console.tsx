@@ -52,7 +52,9 @@ const useConversation = () => {
   const send = async (line: string): Promise<void> => {
     add("sent", [line]);
     try {
-      const { replies, note } = await backend.command(currentPlotter(store.getState())?.id ?? "", line);
+      const { replies, note } = await backend.console.command(currentPlotter(store.getState())?.id ?? "", {
+        line,
+      });
       add("reply", replies.length > 0 ? replies : [words.noReply]);
       if (note !== null) add("note", [note]);
     } catch (error) {

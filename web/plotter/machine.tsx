@@ -44,7 +44,7 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
   const home = usePageState(({ settings }) => homeWords(findMachine(settings)));
   const { attempt } = useActions();
   const saveLog = async (id: string): Promise<void> => {
-    const log = await attempt("log", () => backend.log(id));
+    const log = await attempt("log", () => backend.plotters.log(id));
     if (log !== null) saveFile(`plotwright-${id}.log`, log, "text/plain");
   };
   return (

@@ -1,4 +1,5 @@
-import { useMemo, useState } from "react";
+import { useEffect, useState } from "react";
+import type { MachineProfile } from "../../src/index.js";
 import {
   findMachine,
   NEXT_STAIRS_MM,
@@ -14,7 +15,7 @@ import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { CountAxis, frequencyOf, NO_READING, type Reading } from "./count-axis.js";
-import { gainsOf } from "./ringing-gain.js";
+import type { Gain, GainRequest } from "./ringing-gain.js";
 import { sheetJob } from "./ringing-job.js";
 import { SheetPicture } from "./sheet-picture.js";
 import { isStored, useStoreSprings } from "./use-store-springs.js";
@@ -96,11 +97,7 @@ const StoreButton = ({ springs }: { springs: Springs | null }) => {
 
 const Gains = ({ springs }: { springs: Springs }) => {
   const machine = usePageState(({ settings }) => findMachine(settings));
-  const { xHz, yHz, damping } = springs;
-  const gains = useMemo(
-    () => (machine ? gainsOf(machine, { xHz, yHz, damping }) : []),
-    [machine, xHz, yHz, damping],
-  );
+  const gains = useGains(machine, springs);
   const beforeS = gains[0]?.drawS ?? 1;
   const heads = words.gainHeads;
   return (
@@ -127,6 +124,23 @@ const Gains = ({ springs }: { springs: Springs }) => {
       </table>
     </section>
   );
+};
+
+/** Empty until they are planned. */
+const useGains = (machine: MachineProfile | null, { xHz, yHz, damping }: Springs): readonly Gain[] => {
+  const [gains, setGains] = useState<readonly Gain[]>([]);
+  useEffect(() => {
+    if (!machine) return;
+    const worker = new Worker(new URL("./gain.worker.ts", import.meta.url), { type: "module" });
+    worker.onmessage = ({ data }: MessageEvent<readonly Gain[]>) => {
+      setGains(data);
+      worker.terminate();
+    };
+    const request: GainRequest = { machine, springs: { xHz, yHz, damping } };
+    worker.postMessage(request);
+    return () => worker.terminate();
+  }, [machine, xHz, yHz, damping]);
+  return gains;
 };
 
 /** "−38 %"; empty for no change. */

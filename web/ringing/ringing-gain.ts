@@ -8,7 +8,12 @@ import {
 } from "../../src/index.js";
 import { motionOfQuality, penError, QUALITIES, type Quality, type Springs } from "../../src/internal.js";
 
-interface Gain {
+export interface GainRequest {
+  readonly machine: MachineProfile;
+  readonly springs: Springs;
+}
+
+export interface Gain {
   readonly quality: Quality | "before";
   /** Pen down, without waits. */
   readonly drawS: number;

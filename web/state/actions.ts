@@ -110,17 +110,17 @@ export const createActions = (deps: ActionDeps) => {
       followPlotter: () => sync.follow(false),
     }),
     ...createJobActions({ store, backend, attempt, notify: notices.notify }),
-    takeOver: () => attempt("take-over", () => backend.takeOver()),
+    takeOver: () => attempt("take-over", () => backend.operator.take()),
     /** Gets this browser's identity. Called on each connection, because a restarted server may have forgotten it. */
     meet: async (): Promise<void> => {
       try {
-        store.setState({ me: await backend.me(), isUnpaired: false });
+        store.setState({ me: await backend.state.me(), isUnpaired: false });
       } catch (error) {
         if (error instanceof BackendFault && error.code === "not-allowed")
           store.setState({ isUnpaired: true });
       }
     },
-    dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.dismissNotice(id)),
+    dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.operator.dismissNotice(id)),
     chooseMachine,
     /** Shows another plotter with its model, heights, pens and presets. */
     choosePlotter: (id: string): void => {
@@ -131,11 +131,11 @@ export const createActions = (deps: ActionDeps) => {
     takeOverKept: sync.takeOver,
     /** Saves a custom machine and chooses it. Null if it failed, and the user has seen why. */
     saveMachine: async (profile: MachineProfile): Promise<MachineProfile | null> => {
-      const saved = await attempt("machine", () => backend.saveMachine(profile));
+      const saved = await attempt("machine", () => backend.machines.save(profile.id, profile));
       chooseMachine(saved);
       return saved;
     },
-    removeMachine: ({ id }: MachineProfile) => attempt("machine", () => backend.removeMachine(id)),
+    removeMachine: ({ id }: MachineProfile) => attempt("machine", () => backend.machines.remove(id)),
     savePreset: (name: string): void =>
       undo.changePresets(`save ${name}`, ({ presets, settings }) => withPreset(presets, name, settings)),
     takePreset: (preset: Preset): void =>
@@ -146,8 +146,8 @@ export const createActions = (deps: ActionDeps) => {
     askStrokes: (take: (strokes: StrokeSet) => void): void => planner.strokes(take),
     exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
     loadSamples: async (): Promise<void> => {
-      const samples = await attempt("samples", () => backend.samples());
-      if (samples) store.setState({ samples });
+      const answer = await attempt("samples", () => backend.samples.list());
+      if (answer) store.setState({ samples: answer.samples });
     },
   };
 };

@@ -28,7 +28,7 @@ const isAgain = (before: OpenDrawing, name: string, text: DrawingText): boolean 
 
 interface DrawingParts {
   readonly store: PageStore;
-  readonly backend: Pick<Backend, "sample" | "jobDrawing">;
+  readonly backend: Pick<Backend, "samples" | "jobs">;
   readonly notices: ReturnType<typeof createNotices>;
   readonly undo: ReturnType<typeof createUndo>;
   attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
@@ -139,12 +139,12 @@ export const createDrawingActions = (parts: DrawingParts) => {
     },
     openSample: async (name: string, title: string): Promise<void> => {
       const isLast = startRequest();
-      const svg = await attempt("sample", () => backend.sample(name));
+      const svg = await attempt("sample", () => backend.samples.get(name));
       if (svg !== null && isLast()) openDrawing(title, svg);
     },
     openJob: async (job: Job): Promise<void> => {
       const isLast = startRequest();
-      const text = await attempt(`open ${job.id}`, () => backend.jobDrawing(job.id));
+      const text = await attempt(`open ${job.id}`, () => backend.jobs.drawing(job.id));
       if (text === null || !isLast()) return;
       undo.clear();
       openDrawing(job.name, text, job.id);

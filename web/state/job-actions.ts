@@ -5,6 +5,7 @@ import {
   machineProfileSchema,
   withOffs,
   type HandMove,
+  type HandMoveRequest,
   type Job,
   type JobChange,
   type JobPatch,
@@ -15,7 +16,7 @@ import {
   type Plotter,
   type QueueSettings,
 } from "../../src/schema/index.js";
-import type { Backend, JobAction } from "../backend/backend.js";
+import { addJob, type Backend, type JobAction } from "../backend/backend.js";
 import { activeJob, currentPlotter, penOf, type Notice, type PageStore } from "./store.js";
 import { stateText } from "./text.js";
 
@@ -40,7 +41,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
       ...(copies > 1 ? { copies } : {}),
       ...(from ? { from } : {}),
     };
-    const job = await attempt("add", () => backend.addJob(newJob, drawing.text));
+    const job = await attempt("add", () => addJob(backend, newJob, drawing.text));
     const now = store.getState();
     if (job && now.drawing?.key === drawing.key) {
       const jobId = now.settings === settings ? job.id : null;
@@ -57,7 +58,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
   ): Promise<void> => {
     const wantedPen = change.pen ? { jobId: id, pen: change.pen } : null;
     if (wantedPen) store.setState({ wantedPen });
-    const job = await attempt(`change ${id}`, () => backend.changeJob(id, change));
+    const job = await attempt(`change ${id}`, () => backend.jobs.change(id, change));
     // A newer request has replaced this one, and its answer comes later.
     if (wantedPen === null || store.getState().wantedPen !== wantedPen) return;
     // The answer may come before the job's event.
@@ -67,6 +68,13 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     }));
   };
 
+  /** The body of a move has its numbers and `how` side by side. */
+  const moveByHand = (id: string, { kind, ...numbers }: HandMove, how: HandMoveRequest): Promise<Plotter> =>
+    (backend.moves[kind] as (plotterId: string, body: object) => Promise<Plotter>)(id, {
+      ...numbers,
+      ...how,
+    });
+
   return {
     queueDrawing: async (): Promise<void> => {
       const job = await addToQueue(store.getState().copies, null);
@@ -75,7 +83,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     /** With `from`, the plot waits at that place with the pen up until it is resumed. */
     plotDrawing: async (from: JobPlace | null = null): Promise<void> => {
       const job = await addToQueue(1, from);
-      if (job) await attempt("plot", () => backend.actOnJob(job.id, "start"));
+      if (job) await attempt("plot", () => backend.jobs.start(job.id));
     },
     /** Fetches the next part of a plotter's history; "": of all plotters. */
     fetchOlderJobs: async (plotterId: string): Promise<void> => {
@@ -83,7 +91,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
       const ended = store.getState().jobs.filter(({ state }) => ENDED_STATES.includes(state));
       const last = ended.filter(isListed).at(-1);
       const page = await attempt("older", () =>
-        backend.olderJobs({ ...(last && { after: last.id }), ...(plotterId && { plotterId }) }),
+        backend.state.history({ ...(last && { after: last.id }), ...(plotterId && { plotterId }) }),
       );
       if (!page) return;
       store.setState(({ jobs, wholeHistories }) => {
@@ -96,38 +104,37 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     },
     saveToJob: async (id: string): Promise<void> => {
       const { settings } = store.getState();
-      const job = await attempt("save", () => backend.patchJob(id, { settings: withOffs(settings) }));
+      const job = await attempt("save", () => backend.jobs.patch(id, { settings: withOffs(settings) }));
       if (!job) return;
       notify("info", stateText.saved(job.name));
       store.setState(({ drawing, settings: now }) =>
         drawing?.sourceId === id && now === settings ? { drawing: { ...drawing, jobId: id } } : {},
       );
     },
-    actOnJob: (id: string, action: JobAction) =>
-      attempt(`${action} ${id}`, () => backend.actOnJob(id, action)),
+    actOnJob: (id: string, action: JobAction) => attempt(`${action} ${id}`, () => backend.jobs[action](id)),
     changeJob,
     /** Changes a part of a running plot's pen settings. The rest is as last requested. */
     changeJobPen: (job: Job, part: Partial<PlotSettings["pen"]>): Promise<void> =>
       changeJob(job.id, { pen: { ...penOf(store.getState(), job), ...part } }),
-    movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.movePlace(id, move)),
+    movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.jobs.place(id, move)),
     moveJob: (id: string, beforeId: string | null) =>
-      attempt(`move ${id}`, () => backend.moveJob(id, beforeId)),
-    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.duplicateJob(id)),
+      attempt(`move ${id}`, () => backend.jobs.move(id, { beforeId })),
+    duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.jobs.duplicate(id)),
     setQueue: async (settings: QueueSettings): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("queue", () => backend.setQueue(id, settings));
+      if (id) await attempt("queue", () => backend.plotters.setQueue(id, settings));
     },
-    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.patchJob(id, patch)),
-    removeJob: (id: string) => attempt(`remove ${id}`, () => backend.removeJob(id)),
+    patchJob: (id: string, patch: JobPatch) => attempt(`patch ${id}`, () => backend.jobs.patch(id, patch)),
+    removeJob: (id: string) => attempt(`remove ${id}`, () => backend.jobs.remove(id)),
     movePen: async (up: boolean, heightPct: number): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
       if (!id) return notify("error", stateText.notConnected);
       const { pen } = store.getState().settings;
-      await attempt("pen", () => backend.movePen(id, { up, heightPct, settings: { pen } }));
+      await attempt("pen", () => backend.plotters.pen(id, { up, heightPct, settings: { pen } }));
     },
     motorsOff: async (): Promise<void> => {
       const id = currentPlotter(store.getState())?.id;
-      if (id) await attempt("motors-off", () => backend.motorsOff(id));
+      if (id) await attempt("motors-off", () => backend.plotters.motorsOff(id));
     },
     /** Lets the user choose the port, where the page itself opens it. */
     connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
@@ -139,7 +146,7 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
       const state = store.getState();
       const id = currentPlotter(state)?.id;
       const how = { settings: state.settings, profile: profile && machineProfileSchema.parse(profile) };
-      return id ? attempt(move.kind, () => backend.moveByHand(id, move, how)) : null;
+      return id ? attempt(move.kind, () => moveByHand(id, move, how)) : null;
     },
     /**
      * Plots a job that is not the drawing on the paper: at once, or after the running plot. Null: it could not be
@@ -148,12 +155,11 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     plotJob: async ({ drawing, ...newJob }: NewJob & { readonly drawing: string }): Promise<Job | null> => {
       const plotterId = currentPlotter(store.getState())?.id;
       const job = await attempt("add", () =>
-        backend.addJob({ ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
+        addJob(backend, { ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
       );
       if (!job) return null;
       store.setState(({ sideJobIds }) => ({ sideJobIds: [...sideJobIds, job.id] }));
-      if (activeJob(store.getState()) === null)
-        await attempt("plot", () => backend.actOnJob(job.id, "start"));
+      if (activeJob(store.getState()) === null) await attempt("plot", () => backend.jobs.start(job.id));
       else notify("info", stateText.added(job.name));
       return job;
     },

@@ -14,7 +14,7 @@ export type Shown = Pick<PageState, "settings" | "presets">;
 
 export interface SyncParts {
   readonly store: PageStore;
-  readonly backend: Pick<Backend, "savePlotterSettings" | "setPlotterMachine">;
+  readonly backend: Pick<Backend, "plotters">;
   readonly asOperator: AsOperator;
   after(delayMs: number, callback: () => void): void;
   /** Shows the user what went wrong. */
@@ -53,7 +53,7 @@ export const createPlotterSaver = (
   };
 
   const setMachine = async (id: string, machine: string): Promise<void> => {
-    const saved = await asOperator(() => backend.setPlotterMachine(id, machine));
+    const saved = await asOperator(() => backend.plotters.patch(id, { machine }));
     if (saved === null) return;
     store.setState(({ plotters }) => ({
       plotters: plotters.map((plotter) => (plotter.id === id ? saved : plotter)),
@@ -62,7 +62,7 @@ export const createPlotterSaver = (
 
   /** False: another browser is the operator, and the user has not taken over. */
   const saveNow = async (id: string, settings: PlotterSettings): Promise<boolean> => {
-    const saved = await asOperator(() => backend.savePlotterSettings(id, settings));
+    const saved = await asOperator(() => backend.plotters.saveSettings(id, settings));
     if (saved === null) return false;
     store.setState(({ plotterSettings }) => ({ plotterSettings: { ...plotterSettings, [id]: saved } }));
     return true;

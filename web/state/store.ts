@@ -17,7 +17,6 @@ import type { Hover } from "../scene/hover.js";
 import type { SnapLines } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import type { SwingPicture } from "../scene/swing-scene.js";
-import type { SampleInfo } from "../backend/backend.js";
 import type { DrawingText } from "../worker/drawing-text.js";
 import type { PlanFault, Planned } from "../worker/protocol.js";
 import type { Remembered, ViewSettings } from "./persist.js";
@@ -163,7 +162,7 @@ export interface PageState {
   readonly live: LivePlot | null;
   /** The newest pen settings sent for a running plot, until the server has answered: it plans the rest first. */
   readonly wantedPen: { readonly jobId: string; readonly pen: PlotSettings["pen"] } | null;
-  readonly samples: readonly SampleInfo[];
+  readonly samples: readonly { readonly name: string; readonly title: string }[];
 
   /** The built-in machines, and the custom ones of this server. */
   readonly machines: readonly ListedMachine[];

@@ -6,7 +6,7 @@ import { otherOperator, type PageStore } from "./store.js";
 export type AsOperator = <T>(request: () => Promise<T>) => Promise<T | null>;
 
 /** If another browser is the operator, the user is asked to take over, and the request is sent again. */
-export const createAsOperator = (store: PageStore, backend: Pick<Backend, "takeOver">): AsOperator => {
+export const createAsOperator = (store: PageStore, backend: Pick<Backend, "operator">): AsOperator => {
   /** Requests made while the question is open share its answer. */
   let asking: Promise<boolean> | null = null;
 
@@ -28,7 +28,7 @@ export const createAsOperator = (store: PageStore, backend: Pick<Backend, "takeO
       if (!(error instanceof BackendFault) || error.code !== "not-operator") throw error;
       asking ??= ask();
       if (!(await asking)) return null;
-      await backend.takeOver();
+      await backend.operator.take();
       return request();
     }
   };

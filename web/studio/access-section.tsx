@@ -10,13 +10,13 @@ import { useFetched, useStudio } from "./use-studio.js";
 /** Paired browsers, and keys for scripts. Each can be revoked. */
 export const AccessSection = () => {
   const studio = useStudio();
-  const [answer, askAgain] = useFetched(studio.access);
+  const [answer, askAgain] = useFetched(studio.access.list);
   const [secret, setSecret] = useState<string | null>(null);
   const revoke = async (id: string): Promise<void> => {
-    if (await studio.revoke(id)) askAgain();
+    if (await studio.access.revoke(id)) askAgain();
   };
   const add = async (name: string, role: Role): Promise<void> => {
-    const made = await studio.addKey({ name, role });
+    const made = await studio.access.addKey({ name, role });
     if (!made) return;
     setSecret(made.secret);
     askAgain();
@@ -25,10 +25,10 @@ export const AccessSection = () => {
     <>
       <p className="note">{words.accessHint}</p>
       <ul className="studio-list">
-        {(answer ?? []).map((entry) => (
+        {(answer?.entries ?? []).map((entry) => (
           <EntryRow key={entry.id} entry={entry} onRevoke={() => void revoke(entry.id)} />
         ))}
-        {answer?.length === 0 && <li className="note">{words.none}</li>}
+        {answer?.entries.length === 0 && <li className="note">{words.none}</li>}
       </ul>
       {secret !== null && <Secret label={words.keyOnce} value={secret} />}
       <NewKeyForm onAdd={add} />

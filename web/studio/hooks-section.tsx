@@ -10,19 +10,19 @@ import { useFetched, useStudio } from "./use-studio.js";
 /** Addresses that are notified when a plot is done, waits, or has failed. */
 export const HooksSection = () => {
   const studio = useStudio();
-  const [answer, askAgain] = useFetched(studio.webhooks);
+  const [answer, askAgain] = useFetched(studio.webhooks.list);
   const [secret, setSecret] = useState<string | null>(null);
   const remove = async (id: string): Promise<void> => {
-    if (await studio.removeWebhook(id)) askAgain();
+    if (await studio.webhooks.remove(id)) askAgain();
   };
   return (
     <>
       <p className="note">{words.hooksHint}</p>
       <ul className="studio-list">
-        {(answer ?? []).map((hook) => (
+        {(answer?.webhooks ?? []).map((hook) => (
           <HookRow key={hook.id} hook={hook} onRemove={() => void remove(hook.id)} />
         ))}
-        {answer?.length === 0 && <li className="note">{words.noHooks}</li>}
+        {answer?.webhooks.length === 0 && <li className="note">{words.noHooks}</li>}
       </ul>
       {secret !== null && <Secret label={words.hookSecretOnce} value={secret} />}
       <NewHookForm
@@ -62,7 +62,7 @@ const NewHookForm = ({ onAdded }: { onAdded(secret: string): void }) => {
   const [events, setEvents] = useState<readonly WebhookEvent[]>(WEBHOOK_EVENTS);
   const isWhole = name.trim() !== "" && /^https?:\/\/./.test(url.trim()) && events.length > 0;
   const add = async (): Promise<void> => {
-    const made = await studio.addWebhook({ name: name.trim(), url: url.trim(), events: [...events] });
+    const made = await studio.webhooks.add({ name: name.trim(), url: url.trim(), events: [...events] });
     if (!made) return;
     setName("");
     setUrl("");

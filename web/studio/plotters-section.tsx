@@ -32,7 +32,7 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
   const rename = (): void => {
     const wanted = typed?.trim() ?? "";
     setTyped(null);
-    if (wanted !== "" && wanted !== plotter.name) void studio.patchPlotter(plotter.id, { name: wanted });
+    if (wanted !== "" && wanted !== plotter.name) void studio.plotters.patch(plotter.id, { name: wanted });
   };
   return (
     <li className="plotter-row">
@@ -56,7 +56,7 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
         aria-label={words.removePlotterNamed(plotter.name)}
         title={isInUse ? words.inUse : undefined}
         disabled={isLast || isInUse}
-        onClick={() => void studio.removePlotter(plotter.id)}
+        onClick={() => void studio.plotters.remove(plotter.id)}
       >
         {words.removePlotter}
       </Button>
@@ -67,11 +67,11 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
 const NewPlotterForm = () => {
   const studio = useStudio();
   const machine = usePageState((state) => state.settings.machine);
-  const [answer, askAgain] = useFetched(studio.devices);
+  const [answer, askAgain] = useFetched(studio.plotters.devices);
   const [name, setName] = useState("");
   const [device, setDevice] = useState("auto");
   const add = async (): Promise<void> => {
-    if (!(await studio.addPlotter({ name: name.trim(), device, machine }))) return;
+    if (!(await studio.plotters.add({ name: name.trim(), device, machine }))) return;
     setName("");
     setDevice("auto");
     askAgain();
@@ -89,7 +89,7 @@ const NewPlotterForm = () => {
       <Select
         label={words.port}
         value={device}
-        options={portChoices(answer ?? [], null)}
+        options={portChoices(answer?.devices ?? [], null)}
         onChange={setDevice}
       />
       <Button type="submit" disabled={name.trim() === ""}>

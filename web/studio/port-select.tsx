@@ -6,15 +6,15 @@ import { useFetched, useStudio } from "./use-studio.js";
 /** Chooses a plotter's port: automatic, one of the connected boards, or the virtual board. */
 export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
   const studio = useStudio();
-  const [answer] = useFetched(studio.devices);
-  const choices = portChoices(answer ?? [], plotter);
+  const [answer] = useFetched(studio.plotters.devices);
+  const choices = portChoices(answer?.devices ?? [], plotter);
   const now = plotter.kind === "virtual" ? "virtual" : (plotter.device ?? "auto");
   return (
     <Select
       label={words.port}
       value={now}
       options={choices}
-      onChange={(device) => void studio.patchPlotter(plotter.id, { device })}
+      onChange={(device) => void studio.plotters.patch(plotter.id, { device })}
     />
   );
 };

@@ -6,7 +6,7 @@ import { Button } from "../ui/button.js";
 /** Links and QR codes for pairing another device, to operate or to watch. */
 export const ShareSection = () => {
   const studio = useStudio();
-  const [pairing] = useFetched(studio.pairing);
+  const [pairing] = useFetched(studio.operator.pairing);
   const localName = usePageState((state) => state.localName);
   if (!pairing) return <p className="note">{words.pairingWhere}</p>;
   return (

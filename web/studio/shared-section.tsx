@@ -1,4 +1,4 @@
-import { useEffect, useState } from "react";
+import { useCallback, useEffect, useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
 import {
@@ -7,8 +7,9 @@ import {
   type SharedJob,
   type SharedTarget,
 } from "../../src/schema/index.js";
+import { BackendFault, type Backend } from "../backend/backend.js";
 import { profileOf } from "../state/plotter-sync.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { useActions, useBackend, usePageState } from "../state/use-store.js";
 import { studioText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
@@ -21,8 +22,8 @@ const POLL_MS = 3_000;
 
 /** The shared queue: its jobs, which server took them, and adding the current drawing. */
 export const SharedSection = () => {
-  const studio = useStudio();
-  const [answer, askAgain] = useFetched(studio.sharedJobs);
+  const backend = useBackend();
+  const [answer, askAgain] = useFetched(useCallback(() => sharedJobs(backend), [backend]));
   useEffect(() => {
     const timer = setInterval(askAgain, POLL_MS);
     return () => clearInterval(timer);
@@ -48,6 +49,19 @@ export const SharedSection = () => {
   );
 };
 
+/**
+ * Polled while it is shown, so a failure is ignored: null. `jobs` is null if there is no shared queue.
+ */
+const sharedJobs = async (
+  backend: Backend,
+): Promise<{ readonly jobs: readonly SharedJob[] | null } | null> => {
+  try {
+    return await backend.sharedJobs.list();
+  } catch (error) {
+    return error instanceof BackendFault && error.code === "not-found" ? { jobs: null } : null;
+  }
+};
+
 const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) => {
   const studio = useStudio();
   const nowMs = useNow();
@@ -63,7 +77,7 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
     formatWhen(job.createdAt, nowMs),
   ];
   const runAction = async (): Promise<void> => {
-    await (action === "withdraw" ? studio.withdrawShared(job.id) : studio.giveBackShared(job.id));
+    await (action === "withdraw" ? studio.sharedJobs.withdraw(job.id) : studio.sharedJobs.giveBack(job.id));
     onChanged();
   };
   return (
@@ -105,7 +119,7 @@ const LeftOut = ({ plotter, machine }: LeftOutProps) => {
         <Button
           kind="small"
           aria-label={words.isOfModelNamed(machine.name, plotter.name)}
-          onClick={() => void studio.patchPlotter(plotter.id, { machine: machine.id })}
+          onClick={() => void studio.plotters.patch(plotter.id, { machine: machine.id })}
         >
           {words.isOfModel(machine.name)}
         </Button>
@@ -128,13 +142,9 @@ const ShareForm = ({ onSent }: { onSent(): void }) => {
   const named = plotters.find(({ id }) => id === to);
   const target: SharedTarget = named ? { plotter: named.name } : { machine: settings.machine };
   const send = async (): Promise<void> => {
-    if (
-      !(await studio.shareJob(
-        { name: drawing.name, settings: withoutPlotterPart(settings), target },
-        drawing.text,
-      ))
-    )
-      return;
+    const uploaded = await studio.drawings.upload(drawing.text);
+    const job = { name: drawing.name, settings: withoutPlotterPart(settings), target };
+    if (!uploaded || !(await studio.sharedJobs.add({ ...job, drawingId: uploaded.id }))) return;
     actions.notify("info", words.shareSent(drawing.name));
     onSent();
   };

@@ -20,7 +20,7 @@ export const planWatched = async (store: PageStore, backend: Backend, job: Job):
   store.setState({ watchPlan: { key, planned: laidOut, fault: null } });
   if (laidOut) return;
   try {
-    const text = await backend.jobDrawing(job.id);
+    const text = await backend.jobs.drawing(job.id);
     if (store.getState().watchPlan?.key !== key) return;
     const firmware = boardFirmware({ ...store.getState(), settings: job.settings });
     planner ??= plannerFor(store);

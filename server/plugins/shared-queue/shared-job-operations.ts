@@ -3,7 +3,7 @@ import { PlotwrightError } from "../../../src/index.js";
 import type { ServerHandlers } from "../../http/operation-routes.js";
 import { readDrawing } from "../../planning/read-drawing.js";
 import type { DrawingFiles } from "../../storage/drawing-files.js";
-import type { UploadedDrawings } from "../../storage/uploaded-drawings.js";
+import type { UploadedDrawings } from "../../../host/queue/uploaded-drawings.js";
 import type { SharedQueue } from "./shared-queue.js";
 
 /** The database keeps the whole drawing in one row. */

@@ -23,7 +23,7 @@ import type { Operation, ServerEvent } from "../../../src/schema/index.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Planning } from "../../../server/planning/planning.js";
-import { UploadedDrawings } from "../../../server/storage/uploaded-drawings.js";
+import { UploadedDrawings } from "../../../host/queue/uploaded-drawings.js";
 import { Store } from "../../../server/storage/store.js";
 import { Access } from "../../../server/security/access.js";
 import { LED_PLANNING, LedPlotter } from "./fakes.js";

@@ -1,6 +1,7 @@
 /** The page's backend without a server: a worker of the page, or of another tab, operates the plotter. */
 import { textOf, type DrawingText } from "../../worker/drawing-text.js";
-import { BackendFault, type Backend, type StudioBackend } from "../backend.js";
+import { clientOf, OPERATIONS, type OperationGroup } from "../../../src/schema/index.js";
+import { BackendFault, type Backend } from "../backend.js";
 import { whyNoPort } from "./capabilities.js";
 import { HostClient } from "./host-client.js";
 import { sampleList, sampleText, type SampleFiles } from "./samples.js";
@@ -16,55 +17,38 @@ const virtualSpeed = (): number => {
 /** `sampleFiles`: the files of samples/ in the build. */
 export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
   const client = new HostClient(virtualSpeed());
-  const { remote, tab } = client;
   watchOverPlots(client);
+  const operations = clientOf(OPERATIONS, (_one, input, group, name) =>
+    client.call({ group: group as OperationGroup, name, input }),
+  );
   return {
+    ...operations,
+    state: {
+      ...operations.state,
+      me: () => Promise.resolve({ role: "operate", id: client.tab, name: null }),
+    },
+    operator: {
+      ...operations.operator,
+      take: async () => {
+        await client.takeOver();
+        return { operator: { id: client.tab, name: "" } };
+      },
+    },
+    samples: {
+      list: () => Promise.resolve({ samples: sampleList(sampleFiles) }),
+      get: (name) => sampleText(sampleFiles, name),
+    },
     features: { sharing: false, asksForPort: true, whyNoPort: whyNoPort() },
     listen: (listener) => client.listen(listener),
-
-    addJob: (job, drawing) => remote.addJob(job, drawing),
-    patchJob: (id, patch) => remote.patchJob(id, patch),
-    actOnJob: (id, action) => remote.actOnJob(id, action),
-    changeJob: (id, change) => remote.changeJob(id, change),
-    movePlace: (id, by) => remote.movePlace(id, by),
-    moveJob: (id, beforeId) => remote.moveJob(id, beforeId),
-    duplicateJob: (id) => remote.duplicateJob(id),
-    removeJob: (id) => remote.removeJob(id),
-    olderJobs: (wanted) => remote.olderJobs(wanted),
-    jobDrawing: (id) => remote.jobDrawing(id),
-    setQueue: (plotterId, settings) => remote.setQueue(plotterId, settings),
-
-    me: () => Promise.resolve({ role: "operate", id: tab, name: null }),
-    takeOver: async () => {
-      await client.takeOver();
-      return { id: tab, name: "" };
-    },
-    dismissNotice: (id) => remote.dismissNotice(id),
-
-    savePlotterSettings: (id, settings) => remote.savePlotterSettings(id, settings),
-    setPlotterMachine: (id, machine) => remote.patchPlotter(id, { machine }),
-    movePen: (id, request) => remote.movePen(id, request),
-    motorsOff: (id) => remote.motorsOff(id),
-    moveByHand: (id, move, how) => remote.moveByHand(id, move, how),
-    command: (id, line) => remote.command(id, line),
     connect: async (id) => {
       await askForPort(client);
-      return remote.reconnect(id);
+      return client.callOwn("reconnect", id);
     },
-    log: (id) => remote.log(id),
-
-    saveMachine: (profile) => remote.saveMachine(profile),
-    removeMachine: (id) => remote.removeMachine(id),
-
-    samples: () => Promise.resolve(sampleList(sampleFiles)),
-    sample: (name) => sampleText(sampleFiles, name),
     svgOf: async ({ of, id }, maxBytes) => {
-      const drawing = of === "job" ? await remote.jobDrawing(id) : await sampleText(sampleFiles, id);
+      const drawing = of === "job" ? await operations.jobs.drawing(id) : await sampleText(sampleFiles, id);
       const text = textUpTo(drawing, maxBytes);
       return text !== null && /<svg[\s>]/i.test(text.slice(0, 20_000)) ? text : null;
     },
-
-    studio: () => Promise.resolve(studioOf(client)),
   };
 };
 
@@ -74,10 +58,10 @@ const textUpTo = (drawing: DrawingText, maxBytes: number): string | null => {
 };
 
 /** Opens the browser's own dialog, which works only in a click handler. */
-const askForPort = async ({ remote }: HostClient): Promise<void> => {
+const askForPort = async (client: HostClient): Promise<void> => {
   const reason = whyNoPort();
   if (reason !== null) throw new BackendFault("not-allowed", reason);
-  const filters = (await remote.usbIds()).map(({ vendorId, productId }) => ({
+  const filters = (await client.callOwn("usbIds")).map(({ vendorId, productId }) => ({
     usbVendorId: Number.parseInt(vendorId, 16),
     usbProductId: Number.parseInt(productId, 16),
   }));
@@ -86,27 +70,4 @@ const askForPort = async ({ remote }: HostClient): Promise<void> => {
   } catch {
     throw new BackendFault("no-board", browserText.noneChosen);
   }
-};
-
-/** Requests that need a server are refused with a message that says so. */
-const studioOf = ({ remote }: HostClient): StudioBackend => {
-  const needsServer = (): Promise<never> =>
-    Promise.reject(new BackendFault("not-allowed", browserText.needsServer));
-  return {
-    devices: () => remote.devices(),
-    patchPlotter: (id, patch) => remote.patchPlotter(id, patch),
-    sharedJobs: () => Promise.resolve(null),
-    addPlotter: needsServer,
-    removePlotter: needsServer,
-    pairing: needsServer,
-    access: needsServer,
-    addKey: needsServer,
-    revoke: needsServer,
-    webhooks: needsServer,
-    addWebhook: needsServer,
-    removeWebhook: needsServer,
-    shareJob: needsServer,
-    giveBackShared: needsServer,
-    withdrawShared: needsServer,
-  };
 };

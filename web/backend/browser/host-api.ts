@@ -1,52 +1,71 @@
-/** The methods that pages call on the host. Arguments are checked by the schemas of src/schema. */
-import { PlotwrightError, type MachineProfile } from "../../../src/index.js";
-import { machineProfileSchema } from "../../../src/schema/index.js";
-import type { CustomMachines } from "../../../host/custom-machines.js";
-import type { Notices } from "../../../host/queue/notices.js";
-import type { JobAction } from "../backend.js";
-import { parseWith } from "../../../host/parse-with.js";
-import { jobApi, type JobApiParts } from "./job-api.js";
-import { plotterApi, type PlotterApiParts } from "./plotter-api.js";
+/** What pages can ask of the host: operations of the table, and what only this host has. */
+import { PlotwrightError } from "../../../src/index.js";
+import { usbIds } from "../../../src/internal.js";
+import type { OperationHandlers, Plotter } from "../../../src/schema/index.js";
+import { hostOperations, type HostParts } from "../../../host/operations/host-operations.js";
+import type { Requester } from "../../../host/planning/lane.js";
+import { findPlotter } from "../../../host/queue/find-plotter.js";
+import type { DrawingText } from "../../worker/drawing-text.js";
+import { browserText } from "./text.js";
 
-interface HostParts extends JobApiParts, PlotterApiParts {
-  readonly machines: CustomMachines;
-  readonly notices: Notices;
+interface BrowserParts extends Omit<HostParts, "storeText" | "jobBoxMm" | "log"> {
+  readonly drawings: {
+    /** Resolves with the drawing's id when it is stored. */
+    add(drawing: DrawingText): Promise<string>;
+    read(id: string): Promise<DrawingText>;
+  };
 }
 
-export type HostApi = ReturnType<typeof hostApi>;
-export type HostMethod = keyof HostApi;
+/** The size of text is only estimated by its length, because it is not encoded. */
+const sizeOf = (drawing: DrawingText): number =>
+  typeof drawing === "string" ? drawing.length : drawing.byteLength;
 
-export const hostApi = (parts: HostParts) => {
-  const { queue, notices, machines } = parts;
+export const browserOperations = (parts: BrowserParts): OperationHandlers<Requester> => {
+  const { queue, drawings, uploads } = parts;
+  const storeText = async (drawing: DrawingText) => {
+    if (sizeOf(drawing) === 0) throw new PlotwrightError("bad-file", "The file is empty.");
+    return { id: await drawings.add(drawing), bytes: sizeOf(drawing) };
+  };
+  const host = hostOperations({
+    ...parts,
+    storeText,
+    jobBoxMm: () => Promise.reject(new PlotwrightError("not-allowed", browserText.needsServer)),
+    log: () => undefined,
+  });
   return {
-    ...jobApi(parts),
-    ...plotterApi(parts),
-    dismissNotice: (id: string): void => notices.remove(id),
-
-    saveMachine: (profile: MachineProfile): MachineProfile =>
-      machines.save(parseWith(machineProfileSchema, profile)),
-    removeMachine: (id: string): void => machines.remove(id),
-
-    /** After this the host's worker stops being the host, and the calling page's worker becomes the host. */
-    handOver: (): void => {
-      if (queue.list().some(({ state }) => state === "plotting" || state === "paused")) {
-        throw new PlotwrightError(
-          "busy",
-          "The other tab is plotting. Wait until the plot ends, or cancel it; you can cancel it from here.",
-        );
-      }
+    ...host,
+    drawings: {
+      upload: async (drawing) => {
+        const stored = await storeText(drawing);
+        uploads.keep(stored);
+        return { id: stored.id };
+      },
     },
+    jobs: { ...host.jobs, drawing: (id) => drawings.read(queue.drawingOf(id)) },
   };
 };
 
-/** Methods that change nothing: all pages may call them. */
-export const READING: readonly HostMethod[] = [
-  "olderJobs",
-  "jobDrawing",
-  "devices",
-  "usbIds",
-  "log",
-  "handOver",
-];
-/** Actions that only stop a plot: all pages may call them. */
-export const STOPPING: readonly JobAction[] = ["pause", "cancel", "emergency-stop"];
+/** What only this host has. */
+export type OwnMethods = ReturnType<typeof ownMethods>;
+
+export const ownMethods = ({ queue, registry }: Pick<BrowserParts, "queue" | "registry">) => ({
+  /** Called after the user has allowed the page to use a port: the plotter searches for its board again. */
+  reconnect: async (id: string): Promise<Plotter> => {
+    if (registry.stored(id)?.device === "auto") await registry.reconnect(id, queue);
+    else await registry.patch(id, { device: "auto" }, queue);
+    const plotter = findPlotter(registry.ports, id);
+    await plotter.settled();
+    return plotter.snapshot();
+  },
+  /** For the browser's dialog of ports. The host has them, so that the page does not load the drivers. */
+  usbIds: () => usbIds(),
+  /** After this the host's worker stops being the host, and the calling page's worker becomes the host. */
+  handOver: (): void => {
+    if (queue.list().some(({ state }) => state === "plotting" || state === "paused")) {
+      throw new PlotwrightError(
+        "busy",
+        "The other tab is plotting. Wait until the plot ends, or cancel it; you can cancel it from here.",
+      );
+    }
+  },
+});

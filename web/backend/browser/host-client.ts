@@ -1,14 +1,14 @@
 /** A page's side of the channel: starts the worker, calls the host, and receives its events. */
 import { BackendFault, type BackendListener } from "../backend.js";
-import type { HostMethod } from "./host-api.js";
+import type { OwnMethods } from "./host-api.js";
 import { hasLocks, provideRandomIds } from "./capabilities.js";
 import { browserText } from "./text.js";
 import {
   CHANNEL,
   type FromHost,
+  type HostCall,
   type Message,
   type PageVisibility,
-  type Remote,
   type ToHost,
   type WorkerStart,
 } from "./protocol.js";
@@ -24,7 +24,6 @@ interface Waiting {
 
 export class HostClient {
   readonly tab: string;
-  readonly remote: Remote;
   readonly #channel: BroadcastChannel;
   readonly #listeners = new Set<BackendListener>();
   readonly #calls = new Map<number, Waiting>();
@@ -53,12 +52,6 @@ export class HostClient {
     this.#channel.onmessage = ({ data }: MessageEvent<Message>) => {
       if (data.to === "pages") this.#receive(data);
     };
-    this.remote = new Proxy({} as Remote, {
-      get:
-        (_target, method) =>
-        (...args: readonly unknown[]) =>
-          this.#call(method as HostMethod, args),
-    });
   }
 
   get isHost(): boolean {
@@ -74,14 +67,22 @@ export class HostClient {
   /** Makes this page's worker the host. Rejects with `busy` while another host is plotting. */
   async takeOver(): Promise<void> {
     if (this.isHost) return;
-    await this.remote.handOver();
+    await this.callOwn("handOver");
     await this.#untilHost(() => this.isHost);
   }
 
-  async #call(method: HostMethod, args: readonly unknown[]): Promise<unknown> {
+  /** Calls a method that only this host has. */
+  async callOwn<Name extends keyof OwnMethods>(
+    name: Name,
+    id?: string,
+  ): Promise<Awaited<ReturnType<OwnMethods[Name]>>> {
+    return (await this.call({ group: "host", name, input: { id } })) as Awaited<ReturnType<OwnMethods[Name]>>;
+  }
+
+  async call(call: HostCall): Promise<unknown> {
     await this.#untilHost(() => this.#host !== null);
     const id = this.#nextId++;
-    this.#send({ to: "host", type: "call", tab: this.tab, id, method, args });
+    this.#send({ to: "host", type: "call", tab: this.tab, id, call });
     return new Promise((resolve, reject) => this.#calls.set(id, { resolve, reject }));
   }
 

@@ -2,6 +2,7 @@
 import { PlotwrightError } from "../../../src/index.js";
 import {
   machineProfileSchema,
+  type OperationHandlers,
   type PlotSettings,
   type ServerEvent,
   type Snapshot,
@@ -9,15 +10,17 @@ import {
 import { version } from "../../../package.json";
 import { CustomMachines } from "../../../host/custom-machines.js";
 import { FIRST_PLOTTER, openNamedPlotter } from "../../../host/plotter/named-plotter.js";
+import type { Requester } from "../../../host/planning/lane.js";
 import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import { Notices } from "../../../host/queue/notices.js";
+import { UploadedDrawings } from "../../../host/queue/uploaded-drawings.js";
 import { browserClock } from "../../serial/web-serial.js";
 import { announcer } from "./announcer.js";
 import { hasLocks } from "./capabilities.js";
 import { Database, type DatabaseEvents, type Records } from "./database.js";
 import { drawingRecords } from "./drawing-records.js";
-import { hostApi, type HostApi } from "./host-api.js";
+import { browserOperations, ownMethods, type OwnMethods } from "./host-api.js";
 import { MemoryRecords } from "./memory-records.js";
 import { DATABASE, type WorkerStart } from "./protocol.js";
 import { serialDevices } from "./serial-devices.js";
@@ -32,7 +35,10 @@ const STOPPED =
 const HIDDEN_LATENESS_S = 0.7;
 
 export interface Host {
-  readonly api: HostApi;
+  readonly operations: OperationHandlers<Requester>;
+  readonly own: OwnMethods;
+  /** Whether the job is on a plotter now. */
+  isRunning(jobId: string): boolean;
   snapshot(): Snapshot;
   /** Resolves when all changes so far are stored. Rejects with a message for the user if that fails. */
   written(): Promise<void>;
@@ -105,6 +111,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     nowIso,
     stoppedMessage: STOPPED,
   });
+  const uploads = new UploadedDrawings(drawings, log);
   const notices = new Notices({ store, announce, nowIso });
   let faultId: string | null = null;
   onFault = (error) => (faultId ??= notices.add(browserText.onlyHere(storageReason(error))));
@@ -122,7 +129,9 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     );
   } else await removeUnused(db, store);
   return {
-    api: hostApi({ queue, registry, notices, machines, drawings }),
+    operations: browserOperations({ queue, registry, notices, machines, uploads, drawings }),
+    own: ownMethods({ queue, registry }),
+    isRunning: (id) => queue.isRunning(id),
     snapshot: () => ({
       version,
       plotters: registry.list(),
@@ -140,6 +149,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
         throw new PlotwrightError("disk-full", browserText.onlyHere(storageReason(cause)), { cause });
       }),
     close: async () => {
+      await uploads.close();
       await queue.close();
       await registry.close();
       await db.close();

@@ -3,20 +3,22 @@
  * host's page is closed or dies, its lock is released, and the next worker takes over from the stored state.
  */
 import { faultOf } from "../../../host/planning/messages.js";
+import { performOperation } from "../../../host/operations/perform.js";
 import { PlotwrightError } from "../../../src/index.js";
-import type { JobAction } from "../backend.js";
+import { OPERATIONS, type Operation, type OperationTable } from "../../../src/schema/index.js";
 import { hasLocks, provideRandomIds } from "./capabilities.js";
 import { openHost, type Host } from "./host.js";
-import { READING, STOPPING, type HostMethod } from "./host-api.js";
 import {
   HOST_LOCK,
   type Answer,
   type FromHost,
+  type HostCall,
   type Message,
   type PageVisibility,
   type ToHost,
   type WorkerStart,
 } from "./protocol.js";
+import { browserText } from "./text.js";
 
 type Call = Extract<ToHost, { type: "call" }>;
 
@@ -54,40 +56,61 @@ function sendSnapshot({ snapshot }: Host, tab?: string): void {
 }
 
 async function answer(from: Host, call: Call): Promise<void> {
-  const { tab, id, method } = call;
+  const { tab, id } = call;
   const result = await resultOf(from, call);
   post({ type: "answer", tab, id, answer: result });
-  if (method !== "handOver" || !result.ok || tab === start.tab || host !== from) return;
+  if (
+    call.call.group !== "host" ||
+    call.call.name !== "handOver" ||
+    !result.ok ||
+    tab === start.tab ||
+    host !== from
+  )
+    return;
   host = null;
   await from.close();
   post({ type: "handed-over", next: tab });
   release();
 }
 
-async function resultOf({ api, written }: Host, { tab, method, args }: Call): Promise<Answer> {
+async function resultOf(from: Host, { tab, call }: Call): Promise<Answer> {
   try {
-    if (tab !== start.tab && !isOpenToAll(api, method, args)) {
+    if (tab !== start.tab && !isOpenToAll(from, call)) {
       throw new PlotwrightError(
         "not-operator",
         "Another tab is operating. Take over to change something; you can stop a plot without taking over.",
       );
     }
-    const run = api[method] as (...args: readonly unknown[]) => unknown;
-    const value = await run(...args);
+    const value = await perform(from, call);
     // Reading works while changes can't be stored. Handing over does not: they would be lost.
-    if (!READING.includes(method) || method === "handOver") await written();
+    if (!isReading(call) || call.name === "handOver") await from.written();
     return { ok: true, value };
   } catch (error) {
     return { ok: false, ...faultOf(error) };
   }
 }
 
-/** All pages may stop a running job, but only the operator may cancel a queued one. */
-function isOpenToAll(api: Host["api"], method: HostMethod, args: readonly unknown[]): boolean {
-  if (READING.includes(method)) return true;
-  const [id, action] = args;
-  return method === "actOnJob" && STOPPING.includes(action as JobAction) && api.isRunning(String(id));
+function perform({ operations, own }: Host, { group, name, input }: HostCall): unknown {
+  if (group === "host") return own[name](String(input.id));
+  const handlers = operations[group] as Readonly<Record<string, (...args: never[]) => unknown>> | undefined;
+  const handler = handlers?.[name];
+  if (handler === undefined) throw new PlotwrightError("not-allowed", browserText.needsServer);
+  return performOperation(operationOf(group, name), handler, input, {});
 }
+
+const operationOf = (group: keyof typeof OPERATIONS, name: string): Operation =>
+  (OPERATIONS as OperationTable)[group][name];
+
+/** All pages may hand over, which changes nothing itself. */
+const isReading = ({ group, name }: HostCall): boolean =>
+  group === "host" ? name !== "reconnect" : operationOf(group, name).role === "watch";
+
+/** All pages may stop a running job, but only the operator may cancel a queued one. */
+const isOpenToAll = ({ isRunning }: Host, call: HostCall): boolean =>
+  isReading(call) ||
+  (call.group !== "host" &&
+    operationOf(call.group, call.name).role === "stop" &&
+    isRunning(String(call.input.id)));
 
 async function serve(): Promise<void> {
   for (;;) {

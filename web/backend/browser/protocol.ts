@@ -3,14 +3,14 @@
  * pages. Every page, including the host's own, receives all events and calls the host in the same way.
  */
 import type { ErrorCode } from "../../../src/index.js";
-import type { ServerEvent } from "../../../src/schema/index.js";
-import type { HostApi, HostMethod } from "./host-api.js";
+import type { OperationGroup, OperationInput, ServerEvent } from "../../../src/schema/index.js";
+import type { OwnMethods } from "./host-api.js";
 
 /**
  * The channel that all tabs share. Change its number when the messages change, so that pages of different versions do
  * not misunderstand each other.
  */
-export const CHANNEL = "plotwright-1";
+export const CHANNEL = "plotwright-2";
 /** The worker that holds this Web Lock is the host. The browser releases it when that worker ends. */
 export const HOST_LOCK = "plotwright-host";
 export const DATABASE = "plotwright-host";
@@ -29,6 +29,11 @@ export interface PageVisibility {
   readonly isHidden: boolean;
 }
 
+/** An operation of the table, or a method that only this host has. */
+export type HostCall =
+  | { readonly group: OperationGroup; readonly name: string; readonly input: OperationInput }
+  | { readonly group: "host"; readonly name: keyof OwnMethods; readonly input: OperationInput };
+
 export type ToHost =
   /** A page has opened: it needs a snapshot. */
   | { readonly to: "host"; readonly type: "hello"; readonly tab: string }
@@ -37,8 +42,7 @@ export type ToHost =
       readonly type: "call";
       readonly tab: string;
       readonly id: number;
-      readonly method: HostMethod;
-      readonly args: readonly unknown[];
+      readonly call: HostCall;
     };
 
 export type FromHost =
@@ -68,9 +72,3 @@ export type Answer =
   | { readonly ok: false; readonly code: ErrorCode; readonly message: string };
 
 export type Message = ToHost | FromHost;
-/** The host's methods as a page calls them: each returns a promise. */
-export type Remote = {
-  readonly [Name in HostMethod]: (
-    ...args: Parameters<HostApi[Name]>
-  ) => Promise<Awaited<ReturnType<HostApi[Name]>>>;
-};

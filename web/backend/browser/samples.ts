@@ -1,5 +1,5 @@
 /** The sample drawings, as files beside the page. */
-import { BackendFault, type SampleInfo } from "../backend.js";
+import { BackendFault } from "../backend.js";
 import { browserText } from "./text.js";
 
 /** By the file's path: a function that loads its URL. */
@@ -13,7 +13,7 @@ const titleOf = (name: string): string => {
   return words.charAt(0).toUpperCase() + words.slice(1);
 };
 
-export const sampleList = (files: SampleFiles): readonly SampleInfo[] =>
+export const sampleList = (files: SampleFiles): { readonly name: string; readonly title: string }[] =>
   Object.keys(files)
     .map(nameOf)
     .sort()

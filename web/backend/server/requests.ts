@@ -1,58 +1,32 @@
-/** Requests to plotwright's server, and their errors. */
-import { z } from "zod";
-import { apiErrorSchema } from "../../../src/schema/index.js";
-import type { DrawingText } from "../../worker/drawing-text.js";
+/** Requests to plotwright's server, made from the table of operations, and their errors. */
+import { apiErrorSchema, requestOf, type Operation, type OperationInput } from "../../../src/schema/index.js";
+import { contentOf } from "../../worker/drawing-text.js";
 import { BackendFault } from "../backend.js";
 import { serverText } from "./text.js";
 
-export const API = "/api/v1";
-
 export type Fetch = (path: string, init?: RequestInit) => Promise<Response>;
-export type Requests = ReturnType<typeof createRequests>;
 
-/** The server's answer without data. */
-const okSchema = z.object({ ok: z.literal(true) });
-const uploadSchema = z.object({ id: z.string() });
-
-export const createRequests = (fetchPath: Fetch) => {
-  /** A blob is sent unchanged, any other body as JSON. */
-  const send = async (method: string, path: string, body?: unknown): Promise<Response> => {
-    const init: RequestInit = { method };
-    if (body instanceof Blob) init.body = body;
-    else if (body !== undefined) {
-      init.body = JSON.stringify(body);
-      init.headers = { "content-type": "application/json" };
-    }
-    let response: Response;
-    try {
-      response = await fetchPath(`${API}${path}`, init);
-    } catch {
-      throw new BackendFault("unreachable", serverText.unreachable);
-    }
-    if (!response.ok) throw await faultOf(response);
-    return response;
-  };
-  const ask = async <T>(schema: z.ZodType<T>, method: string, path: string, body?: unknown): Promise<T> =>
-    schema.parse(await (await send(method, path, body)).json());
-  /** For routes that answer without data. */
-  const command = async (method: string, path: string, body?: unknown): Promise<void> => {
-    await ask(okSchema, method, path, body);
-  };
-  /** For routes that take a job with a drawing: uploads the drawing as a file first. */
-  const askWithDrawing = async <T>(
-    schema: z.ZodType<T>,
-    path: string,
-    job: { readonly name: string },
-    drawing: DrawingText,
-  ): Promise<T> => {
-    const { id: drawingId } = await ask(uploadSchema, "POST", "/drawings", new Blob([drawing]));
-    return ask(schema, "POST", path, { ...job, drawingId });
-  };
-  return { send, ask, command, askWithDrawing, fetchPath };
+/** Sends one operation, and returns its answer. Rejects with a BackendFault. */
+export const sendOperation = async (
+  fetchPath: Fetch,
+  one: Operation,
+  input: OperationInput,
+): Promise<unknown> => {
+  const { path, body, ...init } = requestOf(one, input);
+  let response: Response;
+  try {
+    response = await fetchPath(path, {
+      ...init,
+      ...(body === undefined ? {} : { body: one.body === "file" ? new Blob([body]) : body }),
+    });
+  } catch {
+    throw new BackendFault("unreachable", serverText.unreachable);
+  }
+  if (!response.ok) throw await faultOf(response);
+  if (one.answer === "file") return contentOf(await response.arrayBuffer());
+  if (one.answer === "text" || one.answer === "events") return response.text();
+  return one.answer.parse(await response.json());
 };
-
-/** The path of one item: `/jobs/ID`. */
-export const pathOf = (what: string, id: string): string => `/${what}/${encodeURIComponent(id)}`;
 
 const faultOf = async (response: Response): Promise<BackendFault> => {
   const parsed = apiErrorSchema.safeParse(await response.json().catch(() => null));

@@ -1,32 +1,30 @@
 /** Drawings that were uploaded for a job that is not added yet. A drawing that no job claims in time is removed. */
 import { PlotwrightError } from "../../src/index.js";
-import type { DrawingFiles, StoredDrawing } from "./drawing-files.js";
+import type { DrawingStore, StoredDrawing } from "../storage.js";
 
 const KEEP_MS = 10 * 60_000;
 
 interface Upload {
   readonly drawing: StoredDrawing;
-  readonly timer: NodeJS.Timeout;
+  readonly timer: ReturnType<typeof setTimeout>;
 }
 
 export class UploadedDrawings {
-  readonly #files: DrawingFiles;
+  readonly #files: DrawingStore;
   readonly #log: (line: string) => void;
   readonly #keepMs: number;
   readonly #uploads = new Map<string, Upload>();
 
-  constructor(files: DrawingFiles, log: (line: string) => void, keepMs = KEEP_MS) {
+  constructor(files: DrawingStore, log: (line: string) => void, keepMs = KEEP_MS) {
     this.#files = files;
     this.#log = log;
     this.#keepMs = keepMs;
   }
 
-  /** Stores a file and returns its id. Throws `too-large`, or `bad-file` for an empty one. */
-  async add(chunks: AsyncIterable<Uint8Array>): Promise<string> {
-    const drawing = await this.#files.addFile(chunks);
-    const timer = setTimeout(() => void this.#remove(drawing.id), this.#keepMs).unref();
+  /** Keeps a stored drawing until it is claimed. */
+  keep(drawing: StoredDrawing): void {
+    const timer = setTimeout(() => void this.#remove(drawing.id), this.#keepMs);
     this.#uploads.set(drawing.id, { drawing, timer });
-    return drawing.id;
   }
 
   /** Hands the drawing over to the caller, who has to remove it if it is not used. Throws `not-found`. */
