@@ -14,7 +14,12 @@
 /// <reference path="./multicast-dns.d.ts" />
 import type { EventEmitter } from "node:events";
 import { networkInterfaces } from "node:os";
-import multicastDns, { type DnsPacket, type DnsRecord, type MulticastDns } from "multicast-dns";
+import multicastDns, {
+  type DnsPacket,
+  type DnsQuestion,
+  type DnsRecord,
+  type MulticastDns,
+} from "multicast-dns";
 import { LOCAL_NAME } from "../../security/network.js";
 import { answerTo, recordsOf, sameName } from "./service-records.js";
 
@@ -27,6 +32,11 @@ const PROBE_INTERVAL_MS = 250;
 const YIELD_MS = 1_000;
 /** Time until the next try when nothing can be sent: the network may come up later than the server. */
 const NO_NETWORK_MS = 5_000;
+/** So many names may be taken at once. Then each further probe waits (8.1), so that a device that claims all names causes no flood. */
+const FAST_CONFLICTS = 15;
+const CONTESTED_MS = 5_000;
+/** A record is multicast at most once in this time (6), but sooner in reply to a probe, which must not take the name. */
+const REPEAT_MS = 1_000;
 /** Pauses between announcements (8.3): devices that were asleep or missed one receive the next. */
 const ANNOUNCE_AFTER_MS = [1_000, 2_000, 4_000];
 
@@ -51,8 +61,12 @@ export class LocalName {
   readonly #addresses = new Set<string>();
   #label: string;
   #probeCount = 0;
+  /** Since the server last had a name. */
+  #conflictCount = 0;
   /** The announced records; null while the server has no name. */
   #records: readonly DnsRecord[] | null = null;
+  /** When each of the announced records was last sent, in ms of `performance.now()`. */
+  readonly #sentAtMs = new WeakMap<DnsRecord, number>();
   /** For the next probe or announcement. */
   #timer: NodeJS.Timeout | undefined;
   #isClosed = false;
@@ -86,6 +100,10 @@ export class LocalName {
 
   get #host(): string {
     return `${this.#label}.local`;
+  }
+
+  get #probeIntervalMs(): number {
+    return this.#options.probeIntervalMs ?? PROBE_INTERVAL_MS;
   }
 
   get #fullName(): string {
@@ -122,7 +140,7 @@ export class LocalName {
       if (error) this.#onNoNetwork(error);
       else {
         this.#probeCount++;
-        this.#schedule(this.#options.probeIntervalMs ?? PROBE_INTERVAL_MS);
+        this.#schedule(this.#probeIntervalMs);
       }
     });
   }
@@ -148,16 +166,23 @@ export class LocalName {
     });
     this.#repeatAnnouncement(0);
     this.#hasFailed = false;
+    this.#conflictCount = 0;
     log?.(`the server's address on the network is ${this.#scheme}://${this.#host}:${port}`);
     onName?.(this.#host);
   }
 
   #repeatAnnouncement(count: number): void {
     if (this.#records === null) return;
-    this.#mdns.respond({ answers: this.#records });
+    this.#respond({ answers: this.#records });
     const pauseMs = ANNOUNCE_AFTER_MS[count];
     if (pauseMs === undefined) return;
     this.#timer = setTimeout(() => this.#repeatAnnouncement(count + 1), pauseMs).unref();
+  }
+
+  #respond(packet: DnsPacket): void {
+    const nowMs = performance.now();
+    for (const record of recordsIn(packet)) this.#sentAtMs.set(record, nowMs);
+    this.#mdns.respond(packet);
   }
 
   /** Withdraws the name if it was announced. */
@@ -175,28 +200,37 @@ export class LocalName {
     else this.#mdns.respond({ answers: records.map((record) => ({ ...record, ttl: 0 })) }, () => sent());
   }
 
-  #onAnswer({ answers = [], additionals = [] }: DnsPacket): void {
-    if (this.#isClosed || ![...answers, ...additionals].some((record) => this.#isAnothers(record))) return;
+  #onAnswer(packet: DnsPacket): void {
+    if (this.#isClosed || !recordsIn(packet).some((record) => this.#isAnothers(record))) return;
     if (this.#records === null) {
       this.#options.log?.(`${this.#host} is in use by another server on this network`);
       this.#label = nextLabel(this.#label);
     }
     this.#withdraw();
-    this.#probe(0);
+    this.#conflictCount++;
+    this.#probe(this.#conflictCount < FAST_CONFLICTS ? 0 : CONTESTED_MS);
   }
 
   #onQuestion({ questions = [], authorities = [] }: DnsPacket): void {
     if (this.#isClosed) return;
     if (this.#records !== null) {
-      for (const question of questions) {
-        const answer = answerTo(question, this.#records);
-        if (answer !== null) this.#mdns.respond(answer);
-      }
+      this.#answer(this.#records, questions, authorities.length > 0);
       return;
     }
     const theirs = authorities.filter((record) => this.#isOfName(record));
     if (!theirs.some((record) => this.#isAnothers(record))) return;
     if (inOrder(theirs) > inOrder(this.#claim())) this.#probe(this.#options.yieldMs ?? YIELD_MS);
+  }
+
+  /** Whoever asks again so soon has already received the records that are left out: all on the network receive each answer. */
+  #answer(records: readonly DnsRecord[], questions: readonly DnsQuestion[], isProbe: boolean): void {
+    const pauseMs = isProbe ? this.#probeIntervalMs : REPEAT_MS;
+    for (const question of questions) {
+      const nowMs = performance.now();
+      const due = records.filter((record) => nowMs - (this.#sentAtMs.get(record) ?? -Infinity) >= pauseMs);
+      const answer = answerTo(question, due);
+      if (answer !== null) this.#respond(answer);
+    }
   }
 
   /** The announced records lack the addresses of a network that appears later, so announce again. */
@@ -230,6 +264,11 @@ export class LocalName {
     return portOf(record) !== this.#options.port;
   }
 }
+
+const recordsIn = ({ answers = [], additionals = [] }: DnsPacket): readonly DnsRecord[] => [
+  ...answers,
+  ...additionals,
+];
 
 function ownAddresses(wanted: "IPv4" | "IPv6"): string[] {
   return Object.values(networkInterfaces())
