@@ -61,7 +61,7 @@ export {
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
-export { withGiven, type DeepPartial } from "./settings/partial.js";
+export { isSameJson, withGiven, type DeepPartial } from "./settings/partial.js";
 export { isAllowed, rangeInWords, type NumberSetting, type Setting } from "./settings/setting.js";
 export {
   QUALITY_PATH,

@@ -1,6 +1,6 @@
 /** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
 import { PlotwrightError } from "../../src/index.js";
-import { machineOf, firmwareFor, isPlannedAlike, motionForSprings } from "../../src/internal.js";
+import { machineOf, firmwareFor, isPlannedAlike, isSameJson, motionForSprings } from "../../src/internal.js";
 import {
   ENDED_STATES,
   queueSettingsSchema,
@@ -174,10 +174,7 @@ export class JobQueue {
     if (settings !== undefined) mustKeepStrokes(job, wanted);
     const firmware = this.#firmwareOf(plotterId ?? job.plotterId, wanted);
     const before = this.#firmwareOf(job.plotterId, wanted);
-    if (
-      isSameValue(job.settings, wanted) &&
-      isPlannedAlike(machineOf(wanted), wanted.pen, firmware, before)
-    ) {
+    if (isSameJson(job.settings, wanted) && isPlannedAlike(machineOf(wanted), wanted.pen, firmware, before)) {
       return {};
     }
     const drawing = this.#parts.store.drawingOf(id);
@@ -408,7 +405,7 @@ function mustFit(settings: PlotSettings | JobChange): void {
 
 /** A job stores its first stroke by number. With other preparation settings the number would mean another stroke. */
 function mustKeepStrokes(job: Job, settings: PlotSettings): void {
-  if (job.place === null || isSameValue(job.settings.prepare, settings.prepare)) return;
+  if (job.place === null || isSameJson(job.settings.prepare, settings.prepare)) return;
   throw new PlotwrightError(
     "conflict",
     `"${job.name}" starts at stroke ${job.place.strokeIndex + 1}, so its layout can't be changed. Add a new job instead.`,
@@ -424,16 +421,5 @@ function mustBeSame(before: Job, now: Job): void {
   throw new PlotwrightError(
     "conflict",
     `"${now.name}" was changed meanwhile, so this change was not made. Check the job, then try again.`,
-  );
-}
-
-/** Compares JSON values, ignoring the order of keys. */
-function isSameValue(a: unknown, b: unknown): boolean {
-  if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return a === b;
-  const [left, right] = [Object.entries(a), new Map(Object.entries(b))];
-  return (
-    Array.isArray(a) === Array.isArray(b) &&
-    left.length === right.size &&
-    left.every(([key, value]) => right.has(key) && isSameValue(value, right.get(key)))
   );
 }

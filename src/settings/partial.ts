@@ -36,3 +36,16 @@ export function withGiven<T extends object>(base: T, given: NoInfer<DeepPartial<
 
 const isObject = (value: unknown): value is object =>
   typeof value === "object" && value !== null && !Array.isArray(value);
+
+/**
+ * Whether two settings are equal as JSON. The order of keys does not count, and a field that is undefined counts as left
+ * out.
+ */
+export const isSameJson = (a: unknown, b: unknown): boolean => sortedJson(a) === sortedJson(b);
+
+const sortedJson = (value: unknown): string =>
+  JSON.stringify(value, (_key, part: unknown) =>
+    typeof part === "object" && part !== null && !Array.isArray(part)
+      ? Object.fromEntries(Object.entries(part).sort(([one], [other]) => (one < other ? -1 : 1)))
+      : part,
+  );

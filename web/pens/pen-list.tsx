@@ -1,10 +1,9 @@
-import { PLOT_PEN_TABLE, PEN_STOP_MODES, type PlotPen } from "../../src/internal.js";
+import { PLOT_PEN_TABLE, PEN_STOP_MODES, type PlotPen, isSameJson } from "../../src/internal.js";
 import "../layers/layers.css";
 import "./pens.css";
 import { useState } from "react";
 import { alignmentJob, CORNERS, type Corner } from "./alignment-mark.js";
 import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-settings.js";
-import { isSame } from "../state/is-same.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { pensText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -64,7 +63,7 @@ const FromColors = () => {
   const { changeSettings } = useActions();
   if (!rows) return null;
   const withPens = pensFromColors(settings, rows, nameOfColor);
-  if (isSame(withPens.layerPens, settings.layerPens)) return null;
+  if (isSameJson(withPens.layerPens, settings.layerPens)) return null;
   return (
     <Button
       onClick={() => changeSettings("pens from colours", (now) => pensFromColors(now, rows, nameOfColor))}

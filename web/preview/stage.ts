@@ -4,13 +4,12 @@
  * The strokes are drawn elsewhere. Until they are drawn for a new view, the last picture is moved and scaled, so that
  * the paper follows the finger even if the drawing is large.
  */
-import type { Box } from "../../src/internal.js";
+import { isSameJson, type Box } from "../../src/internal.js";
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
 import { markMoment } from "../worker/moments.js";
 import { drawMarker, drawRulers, RULER_PX, type Marker } from "./overlay.js";
 import type { Frame, Picture } from "../scene/renderer.js";
 import { openStrokes, type Strokes } from "./strokes.js";
-import { isSame } from "../state/is-same.js";
 import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
 
 interface StageCanvases {
@@ -105,7 +104,7 @@ export class Stage {
 
   setLook(look: FrameLook): void {
     // While another drawing is plotted, the state changes several times a second, and these strokes do not.
-    if (isSame(look, this.#look)) return;
+    if (isSameJson(look, this.#look)) return;
     this.#look = look;
     this.#refresh(true);
   }

@@ -1,10 +1,9 @@
 /** The user's actions that put a drawing on the paper. */
-import { isDrawingName } from "../../src/internal.js";
+import { isDrawingName, isSameJson } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { PlanFault } from "../worker/protocol.js";
-import { isSame } from "./is-same.js";
 import type { createNotices } from "./notices.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { openedSettings } from "./plotter-sync.js";
@@ -104,7 +103,7 @@ export const createDrawingActions = (parts: DrawingParts) => {
 
   const showJobSettings = (job: Job): void => {
     const settings = openedSettings(store.getState(), job);
-    const jobId = isSame(settings, job.settings) ? job.id : null;
+    const jobId = isSameJson(settings, job.settings) ? job.id : null;
     store.setState(({ drawing }) => ({ settings, drawing: drawing && { ...drawing, jobId } }));
     replan();
   };
@@ -122,7 +121,7 @@ export const createDrawingActions = (parts: DrawingParts) => {
       if (!drawing || drawing.jobId === null) return;
       const job = jobs.find(({ id }) => id === drawing.jobId);
       if (!job) store.setState({ drawing: { ...drawing, jobId: null } });
-      else if (!isSame(job.settings, settings)) showJobSettings(job);
+      else if (!isSameJson(job.settings, settings)) showJobSettings(job);
     },
     openFile: async (file: File): Promise<void> => {
       const isLast = startRequest();

@@ -4,7 +4,7 @@
  * reached, the page plans with the values it has; when the server is back, the plotter's values apply.
  */
 import { MACHINES, type MachineProfile } from "../../src/index.js";
-import { findMachine, motionForSprings } from "../../src/internal.js";
+import { findMachine, motionForSprings, isSameJson } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   machineProfileSchema,
@@ -14,7 +14,6 @@ import {
   type PlotSettings,
   type PlotterSettings,
 } from "../../src/schema/index.js";
-import { isSame } from "./is-same.js";
 import { createPlotterSaver, type Shown, type SyncParts } from "./plotter-saver.js";
 import { ACTIVE_STATES, currentPlotter, mayOperate, otherOperator, type PageState } from "./store.js";
 
@@ -35,12 +34,12 @@ export const createPlotterSync = (parts: SyncParts) => {
       saver.sendMachine(plotter.id, machine);
     }
     const [old, now] = [partOf(before), partOf(state)];
-    if (isSame(old, now)) return;
+    if (isSameJson(old, now)) return;
     const stored = saver.unsentOf(plotter.id) ?? state.plotterSettings[plotter.id] ?? now;
     const settings = {
-      pen: isSame(old.pen, now.pen) ? stored.pen : now.pen,
-      pens: isSame(old.pens, now.pens) ? stored.pens : now.pens,
-      presets: isSame(old.presets, now.presets) ? stored.presets : now.presets,
+      pen: isSameJson(old.pen, now.pen) ? stored.pen : now.pen,
+      pens: isSameJson(old.pens, now.pens) ? stored.pens : now.pens,
+      presets: isSameJson(old.presets, now.presets) ? stored.presets : now.presets,
     };
     saver.saveSoon(plotter.id, settings, old);
   };
@@ -61,7 +60,7 @@ export const createPlotterSync = (parts: SyncParts) => {
       settings: own ? withPlotterPart(withModel, own) : withModel,
       presets: own?.presets ?? state.presets,
     };
-    if (!isSame(values, { settings: state.settings, presets: state.presets }))
+    if (!isSameJson(values, { settings: state.settings, presets: state.presets }))
       show(values, isStep && !isFirst);
   };
 

@@ -7,9 +7,9 @@ import {
   PEN_TABLE,
   TRAVEL_TABLE,
   type Setting,
+  isSameJson,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { isSame } from "../state/is-same.js";
 import { formatNumber } from "../ui/format.js";
 import { watchText as words } from "./text.js";
 
@@ -37,7 +37,7 @@ const changed = (before: Values, now: Values, rows: Rows): readonly string[] => 
   const keys = [...new Set([...Object.keys(before), ...Object.keys(now)])];
   // A setting that is left out is the same as null.
   return keys
-    .filter((key) => !isSame(before[key] ?? null, now[key] ?? null))
+    .filter((key) => !isSameJson(before[key] ?? null, now[key] ?? null))
     .map((key) => inWords(rows[key], now[key]));
 };
 

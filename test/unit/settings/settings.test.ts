@@ -3,6 +3,7 @@ import path from "node:path";
 import { describe, expect, it } from "vitest";
 import { settingsTable } from "../../../scripts/settings-table.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema } from "../../../src/schema/index.js";
+import { isSameJson } from "../../../src/settings/partial.js";
 import { isAllowed, rangeInWords, type NumberSetting } from "../../../src/settings/setting.js";
 import { SETTINGS_TABLES } from "../../../src/settings/tables.js";
 
@@ -67,6 +68,30 @@ describe("the settings tables", () => {
       false,
       false,
     ]);
+  });
+});
+
+describe("two settings", () => {
+  const layered = (layers: unknown) => ({ pen: { upPct: 60 }, layers });
+
+  it.each([
+    ["another order of fields", { a: 1, b: [1, { c: 2, d: null }] }, { b: [1, { d: null, c: 2 }], a: 1 }],
+    ["a field that is undefined", { a: 1, b: undefined }, { a: 1 }],
+    ["a layer named like a part of each object", layered({ constructor: 1 }), layered({ constructor: 1 })],
+  ])("are the same with %s", (_what, one, other) => {
+    expect(isSameJson(one, other)).toBe(true);
+    expect(isSameJson(other, one)).toBe(true);
+  });
+
+  it.each([
+    ["another value", { a: 1 }, { a: 2 }],
+    ["another order of a list", { a: [1, 2] }, { a: [2, 1] }],
+    ["null in place of a missing field", { a: 1, b: null }, { a: 1 }],
+    ["a list in place of a table", { a: ["x"] }, { a: { 0: "x" } }],
+    ["another layer", layered({ constructor: 1 }), layered({ constructor: 2 })],
+  ])("differ with %s", (_what, one, other) => {
+    expect(isSameJson(one, other)).toBe(false);
+    expect(isSameJson(other, one)).toBe(false);
   });
 });
 
