@@ -222,7 +222,7 @@ export class LocalName {
     if (inOrder(theirs) > inOrder(this.#claim())) this.#probe(this.#options.yieldMs ?? YIELD_MS);
   }
 
-  /** Whoever asks again so soon has already received the records that are left out: all on the network receive each answer. */
+  /** A record that was just sent is left out: all devices on the network have received it. */
   #answer(records: readonly DnsRecord[], questions: readonly DnsQuestion[], isProbe: boolean): void {
     const pauseMs = isProbe ? this.#probeIntervalMs : REPEAT_MS;
     for (const question of questions) {
