@@ -34,7 +34,7 @@ const TEXTS: ReadonlySet<string> = new Set(["1", "3"]);
 
 /** The records up to EOF. Throws PlotwrightError("bad-file") if codes and values are out of step. */
 export function* readRecords(text: string): Generator<DxfRecord> {
-  const lines = text.split(/\r*\n|\r/);
+  const lines = text.split(/\r{0,2}\n|\r/);
   let record: { type: string; groups: DxfGroup[] } | null = null;
   let isOfApplication = false;
   for (let at = 0; at + 1 < lines.length; at += 2) {

@@ -101,6 +101,10 @@ describe("a file", () => {
     expect(read(text.replaceAll("\n", end))).toEqual(["M0 0L50 0"]);
   });
 
+  it("of a million line ends is refused at once", { timeout: 10_000 }, () => {
+    expect(() => read(`0\nSECTION\n2\nENTITIES\n${"\r".repeat(1_000_000)}x`)).toThrow(/is damaged/);
+  });
+
   it("may have blanks before and behind its codes, and codes that no entity has", () => {
     expect(read(text.replaceAll(/^(\d+)$/gm, "   $1 ").replace("   8 ", "5001\nodd\n -5\n7\n   8 "))).toEqual(
       ["M0 0L50 0"],
