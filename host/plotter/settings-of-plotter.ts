@@ -20,8 +20,10 @@ export type WithMachine = (settings: PlotSettings) => PlotSettings;
 export interface SettingsOfPlotter {
   /** Its model, heights and pens; all other settings have their defaults. */
   readonly settings: PlotSettings;
-  /** Whether its model is set. If not, the machine that a job names applies. */
+  /** Whether its model is set. If not, the machine of its last job is used, or the default one. */
   readonly hasMachine: boolean;
+  /** The id of its model, if that is a custom machine that was removed. Jobs made for it have a copy. */
+  readonly removedMachine: string | null;
   /** Whether its heights and pens are set. */
   readonly hasPen: boolean;
 }
@@ -50,7 +52,12 @@ export function settingsOfPlotter(
     motion: motionFor(DEFAULT_PLOT_SETTINGS, choice),
   };
   const hasPen = own !== undefined;
-  return { settings: hasPen ? withPlotterPart(settings, own) : settings, hasMachine, hasPen };
+  return {
+    settings: hasPen ? withPlotterPart(settings, own) : settings,
+    hasMachine,
+    removedMachine: hasMachine ? null : machine,
+    hasPen,
+  };
 }
 
 /** Settings on a plotter's machine. */
@@ -86,20 +93,26 @@ function withMargins(base: PlotSettings, { prepare }: GivenSettings): PlotSettin
   return { ...base, prepare: { ...base.prepare, margins } };
 }
 
-/** The settings with the plotter's machine, whatever machine they name. */
+/** The settings with the plotter's machine, whatever machine they name. Throws `bad-setting` for an unknown one. */
 export function onPlottersMachine(
   settings: PlotSettings,
   plotter: SettingsOfPlotter,
   withMachine: WithMachine,
 ): OnPlotter {
   const wanted = withMachine(settings);
-  if (!plotter.hasMachine) return { settings: wanted, note: null };
+  if (wanted.machine === plotter.removedMachine) return { settings: wanted, note: null };
   const { machine, customMachine } = plotter.settings;
   if (wanted.machine !== machine) {
-    const names = [findMachine(wanted)?.name ?? wanted.machine, machineOf(plotter.settings).name];
+    const known = findMachine(wanted);
+    // A misspelt name may have been meant to choose this plotter's model.
+    if (known === null && !plotter.hasMachine) machineOf(wanted);
+    const names = [known?.name ?? wanted.machine, machineOf(plotter.settings).name];
+    const why = plotter.hasMachine
+      ? "because that is the plotter's model"
+      : "because the plotter's model is not set. Choose the model on the page, in Model and position, or by PATCH /plotters/:id";
     return {
       settings: { ...wanted, machine, customMachine, motion: motionFor(wanted, plotter.settings) },
-      note: `Its settings are for the ${names[0]}. It is plotted as on the ${names[1]}, because that is the plotter's model.`,
+      note: `Its settings are for the ${names[0]}. It is plotted as on the ${names[1]}, ${why}.`,
     };
   }
   // How the machine swings only affects the shaping, and the second ringing sheet tries several values.

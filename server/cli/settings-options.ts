@@ -93,14 +93,17 @@ export function settingsOver(
   const { config, machineFile, machine } = values;
   const profile =
     typeof machineFile === "string" ? fromFile("--machine-file", machineFile, machineOfText) : null;
-  const withMachine: WithMachine = (settings) =>
-    profile?.id === settings.machine
-      ? { ...settings, customMachine: profile }
-      : serverMachine(withOwnMachine(settings, values));
+  const given = typeof config === "string" ? readConfig(config) : {};
+  const profiles = [profile, plotSettingsSchema.shape.customMachine.parse(given.customMachine ?? null)];
+  const withMachine: WithMachine = (settings) => {
+    const own = profiles.find((one) => one?.id === settings.machine);
+    return own ? { ...settings, customMachine: own } : serverMachine(withOwnMachine(settings, values));
+  };
   const named = profile?.id ?? (typeof machine === "string" ? machine : null);
   if (named !== null) machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: named }));
-  const plotter = settingsOfPlotter({ ...stored, machine: named ?? stored.machine }, withMachine);
-  const given = typeof config === "string" ? readConfig(config) : {};
+  const model =
+    named ?? stored.machine ?? (stored.last ? null : (given.machine ?? given.customMachine?.id ?? null));
+  const plotter = settingsOfPlotter({ ...stored, machine: model }, withMachine);
   const { settings, note } = inFile(config, () => settingsWith(plotter, given, withMachine));
   return { settings: withFlags(settings, values), note };
 }

@@ -1,5 +1,6 @@
 /** Splits dashed lines into their dashes. */
 import type { DashPattern } from "../drawing/drawing.js";
+import { PlotwrightError } from "../errors.js";
 import type { Box } from "../geometry/box.js";
 import { insideRange } from "../geometry/clip.js";
 import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
@@ -7,18 +8,21 @@ import { LineBuilder, SAME_POINT, lineCount, mix, type Lines } from "../geometry
 
 /** A pattern with a shorter period than this is drawn as a solid line, because no pen resolves it, mm. */
 const FINEST_PERIOD = 0.05;
+/** Dashes and gaps of a drawing. This many would take days to plot. */
+const MAX_STEPS = 2_000_000;
 
 /**
  * Splits every line whose tag has a pattern (lengths in mm on paper). Dots and other lines are copied. Dashes outside
- * `box` are skipped, since a very long line would have too many.
+ * `box` are skipped, since a very long line would have too many. Throws `too-large` if there are too many inside.
  */
 export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern | null, box: Box): Lines {
   const builder = new LineBuilder();
+  const steps = new StepCount();
   for (let i = 0; i < lineCount(lines); i++) {
     const pattern = patternOf(lines.tag[i]);
     const isDot = lines.offsets[i + 1] - lines.offsets[i] < 2;
     if (pattern === null || isDot) builder.copy(lines, i, lines.tag[i]);
-    else new Dasher(pattern, lines.tag[i], builder).run(lines, i, box);
+    else new Dasher(pattern, lines.tag[i], builder, steps).run(lines, i, box);
   }
   return builder.finish();
 }
@@ -39,6 +43,20 @@ export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: A
 
 const periodOf = (pattern: DashPattern): number => pattern.lengths.reduce((sum, length) => sum + length, 0);
 
+/** Counts the dashes and gaps of all lines. */
+class StepCount {
+  private count = 0;
+
+  add(more: number): void {
+    this.count += more;
+    if (this.count <= MAX_STEPS) return;
+    throw new PlotwrightError(
+      "too-large",
+      `The dashed lines of this drawing have more than ${MAX_STEPS / 2e6} million dashes. Make the dashes longer or the lines solid, or plot the drawing in parts.`,
+    );
+  }
+}
+
 class Dasher {
   private index = 0;
   /** Remainder of the current dash or gap, mm. */
@@ -49,6 +67,7 @@ class Dasher {
     private readonly pattern: DashPattern,
     private readonly tag: number,
     private readonly builder: LineBuilder,
+    private readonly steps: StepCount,
   ) {
     this.period = periodOf(pattern);
     this.setPhase(pattern.offset);
@@ -99,6 +118,7 @@ class Dasher {
       // A dash ends or begins here. A dash of zero length becomes a dot.
       this.builder.point(x0 + ((x1 - x0) * along) / length, y0 + ((y1 - y0) * along) / length);
       if (this.isDrawing) this.endDash();
+      this.steps.add(1);
       this.index = (this.index + 1) % this.pattern.lengths.length;
       this.left = this.pattern.lengths[this.index];
     }
@@ -130,6 +150,7 @@ class Dasher {
       if (into < length || (into === 0 && length === 0)) break;
       into -= length;
     }
+    this.steps.add(this.index);
     this.left = Math.max(lengths[this.index] - into, 0);
   }
 }

@@ -50,20 +50,22 @@ interface Tile {
 
 /**
  * The tag of each line is its shape; `areas` by shape. A shape with a higher index is painted later. Shapes for which
- * `takesPart` is false (hidden layers) cover nothing, and nothing covers them.
+ * `takesPart` is false (hidden layers) cover nothing, and nothing covers them. Throws `too-large` if more than `maxPairs`
+ * pairs of an edge and a segment must be compared.
  */
 export function hideCovered(
   lines: Lines,
   areas: ReadonlyMap<number, Region>,
   takesPart: (shape: number) => boolean,
   work: Work,
+  maxPairs = MAX_PAIRS,
 ): Lines {
   const covers = [...areas]
     .filter(([shape]) => takesPart(shape))
     .sort(([a], [b]) => b - a)
     .map(([shape, region]) => coverOf(shape, region));
   if (covers.length === 0) return lines;
-  const hiding = new Hiding(lines, work);
+  const hiding = new Hiding(lines, work, maxPairs);
   hiding.run(covers, takesPart);
   const builder = new LineBuilder();
   for (let i = 0; i < lineCount(lines); i++) hiding.addVisible(i, builder);
@@ -82,6 +84,7 @@ class Hiding {
   constructor(
     private readonly lines: Lines,
     private readonly work: Work,
+    private readonly maxPairs: number,
   ) {
     this.shapeOf = new Uint32Array(lines.xy.length / 2);
     this.hidden = Array.from({ length: lines.xy.length / 2 });
@@ -140,10 +143,12 @@ class Hiding {
 
   /** The part of a tile in a smaller box. What lies below a cover of the whole box is hidden at once. */
   private tileIn(tile: Tile, box: Box): Tile {
+    this.spend(tile.segments.length);
     let segments = tile.segments.filter((p) => this.touches(p, box));
     const covers: Cover[] = [];
     for (const cover of tile.covers) {
       if (segments.length === 0 || this.shapeOf[segments[segments.length - 1]] >= cover.shape) break;
+      this.spend(cover.points);
       const inside = coverIn(cover, box);
       if (inside === "whole") {
         const above = segments.filter((p) => this.shapeOf[p] >= cover.shape);
@@ -218,7 +223,7 @@ class Hiding {
 
   private spend(pairs: number): void {
     this.pairs += pairs;
-    if (this.pairs <= MAX_PAIRS) return;
+    if (this.pairs <= this.maxPairs) return;
     throw new PlotwrightError(
       "too-large",
       "Hiding covered lines takes too long here: too many filled shapes cross too many lines. Draw hidden lines too, or plot the drawing in parts.",

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { z } from "zod";
 import { settingsFromOptions } from "../../server/cli/settings-options.js";
-import { machineById, PlotwrightError } from "../../src/index.js";
+import { machineById, PlotwrightError, type MachineProfile } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, machineProfileSchema, plotSettingsSchema } from "../../src/schema/index.js";
 
 let dir: string;
@@ -102,8 +102,13 @@ describe("--config", () => {
     // All others stay as they are: without this one, the settings are those without a file.
     const [top, group] = path.split(".");
     const others = Object.keys(DEFAULT_PLOT_SETTINGS).filter((key) => key !== top);
+    // A profile alone names the machine.
+    const base =
+      path === "customMachine"
+        ? { ...DEFAULT_PLOT_SETTINGS, machine: (value as MachineProfile).id }
+        : DEFAULT_PLOT_SETTINGS;
     for (const key of others) {
-      expect([key, read(settings, key)]).toEqual([key, read(DEFAULT_PLOT_SETTINGS, key)]);
+      expect([key, read(settings, key)]).toEqual([key, read(base, key)]);
     }
     if (group === undefined) return;
     const inGroup = { ...(read(settings, top) as object), [group]: null };

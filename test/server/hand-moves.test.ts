@@ -94,14 +94,20 @@ describe("moves by hand over HTTP", () => {
     });
   });
 
-  it("stay within the machine of the given settings", async () => {
+  it("stay within the plotter's machine", async () => {
     const far = { xMm: 500, yMm: 10 };
     expect(await fault(await call("POST", "/plotters/main/walk", far))).toMatchObject({
       status: 422,
       code: "out-of-bounds",
     });
-    const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "mine", customMachine: MINE };
-    expect(await move("walk", { ...far, settings })).toMatchObject(far);
+    const settings = { machine: "mine", customMachine: MINE };
+    // Settings do not change the plotter's machine.
+    expect(await fault(await call("POST", "/plotters/main/walk", { ...far, settings }))).toMatchObject({
+      status: 422,
+    });
+    await call("PUT", "/machines/mine", MINE);
+    expect((await call("PATCH", "/plotters/main", { machine: "mine" })).status).toBe(200);
+    expect(await move("walk", far)).toMatchObject(far);
     expect(await fault(await call("POST", "/plotters/main/jog", { dxMm: 110, dyMm: 0 }))).toMatchObject({
       code: "out-of-bounds",
     });
@@ -208,10 +214,12 @@ describe("custom machines", () => {
 
   it("are copied into the jobs that name them, and stay there when they are removed", async () => {
     await call("PUT", "/machines/mine", MINE);
-    const { id, settings } = await addJob({ ...DEFAULT_PLOT_SETTINGS, machine: "mine" });
+    await call("PATCH", "/plotters/main", { machine: "mine" });
+    const { id, settings } = await addJob(DEFAULT_PLOT_SETTINGS);
     expect(settings.customMachine).toEqual(MINE);
     await call("DELETE", "/machines/mine");
-    expect((await call("POST", `/jobs/${id}/start`)).status).toBe(200);
+    const started = await call("POST", `/jobs/${id}/start`);
+    expect([started.status, ((await started.json()) as Job).settings.customMachine]).toEqual([200, MINE]);
     await call("POST", `/jobs/${id}/cancel`);
   });
 

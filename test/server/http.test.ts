@@ -65,7 +65,7 @@ describe("the HTTP interface", () => {
   });
 
   it("takes settings beside a file body, and names what is wrong in them", async () => {
-    const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "nextdraw-2234" };
+    const settings = { ...DEFAULT_PLOT_SETTINGS, sendAheadMs: 300 };
     const post = (text: string): Promise<Response> =>
       fetch(`${app.url}/api/v1/jobs?settings=${encodeURIComponent(text)}`, { method: "POST", body: SVG });
     expect(jobSchema.parse(await (await post(JSON.stringify(settings))).json()).settings).toEqual(settings);

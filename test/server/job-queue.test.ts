@@ -399,8 +399,8 @@ describe("the queue", () => {
 
   it("changes settings only while queued, and the name at any time", async () => {
     const { id } = await add("fern");
-    const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "axidraw-se-a3" };
-    expect((await queue.patch(id, { settings })).settings.machine).toBe("axidraw-se-a3");
+    const settings = { prepare: { marginMm: 12 } };
+    expect((await queue.patch(id, { settings })).settings.prepare.marginMm).toBe(12);
     queue.cancel(id);
     await expect(queue.patch(id, { settings })).rejects.toMatchObject({ code: "conflict" });
     expect((await queue.patch(id, { name: "bracken" })).name).toBe("bracken");

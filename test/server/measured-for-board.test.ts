@@ -69,12 +69,12 @@ describe("the estimated time of a job", () => {
 });
 
 describe("a change that is measured longer than a newer one", () => {
-  const withMachine = (machine: string): JobPatch => ({ settings: { ...DEFAULT_PLOT_SETTINGS, machine } });
+  const withMargin = (marginMm: number): JobPatch => ({ settings: { prepare: { marginMm } } });
   const others: readonly [string, JobPatch, JobPatch][] = [
-    ["settings after settings", withMachine("nextdraw-2234"), withMachine("axidraw-se-a3")],
-    ["plotter after settings", { plotterId: "old" }, withMachine("axidraw-se-a3")],
-    ["settings after plotter", withMachine("nextdraw-2234"), { plotterId: "old" }],
-    ["settings after a plotter that moves alike", withMachine("nextdraw-2234"), { plotterId: "unknown" }],
+    ["settings after settings", withMargin(20), withMargin(12)],
+    ["plotter after settings", { plotterId: "old" }, withMargin(12)],
+    ["settings after plotter", withMargin(20), { plotterId: "old" }],
+    ["settings after a plotter that moves alike", withMargin(20), { plotterId: "unknown" }],
   ];
   it.each(others)("is refused: %s", async (_name, older, newer) => {
     const { id, name } = await add("recent");
@@ -97,9 +97,9 @@ describe("a change that is measured longer than a newer one", () => {
 
   it("is made if only the name changed", async () => {
     const { id } = await add("recent");
-    const change = queue.patch(id, withMachine("axidraw-se-a3"));
+    const change = queue.patch(id, withMargin(12));
     await queue.patch(id, { name: "fern" });
     await change;
-    expect(queue.get(id)).toMatchObject({ name: "fern", settings: { machine: "axidraw-se-a3" } });
+    expect(queue.get(id)).toMatchObject({ name: "fern", settings: { prepare: { marginMm: 12 } } });
   });
 });

@@ -42,6 +42,9 @@ function servoLines(model: string, { upPct, downPct }: Heights): string[] {
     : [`S2,${pos(upPct)},5`, `S2,${pos(downPct)},5`];
 }
 
+/** How long each move in a log takes, in ticks of the board. */
+const timesIn = (log: string): string[] => [...log.matchAll(/> LT,(\d+)/g)].map(([, ticks]) => ticks);
+
 /** The different servo commands in a log. */
 const servoLinesIn = (log: string): string[] => [
   ...new Set([...log.matchAll(/\b(SC,[45],\d+|S2,\d+,\d+)/g)].map(([line]) => line)),
@@ -74,28 +77,36 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
     rmSync(dataDir, { recursive: true, force: true });
   }, LIMIT_MS);
 
-  const log = async (): Promise<string> => (await send(server.url, "GET", "/plotters/main/log")).text();
-  /** The servo commands of what `act` does. Other heights come before, so that all heights are sent again. */
-  async function sentBy(act: () => Promise<unknown>): Promise<string[]> {
+  const log = async (plotter: string): Promise<string> =>
+    (await send(server.url, "GET", `/plotters/${plotter}/log`)).text();
+  /** What `act` sends to the board. Other heights come before, so that all heights are sent again. */
+  async function logOf(act: () => Promise<unknown>, plotter = "main"): Promise<string> {
     const settings = { pen: { upPct: 99, downPct: 1 } };
-    const spoilt = await send(server.url, "POST", "/plotters/main/cycle-pen", { settings });
+    const spoilt = await send(server.url, "POST", `/plotters/${plotter}/cycle-pen`, { settings });
     expect(await spoilt.text()).toContain('"idle"');
-    const before = (await log()).length;
+    const before = (await log(plotter)).length;
     await act();
-    return servoLinesIn((await log()).slice(before));
+    return (await log(plotter)).slice(before);
   }
+  const sentBy = async (act: () => Promise<unknown>, plotter?: string): Promise<string[]> =>
+    servoLinesIn(await logOf(act, plotter));
 
-  async function plotted(answer: Response | Promise<Response>): Promise<void> {
-    const added = await answer;
-    const text = await added.text();
-    expect([added.status, text]).toEqual([201, expect.any(String)]);
-    await plot((JSON.parse(text) as Job).id);
+  async function jobOf(answer: Response | Promise<Response>, status = 201): Promise<Job> {
+    const response = await answer;
+    const text = await response.text();
+    expect([response.status, text]).toEqual([status, expect.any(String)]);
+    return JSON.parse(text) as Job;
   }
-  async function plot(id: string): Promise<void> {
-    expect((await send(server.url, "POST", `/jobs/${id}/start`)).status).toBe(200);
-    const stateOfJob = async (): Promise<Job | undefined> =>
-      (await stateOf(server)).jobs.find((job) => job.id === id);
-    await expect.poll(stateOfJob, { timeout: PATIENCE_MS }).toMatchObject({ state: "done", warnings: [] });
+  const newJob = (body: object = {}): Promise<Job> =>
+    jobOf(send(server.url, "POST", "/jobs", { name: "j.svg", drawing: SVG, ...body }));
+  const plotted = async (answer: Promise<Response>): Promise<void> => plot((await jobOf(answer)).id);
+  const becomes = (id: string, wanted: object): Promise<void> =>
+    expect
+      .poll(async () => (await stateOf(server)).jobs.find((job) => job.id === id), { timeout: PATIENCE_MS })
+      .toMatchObject(wanted);
+  async function plot(id: string, warnings: unknown[] = []): Promise<void> {
+    await jobOf(send(server.url, "POST", `/jobs/${id}/start`), 200);
+    await becomes(id, { state: "done", warnings });
   }
   const queued = async (wanted: string): Promise<string> => {
     const find = async (): Promise<string | undefined> =>
@@ -110,9 +121,10 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
     const query = settings === undefined ? "" : `&settings=${encodeURIComponent(JSON.stringify(settings))}`;
     return plotted(fetch(`${server.url}/api/v1/jobs?name=r.svg${query}`, { method: "POST", body: SVG }));
   };
-  const added = async (...options: string[]): Promise<void> => {
+  const added = (...options: string[]): Promise<void> => addedAs(SVG, ...options);
+  const addedAs = async (svg: string, ...options: string[]): Promise<void> => {
     const file = join(dataDir, "a.svg");
-    writeFileSync(file, SVG);
+    writeFileSync(file, svg);
     const { code, out, err } = await cli("add", file, "--url", server.url, ...options);
     expect([code, err]).toEqual([0, expect.not.stringContaining("note:")]);
     await plot(out.split("\t")[0]);
@@ -190,6 +202,95 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
   );
 
   it(
+    "plots on the model that it has when a job starts, with the heights that it had when the job was added",
+    async () => {
+      const other = model === "nextdraw-8511" ? "axidraw-v3" : "nextdraw-8511";
+      const setModel = async (machine: string): Promise<void> =>
+        expect((await send(server.url, "PATCH", "/plotters/main", { machine })).status).toBe(200);
+      const { id } = await newJob();
+      await setModel(other);
+      try {
+        const sent = await sentBy(() => plot(id, [expect.stringContaining(machineById(other).name)]));
+        expect(sent.sort()).toEqual(servoLines(other, heights).sort());
+      } finally {
+        await setModel(model);
+      }
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "gives a job from another plotter its own model and heights, but not those that the job was given",
+    async () => {
+      const added = await send(server.url, "POST", "/plotters", {
+        name: `${name} 2`,
+        device: "virtual",
+        machine: "nextdraw-2234",
+      });
+      const { id: second } = (await added.json()) as { id: string };
+      const pen = { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 66, downPct: 33 };
+      await send(server.url, "PUT", `/plotters/${second}/settings`, { pen, pens: [], presets: [] });
+      for (const [given, wanted] of [
+        [{}, pen],
+        [{ pen: { downPct: 25 } }, { ...pen, downPct: 25 }],
+      ] as const) {
+        const { id } = await newJob({ settings: given });
+        const expected = servoLines("nextdraw-2234", wanted).sort();
+        const sent = await sentBy(async () => {
+          await jobOf(send(server.url, "PATCH", `/jobs/${id}`, { plotterId: second }), 200);
+          const warnings = [expect.stringContaining("NextDraw 2234")];
+          await plot(id, warnings);
+        }, second);
+        expect(sent.sort()).toEqual(expected);
+      }
+      expect((await send(server.url, "DELETE", `/plotters/${second}`)).status).toBe(200);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "changes one height of a running plot, and keeps the other",
+    async () => {
+      // It waits with the pen up until it is resumed.
+      const { id } = await newJob({ from: { strokeIndex: 0, alongMm: 0 } });
+      const sent = await sentBy(async () => {
+        await jobOf(send(server.url, "POST", `/jobs/${id}/start`), 200);
+        await becomes(id, { state: "paused" });
+        const change = { pen: { downPct: 25 } };
+        const changed = await jobOf(send(server.url, "POST", `/jobs/${id}/change`, change), 200);
+        expect(changed.settings.pen).toMatchObject({ ...heights, downPct: 25 });
+        await jobOf(send(server.url, "POST", `/jobs/${id}/resume`), 200);
+        await becomes(id, { state: "done" });
+      });
+      const [up, down] = servoLines(model, { ...heights, downPct: 25 });
+      expect(sent).toEqual(expect.arrayContaining([up, down]));
+      const [, before] = servoLines(model, heights);
+      // At most the old height was set at the beginning, and the new one came last.
+      expect([up, down, before]).toEqual(expect.arrayContaining(sent));
+      expect(sent.indexOf(before)).toBeLessThan(sent.indexOf(down));
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "draws a layer with the pen that --pen names: its line is shifted by the pen's offset",
+    async () => {
+      const red = { id: "r", name: "Red", color: null, widthMm: 0.5, offsetXMm: 10, offsetYMm: 0 };
+      const own = { pen: { ...DEFAULT_PLOT_SETTINGS.pen, ...heights }, pens: [red], presets: [] };
+      expect((await send(server.url, "PUT", "/plotters/main/settings", own)).status).toBe(200);
+      const drawing = SVG.replace("<path", '<g id="sky"><path').replace("</svg>", "</g></svg>");
+      const timesOf = async (svg: string, ...options: string[]): Promise<string[]> =>
+        timesIn(await logOf(() => addedAs(svg, ...options)));
+      const shifted = await timesOf(drawing, "--pen", "sky=Red");
+      expect(shifted.length).toBeGreaterThan(3);
+      // From home to the line, along it, and back: no other way takes as long.
+      expect(shifted).toEqual(await timesOf(drawing.replace("M60", "M50")));
+      expect(shifted).not.toEqual(await timesOf(drawing));
+    },
+    LIMIT_MS,
+  );
+
+  it(
     "stays that model for a job of another one, says so, and does not leave its own reach",
     async () => {
       const huge = { ...machineById("nextdraw-2234"), id: "huge", widthMm: 3_000, heightMm: 3_000 };
@@ -219,6 +320,49 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
       await send(server.url, "POST", "/shared-jobs", peers);
       const notices = async (): Promise<string> => JSON.stringify((await stateOf(server)).serverNotices);
       await expect.poll(notices, { timeout: PATIENCE_MS }).toContain("can only go");
+    },
+    LIMIT_MS,
+  );
+});
+
+describe("a plotter whose model is not set", () => {
+  it(
+    "is the default model for every job, whatever machine the job names, and says how to set it",
+    async () => {
+      const dataDir = mkdtempSync(join(tmpdir(), "plotwright-matrix-"));
+      const server = await database.serve(dataDir, { virtualSpeed: 200 });
+      await introduce(server, "unset");
+      const post = (path: string, body: object): Promise<Response> => send(server.url, "POST", path, body);
+      const other = { machine: "nextdraw-8511" };
+      const job = { name: "unset.svg", drawing: SVG, settings: other };
+      try {
+        await post("/jobs", job);
+        await post("/shared-jobs", { ...job, target: { plotter: "unset" } });
+        const jobs = async (): Promise<Job[]> => (await stateOf(server)).jobs;
+        const { id } = (await jobs())[0];
+        await post(`/jobs/${id}/start`, {});
+        // The plot of the first makes room for the shared one.
+        await expect.poll(async () => (await jobs()).length, { timeout: PATIENCE_MS }).toBe(2);
+        const shared = (await jobs()).find((one) => one.id !== id)!;
+        await post(`/jobs/${shared.id}/start`, {});
+        const states = async (): Promise<string[]> => (await jobs()).map(({ state }) => state);
+        await expect.poll(states, { timeout: PATIENCE_MS }).toEqual(["done", "done"]);
+        for (const { settings, warnings } of await jobs()) {
+          expect([settings.machine, warnings]).toEqual([
+            "axidraw-v3",
+            [expect.stringMatching(/^Its settings are for the NextDraw 8511\..*model is not set\. Choose/)],
+          ]);
+        }
+        const log = await (await send(server.url, "GET", "/plotters/main/log")).text();
+        expect(servoLinesIn(log).sort()).toEqual(servoLines("axidraw-v3", USUAL).sort());
+        const far = { paper: { widthMm: 850, heightMm: 590 }, place: { xMm: 500, yMm: 300 } };
+        const refusal = await post("/jobs", { ...job, settings: { machine: "nextdraw-2234", prepare: far } });
+        expect([refusal.status, await refusal.text()]).toEqual([422, expect.stringContaining("AxiDraw V3")]);
+        expect((await post("/plotters/main/walk", { xMm: 500, yMm: 30, settings: other })).status).toBe(422);
+      } finally {
+        await server.close();
+        rmSync(dataDir, { recursive: true, force: true });
+      }
     },
     LIMIT_MS,
   );

@@ -12,6 +12,7 @@ import {
   withPlotterPart,
   type Job,
   type PlotSettings,
+  type Plotter,
   type PlotterSettings,
 } from "../../src/schema/index.js";
 import { createPlotterSaver, type Shown, type SyncParts } from "./plotter-saver.js";
@@ -55,7 +56,7 @@ export const createPlotterSync = (parts: SyncParts) => {
     if (!isOther && showsActiveJob(state)) return;
     shownId = plotter.id;
     const own = state.plotterSettings[plotter.id] ?? (isOther ? NOTHING_SET : null);
-    const withModel = withMachine(state.settings, profileOf(state, plotter.machine));
+    const withModel = withMachine(state.settings, modelOf(state, plotter));
     const values = {
       settings: own ? withPlotterPart(withModel, own) : withModel,
       presets: own?.presets ?? state.presets,
@@ -98,7 +99,7 @@ export const openedSettings = (state: PageState, job: Job): PlotSettings => {
   const plotter = currentPlotter(state);
   const own = plotter && state.plotterSettings[plotter.id];
   if (!own || ACTIVE_STATES.includes(job.state)) return job.settings;
-  return withPlotterPart(withMachine(job.settings, profileOf(state, plotter.machine)), own);
+  return withPlotterPart(withMachine(job.settings, modelOf(state, plotter)), own);
 };
 
 /**
@@ -127,6 +128,10 @@ const partOf = ({ settings, presets }: Shown): PlotterSettings => ({
 /** The machine with this id; null: this server does not know it. */
 export const profileOf = ({ machines }: PageState, id: string | null): MachineProfile | null =>
   [...MACHINES, ...machines].find((machine) => machine.id === id) ?? null;
+
+/** A plotter whose model is not set counts as the default one. */
+const modelOf = (state: PageState, { machine }: Plotter): MachineProfile | null =>
+  profileOf(state, machine ?? DEFAULT_PLOT_SETTINGS.machine);
 
 const showsActiveJob = ({ drawing, jobs }: PageState): boolean => {
   const job = jobs.find(({ id }) => id === drawing?.jobId);
