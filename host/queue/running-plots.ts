@@ -45,7 +45,10 @@ interface Running {
   readonly jobId: string;
   readonly runner: Runner;
   readonly timer: MotionTimer;
+  /** What may be seen on the paper; the job's message has it also at the end. The last ones only. */
+  readonly notes: string[];
 }
+const MAX_NOTES = 5;
 
 export class RunningPlots {
   readonly #parts: QueueParts;
@@ -183,6 +186,7 @@ export class RunningPlots {
     const entry = this.#journal(job.id);
     // `received` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
+    const notes: string[] = [];
     const runner = new Runner(
       {
         plotter,
@@ -198,12 +202,16 @@ export class RunningPlots {
         progress: (progress) => this.#progress(job.id, plotter.id, progress),
         held: (held, wait) => this.#safely(job.id, () => this.#held(job.id, held, wait)),
         refused: (message) => this.#safely(job.id, () => void this.#jobs.note(job.id, message)),
-        noted: (message) => this.#safely(job.id, () => void this.#jobs.note(job.id, message)),
+        noted: (message) => {
+          notes.push(message);
+          if (notes.length > MAX_NOTES) notes.shift();
+          this.#safely(job.id, () => void this.#jobs.note(job.id, message));
+        },
         ended: (end) => this.#safely(job.id, () => this.#ended(job.id, plotter.id, end)),
       },
     );
     const timer = new MotionTimer(this.#parts.nowIso());
-    this.#running.set(plotter.id, { jobId: job.id, runner, timer });
+    this.#running.set(plotter.id, { jobId: job.id, runner, timer, notes });
     return timer;
   }
 
@@ -270,7 +278,7 @@ export class RunningPlots {
   }
 
   #ended(id: string, plotterId: string, end: RunEnd): void {
-    const { timer, runner } = this.#running.get(plotterId) ?? {};
+    const { timer, runner, notes = [] } = this.#running.get(plotterId) ?? {};
     this.#running.delete(plotterId);
     const { store, nowIso } = this.#parts;
     // A plot that is partly on paper must stay recoverable, whatever the error.
@@ -285,7 +293,9 @@ export class RunningPlots {
       if (this.#jobs.get(id).state === "paused") this.#jobs.apply(id, { type: "release" });
       this.#jobs.apply(id, { type: "finish" }, { plottedS: timer?.movedS(nowIso()) ?? null });
     }
-    const job = this.#jobs.get(id);
+    let job = this.#jobs.get(id);
+    if (notes.length > 0)
+      job = this.#jobs.save({ ...job, message: [job.message ?? [], notes].flat().join(" ") });
     this.#jobs.announceOrder();
     if (ENDED_STATES.includes(job.state)) store.clearJournal(id);
     if (job.state === "done") this.#done(job);

@@ -42,6 +42,32 @@ const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resol
 const names = (): string[] => queue.list().map((job) => `${job.name} ${job.state}`);
 
 describe("the queue", () => {
+  it.each([
+    ["done", null],
+    ["cancelled", null],
+    ["interrupted", new PlotwrightError("disconnected", "The cable came off.")],
+    ["failed", new PlotwrightError("bad-file", "Nothing to draw.")],
+  ] as const)("keeps what may be seen on the paper with a job that is %s", async (state, error) => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    const run = await plotter.nextRun();
+    await settled();
+    run.start.noted?.("The pen rested at A.");
+    expect(queue.get(id).message).toBe("The pen rested at A.");
+    await queue.pause(id);
+    await queue.resume(id);
+    run.start.noted?.("The pen rested at B.");
+    if (error !== null) run.fail(error);
+    else run.end({ kind: state });
+    await settled();
+    const reason = error === null ? "" : `${error.message} `;
+    expect(queue.get(id)).toMatchObject({
+      state,
+      message: `${reason}The pen rested at A. The pen rested at B.`,
+    });
+    expect(events.at(-2)).toMatchObject({ job: { message: queue.get(id).message } });
+  });
+
   it("plots a job through progress and hold to its end, announcing each step", async () => {
     const { id } = await add("fern");
     await queue.start(id);

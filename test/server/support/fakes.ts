@@ -22,10 +22,10 @@ export class LedRun implements LivePlotRun {
   held: (held: boolean, wait?: PlotWait | null) => void = () => undefined;
   readonly asked: string[] = [];
   holdPlace: Place | null;
-  readonly #start: PlotStart;
+  readonly start: PlotStart;
 
   constructor(start: PlotStart) {
-    this.#start = start;
+    this.start = start;
     this.holdPlace = start.from ?? null;
     this.finished = new Promise((resolve, reject) => {
       this.end = resolve;
@@ -50,7 +50,7 @@ export class LedRun implements LivePlotRun {
   /** The driver records how far the pen has come. */
   record(entry: Partial<JournalEntry>): void {
     const place = { stroke: 0, alongMm: 0 };
-    this.#start.journal?.record({ place, xMm: 0, yMm: 0, penUp: true, elapsedS: 0, ...entry });
+    this.start.journal?.record({ place, xMm: 0, yMm: 0, penUp: true, elapsedS: 0, ...entry });
   }
 
   emergencyStop(): Promise<void> {
@@ -170,6 +170,10 @@ export class LedPlotter implements ManagedPlotter {
     return Promise.resolve();
   }
 
+  stopMove(): Promise<void> {
+    this.asked.push("stop");
+    return Promise.resolve();
+  }
   motorsOff(): Promise<void> {
     this.asked.push("motors off");
     return Promise.resolve();
