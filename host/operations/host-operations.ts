@@ -109,6 +109,11 @@ const plotterOperations = ({ queue, registry, log }: HostParts) => {
       await plotter.motorsOff();
       return plotter.snapshot();
     },
+    stop: async (id) => {
+      const plotter = findFree(id);
+      await plotter.stopMove();
+      return plotter.snapshot();
+    },
   } satisfies OperationHandlers<Requester>["plotters"];
 };
 

@@ -64,7 +64,11 @@ async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings):
     [box.xMm, box.yMm],
     [x, y],
   ] as const;
-  for (const [cornerX, cornerY] of corners) await plotter.walk(cornerX, cornerY, settings);
+  const { stopCount } = plotter;
+  for (const [cornerX, cornerY] of corners) {
+    if (plotter.stopCount !== stopCount) throw moveStopped();
+    await plotter.walk(cornerX, cornerY, settings);
+  }
 }
 
 /** Draws strokes in mm from the carriage's position, and returns there. */

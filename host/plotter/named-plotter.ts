@@ -105,6 +105,10 @@ export class NamedPlotter implements ManagedPlotter {
     return this.#driver.move(move, settings);
   }
 
+  stopMove(): Promise<void> {
+    return this.#driver.stopMove();
+  }
+
   command(line: string): Promise<CommandAnswer> {
     return this.#driver.command(line);
   }

@@ -50,7 +50,8 @@ export class PlotterDriver {
   #connecting: Promise<void> | null = null;
   #cancelRetry: (() => void) | null = null;
   #run: MachinePlot | null = null;
-  #movingByHand = false;
+  /** Resolves at the end of the current manual move. */
+  #movingByHand: Promise<void> | null = null;
   /** Settings with another controller, to be used when nothing moves. */
   #chosen: PlotSettings | null = null;
   #closed = false;
@@ -210,6 +211,13 @@ export class PlotterDriver {
   /** Draws a square at the current position; its measured size gives the motor steps per mm. */
   drawSquare(sizeMm: number, settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "square", sizeMm }, settings);
+  }
+
+  /** Stops a manual move at once, which then rejects with `conflict`. Resolves when the pen is up. */
+  async stopMove(): Promise<void> {
+    if (!this.#movingByHand) return;
+    this.#machine?.stopAtOnce();
+    await this.#movingByHand;
   }
 
   /** Sends one line, returns the whole answer. `bad-setting` for commands that would break the connection. */
@@ -393,12 +401,22 @@ export class PlotterDriver {
   async #byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
     await this.#connecting;
     const machine = this.#idleMachine();
-    this.#movingByHand = true;
+    const { stopCount } = machine;
+    const moved = action(machine).catch(async (error: unknown) => {
+      // A move that was stopped may have left the pen on the paper.
+      const isStopped = machine.stopCount !== stopCount && this.#machine === machine && !this.#closed;
+      if (isStopped && machine.penUp !== true) await machine.movePen(true, this.#settings);
+      throw error;
+    });
+    this.#movingByHand = moved.then(
+      () => undefined,
+      () => undefined,
+    );
     this.#setState({ connection: "busy", activity: "moving" });
     try {
-      return await action(machine);
+      return await moved;
     } finally {
-      this.#movingByHand = false;
+      this.#movingByHand = null;
       this.#setIdle();
     }
   }

@@ -18,6 +18,8 @@ export interface PlotterPort {
    * A manual move with the machine, speeds and heights of `settings`; default: those of the last job or move.
    */
   move(move: HandMove, settings?: PlotSettings): Promise<void>;
+  /** Stops a manual move at once, which then rejects with `conflict`. Resolves when the pen is up. */
+  stopMove(): Promise<void>;
   /** Sends one line to the board; returns the complete answer. */
   command(line: string): Promise<CommandAnswer>;
   /** Commands and replies of the current connection. */

@@ -213,6 +213,15 @@ export const OPERATIONS = {
       "Switches the motors off, so that the carriage can be pushed by hand",
       plotterSchema,
     ),
+    stop: operation(
+      "post",
+      "/plotters/:id/stop",
+      "Stops a move by hand at once and lifts the pen",
+      plotterSchema,
+      {
+        role: "stop",
+      },
+    ),
   },
 
   /** The names are the kinds of `HandMove`. */

@@ -130,6 +130,9 @@ describe("a flood of requests", () => {
     expect(await statusOf(`${path}/emergency-stop`, operator, "POST")).toBe(200);
     expect(await statusOf(`${path}/cancel`, watcher, "POST")).toBe(200);
     expect(await statusOf(`${path}/resume`, operator, "POST")).toBe(429);
+    await expect.poll(() => app.queue.get(job.id).state).toBe("cancelled");
+    expect(await statusOf("/api/v1/plotters/virtual/stop", watcher, "POST")).toBe(200);
+    expect(await statusOf("/api/v1/plotters/virtual/home", operator, "POST")).toBe(429);
     const evil = { ...watcher, Origin: "https://evil.example" };
     expect(await statusOf(`${path}/pause`, evil, "POST")).toBe(403);
   });

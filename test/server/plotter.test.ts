@@ -1,9 +1,11 @@
+import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry, PlotProgress } from "../../host/plotter/types.js";
 import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type HandMove, type PlotSettings } from "../../src/schema/index.js";
+import { cases } from "../support/full-run.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { virtualBoardOf } from "../support/virtual-board-of.js";
@@ -146,6 +148,54 @@ describe("moves by hand", () => {
 });
 
 describe("moves by hand from place to place", () => {
+  const MOVES: readonly HandMove[] = [
+    { kind: "walk", xMm: 250, yMm: 150 },
+    { kind: "jog", dxMm: 100, dyMm: 50 },
+    { kind: "frame", boxMm: { xMm: 20, yMm: 20, widthMm: 100, heightMm: 80 } },
+    { kind: "test-patch" },
+    { kind: "square", sizeMm: 80 },
+  ];
+  // Before firmware 2.7 a stop zeroes the counters, so they would not show whether the position is right.
+  it.each(["2.8.1", "3.0.3"])(
+    "are stopped at once at any time, with the pen lifted and the position known, on firmware %s",
+    async (firmware) => {
+      await fc.assert(
+        fc.asyncProperty(
+          fc.constantFrom(...MOVES),
+          fc.double({ min: 0, max: 4, noNaN: true }),
+          async (move, s) => {
+            const { world, driver, board } = await newPlotter(firmware);
+            await world.run(driver.move({ kind: "walk", xMm: 10, yMm: 10 }));
+            const moved = outcome(driver.move(move));
+            await world.advance(s);
+            const isMoving = driver.state.activity === "moving";
+            await world.run(driver.stopMove());
+            expect(await world.run(moved)).toBe(
+              isMoving ? "conflict: The move was stopped at once." : undefined,
+            );
+            await world.advance(1);
+            const { steps1, steps2, ...rest } = board.state();
+            expect(rest).toMatchObject({ penUp: true });
+            expect(driver.state).toMatchObject({ connection: "idle", activity: "none", penUp: true });
+            await world.advance(5);
+            expect(board.state()).toMatchObject({ steps1, steps2 });
+            // The position is still right: home is home.
+            await world.run(driver.home());
+            expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+          },
+        ),
+        { numRuns: cases(100, 8) },
+      );
+    },
+  );
+
+  it("need no stop when nothing moves", async () => {
+    const { world, driver } = await newPlotter();
+    await world.run(driver.stopMove());
+    await world.run(driver.walkTo(20, 10));
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: 20, yMm: 10 });
+  });
+
   it("moves to positions, jogs, sets home, and traces a frame with the pen up", async () => {
     const { world, driver, board } = await newPlotter();
     await world.run(driver.walkTo(40, 30));

@@ -1,13 +1,13 @@
-import { createElement } from "react";
+import { createElement, type ReactElement } from "react";
 import { renderToStaticMarkup } from "react-dom/server";
 import { describe, expect, it } from "vitest";
 import { MACHINES, machineById, type MachineProfile } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Plotter } from "../../src/schema/index.js";
 import type { Backend } from "../../web/backend/backend.js";
-import { MachineSetUp } from "../../web/plotter/machine.js";
+import { MachinePanel, MachineSetUp } from "../../web/plotter/machine.js";
 import type { Actions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
-import { createPageStore } from "../../web/state/store.js";
+import { createPageStore, type PageState } from "../../web/state/store.js";
 import { PageContext } from "../../web/state/use-store.js";
 import { makePlotter } from "./fixtures.js";
 import { adviceWords, homeWords } from "../../web/plotter/machine-words.js";
@@ -42,16 +42,38 @@ describe("the words about the firmware", () => {
   });
 
   it("stand once with the facts about the plotter", () => {
-    const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
-    const state = { ...store.getState(), plotters: [board("2.8.1")], plotterId: "one" };
-    const page = { ...store, getState: () => state, getInitialState: () => state };
-    const html = renderToStaticMarkup(
-      createElement(
-        PageContext,
-        { value: { store: page, backend: { features: {} } as Backend, actions: {} as Actions } },
-        createElement(MachineSetUp, null, null),
-      ),
-    );
+    const html = page(createElement(MachineSetUp, null, null), { plotters: [board("2.8.1")] });
     expect(html.match(/Before firmware 3\.0\.0/g)).toHaveLength(1);
   });
 });
+
+describe("the button that stops a move by hand", () => {
+  const shown = (activity: Plotter["activity"], role: "operate" | "watch"): boolean => {
+    const connection = activity === "none" ? "idle" : "busy";
+    const plotters = [makePlotter("one", { activity, connection })];
+    const me = { role, id: null, name: null };
+    return />Stop</.test(page(createElement(MachinePanel), { plotters, me, link: "connected" }));
+  };
+
+  it.each(["operate", "watch"] as const)(
+    "is there while the plotter moves, for a device that may %s",
+    (role) => {
+      expect(shown("moving", role)).toBe(true);
+      expect(shown("none", role)).toBe(false);
+      // A plot has buttons of its own.
+      expect(shown("plotting", role)).toBe(false);
+    },
+  );
+});
+
+/** A part of the page as HTML. */
+function page(part: ReactElement, change: Partial<PageState>): string {
+  const store = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW });
+  const state = { ...store.getState(), plotterId: "one", ...change };
+  const value = {
+    store: { ...store, getState: () => state, getInitialState: () => state },
+    backend: { features: {} } as Backend,
+    actions: {} as Actions,
+  };
+  return renderToStaticMarkup(createElement(PageContext, { value }, part));
+}

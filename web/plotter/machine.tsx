@@ -10,7 +10,7 @@ import { Select } from "../ui/choice.js";
 import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { PenAtHand } from "./pen-at-hand.js";
+import { isMovingByHand, PenAtHand, StopMove } from "./pen-at-hand.js";
 import { adviceWords, homeWords, lampOf, penWords, plotterWords } from "./machine-words.js";
 import { saveFile } from "../ui/save-file.js";
 import { SettingsGroup } from "../ui/settings-group.js";
@@ -22,6 +22,7 @@ export const MachinePanel = () => {
   const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
+  const isMoving = usePageState(isMovingByHand);
   const { connectPlotter } = useActions();
   const mayConnect = backend.features.asksForPort && backend.features.whyNoPort === null;
   return (
@@ -31,7 +32,7 @@ export const MachinePanel = () => {
       {isMine && plotter?.kind === "virtual" && mayConnect && (
         <Button onClick={() => void connectPlotter(plotter.id)}>{words.connect}</Button>
       )}
-      {isMine && <PenAtHand />}
+      {isMine ? <PenAtHand /> : isMoving && <StopMove />}
     </section>
   );
 };

@@ -94,6 +94,7 @@ const isFirstPlot = (state: PageState): boolean => {
 
 const HomeButtons = ({ onHome }: { onHome?(): void }) => {
   const isOff = usePageState((state) => !isReady(state));
+  const isMoving = usePageState(isMovingByHand);
   const { moveByHand, motorsOff } = useActions();
   return (
     <div className="button-grid">
@@ -106,10 +107,26 @@ const HomeButtons = ({ onHome }: { onHome?(): void }) => {
       >
         {words.home}
       </Button>
-      <Button disabled={isOff} onClick={() => void motorsOff()}>
-        {words.motorsOff}
-      </Button>
+      {isMoving ? (
+        <StopMove />
+      ) : (
+        <Button disabled={isOff} onClick={() => void motorsOff()}>
+          {words.motorsOff}
+        </Button>
+      )}
     </div>
+  );
+};
+
+export const isMovingByHand = (state: PageState): boolean =>
+  state.link === "connected" && currentPlotter(state)?.activity === "moving";
+
+export const StopMove = () => {
+  const { stopMove } = useActions();
+  return (
+    <Button kind="danger" onClick={() => void stopMove()}>
+      {words.stop}
+    </Button>
   );
 };
 

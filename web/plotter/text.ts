@@ -53,6 +53,7 @@ export const penText = {
   up: "Pen up",
   down: "Pen down",
   motorsOff: "Motors off",
+  stop: "Stop",
   home: "Home",
   touch: "Try",
   touchHint:

@@ -136,6 +136,10 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
       const id = currentPlotter(store.getState())?.id;
       if (id) await attempt("motors-off", () => backend.plotters.motorsOff(id));
     },
+    stopMove: async (): Promise<void> => {
+      const id = currentPlotter(store.getState())?.id;
+      if (id) await attempt("stop", () => backend.plotters.stop(id));
+    },
     /** Lets the user choose the port, where the page itself opens it. */
     connectPlotter: (id: string) => attempt("connect", () => backend.connect(id)),
     /**

@@ -105,12 +105,12 @@ const operationOf = (group: keyof typeof OPERATIONS, name: string): Operation =>
 const isReading = ({ group, name }: HostCall): boolean =>
   group === "host" ? name !== "reconnect" : operationOf(group, name).role === "watch";
 
-/** All pages may stop a running job, but only the operator may cancel a queued one. */
+/** All pages may stop a running job or a move by hand, but only the operator may cancel a queued job. */
 const isOpenToAll = ({ isRunning }: Host, call: HostCall): boolean =>
   isReading(call) ||
   (call.group !== "host" &&
     operationOf(call.group, call.name).role === "stop" &&
-    isRunning(String(call.input.id)));
+    (call.group !== "jobs" || isRunning(String(call.input.id))));
 
 async function serve(): Promise<void> {
   for (;;) {
