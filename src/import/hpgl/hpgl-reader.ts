@@ -18,8 +18,10 @@ export interface HpglCommand {
 const ETX = "\u0003";
 const BETWEEN_COMMANDS = /[^A-Za-z\u001b]*/y;
 const NAME = /[A-Za-z]{2}/y;
-/** Numbers and what separates them. HPGL has no exponents, but programs write them, and no command is one letter. */
-const NUMBERS = /(?:[^A-Za-z";\u0003\u001b]|(?<=[\d.])[Ee](?=[+-]?\d))*/y;
+/** Numbers and what separates them. */
+const NUMBERS = /[^A-Za-z";\u0003\u001b]*/y;
+/** HPGL has none, but programs write them, and no command has one letter. */
+const EXPONENT = /(?<=[\d.])[Ee][+-]?\d+/y;
 const NUMBER = /[+-]?(?:\d+\.?\d*|\.\d+)(?:[Ee][+-]?\d+)?/g;
 const MESSAGE = /[^;\r\n\u0003]*/y;
 /** A text without an end is taken to end with the line or at a semicolon. */
@@ -86,9 +88,12 @@ export class HpglReader {
 
   private numbers(): number[] {
     let text = this.take(NUMBERS);
-    while (this.text[this.at] === '"') {
-      this.string();
-      text += ` ${this.take(NUMBERS)}`;
+    for (;;) {
+      const isString = this.text[this.at] === '"';
+      const exponent = isString ? "" : this.take(EXPONENT);
+      if (isString) this.string();
+      else if (exponent === "") break;
+      text += `${isString ? " " : exponent}${this.take(NUMBERS)}`;
     }
     return (text.match(NUMBER) ?? []).map(Number);
   }

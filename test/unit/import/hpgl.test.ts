@@ -178,6 +178,11 @@ describe("coordinates of HPGL", () => {
     expect(shapes("IN;SP1;PU0,0;PD1e3,0,1.5E+3,2e-5;PU")).toEqual(["M0 0L25 0L37.5 0"]);
   });
 
+  it("may be a million in one command", { timeout: 60_000 }, () => {
+    const { paths } = hpgl(`IN;SP1;PU0,0;PD${"1200,3400,".repeat(1_000_000)}0,0;PU`);
+    expect([paths.count, paths.coords.length]).toEqual([1, 2 * 1_000_002]);
+  });
+
   it("report numbers that are missing", () => {
     expect(hpgl(`IN;${LINE}AA1,2;CI;PU1;`).warnings.map(({ code, count }) => [code, count])).toEqual([
       ["attribute-fault", 3],

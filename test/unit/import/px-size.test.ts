@@ -47,6 +47,24 @@ describe("the writer's px", () => {
       "215.9 × 279.4 mm at 72",
     ],
     [
+      "its layer names in a layer",
+      svgOf(`id="Ebene_2" ${boxed(595.28, 841.89)}`).replace(
+        /(<path.*\/>)/,
+        '<g id="Ebene_1-2" data-name="Ebene 1">$1</g>',
+      ),
+      72,
+      "210 × 297 mm at 72",
+    ],
+    [
+      "its comment behind the root element",
+      svgOf(`id="Layer_1" version="1.1" ${boxed(612, 792)}`).replace(
+        "><path",
+        `>\n  ${ILLUSTRATOR.split("\n")[1]}\n<path`,
+      ),
+      72,
+      "215.9 × 279.4 mm at 72",
+    ],
+    [
       "Inkscape 0.48's version",
       svgOf(`${INKSCAPE} inkscape:version="0.48.4 r9939" width="744.09448819" height="1052.3622047"`),
       90,
@@ -138,9 +156,12 @@ describe("the writer's px", () => {
     expect(importSvg(svg).pageFrom).toBe("proportions");
   });
 
-  it("is not taken from a text or a comment behind the root element", () => {
-    const svg = svgOf(sized(500, 500)).replace("</svg>", "<!-- Generator: Adobe Illustrator --></svg>");
-    expect([pxPerInchOf(svg), notes(svg)]).toEqual([96, []]);
+  it("is not taken from a comment further down, or from names without layers", () => {
+    for (const svg of [
+      svgOf(sized(500, 500)).replace("</svg>", "<!-- Generator: Adobe Illustrator --></svg>"),
+      svgOf(`id="chart" ${sized(500, 500)}`).replace("<path", '<g id="a_1" data-name="a"/><path'),
+    ])
+      expect([pxPerInchOf(svg), notes(svg)]).toEqual([96, []]);
   });
 });
 
