@@ -64,16 +64,16 @@ const jobOperations = ({ queue, uploads, storeText }: HostParts) =>
     },
     recover: async (id) => {
       await queue.plotterSettled(id);
-      return queue.recover(id);
+      return queue.plots.recover(id);
     },
-    pause: (id) => queue.pause(id),
-    resume: (id) => queue.resume(id),
-    cancel: (id) => queue.cancel(id),
+    pause: (id) => queue.plots.pause(id),
+    resume: (id) => queue.plots.resume(id),
+    cancel: (id) => queue.plots.cancel(id),
     requeue: (id) => queue.requeue(id),
-    "emergency-stop": (id) => queue.emergencyStop(id),
+    "emergency-stop": (id) => queue.plots.emergencyStop(id),
     change: (id, change) => queue.change(id, change),
-    place: (id, by) => queue.movePlace(id, by),
-    "check-place": (id) => queue.checkPlace(id),
+    place: (id, by) => queue.plots.movePlace(id, by),
+    "check-place": (id) => queue.plots.checkPlace(id),
     duplicate: (id) => queue.duplicate(id),
     remove: (id) => queue.remove(id),
   }) satisfies OperationHandlers<Requester>["jobs"];
@@ -101,7 +101,7 @@ const plotterOperations = ({ queue, registry, log }: HostParts) => {
     log: (id) => find(id).log(),
     pen: async (id, { up, heightPct, settings }) => {
       const plotter = findFree(id);
-      await plotter.pen(up, heightPct, queue.handSettings(id, { settings }));
+      await plotter.pen({ up, heightPct }, queue.handSettings(id, { settings }));
       return plotter.snapshot();
     },
     motorsOff: async (id) => {

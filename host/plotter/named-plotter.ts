@@ -1,10 +1,8 @@
 /** A plotter that is stored: a plotter driver with an id, a name and a machine. */
 import type { Springs } from "../../src/internal.js";
-import type { CommandAnswer, HandMove, Plotter, PlotSettings } from "../../src/schema/index.js";
+import type { Plotter, PlotSettings } from "../../src/schema/index.js";
 import { PlotterDriver } from "./plotter-driver.js";
 import type { PlotterOptions } from "./plotter-state.js";
-import type { PlotPlanner } from "../planning/plot-planner.js";
-import type { LivePlotRun, PlotStart } from "./types.js";
 import type { ManagedPlotter } from "./plotter-port.js";
 import type { PlotterRow } from "../storage.js";
 
@@ -29,7 +27,8 @@ export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions):
   const { log, ...parts } = options;
   const plotter = new NamedPlotter(row, { ...parts, device: row.device });
   let last: string | null = null;
-  plotter.onChange(({ name, connection, message, device }) => {
+  plotter.onChange(() => {
+    const { name, connection, message, device } = plotter.snapshot();
     const line = `${name}${device === null ? "" : ` at ${device}`}: ${connection}${message === null ? "" : `. ${message}`}`;
     // It is closed if it is absent without a reason.
     const isClosed = connection === "absent" && message === null;
@@ -41,84 +40,32 @@ export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions):
   return plotter;
 }
 
-export class NamedPlotter implements ManagedPlotter {
+/** The connection itself, with what is stored about the plotter. */
+export class NamedPlotter extends PlotterDriver implements ManagedPlotter {
   readonly id: string;
-  readonly #driver: PlotterDriver;
-  readonly #listeners: ((plotter: Plotter) => void)[] = [];
   #name: string | null;
   #machine: string | null;
 
   constructor({ id, name, machine }: Omit<PlotterRow, "device">, options: PlotterOptions) {
+    super(options);
     this.id = id;
     this.#name = name;
     this.#machine = machine;
-    this.#driver = new PlotterDriver(options);
-    this.#driver.onChange(() => this.#notify());
-  }
-
-  start(): Promise<void> {
-    return this.#driver.start();
   }
 
   snapshot(): Plotter {
-    const { state } = this.#driver;
-    const name = this.#name ?? (state.kind === "virtual" ? "Virtual plotter" : "Plotter");
-    return { id: this.id, name, machine: this.#machine, ...state };
-  }
-
-  settled(): Promise<void> {
-    return this.#driver.settled();
+    const name = this.#name ?? (this.state.kind === "virtual" ? "Virtual plotter" : "Plotter");
+    return { id: this.id, name, machine: this.#machine, ...this.state };
   }
 
   rename(name: string): void {
     this.#name = name;
-    this.#notify();
+    this.announce();
   }
 
   useMachine(machine: string | null, settings: PlotSettings): void {
-    this.#driver.use(settings);
+    this.use(settings);
     this.#machine = machine;
-    this.#notify();
-  }
-
-  onChange(listener: (plotter: Plotter) => void): void {
-    this.#listeners.push(listener);
-  }
-
-  plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> {
-    return this.#driver.plot(planner, settings, start);
-  }
-
-  pen(up: boolean, heightPct?: number, settings?: PlotSettings): Promise<void> {
-    return this.#driver.pen({ up, heightPct }, settings);
-  }
-
-  motorsOff(): Promise<void> {
-    return this.#driver.motorsOff();
-  }
-
-  log(): string {
-    return this.#driver.log();
-  }
-
-  move(move: HandMove, settings?: PlotSettings): Promise<void> {
-    return this.#driver.move(move, settings);
-  }
-
-  stopMove(): Promise<void> {
-    return this.#driver.stopMove();
-  }
-
-  command(line: string): Promise<CommandAnswer> {
-    return this.#driver.command(line);
-  }
-
-  close(): Promise<void> {
-    return this.#driver.close();
-  }
-
-  #notify(): void {
-    const state = this.snapshot();
-    for (const listener of this.#listeners) listener(state);
+    this.announce();
   }
 }

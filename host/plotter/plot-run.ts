@@ -118,10 +118,10 @@ export class MachinePlot implements LivePlotRun {
     if (this.#stream.progress.latest) listener(this.#stream.progress.latest);
   }
 
-  /** If the plot already waits for its first pen, the listener learns it now. */
+  /** If the plot is held already, the listener learns it now. */
   onHeld(listener: HeldListener): void {
     this.#heldListeners.push(listener);
-    if (this.#held && this.#wait) listener(true, this.#wait);
+    if (this.#held) listener(true, this.#wait);
   }
 
   pause(): Promise<void> {

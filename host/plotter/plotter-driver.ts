@@ -29,7 +29,16 @@ import { isOtherBoard, startOn } from "./board-id.js";
 import { connect, connectFailed, type Connection } from "./connection.js";
 import { moveByHand } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
-import { initialState, penRested, UNKNOWN, type PlotterOptions, type PlotterState } from "./plotter-state.js";
+import {
+  closedError,
+  initialState,
+  notStarted,
+  penRested,
+  UNKNOWN,
+  welcome,
+  type PlotterOptions,
+  type PlotterState,
+} from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";
 import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
 
@@ -70,7 +79,10 @@ export class PlotterDriver {
       lost: (isBack) => this.#powerLost(isBack),
       restored: () => {
         if (this.#closed) return;
-        this.#setState({ connection: "idle", message: this.#connection && this.#welcome(this.#connection) });
+        this.#setState({
+          connection: "idle",
+          message: this.#connection && welcome(this.#connection.kind, this.#options.device),
+        });
       },
     });
     this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
@@ -88,6 +100,11 @@ export class PlotterDriver {
 
   onChange(listener: (state: PlotterState) => void): void {
     this.#listeners.push(listener);
+  }
+
+  /** Tells the listeners that something has changed. */
+  protected announce(): void {
+    for (const listener of this.#listeners) listener(this.#current);
   }
 
   /** Connects. Never rejects: errors are shown in `state`, and thrown by methods that need the board. */
@@ -165,52 +182,6 @@ export class PlotterDriver {
       this.#settings = settings;
       return moveByHand(machine, move, settings);
     });
-  }
-
-  /** Lifts the pen and moves to the limit switches if the machine has them, otherwise to the set home. */
-  home(settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "home" }, settings);
-  }
-
-  /** Makes the current position home. */
-  setHome(settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "set-home" }, settings);
-  }
-
-  /** Moves to a position in mm from home, pen up. */
-  walkTo(xMm: number, yMm: number, settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "walk", xMm, yMm }, settings);
-  }
-
-  /** Moves by a distance in mm, pen up. May go beyond home, since this is how the user finds home. */
-  jog(dxMm: number, dyMm: number, settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "jog", dxMm, dyMm }, settings);
-  }
-
-  /** Lowers the pen and lifts it again, to check the heights. */
-  cyclePen(settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "cycle-pen" }, settings);
-  }
-
-  /** Moves around a rectangle (mm from home) with the pen up, and back to the previous position. */
-  traceFrame(x0Mm: number, y0Mm: number, x1Mm: number, y1Mm: number, settings?: PlotSettings): Promise<void> {
-    const boxMm = {
-      xMm: Math.min(x0Mm, x1Mm),
-      yMm: Math.min(y0Mm, y1Mm),
-      widthMm: Math.abs(x1Mm - x0Mm),
-      heightMm: Math.abs(y1Mm - y0Mm),
-    };
-    return this.move({ kind: "frame", boxMm }, settings);
-  }
-
-  /** Draws a small pattern at the current position with the given settings, and comes back. */
-  drawTestPatch(settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "test-patch" }, settings);
-  }
-
-  /** Draws a square at the current position; its measured size gives the motor steps per mm. */
-  drawSquare(sizeMm: number, settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "square", sizeMm }, settings);
   }
 
   /** Stops a manual move at once, which then rejects with `conflict`. Resolves when the pen is up. */
@@ -348,15 +319,11 @@ export class PlotterDriver {
       boardName: machine.name,
       boardSerialNumber: connection.serialNumber,
       firmware: machine.firmware,
-      message: machine.left?.penUp === false ? penRested(this.#current, restedS) : this.#welcome(connection),
+      message:
+        machine.left?.penUp === false
+          ? penRested(this.#current, restedS)
+          : welcome(connection.kind, this.#options.device),
     });
-  }
-
-  #welcome(connection: Connection): string | null {
-    if (connection.kind === "serial") return null;
-    return this.#options.device === "auto"
-      ? "No plotter is plugged in, so this is the virtual board: nothing is drawn on paper."
-      : "This is the virtual board: nothing is drawn on paper.";
   }
 
   #lost(error: PlotwrightError): void {
@@ -465,12 +432,6 @@ export class PlotterDriver {
     const keys = Object.keys(change) as (keyof PlotterState)[];
     if (keys.every((key) => this.#current[key] === change[key])) return;
     this.#current = { ...this.#current, ...change };
-    for (const listener of this.#listeners) listener(this.#current);
+    this.announce();
   }
 }
-
-const notStarted = (): PlotwrightError =>
-  new PlotwrightError("no-board", "The plotter is not connected yet: start it first.");
-
-const closedError = (): PlotwrightError =>
-  new PlotwrightError("disconnected", "The plotter was closed: start it again to continue.");

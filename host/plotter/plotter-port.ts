@@ -3,16 +3,23 @@ import type { CommandAnswer, HandMove, Plotter, PlotSettings } from "../../src/s
 import type { PlotPlanner } from "../planning/plot-planner.js";
 import type { LivePlotRun, PlotStart } from "./types.js";
 
+interface PenMove {
+  readonly up: boolean;
+  /** Default: the height in the settings. */
+  readonly heightPct?: number | undefined;
+}
+
 export interface PlotterPort {
   readonly id: string;
   snapshot(): Plotter;
   /** Resolves when it is known whether the board is connected: immediately, unless it is still connecting. */
   settled(): Promise<void>;
-  onChange(listener: (plotter: Plotter) => void): void;
+  /** Called after each change of `snapshot`. */
+  onChange(listener: () => void): void;
   /** Starts a plot; throws `no-board`, `busy` or `board-error` if it can't. */
   plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;
   /** With the machine and heights of `settings`; default: those of the last job or move. */
-  pen(up: boolean, heightPct?: number, settings?: PlotSettings): Promise<void>;
+  pen(request: PenMove, settings?: PlotSettings): Promise<void>;
   motorsOff(): Promise<void>;
   /**
    * A manual move with the machine, speeds and heights of `settings`; default: those of the last job or move.

@@ -209,8 +209,9 @@ export class PlotterRegistry {
   #open(row: PlotterRow): ManagedPlotter {
     const isTaken = (path: string): boolean => this.#ownerOf(path, row.id) !== undefined;
     const port = this.#parts.open(row, isTaken, this.settingsOf(row.id).settings);
-    port.onChange((plotter) => {
-      if (this.#ports.get(row.id) === port) this.#parts.announce({ type: "plotter", plotter });
+    port.onChange(() => {
+      if (this.#ports.get(row.id) !== port) return;
+      this.#parts.announce({ type: "plotter", plotter: port.snapshot() });
     });
     this.#ports.set(row.id, port);
     return port;

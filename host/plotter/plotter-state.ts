@@ -1,5 +1,5 @@
-/** Options and state of a plotter driver. */
-import type { Clock } from "../../src/index.js";
+/** Options and state of a plotter driver, and its messages about them. */
+import { PlotwrightError, type Clock } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";
 import type { Devices } from "./devices.js";
@@ -65,3 +65,17 @@ export function penRested({ xMm, yMm }: PlotterState, restedS: number | null): s
       : `The pen rested on the paper for ${Math.round(restedS)} s${where}, while the board was not connected`;
   return `${rested}. It is lifted now: look for a blot there before you resume.`;
 }
+
+/** The message of a new connection; null for a real board. `device` is as in the options. */
+export function welcome(kind: PlotterState["kind"], device: string): string | null {
+  if (kind === "serial") return null;
+  return device === "auto"
+    ? "No plotter is plugged in, so this is the virtual board: nothing is drawn on paper."
+    : "This is the virtual board: nothing is drawn on paper.";
+}
+
+export const notStarted = (): PlotwrightError =>
+  new PlotwrightError("no-board", "The plotter is not connected yet: start it first.");
+
+export const closedError = (): PlotwrightError =>
+  new PlotwrightError("disconnected", "The plotter was closed: start it again to continue.");

@@ -1,4 +1,4 @@
-/** Finds the plotter of a request. */
+/** Finds the plotter of a request, and checks that it is free for it. */
 import { PlotwrightError } from "../../src/index.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
 
@@ -22,4 +22,12 @@ export function findFreePlotter(
     throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
   }
   return plotter;
+}
+
+/** Throws `busy` or `no-board` unless the plotter is connected and idle. */
+export function mustBeIdle(plotter: PlotterPort): void {
+  const { connection, message, name } = plotter.snapshot();
+  if (connection === "idle") return;
+  if (connection === "busy") throw new PlotwrightError("busy", `${name} is busy. Wait for it to finish.`);
+  throw new PlotwrightError("no-board", message ?? `${name} is not connected. Plug it in and switch it on.`);
 }

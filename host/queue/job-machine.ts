@@ -2,7 +2,7 @@
  * The state machine of a job (diagram: src/schema/job.ts), as one pure function: (job, event) -> job; throws `conflict`.
  * The queue applies, stores and announces the result.
  */
-import { PlotwrightError } from "../../src/index.js";
+import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import type { Job, JobPlace, JobState } from "../../src/schema/index.js";
 
 export type JobEvent =
@@ -91,3 +91,19 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
 /** The planned remaining time; null if the job was never planned. */
 const remainingS = ({ stats, progress }: Job): number | null =>
   stats === null ? null : stats.durationS * (1 - progress);
+
+/**
+ * Errors of the board or its connection, after which a plot can resume where it stopped. Any other error
+ * would occur again.
+ */
+const INTERRUPTIONS: readonly ErrorCode[] = [
+  "no-board",
+  "disconnected",
+  "board-error",
+  "board-timeout",
+  "busy",
+  "not-allowed",
+];
+
+export const canContinue = (error: Error): boolean =>
+  error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);

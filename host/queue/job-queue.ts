@@ -10,7 +10,6 @@ import {
   type JobChange,
   type JobPage,
   type JobPatch,
-  type MovePlace,
   type PlotSettings,
   type QueueSettings,
 } from "../../src/schema/index.js";
@@ -32,10 +31,11 @@ import { queuedJob } from "./queued-job.js";
 const MAX_SETTINGS_BYTES = 100_000;
 
 export class JobQueue {
+  /** The jobs that are on a plotter: pause, resume, cancel and the like. */
+  readonly plots: RunningPlots;
   readonly #parts: QueueParts;
   readonly #jobs: JobList;
   readonly #settings: JobSettings;
-  readonly #runs: RunningPlots;
   /** Starts in progress, by job id. */
   readonly #beginning = new Map<string, Promise<Job | string>>();
 
@@ -44,7 +44,7 @@ export class JobQueue {
     this.#parts = parts;
     this.#jobs = new JobList(parts);
     this.#settings = new JobSettings(parts, this.#jobs);
-    this.#runs = new RunningPlots(parts, this.#jobs, this.#settings, (job) => this.#done(job));
+    this.plots = new RunningPlots(parts, this.#jobs, this.#settings, (job) => this.#done(job));
   }
 
   /** Queue order first, then history, newest first. */
@@ -248,7 +248,7 @@ export class JobQueue {
   }
 
   isPlotterBusy(plotterId: string): boolean {
-    return this.#runs.isBusy(plotterId);
+    return this.plots.isBusy(plotterId);
   }
 
   /**
@@ -262,10 +262,6 @@ export class JobQueue {
     return started;
   }
 
-  recover(id: string): Job {
-    return this.#runs.recover(id);
-  }
-
   /**
    * Resolves when it is known whether the job's plotter is connected, which takes a moment after the server
    * starts.
@@ -276,36 +272,12 @@ export class JobQueue {
 
   async change(id: string, change: JobChange): Promise<Job> {
     mustFit(change);
-    return this.#runs.change(id, change);
-  }
-
-  emergencyStop(id: string): Promise<Job> {
-    return this.#runs.emergencyStop(id);
-  }
-
-  movePlace(id: string, by: MovePlace): Job {
-    return this.#runs.movePlace(id, by);
-  }
-
-  checkPlace(id: string): Promise<Job> {
-    return this.#runs.checkPlace(id);
-  }
-
-  pause(id: string): Job {
-    return this.#runs.pause(id);
-  }
-
-  resume(id: string): Job {
-    return this.#runs.resume(id);
-  }
-
-  cancel(id: string): Job {
-    return this.#runs.cancel(id);
+    return this.plots.change(id, change);
   }
 
   /** Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. */
   close(): Promise<void> {
-    return this.#runs.close();
+    return this.plots.close();
   }
 
   /** Returns the job, or why it must not start here. Two calls at the same time share one start. */
@@ -319,12 +291,12 @@ export class JobQueue {
 
   async #claimAndStart(id: string): Promise<Job | string> {
     const { claims } = this.#parts;
-    if (claims === undefined) return this.#runs.start(id);
-    this.#runs.mustBeStartable(id);
+    if (claims === undefined) return this.plots.start(id);
+    this.plots.mustBeStartable(id);
     const refusal = await claims.claim(id);
     if (refusal !== null) return refusal;
     try {
-      return this.#runs.start(id);
+      return this.plots.start(id);
     } catch (error) {
       // During the claim the plotter may have become busy, or the job may have been removed.
       await claims.release(id);
@@ -335,7 +307,7 @@ export class JobQueue {
   #done(job: Job): void {
     const { plotterId } = job;
     this.#jobs.updateExpected(plotterId, timeRatio(this.list(), plotterId));
-    if (!this.settings(plotterId).runOn || this.#runs.isClosing) return;
+    if (!this.settings(plotterId).runOn || this.plots.isClosing) return;
     // A full disk stores neither the start nor the message why the job did not start. That must not end the server.
     this.#startNext(plotterId).catch((error: unknown) => {
       this.#parts.log?.(
@@ -364,7 +336,7 @@ export class JobQueue {
 
   /** Does nothing if the job was removed meanwhile or the server is closing. */
   #note(id: string, message: string): void {
-    if (!this.#runs.isClosing && this.#jobs.has(id)) this.#jobs.note(id, message);
+    if (!this.plots.isClosing && this.#jobs.has(id)) this.#jobs.note(id, message);
   }
 
   #newJob(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {

@@ -1,9 +1,9 @@
 /**
- * The plots that are running, at most one per plotter. Applies the reports of the runs to their jobs, and
- * passes requests for a running job to its run.
+ * The plots that are running, at most one per plotter. Opens the job's planner, passes it to the plotter, applies the
+ * reports of the run to the job, and passes requests for the job to the run.
  */
 import { z } from "zod";
-import { PlotwrightError, type ErrorCode, type Place } from "../../src/index.js";
+import { PlotwrightError, type Place } from "../../src/index.js";
 import {
   boardIdSchema,
   ENDED_STATES,
@@ -14,41 +14,39 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
-import type { JournalEntry, PlotProgress } from "../plotter/types.js";
+import type { JournalEntry, LivePlotRun, PlotOutcome, PlotProgress, PlotStart } from "../plotter/types.js";
 import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
 import type { JobSettings } from "./job-settings.js";
-import { applyJobEvent, isOnPlotter } from "./job-machine.js";
+import { applyJobEvent, canContinue, isOnPlotter } from "./job-machine.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
-import { findPlotter } from "./find-plotter.js";
+import { findPlotter, mustBeIdle } from "./find-plotter.js";
 import type { QueueParts } from "./queue-parts.js";
 import { MotionTimer } from "./queued-job.js";
-import { Runner, type RunEnd } from "./runner.js";
 
 export const SERVER_STOPPED =
   "The server stopped while this was plotting. Check pen and paper, then resume where it stopped.";
 
-/**
- * Errors of the board or its connection, after which a plot can resume where it stopped. Any other error
- * would occur again.
- */
-const INTERRUPTIONS: readonly ErrorCode[] = [
-  "no-board",
-  "disconnected",
-  "board-error",
-  "board-timeout",
-  "busy",
-  "not-allowed",
-];
-
 interface Running {
-  readonly jobId: string;
-  readonly runner: Runner;
+  readonly job: Job;
+  readonly plotter: PlotterPort;
   readonly timer: MotionTimer;
   /** What may be seen on the paper; the job's message has it also at the end. The last ones only. */
   readonly notes: string[];
+  /** Aborted when the plot is cancelled or left. */
+  readonly abort: AbortController;
+  /** Ended because the program stops. */
+  isLeft: boolean;
+  /** Null while the plot is still being planned. */
+  run: LivePlotRun | null;
+  /** Whether the run begins held. Once it exists, it knows itself what the user wants. */
+  beginsHeld: boolean;
+  /** Settles after the end has been applied to the job; never rejects. */
+  finished: Promise<void>;
 }
 const MAX_NOTES = 5;
+
+type RunEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
 
 export class RunningPlots {
   readonly #parts: QueueParts;
@@ -112,7 +110,7 @@ export class RunningPlots {
       { ...this.#settings.onPlotter(this.#jobs.get(id)), place: from ?? { strokeIndex: 0, alongMm: 0 } },
     );
     this.#keepPlace({ id, place: from });
-    this.#begin(plotter, job).hold(this.#parts.nowIso());
+    this.#begin(plotter, job).timer.hold(this.#parts.nowIso());
     const isOther = board !== undefined && isOtherBoard(board, found);
     const isLost = isOther || found.xMm === null;
     const place = isLost
@@ -123,48 +121,55 @@ export class RunningPlots {
 
   /** Changes pen heights and speeds of a job that is plotting or held. */
   async change(id: string, change: JobChange): Promise<Job> {
-    const { live } = this.#runnerOf(id, ["plotting", "paused"], "changed");
+    const run = this.#liveRun(id, ["plotting", "paused"], "changed");
     const { pen, motion, speedPct } = change;
     const whole = this.#settings.changed(this.#jobs.get(id), { settings: { pen, motion } }).settings;
     const now = { ...(pen && { pen: whole.pen }), ...(motion && { motion: whole.motion }) };
-    await live.change({ ...now, speedPct });
+    await run.change({ ...now, speedPct });
     const job = this.#jobs.get(id);
     const settings = { ...job.settings, ...now };
     return this.#jobs.save({ ...job, settings, speedPct: speedPct ?? job.speedPct });
   }
 
-  /** Stops without slowing down; afterwards the job is held. */
+  /** Stops without slowing down; afterwards the job is held. While it is still being planned nothing moves. */
   async emergencyStop(id: string): Promise<Job> {
-    await this.#runnerOf(id, ["plotting", "paused"], "stopped").emergencyStop();
+    const running = this.#runningOf(id, ["plotting", "paused"], "stopped");
+    if (running.run === null) running.beginsHeld = true;
+    else await running.run.emergencyStop();
     return this.#jobs.get(id);
   }
 
   /** Moves the place from which a held job will resume. */
   movePlace(id: string, by: MovePlace): Job {
-    const place = this.#runnerOf(id, ["paused"], "moved along").live.moveHoldPlace(by);
+    const place = this.#liveRun(id, ["paused"], "moved along").moveHoldPlace(by);
     return this.#jobs.save({ ...this.#jobs.get(id), place: jobPlace(place) });
   }
 
   /** Travels to the place of a held job with the pen up. */
   async checkPlace(id: string): Promise<Job> {
-    await this.#runnerOf(id, ["paused"], "checked").live.checkHoldPlace();
+    await this.#liveRun(id, ["paused"], "checked").checkHoldPlace();
     return this.#jobs.get(id);
   }
 
   pause(id: string): Job {
-    this.#runnerOf(id, ["plotting"], "paused").pause();
+    const running = this.#runningOf(id, ["plotting"], "paused");
+    if (running.run === null) running.beginsHeld = true;
+    else this.#ask(running, running.run.pause());
     return this.#jobs.note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
   }
 
   resume(id: string): Job {
-    this.#runnerOf(id, ["paused"], "resumed").resume();
+    const running = this.#runningOf(id, ["paused"], "resumed");
+    if (running.run === null) running.beginsHeld = false;
+    else this.#ask(running, this.#resume(running, running.run));
     return this.#jobs.note(id, "Resuming.");
   }
 
   cancel(id: string): Job {
     const running = this.#running.get(this.#jobs.get(id).plotterId);
-    if (running?.jobId !== id) return this.#cancelled(id);
-    running.runner.cancel();
+    if (running?.job.id !== id) return this.#cancelled(id);
+    running.abort.abort();
+    if (running.run !== null) this.#ask(running, running.run.cancel());
     return this.#jobs.note(id, "Cancelling: the pen lifts and goes home.");
   }
 
@@ -175,44 +180,104 @@ export class RunningPlots {
   async close(): Promise<void> {
     this.#closing = true;
     const running = [...this.#running.values()];
-    for (const { runner } of running) runner.leave();
-    await Promise.all(running.map(({ runner }) => runner.finished));
+    for (const one of running) this.#leave(one);
+    await Promise.all(running.map(({ finished }) => finished));
     this.#jobs.close();
   }
 
-  #begin(plotter: PlotterPort, job: Job): MotionTimer {
-    const drawing = this.#parts.store.drawingOf(job.id);
-    const from = job.place === null ? null : { stroke: job.place.strokeIndex, alongMm: job.place.alongMm };
-    const entry = this.#journal(job.id);
+  #begin(plotter: PlotterPort, job: Job): Running {
+    const running: Running = {
+      job,
+      plotter,
+      timer: new MotionTimer(this.#parts.nowIso()),
+      notes: [],
+      abort: new AbortController(),
+      isLeft: false,
+      run: null,
+      beginsHeld: job.place !== null,
+      finished: Promise.resolve(),
+    };
+    this.#running.set(plotter.id, running);
+    running.finished = this.#follow(running);
+    return running;
+  }
+
+  /** Plots, and applies the end to the job. */
+  async #follow(running: Running): Promise<void> {
+    const end = await this.#plot(running).catch((error: unknown): RunEnd => {
+      const wanted =
+        running.abort.signal.aborted && error instanceof PlotwrightError && error.code === "cancelled";
+      return wanted
+        ? { kind: "cancelled" }
+        : { kind: "failed", error: error instanceof Error ? error : new Error(String(error)) };
+    });
+    running.run = null;
+    this.#safely(running.job.id, () => this.#ended(running, end));
+  }
+
+  async #plot(running: Running): Promise<PlotOutcome> {
+    const { job, plotter, abort } = running;
+    const { id, settings, place, speedPct } = job;
+    const from = place === null ? null : { stroke: place.strokeIndex, alongMm: place.alongMm };
+    // An interrupted plot may have left the pen on the paper. So its planner is opened even after a cancel: cancelling
+    // the run then lifts the pen.
+    const signal = from === null ? abort.signal : new AbortController().signal;
+    const planner = await this.#parts.planning.open(this.#parts.store.drawingOf(id), settings, signal);
+    try {
+      const held = running.beginsHeld;
+      const run = await plotter.plot(planner, settings, { from, held, ...this.#startOf(running, from) });
+      running.run = run;
+      run.onProgress((progress) => this.#progress(id, plotter.id, progress));
+      run.onHeld((isHeld, wait = null) => this.#safely(id, () => this.#held(id, isHeld, wait)));
+      // Requests that came before the run existed.
+      if (abort.signal.aborted) this.#ask(running, running.isLeft ? run.leave() : run.cancel());
+      else if (running.beginsHeld && !held) this.#ask(running, run.pause());
+      else if (!running.beginsHeld && from !== null) this.#ask(running, this.#resume(running, run));
+      if (speedPct !== 100) this.#ask(running, run.change({ speedPct }));
+      return await run.finished;
+    } finally {
+      await planner.close();
+    }
+  }
+
+  /** What the plotter gets besides the place where the run starts. */
+  #startOf({ job: { id }, notes }: Running, from: Place | null): PlotStart {
+    const entry = this.#journal(id);
     // `received` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
-    const notes: string[] = [];
-    const runner = new Runner(
-      {
-        plotter,
-        settings: job.settings,
-        open: (signal) => this.#parts.planning.open(drawing, job.settings, signal),
-        from,
-        received: isJournalPlace ? entry?.received : undefined,
-        board: entry?.board,
-        speedPct: job.speedPct,
+    return {
+      received: isJournalPlace ? entry?.received : undefined,
+      board: entry?.board,
+      journal: { record: (written) => this.#safely(id, () => this.#saveJournal(id, written)) },
+      noted: (message) => {
+        notes.push(message);
+        if (notes.length > MAX_NOTES) notes.shift();
+        this.#safely(id, () => void this.#jobs.note(id, message));
       },
-      {
-        journal: (entry) => this.#safely(job.id, () => this.#saveJournal(job.id, entry)),
-        progress: (progress) => this.#progress(job.id, plotter.id, progress),
-        held: (held, wait) => this.#safely(job.id, () => this.#held(job.id, held, wait)),
-        refused: (message) => this.#safely(job.id, () => void this.#jobs.note(job.id, message)),
-        noted: (message) => {
-          notes.push(message);
-          if (notes.length > MAX_NOTES) notes.shift();
-          this.#safely(job.id, () => void this.#jobs.note(job.id, message));
-        },
-        ended: (end) => this.#safely(job.id, () => this.#ended(job.id, plotter.id, end)),
-      },
-    );
-    const timer = new MotionTimer(this.#parts.nowIso());
-    this.#running.set(plotter.id, { jobId: job.id, runner, timer, notes });
-    return timer;
+    };
+  }
+
+  /** A recovered job is paused before its run is held, and the run does not report that it was never held. */
+  async #resume({ job, abort }: Running, run: LivePlotRun): Promise<void> {
+    await run.resume();
+    if (!abort.signal.aborted) this.#safely(job.id, () => this.#held(job.id, false, null));
+  }
+
+  /** A cancelled plot is already about to end. */
+  #leave(running: Running): void {
+    if (running.abort.signal.aborted) return;
+    running.isLeft = true;
+    running.abort.abort();
+    if (running.run !== null) this.#ask(running, running.run.leave());
+  }
+
+  /** A request that can't be carried out is reported; the plot itself continues. */
+  #ask(running: Running, request: Promise<void>): void {
+    request.catch((error: unknown) => {
+      if (running.run === null) return;
+      const message = error instanceof Error ? error.message : String(error);
+      this.#safely(running.job.id, () => void this.#jobs.note(running.job.id, message));
+    });
   }
 
   /**
@@ -238,7 +303,7 @@ export class RunningPlots {
 
   #progress(jobId: string, plotterId: string, progress: PlotProgress): void {
     // The travel home of a cancelled plot is not progress of the drawing.
-    if (this.#running.get(plotterId)?.runner.isCancelling !== true) {
+    if (this.#running.get(plotterId)?.abort.signal.aborted !== true) {
       const { progress: share, elapsedS, remainingS } = progress;
       this.#jobs.progressed(jobId, { progress: share, elapsedS, remainingS });
     }
@@ -250,7 +315,7 @@ export class RunningPlots {
     const job = this.#jobs.get(id);
     const running = this.#running.get(job.plotterId);
     // Released only to go home: the job keeps its place and the pen that it waits for.
-    if (running?.runner.isCancelling === true) return;
+    if (running?.abort.signal.aborted === true) return;
     if (held && job.state === "plotting") {
       running?.timer.hold(this.#parts.nowIso());
       const waitsFor = wait ?? job.wait;
@@ -277,21 +342,24 @@ export class RunningPlots {
     this.#saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
   }
 
-  #ended(id: string, plotterId: string, end: RunEnd): void {
-    const { timer, runner, notes = [] } = this.#running.get(plotterId) ?? {};
-    this.#running.delete(plotterId);
+  #ended(running: Running, end: RunEnd): void {
+    this.#running.delete(running.plotter.id);
+    const {
+      job: { id },
+      notes,
+    } = running;
     const { store, nowIso } = this.#parts;
     // A plot that is partly on paper must stay recoverable, whatever the error.
     if (end.kind === "failed" && (canContinue(end.error) || store.journal(id) !== undefined)) {
       this.#interrupt(id, end.error.message);
     } else if (end.kind === "failed") {
       this.#jobs.apply(id, { type: "fail", message: end.error.message });
-    } else if (end.kind === "cancelled" && runner?.isLeft === true) this.#interrupt(id, this.#stopped);
+    } else if (end.kind === "cancelled" && running.isLeft) this.#interrupt(id, this.#stopped);
     else if (end.kind === "cancelled") this.#cancelled(id);
     else {
       // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.
       if (this.#jobs.get(id).state === "paused") this.#jobs.apply(id, { type: "release" });
-      this.#jobs.apply(id, { type: "finish" }, { plottedS: timer?.movedS(nowIso()) ?? null });
+      this.#jobs.apply(id, { type: "finish" }, { plottedS: running.timer.movedS(nowIso()) });
     }
     let job = this.#jobs.get(id);
     if (notes.length > 0)
@@ -322,17 +390,24 @@ export class RunningPlots {
   }
 
   #holdPlace(running: Running | undefined): JobPlace | null {
-    const place = running?.runner.live.holdPlace ?? null;
+    const place = running?.run?.holdPlace ?? null;
     return place === null ? null : jobPlace(place);
   }
 
-  #runnerOf(id: string, states: readonly Job["state"][], verb: string): Runner {
+  /** The run of a job for requests that need one; throws `conflict` while it is still being planned. */
+  #liveRun(id: string, states: readonly Job["state"][], verb: string): LivePlotRun {
+    const { run } = this.#runningOf(id, states, verb);
+    if (run !== null) return run;
+    throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
+  }
+
+  #runningOf(id: string, states: readonly Job["state"][], verb: string): Running {
     const job = this.#jobs.get(id);
     const running = this.#running.get(job.plotterId);
-    if (running?.jobId !== id || !states.includes(job.state)) {
+    if (running?.job.id !== id || !states.includes(job.state)) {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
     }
-    return running.runner;
+    return running;
   }
 
   /** The job's plotter; throws unless it is connected and has no other job. */
@@ -340,10 +415,10 @@ export class RunningPlots {
     if (this.#closing) throw new PlotwrightError("conflict", "plotwright is stopping.");
     const plotter = findPlotter(this.#parts.plotters, this.#jobs.get(id).plotterId);
     const other = this.#running.get(plotter.id);
-    if (other !== undefined && other.jobId !== id) {
+    if (other !== undefined && other.job.id !== id) {
       throw new PlotwrightError(
         "busy",
-        `"${this.#jobs.get(other.jobId).name}" is being plotted. Wait until it ends, or cancel it.`,
+        `"${this.#jobs.get(other.job.id).name}" is being plotted. Wait until it ends, or cancel it.`,
       );
     }
     mustBeIdle(plotter);
@@ -357,9 +432,6 @@ function penWords({ penName, layerName }: PlotWait): string {
 
 const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: stroke, alongMm });
 
-const canContinue = (error: Error): boolean =>
-  error instanceof PlotwrightError && INTERRUPTIONS.includes(error.code);
-
 /** What Store.journal returns. It may have been written by another version of this program. */
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
 const journalSchema = z.object({
@@ -372,11 +444,3 @@ const journalProgressSchema = z.object({
   elapsedS: z.number().min(0),
   remainingS: z.number().min(0).nullable(),
 });
-
-/** Throws `busy` or `no-board` unless the plotter is connected and idle. */
-function mustBeIdle(plotter: PlotterPort): void {
-  const { connection, message, name } = plotter.snapshot();
-  if (connection === "idle") return;
-  if (connection === "busy") throw new PlotwrightError("busy", `${name} is busy. Wait for it to finish.`);
-  throw new PlotwrightError("no-board", message ?? `${name} is not connected. Plug it in and switch it on.`);
-}

@@ -26,7 +26,7 @@ export async function runPen(
   const { upPct, downPct } = settings.pen;
   const heightPct = where === "up" ? upPct : where === "down" ? downPct : where;
   // A height in percent counts as down: the next move lifts the pen first.
-  await byHand(options, settings, io, (plotter) => plotter.pen(where === "up", heightPct));
+  await byHand(options, settings, io, (plotter) => plotter.pen({ up: where === "up", heightPct }));
 }
 
 /** Sends one line to the board and prints its answer. Rejects with `board-error` if the board refuses the line. */
@@ -68,7 +68,7 @@ export async function runFrame(
 /** Switches the motors off, so that the carriage can be pushed home by hand. */
 export async function runAlign(settings: PlotSettings, options: DeviceOptions, io: CliIo): Promise<void> {
   await byHand(options, settings, io, async (plotter) => {
-    await plotter.pen(true);
+    await plotter.pen({ up: true });
     await plotter.motorsOff();
   });
 }

@@ -3,6 +3,7 @@ import type { Clock } from "../../src/index.js";
 import type { Devices } from "../../host/plotter/devices.js";
 import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
 import type { PlotterOptions as HostOptions } from "../../host/plotter/plotter-state.js";
+import type { PlotSettings } from "../../src/schema/index.js";
 import { findBoards } from "../serial/find-boards.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { openSerial } from "../serial/serial-transport.js";
@@ -18,8 +19,55 @@ export interface PlotterOptions extends Omit<HostOptions, "clock" | "devices"> {
   readonly clock?: Clock | undefined;
 }
 
+/** For programs: the manual moves by name. */
 export class PlotterDriver extends HostDriver {
   constructor(options: PlotterOptions) {
     super({ ...options, clock: options.clock ?? nodeClock, devices: serialDevices });
+  }
+
+  /** Lifts the pen and moves to the limit switches if the machine has them, otherwise to the set home. */
+  home(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "home" }, settings);
+  }
+
+  /** Makes the current position home. */
+  setHome(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "set-home" }, settings);
+  }
+
+  /** Moves to a position in mm from home, pen up. */
+  walkTo(xMm: number, yMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "walk", xMm, yMm }, settings);
+  }
+
+  /** Moves by a distance in mm, pen up. May go beyond home, since this is how the user finds home. */
+  jog(dxMm: number, dyMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "jog", dxMm, dyMm }, settings);
+  }
+
+  /** Lowers the pen and lifts it again, to check the heights. */
+  cyclePen(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "cycle-pen" }, settings);
+  }
+
+  /** Moves around a rectangle (mm from home) with the pen up, and back to the previous position. */
+  traceFrame(x0Mm: number, y0Mm: number, x1Mm: number, y1Mm: number, settings?: PlotSettings): Promise<void> {
+    const boxMm = {
+      xMm: Math.min(x0Mm, x1Mm),
+      yMm: Math.min(y0Mm, y1Mm),
+      widthMm: Math.abs(x1Mm - x0Mm),
+      heightMm: Math.abs(y1Mm - y0Mm),
+    };
+    return this.move({ kind: "frame", boxMm }, settings);
+  }
+
+  /** Draws a small pattern at the current position with the given settings, and comes back. */
+  drawTestPatch(settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "test-patch" }, settings);
+  }
+
+  /** Draws a square at the current position; its measured size gives the motor steps per mm. */
+  drawSquare(sizeMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "square", sizeMm }, settings);
   }
 }

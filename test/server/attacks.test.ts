@@ -309,7 +309,7 @@ describe("while a plot runs", () => {
     const disposition = saved.headers.get("content-disposition") ?? "";
     expect(disposition).toMatch(/^attachment; filename=/);
     expect(disposition).not.toMatch(/[<>\r\n]/);
-    app.queue.cancel(id);
+    app.queue.plots.cancel(id);
     await app.queue.remove(id);
     await plotGoesOn();
   });

@@ -56,7 +56,7 @@ it("a machine with another controller, chosen during a move, is used after it", 
     devices: { find: () => Promise.resolve([]), open: () => Promise.reject(new Error("no port")) },
   });
   await world.run(driver.start());
-  const walk = driver.walkTo(30, 20);
+  const walk = driver.move({ kind: "walk", xMm: 30, yMm: 20 });
   await world.advance(0.5);
   driver.use(WITH_GRBL);
   await world.advance(0.1);

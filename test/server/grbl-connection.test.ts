@@ -213,7 +213,7 @@ describe("a move by hand", { timeout: 60_000 }, () => {
     async (fault) => {
       for (let early = 0; early < 6; early++) {
         const { world, board, driver, within, mustWork } = await newPlotter();
-        const walk = driver.walkTo(30, 20);
+        const walk = driver.move({ kind: "walk", xMm: 30, yMm: 20 });
         await world.advance(0.1 * early);
         board.spoil(fault);
         const outcome = await within(walk);

@@ -173,7 +173,7 @@ describe("after an error", { timeout: 60_000 }, () => {
 
   it("a plotter that is closed during a move by hand stops, lifts the pen and closes", async () => {
     const { world, board, driver, within } = await newPlotter();
-    const patch = driver.drawTestPatch();
+    const patch = driver.move({ kind: "test-patch" });
     await world.advance(1.2);
     expect(board.state()).toMatchObject({ state: "Run", penUp: false });
     expect(await within(driver.close())).toBeUndefined();
@@ -225,13 +225,13 @@ describe("a restart of a board whose boot loader waits before the Grbl starts", 
 describe("a restart at rest", { timeout: 60_000 }, () => {
   it("is reported, and the old position no longer counts", async () => {
     const { world, board, driver, within } = await newPlotter();
-    expect(await within(driver.walkTo(100, 50))).toBeUndefined();
+    expect(await within(driver.move({ kind: "walk", xMm: 100, yMm: 50 }))).toBeUndefined();
     board.restart();
     expect(driver.state).toMatchObject({ connection: "fault", xMm: null, penUp: null, motorsOn: null });
     expect(driver.state.message).toMatch(/^The Grbl has restarted: .*Push the carriage to home/);
     await world.advance(5);
     expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
-    expect(await within(driver.walkTo(5, 6))).toBeUndefined();
+    expect(await within(driver.move({ kind: "walk", xMm: 5, yMm: 6 }))).toBeUndefined();
     expect(board.state()).toMatchObject({ xMm: 5, yMm: 6 });
   });
 

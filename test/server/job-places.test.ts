@@ -51,7 +51,7 @@ async function nextRun(): Promise<LedRun> {
 }
 
 async function cancelled(id: string, run: LedRun): Promise<void> {
-  queue.cancel(id);
+  queue.plots.cancel(id);
   run.end({ kind: "cancelled" });
   await settled();
 }
@@ -60,11 +60,11 @@ describe("the place of a job that was resumed, and has not drawn since", () => {
   it("stays if it is cancelled, any number of times", async () => {
     const { id, run: first } = await started();
     for (let run = first, times = 0; times < 3; times++) {
-      queue.resume(id);
+      queue.plots.resume(id);
       expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
       await cancelled(id, run);
       expect(queue.get(id)).toMatchObject({ state: "cancelled", place: PLACE });
-      queue.recover(id);
+      queue.plots.recover(id);
       run = await nextRun();
     }
   });
@@ -72,9 +72,9 @@ describe("the place of a job that was resumed, and has not drawn since", () => {
   it("stays if the server is killed", async () => {
     const { id, run } = await started();
     await cancelled(id, run);
-    queue.recover(id);
+    queue.plots.recover(id);
     await nextRun();
-    queue.resume(id);
+    queue.plots.resume(id);
     store.close();
     ({ store, plotter, queue } = openQueueIn(dir));
     expect(queue.get(id)).toMatchObject({ state: "interrupted", place: PLACE });
@@ -83,7 +83,7 @@ describe("the place of a job that was resumed, and has not drawn since", () => {
   it("stays if the rest could not be planned", async () => {
     const { id, run } = await started();
     await cancelled(id, run);
-    queue.recover(id);
+    queue.plots.recover(id);
     const again = await nextRun();
     again.fail(new PlotwrightError("too-large", "There was no memory for it."));
     await settled();

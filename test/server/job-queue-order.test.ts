@@ -73,7 +73,7 @@ describe("the queue", () => {
             plotting = null;
           }
           if (ask === "cancel" && one !== undefined) {
-            parts.queue.cancel(one);
+            parts.queue.plots.cancel(one);
             open = open.filter((id) => id !== one);
             ended.push(one);
           }
@@ -87,7 +87,7 @@ describe("the queue", () => {
             parts.store.close();
             parts = openQueueIn(dir);
             // Interrupted, and the user discards it.
-            if (plotting !== null) parts.queue.cancel(plotting);
+            if (plotting !== null) parts.queue.plots.cancel(plotting);
             if (plotting !== null) ended.push(plotting);
             open = open.filter((id) => id !== plotting);
             plotting = null;

@@ -54,8 +54,8 @@ describe("the queue", () => {
     await settled();
     run.start.noted?.("The pen rested at A.");
     expect(queue.get(id).message).toBe("The pen rested at A.");
-    await queue.pause(id);
-    await queue.resume(id);
+    queue.plots.pause(id);
+    queue.plots.resume(id);
     run.start.noted?.("The pen rested at B.");
     if (error !== null) run.fail(error);
     else run.end({ kind: state });
@@ -84,9 +84,9 @@ describe("the queue", () => {
       penMoving: false,
     });
     expect(queue.get(id)).toMatchObject({ state: "plotting", progress: 0.5, remainingS: 6 });
-    queue.pause(id);
+    queue.plots.pause(id);
     expect(queue.get(id).state).toBe("paused");
-    queue.resume(id);
+    queue.plots.resume(id);
     expect(queue.get(id).state).toBe("plotting");
     run.end({ kind: "done" });
     await settled();
@@ -165,7 +165,7 @@ describe("the queue", () => {
     });
     const { id } = await add("fern");
     await queue.start(id);
-    queue.cancel(id);
+    queue.plots.cancel(id);
     await settled();
     expect(queue.get(id).state).toBe("cancelled");
     expect(plotter.runs).toEqual([]);
@@ -208,14 +208,17 @@ describe("the queue", () => {
       message: "The board was unplugged.",
       place: { strokeIndex: 7, alongMm: 1.25 },
     });
-    expect(queue.recover(id).state).toBe("paused");
+    expect(queue.plots.recover(id).state).toBe("paused");
     const run = await plotter.nextRun();
     await settled();
-    expect(run.asked).toEqual(["pause"]);
+    expect(run.asked).toEqual(["begin held"]);
     expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
-    expect(queue.movePlace(id, { strokes: -2, mm: 3 }).place).toEqual({ strokeIndex: 5, alongMm: 4.25 });
-    await queue.checkPlace(id);
-    queue.resume(id);
+    expect(queue.plots.movePlace(id, { strokes: -2, mm: 3 }).place).toEqual({
+      strokeIndex: 5,
+      alongMm: 4.25,
+    });
+    await queue.plots.checkPlace(id);
+    queue.plots.resume(id);
     expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
     run.end({ kind: "done" });
     await settled();
@@ -231,9 +234,9 @@ describe("the queue", () => {
     await queue.start(id);
     const run = await plotter.nextRun();
     await settled();
-    expect([run.asked, run.holdPlace]).toEqual([["pause"], { stroke: 1, alongMm: 0 }]);
+    expect([run.asked, run.holdPlace]).toEqual([["begin held"], { stroke: 1, alongMm: 0 }]);
     expect(queue.get(id)).toMatchObject({ state: "paused", place: from });
-    queue.resume(id);
+    queue.plots.resume(id);
     expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
     run.end({ kind: "done" });
     await settled();
@@ -258,23 +261,23 @@ describe("the queue", () => {
     const first = await plotter.nextRun();
     await settled();
     first.record({ place: { stroke: 7, alongMm: 1.25 } });
-    queue.cancel(id);
+    queue.plots.cancel(id);
     first.end({ kind: "cancelled" });
     await settled();
     const cancelled = queue.get(id);
     expect(cancelled).toMatchObject({ state: "cancelled", place: { strokeIndex: 7, alongMm: 1.25 } });
     expect(cancelled.endedAt).not.toBeNull();
-    expect(queue.recover(id)).toMatchObject({ state: "paused", endedAt: null });
+    expect(queue.plots.recover(id)).toMatchObject({ state: "paused", endedAt: null });
     const run = await plotter.nextRun();
     await settled();
-    expect(run.asked).toEqual(["pause"]);
+    expect(run.asked).toEqual(["begin held"]);
     expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
   });
 
   it("can't recover a cancelled job that was never begun", async () => {
     const { id } = await add("fern");
-    queue.cancel(id);
-    expect(() => queue.recover(id)).toThrow("it can't be continued now");
+    queue.plots.cancel(id);
+    expect(() => queue.plots.recover(id)).toThrow("it can't be continued now");
   });
 
   it("continues when it is resumed before the plotter has recovered it", async () => {
@@ -285,8 +288,8 @@ describe("the queue", () => {
     broken.record({ place: { stroke: 7, alongMm: 1.25 } });
     broken.fail(new PlotwrightError("disconnected", "The board was unplugged."));
     await settled();
-    queue.recover(id);
-    expect(queue.resume(id).state).toBe("paused");
+    queue.plots.recover(id);
+    expect(queue.plots.resume(id).state).toBe("paused");
     const run = await plotter.nextRun();
     await settled();
     expect(run.asked).toEqual(["resume"]);
@@ -304,10 +307,10 @@ describe("the queue", () => {
       state: "interrupted",
       message: "The board has stopped answering.",
     });
-    queue.recover(id);
+    queue.plots.recover(id);
     const run = await plotter.nextRun();
     await settled();
-    expect(run.asked).toEqual(["pause"]);
+    expect(run.asked).toEqual(["begin held"]);
     expect(run.holdPlace).toEqual({ stroke: 0, alongMm: 0 });
     expect(queue.get(id).state).toBe("paused");
   });
@@ -377,14 +380,14 @@ describe("the queue", () => {
     const pen = { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 21 };
     await queue.change(id, { pen, speedPct: 60 });
     expect(store.jobs()[0]).toMatchObject({ speedPct: 60, settings: { pen } });
-    await queue.emergencyStop(id);
+    await queue.plots.emergencyStop(id);
     expect(queue.get(id).state).toBe("paused");
   });
 
   it("holds a plot that is stopped while it is still being planned", async () => {
     const { id } = await add("fern");
     await queue.start(id);
-    await queue.emergencyStop(id);
+    await queue.plots.emergencyStop(id);
     await plotter.nextRun();
     await settled();
     expect(queue.get(id).state).toBe("paused");
@@ -397,7 +400,7 @@ describe("the queue", () => {
     expect(names()).toEqual(["fern queued", "fern queued", "moss queued"]);
     expect(queue.list()[1]?.id).toBe(copy.id);
     expect(queue.drawingOf(copy.id)).toBe(queue.drawingOf(fern.id));
-    queue.cancel(fern.id);
+    queue.plots.cancel(fern.id);
     queue.duplicate(fern.id);
     expect(names()).toEqual(["fern queued", "moss queued", "fern queued", "fern cancelled"]);
     await queue.remove(fern.id);
@@ -427,7 +430,7 @@ describe("the queue", () => {
     const { id } = await add("fern");
     const settings = { prepare: { marginMm: 12 } };
     expect((await queue.patch(id, { settings })).settings.prepare.marginMm).toBe(12);
-    queue.cancel(id);
+    queue.plots.cancel(id);
     await expect(queue.patch(id, { settings })).rejects.toMatchObject({ code: "conflict" });
     expect((await queue.patch(id, { name: "bracken" })).name).toBe("bracken");
   });

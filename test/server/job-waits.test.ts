@@ -73,9 +73,9 @@ describe("a stop for a pen", () => {
     const held = { state: "paused", wait: BLUE, message: 'Put in "Blue 0.3" for "2 sky".' };
     expect(queue.get(id)).toMatchObject(held);
     expect(store.jobs()[0]).toMatchObject(held);
-    queue.resume(id);
+    queue.plots.resume(id);
     expect(queue.get(id)).toMatchObject({ state: "plotting", wait: null, message: "Resuming." });
-    queue.pause(id);
+    queue.plots.pause(id);
     expect(queue.get(id)).toMatchObject({ state: "paused", wait: null });
   });
 
@@ -87,7 +87,7 @@ describe("a stop for a pen", () => {
     const board = { boardName: "left", boardSerialNumber: null, firmware: "2.8.1" };
     run.record({ place: { stroke: 2, alongMm: 0 }, board });
     crash();
-    queue.recover(id);
+    queue.plots.recover(id);
     expect(queue.get(id).message).toMatch(
       /^This is not the board that began the plot.*push the carriage to home/,
     );
@@ -102,7 +102,7 @@ describe("a stop for a pen", () => {
     run.held(true, BLUE);
     crash();
     expect(queue.get(id)).toMatchObject({ state: "interrupted", wait: BLUE });
-    queue.recover(id);
+    queue.plots.recover(id);
     const again = await plotter.nextRun();
     await settled();
     expect(queue.get(id)).toMatchObject({
@@ -110,8 +110,8 @@ describe("a stop for a pen", () => {
       wait: BLUE,
       message: expect.stringMatching(/^Put in "Blue 0.3" for "2 sky"\. The board still knows its position/),
     });
-    queue.resume(id);
-    expect(again.asked).toEqual(["pause", "resume"]);
+    queue.plots.resume(id);
+    expect(again.asked).toEqual(["begin held", "resume"]);
     expect(queue.get(id)).toMatchObject({ state: "plotting", wait: null });
     again.record({ place: { stroke: 2, alongMm: 4 } });
     crash();
@@ -129,14 +129,14 @@ describe("a stop for a pen", () => {
     first.record({ place });
     for (let run = first; ; run = await plotter.nextRun()) {
       await settled();
-      queue.cancel(id);
+      queue.plots.cancel(id);
       // A plotter releases a held plot to send it home.
       run.held(false);
       await settled();
       const kept = { wait: BLUE, place: { strokeIndex: 7, alongMm: 0 } };
       expect(queue.get(id)).toMatchObject({ state: "cancelled", ...kept });
       if (run !== first) break;
-      expect(queue.recover(id)).toMatchObject({ state: "paused", ...kept });
+      expect(queue.plots.recover(id)).toMatchObject({ state: "paused", ...kept });
     }
     expect(queue.requeue(id)).toMatchObject({ state: "queued", wait: null, place: null });
   });
@@ -185,7 +185,7 @@ describe("the progress of a plot", () => {
       place: { strokeIndex: 1, alongMm: 7 },
     });
     expect(store.jobs()[0]).toMatchObject(part);
-    queue.recover(id);
+    queue.plots.recover(id);
     await plotter.nextRun();
     await settled();
     crash();

@@ -225,6 +225,27 @@ describe("a change while the rest is being planned", () => {
   });
 });
 
+describe("a plot that begins held", () => {
+  it.each([
+    ["from its beginning", undefined],
+    ["in the middle of the drawing", { stroke: 1, alongMm: 2 }],
+  ])("tells it to a listener that is added later, and moves only when it is resumed, %s", async (_, from) => {
+    const world = new ManualClock();
+    const driver = new PlotterDriver({ device: "virtual", clock: world });
+    await world.run(driver.start());
+    const start = { held: true, from };
+    const run = await world.run(driver.plot(new LocalPlanner(DRAWING), settingsOf("junction"), start));
+    await world.advance(5);
+    const told: boolean[] = [];
+    run.onHeld((held) => told.push(held));
+    expect(told).toEqual([true]);
+    expect(virtualBoardOf(driver).state()).toMatchObject({ steps1: 0, steps2: 0 });
+    await world.run(run.resume());
+    expect(told).toEqual([true, false]);
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+  });
+});
+
 describe("the hold point", () => {
   it("can be moved back, viewed with the pen up, and resumed from", async () => {
     const { world, board, run } = await plotting("junction");

@@ -108,18 +108,18 @@ async function stopAndStart(): Promise<void> {
   await startServer();
 }
 async function cancelIt(id: string): Promise<void> {
-  queue.cancel(id);
+  queue.plots.cancel(id);
   await until(id, "cancelled");
 }
 
 async function resumeAndCompare(id: string, twiceMm = 0): Promise<void> {
-  queue.recover(id);
+  queue.plots.recover(id);
   await world.advance(1);
   await finishAndCompare(id, twiceMm);
 }
 
 async function finishAndCompare(id: string, twiceMm: number): Promise<void> {
-  queue.resume(id);
+  queue.plots.resume(id);
   await until(id, "done");
   const { gapMm, overlapMm } = compareDrawn(STROKES, board.drawn());
   expect(gapMm).toBeLessThan(GAP_MM);
@@ -142,7 +142,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     it.each(INSTANTS_S)("by an emergency stop after %s s moves nothing", async (s) => {
       const id = await started();
       await world.advance(s);
-      await world.run(queue.emergencyStop(id));
+      await world.run(queue.plots.emergencyStop(id));
       const stopped = motors();
       const { place } = queue.get(id);
       await world.run(stopServer());
@@ -156,7 +156,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     it.each(INSTANTS_S)("by an emergency stop that has not finished after %s s moves nothing", async (s) => {
       const id = await started();
       await world.advance(s);
-      const stopping = queue.emergencyStop(id);
+      const stopping = queue.plots.emergencyStop(id);
       await world.run(stopServer());
       await stopping;
       const stopped = motors();
@@ -170,10 +170,10 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     it.each(INSTANTS_S)("by the user after %s s moves nothing, and keeps a moved place", async (s) => {
       const id = await started();
       await world.advance(s);
-      queue.pause(id);
+      queue.plots.pause(id);
       await until(id, "paused");
       const stopped = motors();
-      const { place } = queue.movePlace(id, { mm: -BACK_MM });
+      const { place } = queue.plots.movePlace(id, { mm: -BACK_MM });
       await world.run(stopServer());
       await world.advance(2);
       expect(motors()).toEqual(stopped);
@@ -186,13 +186,13 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       const id = await started();
       // Above the first stroke's end, from where it travels to the second.
       while (board.state().xMm < 199.9 || board.state().yMm < 11) await world.advance(0.01);
-      await world.run(queue.emergencyStop(id));
+      await world.run(queue.plots.emergencyStop(id));
       expect(board.state().yMm).toBeLessThan(59);
-      const { place } = queue.movePlace(id, { mm: -BACK_MM });
+      const { place } = queue.plots.movePlace(id, { mm: -BACK_MM });
       expect(place?.strokeIndex).toBe(0);
       await world.run(stopServer());
       await startServer();
-      queue.recover(id);
+      queue.plots.recover(id);
       await world.advance(1);
       expect(queue.get(id)).toMatchObject({ state: "paused", place });
       await finishAndCompare(id, BACK_MM);
@@ -215,7 +215,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       await world.run(stopServer());
       await startServer(() => board.resetByPower());
       const { place } = queue.get(id);
-      queue.recover(id);
+      queue.plots.recover(id);
       await world.advance(1);
       await world.run(stopServer());
       await world.advance(2);
@@ -229,13 +229,13 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     it("where an earlier server left it, moves nothing and keeps its place", async () => {
       const id = await started();
       await world.advance(6.5);
-      await world.run(queue.emergencyStop(id));
+      await world.run(queue.plots.emergencyStop(id));
       const stopped = motors();
       const { place } = queue.get(id);
       for (let times = 0; times < 3; times++) {
         await world.run(stopServer());
         await startServer();
-        queue.recover(id);
+        queue.plots.recover(id);
         // Before and after the pen and the place have been checked.
         await world.advance(times);
       }
@@ -254,7 +254,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     board.unplug();
     await until(id, "interrupted");
     await world.advance(5);
-    queue.recover(id);
+    queue.plots.recover(id);
     await world.advance(1);
     const { place } = queue.get(id);
     await world.run(stopServer());
@@ -281,9 +281,9 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     async (s) => {
       const id = await started();
       await world.advance(6.5);
-      queue.pause(id);
+      queue.plots.pause(id);
       await until(id, "paused");
-      queue.resume(id);
+      queue.plots.resume(id);
       while (board.state().penUp) await world.advance(0.01);
       await world.advance(s);
       store.close();
@@ -310,7 +310,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       expect(queue.get(id).state).toBe(state);
       const { place } = queue.get(id);
       await movedBetweenStarts();
-      queue.recover(id);
+      queue.plots.recover(id);
       await world.advance(1);
       expect(queue.get(id)).toMatchObject({ state: "paused", place });
       await finishAndCompare(id, 0);
@@ -374,9 +374,9 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       await world.run(stopServer());
       await startServer();
       const { place } = queue.get(id);
-      queue.recover(id);
+      queue.plots.recover(id);
       await world.advance(1);
-      queue.resume(id);
+      queue.plots.resume(id);
       await world.advance(0.2);
       await world.run(stopServer());
       expect(board.state()).toMatchObject(AT_HOME);
@@ -388,7 +388,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     it.each(INSTANTS_S)("is cancelled (%s s) goes home, and leaves it cancelled", async (s) => {
       const id = await started();
       await world.advance(s);
-      queue.cancel(id);
+      queue.plots.cancel(id);
       await world.advance(0.1);
       await world.run(stopServer());
       expect(board.state()).toMatchObject(AT_HOME);

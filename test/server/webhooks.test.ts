@@ -123,7 +123,7 @@ describe("a webhook", () => {
     run.held(true, { kind: "pen", layerName: "sky", penName: "Blue 0.3", color: "#00f" });
     await heard(2);
     expect(received[1]?.message).toMatchObject({ event: "waiting", job: { id, wait: "Blue 0.3 for sky" } });
-    app.queue.resume(id);
+    app.queue.plots.resume(id);
     run.record({});
     run.fail(new PlotwrightError("disconnected", "The board was unplugged."));
     await heard(3);

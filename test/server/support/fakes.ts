@@ -27,6 +27,7 @@ export class LedRun implements LivePlotRun {
   constructor(start: PlotStart) {
     this.start = start;
     this.holdPlace = start.from ?? null;
+    if (start.held === true) this.asked.push("begin held");
     this.finished = new Promise((resolve, reject) => {
       this.end = resolve;
       this.fail = reject;
@@ -39,6 +40,7 @@ export class LedRun implements LivePlotRun {
 
   onHeld(listener: (held: boolean, wait?: PlotWait | null) => void): void {
     this.held = listener;
+    if (this.start.held === true) listener(true);
   }
 
   pause(): Promise<void> {
@@ -165,7 +167,7 @@ export class LedPlotter implements ManagedPlotter {
     return this.runs.shift()!;
   }
 
-  pen(up: boolean): Promise<void> {
+  pen({ up }: { readonly up: boolean }): Promise<void> {
     this.asked.push(up ? "up" : "down");
     return Promise.resolve();
   }
