@@ -29,6 +29,7 @@ describe("the table of operations", () => {
       "post /jobs/:id/pause",
       "post /jobs/:id/cancel",
       "post /jobs/:id/emergency-stop",
+      "post /plotters/:id/stop",
     ]);
     const secrets = ROWS.filter(({ method, role }) => method === "get" && role !== "watch");
     expect(secrets.map(titleOf)).toEqual(["get /logs", "get /access", "get /webhooks"]);
