@@ -14,6 +14,10 @@ export const printable = (text: string): string =>
 
 /** JSON of one line that is safe to print. Its meaning is the same: unprintable characters are written as \uXXXX. */
 export const printableJson = (value: unknown): string =>
-  JSON.stringify(value).replace(UNPRINTABLE, (found) =>
-    [...found].map((one) => `\\u${one.charCodeAt(0).toString(16).padStart(4, "0")}`).join(""),
+  withCodes(JSON.stringify(value), (hex) => `\\u${hex.padStart(4, "0")}`);
+
+/** The text with a code for each unprintable character, made from its hexadecimal number. */
+export const withCodes = (text: string, codeOf: (hex: string) => string): string =>
+  text.replace(UNPRINTABLE, (found) =>
+    [...found].map((one) => codeOf(one.charCodeAt(0).toString(16))).join(""),
   );

@@ -116,7 +116,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
     writeOut(options.svg, toSvg(prepared.strokes, svgOptionsOf(prepared, settings)), io);
   }
   if (options.strokes !== undefined) {
-    writeOut(options.strokes, `${JSON.stringify(toJson(prepared.strokes, paper))}\n`, io);
+    writeOut(options.strokes, `${printableJson(toJson(prepared.strokes, paper))}\n`, io);
   }
   if (options.json === true) io.out(`${printableJson(report)}\n`);
   else if (toStdout.length === 0) io.out(words(report, prepared.size));

@@ -1,4 +1,5 @@
 /** Helpers to write SVG. Lengths in mm; one user unit is one mm. */
+import { withCodes } from "../plain-text.js";
 
 /** Characters that XML forbids. */
 const FORBIDDEN = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
@@ -9,9 +10,15 @@ const ESCAPES: Readonly<Record<string, string>> = {
   '"': "&quot;",
 };
 
-/** Text for an attribute or element: markup is escaped, characters that XML forbids are removed. */
+/**
+ * Text for an attribute or element: markup is escaped, characters that XML forbids are removed. All others that can't be
+ * printed are written by number, since the SVG may be printed on a terminal, which they could control.
+ */
 export const xmlText = (text: string): string =>
-  text.replace(FORBIDDEN, "").replace(/[&<>"]/g, (char) => ESCAPES[char]);
+  withCodes(
+    text.replace(FORBIDDEN, "").replace(/[&<>"]/g, (char) => ESCAPES[char]),
+    (hex) => `&#x${hex};`,
+  );
 
 /** Rounded to 1 µm, without trailing zeros. */
 export const mmText = (value: number): string => String(Math.round(value * 1000) / 1000 + 0);
