@@ -68,8 +68,11 @@ export const planLimit = ({ planS }: PlanningLimits): TimeLimit => ({
   ),
 });
 
-/** What planning takes at least for each point of the drawing: lines, motion and commands are columns of numbers. */
-const BYTES_PER_POINT = 200;
+/**
+ * How much the process grows at least for each point, from reading to commands. Measured with files of 25 MB: docs/import.md
+ * has the figures.
+ */
+const BYTES_PER_POINT = 450;
 
 /** Throws "too-large" once the drawing is read, if planning it would run out of memory after a long time. */
 export function mustFitMemory({ paths }: Drawing, growthMb: number): void {

@@ -112,6 +112,30 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     await expectWaiting(page, ["two", "one"]);
   });
 
+  it(
+    "keeps a drawing's true size, and asks about one that leaves the paper",
+    { timeout: 300_000 },
+    async () => {
+      const { page } = started;
+      const size = () =>
+        expect.poll(async () => (await page.locator(".drawn-size span").innerText()).replace(/\u202f/g, " "));
+      const plot = plotBar(page).getByRole("button", { name: "Plot", exact: true });
+      // A line of 100 mm on a page of 150 mm.
+      await lay(page, "true size", 1);
+      await size().toBe("Drawn 100 × 0 mm, 100 %");
+      await expect.poll(() => plot.isEnabled()).toBe(true);
+      const wide = `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"><path stroke="black" d="M10 20H330"/></svg>`;
+      await dropFile(page, "wide.svg", wide);
+      await plotBar(page)
+        .getByText(/leaves the paper/)
+        .waitFor();
+      expect(await plot.isDisabled()).toBe(true);
+      await page.getByRole("button", { name: "Cut off at the edge", exact: true }).click();
+      await size().toBe("Drawn 287.5 × 0 mm, 100 %");
+      await expect.poll(() => plot.isEnabled()).toBe(true);
+    },
+  );
+
   it("keeps the plotter's model, heights and presets", { timeout: 300_000 }, async () => {
     let { page } = started;
     await lay(page, "one", 1);

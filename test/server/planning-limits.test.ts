@@ -9,6 +9,7 @@ import { PLANNING_LIMITS } from "../../server/planning/planning-limits.js";
 import { PlotwrightError } from "../../src/index.js";
 import { ERROR_TABLE, machineOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { IS_FULL } from "../support/full-run.js";
 
 const COUNT = 20_000;
 const range = (count: number): number[] => Array.from({ length: count }, (_, i) => i);
@@ -99,13 +100,13 @@ describe("a planner", () => {
   }, 60_000);
 
   it("refuses a drawing with too many points as soon as it is read, on server and command line alike", async () => {
-    // 2 200 000 points: at least 440 MB. The file alone needs less.
+    // 2 200 000 points: at least 990 MB. The file alone needs less than 400 MB.
     const limits = { ...PLANNING_LIMITS, growthMb: 400 };
     const line = `<path stroke="black" d="M0 0${"l5 5-5-5".repeat(1_100_000)}"/>`;
     const file = input(`<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="90mm">${line}</svg>`);
     const command = { file: file.path, settings: file.settings, options: { firmware: "3.0.3" } };
     const words =
-      /^This drawing has 2\.2 million points\. Planning them needs at least 441 MB .* can give 400 MB\. Simplify/;
+      /^This drawing has 2\.2 million points\. Planning them needs at least 991 MB .* can give 400 MB\. Simplify/;
     for (const work of [
       () => openPlanner({ ...file, limits }),
       () => runPlanInThread(command, { out: () => undefined, err: () => undefined }, limits),
@@ -114,6 +115,50 @@ describe("a planner", () => {
       expect([code, message]).toEqual(["too-large", expect.stringMatching(words)]);
     }
   }, 120_000);
+
+  it.runIf(IS_FULL).each([
+    ["one long line", () => `<path d="M100 100${"l.7.3.1-.6-.7.2-.1.1".repeat(1_250_000)}"/>`],
+    [
+      "hundreds of thousands of short lines",
+      () =>
+        range(780_000)
+          .map((i) => `<path d="M${i % 197} ${(i * 7) % 193}l2 1"/>`)
+          .join(""),
+    ],
+    [
+      "circles of curves in groups that are moved",
+      () =>
+        `<g transform="translate(5 5)">${range(252_000)
+          .map(
+            (i) =>
+              `<g transform="translate(${i % 187} ${(i * 7) % 191})"><path d="M0 1C.55 1 1 .55 1 0S.55-1 0-1-1-.55-1 0-.55 1 0 1z"/></g>`,
+          )
+          .join("")}</g>`,
+    ],
+  ])(
+    "plans a drawing of 25 MB, on server and command line alike: %s",
+    async (_name, content) => {
+      const text = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200" fill="none" stroke="black">${content()}</svg>`;
+      expect(text.length).toBeGreaterThan(24_000_000);
+      const file = input(text, {
+        ...DEFAULT_PLOT_SETTINGS,
+        prepare: { ...DEFAULT_PLOT_SETTINGS.prepare, fit: true, order: "none" },
+      });
+      const { stats } = await measureDrawing(file, null);
+      const out: string[] = [];
+      const command = {
+        file: file.path,
+        settings: file.settings,
+        options: { firmware: "3.0.3", json: true },
+      };
+      await runPlanInThread(command, { out: (part) => void out.push(part), err: () => undefined });
+      expect(JSON.parse(out.join(""))).toMatchObject({
+        strokes: stats.strokeCount,
+        points: stats.pointCount,
+      });
+    },
+    900_000,
+  );
 
   it("allows the same memory to an upload and to the command line: at least a quarter of the computer's", () => {
     const heapMb = Math.min(4_096, totalmem() / 4e6);

@@ -325,6 +325,43 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
   );
 });
 
+describe("a drawing of the shared queue", () => {
+  it(
+    "keeps its true size, and is refused if it leaves the paper, until the sender chooses",
+    async () => {
+      const dataDir = mkdtempSync(join(tmpdir(), "plotwright-matrix-"));
+      const server = await database.serve(dataDir, { virtualSpeed: 200 });
+      await introduce(server, "paper");
+      const share = async (job: string, drawing: string, settings?: GivenSettings): Promise<void> => {
+        const body = { name: job, drawing, settings, target: { plotter: "paper" } };
+        expect((await send(server.url, "POST", "/shared-jobs", body)).status).toBe(201);
+      };
+      const jobNamed = async (job: string): Promise<Job | undefined> =>
+        (await stateOf(server)).jobs.find(({ name }) => name === job);
+      try {
+        await share("true", SVG.replaceAll("297", "100").replaceAll("210", "80"));
+        await expect
+          .poll(() => jobNamed("true"), { timeout: PATIENCE_MS })
+          .toMatchObject({ stats: { size: { widthMm: 9, scaleX: 1, scaleY: 1 } } });
+        await send(server.url, "DELETE", `/jobs/${(await jobNamed("true"))!.id}`);
+        const wide = SVG.replace("M60 60h9", "M10 20H330");
+        await share("wide", wide);
+        const notices = async (): Promise<string> => JSON.stringify((await stateOf(server)).serverNotices);
+        await expect.poll(notices, { timeout: PATIENCE_MS }).toMatch(/33 mm over its right edge/);
+        expect(await jobNamed("wide")).toBeUndefined();
+        await share("cut", wide, { prepare: { outside: "cut" } });
+        await expect
+          .poll(() => jobNamed("cut"), { timeout: PATIENCE_MS })
+          .toMatchObject({ stats: { size: { widthMm: 287.5, scaleX: 1 } } });
+      } finally {
+        await server.close();
+        rmSync(dataDir, { recursive: true, force: true });
+      }
+    },
+    LIMIT_MS,
+  );
+});
+
 describe("a plotter whose model is not set", () => {
   it(
     "is the default model for every job, whatever machine the job names, and says how to set it",
