@@ -3,7 +3,6 @@ import { Command, CommanderError } from "commander";
 import { COMMANDS, DEFAULT_COMMAND } from "./commands.js";
 import { printed, type CliIo } from "./io.js";
 import type { CommandContext } from "./options.js";
-import { usageInWords } from "./usage-words.js";
 
 /** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
 const BAD_USAGE = 2;
@@ -13,13 +12,18 @@ const FAILED = 5;
 export async function runCli(args: readonly string[], io: CliIo, version: string): Promise<number> {
   let exitCode = 0;
   const context: CommandContext = { io, version, setExitCode: (code) => (exitCode = code) };
+  const wanted = wantedOf(args);
   try {
     await mustBeCommand(args[0] === "help" ? args[1] : args[0]);
-    const program = await buildProgram(wantedOf(args), context);
+    const program = await buildProgram(wanted, context);
     await program.parseAsync([...args], { from: "user" });
     return exitCode;
   } catch (error) {
-    if (error instanceof CommanderError) return error.exitCode === 0 ? 0 : BAD_USAGE;
+    if (error instanceof CommanderError) {
+      if (error.exitCode === 0) return 0;
+      if (error.code !== HELP_SHOWN) io.err(printed`plotwright: ${usageFault(error, wanted[0])}\n`);
+      return BAD_USAGE;
+    }
     const { PlotwrightError } = await import("../../src/index.js");
     const { ERROR_TABLE } = await import("../../src/internal.js");
     if (error instanceof PlotwrightError) {
@@ -33,6 +37,18 @@ export async function runCli(args: readonly string[], io: CliIo, version: string
   }
 }
 
+/** The code of Commander's "error" after the help of a command that needs another word, such as `service`. */
+const HELP_SHOWN = "commander.help";
+const SURPLUS_WORD = "commander.excessArguments";
+
+/** `command`: whose help has the details; undefined: the program's. */
+function usageFault({ code, message }: CommanderError, command: string | undefined): string {
+  const help = ["plotwright", ...(command === undefined ? [] : [command]), "--help"].join(" ");
+  // A surplus word is usually an option without its name, or part of a file name.
+  const hint = code === SURPLUS_WORD ? " Options begin with --, and names with blanks need quotes." : "";
+  return `${oneLine(message.replace(/^error: /, ""))}${hint} (see ${help})`;
+}
+
 /** All commands by name; only those in `wanted` are loaded and have their options. */
 export async function buildProgram(wanted: readonly string[], context: CommandContext): Promise<Command> {
   const { io, version } = context;
@@ -44,8 +60,8 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
     .configureOutput({
       writeOut: (text) => io.out(text),
       writeErr: (text) => io.err(text),
-      outputError: (text, write) =>
-        write(printed`plotwright: ${usageInWords(oneLine(text.replace(/^error: /, "")), wanted[0])}\n`),
+      // runCli writes it in one line.
+      outputError: () => undefined,
     });
   for (const { name, about, examples, load } of COMMANDS) {
     const command = program

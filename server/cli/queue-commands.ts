@@ -54,7 +54,7 @@ export const declareAdd: Declare = (command, { io }) => {
           // The server says first that it plots on the plotter's machine, not on the one that was named.
           if (job.settings.machine !== settings.machine) io.err(printed`note: ${job.warnings[0] ?? ""}\n`);
           io.out(row(columns));
-          if (job.stats?.size) io.err(printed`${job.name}: ${sizeInWords(job.stats.size)}\n`);
+          if (job.stats) io.err(printed`${job.name}: ${sizeInWords(job.stats.size)}\n`);
         });
       }
     });

@@ -20,7 +20,7 @@ import sqlite from "node-sqlite3-wasm";
 import type { Database } from "node-sqlite3-wasm";
 import { PlotwrightError } from "../../src/index.js";
 import { UNCLAIMED_DAYS } from "./drawing-files.js";
-import { migrate } from "./migrations.js";
+import { prepareTables } from "./tables.js";
 
 export interface OpenedDatabase {
   readonly db: Database;
@@ -88,7 +88,7 @@ function openChecked(dataDir: string, read: (db: Database) => void): Database {
     db.exec("PRAGMA journal_mode = WAL");
     db.exec("PRAGMA synchronous = FULL");
     mustBeWhole(db);
-    migrate(db, path);
+    prepareTables(db, path);
     mustBeReadable(db, read);
     return db;
   } catch (error) {

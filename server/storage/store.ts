@@ -103,7 +103,7 @@ export class Store implements JobStore, PlotterStore {
 
   /** Jobs taken from the shared queue whose start has not been reported to the other servers. */
   unreportedShared(): { readonly id: string; readonly jobId: string }[] {
-    return this.#all("SELECT id, job_id FROM shared WHERE is_told = 0 AND job_id IS NOT NULL").map((row) => ({
+    return this.#all("SELECT id, job_id FROM shared WHERE is_told = 0").map((row) => ({
       id: String(row["id"]),
       jobId: String(row["job_id"]),
     }));
@@ -321,7 +321,7 @@ function rowFromJob(job: Job): Value[] {
   ];
 }
 
-/** Parsed by the schema, so that rows written by an older version get the defaults of newer fields. */
+/** Throws if the row is damaged. */
 function jobFromRow(row: Row): Job {
   return jobSchema.parse({
     id: row["id"],

@@ -30,7 +30,6 @@ function strict(schema: z.ZodType, isPart: boolean): z.ZodType {
   }
   if (schema instanceof z.ZodOptional) return inner(schema.unwrap()).optional();
   if (schema instanceof z.ZodNullable) return inner(schema.unwrap()).nullable();
-  if (schema instanceof z.ZodPipe) return schema.clone({ ...schema.def, out: inner(schema.def.out) });
   if (schema instanceof z.ZodRecord) {
     return schema.clone({ ...schema.def, valueType: whole(schema.valueType) });
   }
@@ -56,7 +55,7 @@ export const givenMotionSchema = strict(motionSettingsSchema, true) as z.ZodType
  */
 export const withOffs = <T extends Pick<GivenSettings, "pen" | "motion">>(settings: T): T => ({
   ...settings,
-  ...(settings.pen && { pen: { ...offsIn(penSettingsSchema.def.out.shape), ...settings.pen } }),
+  ...(settings.pen && { pen: { ...offsIn(penSettingsSchema.shape), ...settings.pen } }),
   ...(settings.motion && { motion: { ...offsIn(motionSettingsSchema.shape), ...settings.motion } }),
 });
 
@@ -95,7 +94,6 @@ function pathsIn(schema: unknown, at: string): string[] {
   }
   if (schema instanceof z.ZodRecord) return pathsIn(schema.valueType, `${at}.*`);
   if (schema instanceof z.ZodArray) return pathsIn(schema.element, `${at}.*`);
-  if (schema instanceof z.ZodPipe) return pathsIn(schema.def.out, at);
   const isWrapped =
     schema instanceof z.ZodDefault || schema instanceof z.ZodOptional || schema instanceof z.ZodNullable;
   return isWrapped ? pathsIn(schema.unwrap(), at) : [];

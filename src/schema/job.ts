@@ -27,17 +27,15 @@ export type JobState = z.infer<typeof jobStateSchema>;
 export const ENDED_STATES: readonly JobState[] = ["done", "failed", "cancelled"];
 
 export const jobStatsSchema = z.object({
-  /** The drawing's size on the paper, and its scale: 1 is the size in the file. Absent in jobs of earlier versions. */
-  size: z
-    .object({
-      widthMm: z.number(),
-      heightMm: z.number(),
-      scaleX: z.number(),
-      scaleY: z.number(),
-      /** By how much it was turned to fit the paper. */
-      turnedDeg: z.number(),
-    })
-    .optional(),
+  /** The drawing's size on the paper, and its scale: 1 is the size in the file. */
+  size: z.object({
+    widthMm: z.number(),
+    heightMm: z.number(),
+    scaleX: z.number(),
+    scaleY: z.number(),
+    /** By how much it was turned to fit the paper. */
+    turnedDeg: z.number(),
+  }),
   strokeCount: z.number(),
   pointCount: z.number(),
   drawMm: z.number(),

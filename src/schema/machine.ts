@@ -46,21 +46,7 @@ const profileShape = {
   controller: controllerSchema,
 };
 
-/** In format 1 the controller's fields are among the machine's; format 2 has `controller`. */
-function upgrade(stored: unknown): unknown {
-  if (typeof stored !== "object" || stored === null || "controller" in stored) return stored;
-  const { microstepMode, servoPosAt0Pct, servoPosAt100Pct, servoPin, homing, ...machine } = stored as Record<
-    string,
-    unknown
-  >;
-  const controller = { kind: "ebb", microstepMode, servoPosAt0Pct, servoPosAt100Pct, servoPin, homing };
-  return { ...machine, controller };
-}
-
-export const machineProfileSchema = z.preprocess(
-  upgrade,
-  z.object(profileShape),
-) satisfies z.ZodType<MachineProfile>;
+export const machineProfileSchema = z.object(profileShape) satisfies z.ZodType<MachineProfile>;
 
 /** An entry of GET /machines. */
 export const listedMachineSchema = z.object({

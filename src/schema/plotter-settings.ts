@@ -21,18 +21,15 @@ export const presetSchema = z.object({
   name: z.string().trim().min(1).max(60),
   motion: motionSettingsSchema,
   pen: penSettingsSchema,
-  /** Missing in presets of versions without pens: these leave the pens as they are. */
-  pens: z.object({ pens, layerPens, penStops, layerStops }).optional(),
-  layers: z
-    .object({
-      layers: prepare.layers,
-      hiddenLayers: prepare.hiddenLayers,
-      shownLayers: prepare.shownLayers,
-      layerOrder: prepare.layerOrder,
-      layerRepeats: prepare.layerRepeats,
-      layerHatches: prepare.layerHatches,
-    })
-    .optional(),
+  pens: z.object({ pens, layerPens, penStops, layerStops }),
+  layers: z.object({
+    layers: prepare.layers,
+    hiddenLayers: prepare.hiddenLayers,
+    shownLayers: prepare.shownLayers,
+    layerOrder: prepare.layerOrder,
+    layerRepeats: prepare.layerRepeats,
+    layerHatches: prepare.layerHatches,
+  }),
 });
 export type Preset = z.infer<typeof presetSchema>;
 

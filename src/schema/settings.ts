@@ -50,7 +50,7 @@ const byLayer = <T extends z.ZodType>(value: T) =>
     .refine((record) => Object.keys(record).length <= MAX_LAYERS, `at most ${MAX_LAYERS} layers`);
 const hatchSchema = z.object(shapeWithDefaults(HATCH_TABLE));
 
-// Every field has a default, so that jobs and presets stored by an older version stay readable.
+// Every field has a default, so that a caller may leave it out.
 export const prepareSettingsSchema = z.object({
   ...shapeWithDefaults(PREPARE_TABLE),
   paper: paperSizeSchema.default(DEFAULT_PREPARE.paper),
@@ -113,41 +113,10 @@ const penShape = {
   ).optional(),
 };
 
-/** Fields of older versions that `overlap` replaced. Stored settings and jobs may still contain them. */
-const replacedPenSchema = z.object({
-  upPct: numberSchema(PEN_TABLE.upPct),
-  downPct: numberSchema(PEN_TABLE.downPct),
-  /** Share of the lift after which the carriage started. */
-  clearPct: numberSchema(PEN_TABLE.upPct).optional(),
-  /** The height for short travels: at that height the pen was known to be clear of the paper. */
-  hop: z.object({ longestMm: z.number(), upPct: numberSchema(PEN_TABLE.upPct) }).nullish(),
-});
-
-/**
- * `hop.upPct` and `clearPct` were heights at which the pen is clear of the paper: the higher one becomes the contact
- * height.
- */
-function upgradePen(stored: unknown): unknown {
-  if (typeof stored !== "object" || stored === null) return stored;
-  const pen = Object.fromEntries(
-    Object.entries(stored).filter(([key]) => key !== "clearPct" && key !== "hop"),
-  );
-  const replaced = replacedPenSchema.safeParse(stored);
-  if (!replaced.success || "overlap" in pen) return pen;
-  const { upPct, downPct, clearPct = 100, hop } = replaced.data;
-  const hopSharePct = hop && upPct > downPct ? (100 * (hop.upPct - downPct)) / (upPct - downPct) : 0;
-  const clearSharePct = clearPct < 100 ? clearPct : 0;
-  const contactPct = Math.round(Math.min(100, Math.max(hopSharePct, clearSharePct)));
-  if (contactPct === 0) return pen;
-  return { ...pen, overlap: "fast", contactPct, ...(hop && { fullHeightMm: hop.longestMm }) };
-}
-
-const penObject = z.object(penShape);
-
-export const penSettingsSchema = z.preprocess(upgradePen, penObject) satisfies z.ZodType<PenSettings>;
+export const penSettingsSchema = z.object(penShape) satisfies z.ZodType<PenSettings>;
 
 /** Without the heights of single layers, which belong to a drawing. */
-export const plotterPenSchema = z.preprocess(upgradePen, penObject.omit({ layers: true }));
+export const plotterPenSchema = penSettingsSchema.omit({ layers: true });
 
 export const plotPenSchema = z.object({
   id: z.string().min(1).max(100),

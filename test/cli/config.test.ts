@@ -139,9 +139,5 @@ describe("--config", () => {
     const job = plotSettingsSchema.parse({ ...all, machine: "nextdraw-8511" });
     expect(settingsOf(job)).toEqual(job);
     expect(settingsOf(DEFAULT_PLOT_SETTINGS)).toEqual(DEFAULT_PLOT_SETTINGS);
-    // As an older version has stored it.
-    const { upPct, downPct, liftMs, dropMs } = DEFAULT_PLOT_SETTINGS.pen;
-    const old = { upPct, downPct, liftMs, dropMs };
-    expect(settingsOf({ pen: { ...old, clearPct: 40, hop: null } }).pen).toMatchObject({ contactPct: 40 });
   });
 });

@@ -43,11 +43,11 @@ describe("a word that is not a command", () => {
   it.each([
     [
       ["serve", "9381"],
-      /^plotwright: serve takes no arguments, got 1\. Options begin with --, such as --port 9381/,
+      /^plotwright: too many arguments for 'serve'\. Expected 0 arguments but got 1\. Options begin with --, /,
     ],
     [
       ["plan", "my", "drawing.svg"],
-      /^plotwright: plan takes at most 1 argument, got 2\. Options begin with --, and names with blanks need quotes/,
+      /^plotwright: too many arguments for 'plan'\. Expected 1 argument but got 2\. Options begin with --, and names with blanks need quotes\. \(see plotwright plan --help\)$/m,
     ],
   ])("%j has a surplus word", async (args, message) => {
     const { code, err } = await cli(...args);
@@ -56,31 +56,31 @@ describe("a word that is not a command", () => {
   });
 
   it.each([
-    ["--nonsense", "There is no option --nonsense. See plotwright serve --help."],
-    ["--prot 9381", "There is no option --prot. Did you mean --port? See plotwright serve --help."],
-    ["--port", "--port: its value <number> is missing. See plotwright serve --help."],
-    ["plan", "<file> is missing. See plotwright plan --help."],
-    ["board", "--pty <path> is missing. See plotwright board --help."],
+    ["--nonsense", "unknown option '--nonsense' (see plotwright serve --help)"],
+    ["--prot 9381", "unknown option '--prot' (Did you mean --port?) (see plotwright serve --help)"],
+    ["--port", "option '--port <number>' argument missing (see plotwright serve --help)"],
+    ["plan", "missing required argument 'file' (see plotwright plan --help)"],
+    ["board", "required option '--pty <path>' not specified (see plotwright board --help)"],
     [
       "plan in.svg --margin abc",
-      '--margin: it must be a length in mm, or with a unit as in 2cm or 1in, not "abc". See plotwright plan --help.',
+      "option '--margin <mm>' argument 'abc' is invalid. It must be a length in mm, or with a unit as in 2cm or 1in. (see plotwright plan --help)",
     ],
     ["plan in.svg --margin 1e9", "--margin: it must be 0 to 1000 mm."],
     [
       "plan in.svg --order x",
-      '--order: it must be one of none, fast, best, not "x". See plotwright plan --help.',
+      "option '--order <how>' argument 'x' is invalid. Allowed choices are none, fast, best. (see plotwright plan --help)",
     ],
     [
       "pen 101",
-      '<where>: it must be up, down, or a height of 0 to 100 percent, not "101". See plotwright pen --help.',
+      "command-argument value '101' is invalid for argument 'where'. It must be up, down, or a height of 0 to 100 percent. (see plotwright pen --help)",
     ],
     [
       "plan in.svg --place 1",
-      '--place: it must be 2, 3 or 4 lengths with commas between, not "1". See plotwright plan --help.',
+      "option '--place <x,y[,w,h]>' argument '1' is invalid. It must be 2, 3 or 4 lengths with commas between. (see plotwright plan --help)",
     ],
     [
       "serve --allow-host studio.local http://studio",
-      '--allow-host: it must be a name without http:// and port, such as studio.local, not "http://studio". See plotwright serve --help.',
+      "option '--allow-host <name...>' argument 'http://studio' is invalid. It must be a name without http:// and port, such as studio.local. (see plotwright serve --help)",
     ],
     ["ringing --at 30.1", "--at: give --ripples too, the number that you counted."],
     ["ringing --spring-x 15", "--spring-x and --spring-y are for --check: add it."],
@@ -88,10 +88,10 @@ describe("a word that is not a command", () => {
     ["machines --data no-folder", "--data no-folder: there is no such folder."],
     ["pen up --data no-folder --device virtual", "--data no-folder: there is no such folder."],
     ["service install --user me --print", "--user: add --system; without it the service runs as you."],
-    ["service instal", "There is no command instal. Did you mean install? See plotwright service --help."],
+    ["service instal", "unknown command 'instal' (Did you mean install?) (see plotwright service --help)"],
     [
       "queue --url 9391",
-      '--url: it must be an address such as http://127.0.0.1:9080, not "9391". See plotwright queue --help.',
+      "option '--url <url>' argument '9391' is invalid. It must be an address such as http://127.0.0.1:9080. (see plotwright queue --help)",
     ],
   ])("%s is explained in one line", async (line, message) => {
     expect(await cli(...line.split(" "))).toEqual({ code: 2, out: "", err: `plotwright: ${message}\n` });

@@ -3,7 +3,6 @@ import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Snapshot } from "../../src/schema/index.js";
 import { dropFile, openTab, plotBar, waitForPlan } from "../support/page-actions.js";
-import { makeOldDatabase, OLD_BROWSER } from "../support/old-storage.js";
 import { PageTest } from "../support/page-test.js";
 
 const LIMIT_MS = 120_000;
@@ -14,7 +13,7 @@ let test: PageTest;
 let phone: Page;
 
 beforeAll(async () => {
-  test = await PageTest.firstVisit("pen-at-hand", {}, [], makeOldDatabase);
+  test = await PageTest.firstVisit("pen-at-hand");
 });
 
 afterAll(async () => test.close());
@@ -26,43 +25,25 @@ const state = async (): Promise<Snapshot> =>
   snapshotSchema.parse(await (await fetch(`${test.server.url}/api/v1/state`)).json());
 const storedPen = async () => (await state()).plotterSettings["main"]?.pen;
 
-describe("settings that a browser stored before the server did", () => {
+describe("model and heights that are set on one screen", () => {
   it(
-    "go to the plotter once, and are on every other screen from then on",
+    "are the plotter's, and on every other screen",
     async () => {
       const { page } = test;
       expect((await state()).plotterSettings).toEqual({});
-      await page.evaluate((stored) => {
-        localStorage.clear();
-        for (const [key, text] of Object.entries(stored)) localStorage.setItem(key, text);
-      }, OLD_BROWSER);
-      await page.reload();
-      await expect.poll(storedPen).toMatchObject({ upPct: 66, downPct: 41 });
-      // The model is sent by a separate request.
+      await panel(page).getByLabel("Model", { exact: true }).selectOption("axidraw-se-a3");
+      await height(page, "up").fill("70");
+      await height(page, "down").fill("41");
+      await expect.poll(storedPen).toMatchObject({ upPct: 70, downPct: 41 });
       await expect.poll(async () => (await state()).plotters[0].machine).toBe("axidraw-se-a3");
-      const { plotterSettings } = await state();
-      expect(plotterSettings["main"].presets.map(({ name }) => name)).toEqual(["Brush"]);
-      expect(plotterSettings["main"].pens.map(({ name }) => name)).toEqual(["Gold"]);
       const context = await test.browser.newContext({ viewport: { width: 390, height: 844 } });
       phone = await context.newPage();
       await phone.goto(test.server.url);
       await openTab(phone, "Plotter");
-      await expect.poll(() => height(phone, "up").inputValue()).toBe("66");
+      await expect.poll(() => height(phone, "up").inputValue()).toBe("70");
       expect(await height(phone, "down").inputValue()).toBe("41");
       const model = phone.getByLabel("Model", { exact: true });
       await expect.poll(() => model.inputValue()).toBe("axidraw-se-a3");
-      // Only into a plotter that has none: another such browser that comes later gets the plotter's.
-      await height(page, "up").fill("70");
-      await expect.poll(storedPen).toMatchObject({ upPct: 70 });
-      const late = await test.browser.newContext({ viewport: { width: 1440, height: 900 } });
-      await late.addInitScript((stored) => {
-        for (const [key, text] of Object.entries(stored)) localStorage.setItem(key, text);
-      }, OLD_BROWSER);
-      const latePage = await late.newPage();
-      await latePage.goto(test.server.url);
-      await expect.poll(() => height(latePage, "up").inputValue()).toBe("70");
-      expect(await storedPen()).toMatchObject({ upPct: 70, downPct: 41 });
-      await late.close();
     },
     LIMIT_MS,
   );

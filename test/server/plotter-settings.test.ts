@@ -2,7 +2,6 @@
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import sqlite from "node-sqlite3-wasm";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { Store } from "../../server/storage/store.js";
@@ -18,7 +17,6 @@ import {
 } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 import { EventStream } from "./support/event-stream.js";
-import { drawingOf, makeJob } from "./support/jobs.js";
 
 const PEN = { id: "pen-1", name: "Red", color: "#ff0000", widthMm: 0.4, offsetXMm: 0, offsetYMm: 0 };
 const settingsWith = (upPct: number): PlotterSettings => {
@@ -102,24 +100,12 @@ describe("in a drawing's settings", () => {
   });
 });
 
-describe("a database of version 7, which has no settings of plotters", () => {
-  it("keeps its plotters and jobs, and takes settings", () => {
+describe("a plotter's settings in the database", () => {
+  it("are there again after a restart", () => {
     const dir = mkdtempSync(join(tmpdir(), "plotwright-settings-"));
     prepareDataDir(dir);
-    const before = Store.open(dir);
-    before.savePlotter({ id: "main", name: "Desk", device: "auto", machine: "axidraw-se-a3" });
-    before.addJob(makeJob("a"), drawingOf("a"));
-    before.close();
-    const db = new sqlite.Database(join(dir, "plotwright.db"));
-    db.exec(
-      "PRAGMA locking_mode = EXCLUSIVE; ALTER TABLE plotters DROP COLUMN settings; PRAGMA user_version = 7",
-    );
-    db.close();
     const store = Store.open(dir);
-    expect(store.plotters()).toEqual([
-      { id: "main", name: "Desk", device: "auto", machine: "axidraw-se-a3" },
-    ]);
-    expect(store.jobs().map(({ id }) => id)).toEqual(["a"]);
+    store.savePlotter({ id: "main", name: "Desk", device: "auto", machine: "axidraw-se-a3" });
     expect(store.plotterSettings()).toEqual({});
     store.savePlotterSettings("main", settingsWith(72));
     store.close();

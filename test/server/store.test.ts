@@ -114,16 +114,19 @@ describe("a store", () => {
     Store.open(dir).close();
   });
 
-  it("refuses a database of a newer version without touching it", () => {
+  it.each([
+    ["a newer", 999],
+    ["an older", 1],
+  ])("refuses a database of %s version without touching it", (which, version) => {
     Store.open(dir).close();
     const path = join(dir, "plotwright.db");
     const db = new sqlite.Database(path);
-    db.exec("PRAGMA locking_mode = EXCLUSIVE; PRAGMA user_version = 999");
+    db.exec(`PRAGMA locking_mode = EXCLUSIVE; PRAGMA user_version = ${version}`);
     db.close();
-    expect(() => Store.open(dir)).toThrow(/made by a newer plotwright/);
+    expect(() => Store.open(dir)).toThrow(`made by ${which} plotwright (version ${version};`);
     const after = new sqlite.Database(path);
     after.exec("PRAGMA locking_mode = EXCLUSIVE");
-    expect(after.get("PRAGMA user_version")).toEqual({ user_version: 999 });
+    expect(after.get("PRAGMA user_version")).toEqual({ user_version: version });
     after.close();
   });
 

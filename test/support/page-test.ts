@@ -44,15 +44,13 @@ export class PageTest {
     return test;
   }
 
-  /** Starts with an empty paper. `prepareData`: fills the server's data folder first. */
+  /** Starts with an empty paper. */
   static async firstVisit(
     name: string,
     options: BrowserContextOptions = {},
     args: readonly string[] = [],
-    prepareData: (dataDir: string) => void = () => undefined,
   ): Promise<PageTest> {
     const data = temporaryFolder(name);
-    prepareData(data.path);
     const browser = await launchBrowser();
     const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50, args });
     const context = await browser.newContext({ ...DESKTOP, ...options });

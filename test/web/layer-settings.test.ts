@@ -147,12 +147,6 @@ describe("a preset", () => {
     const taken = fromPreset(now, preset);
     expect(taken).toEqual({ ...kept, prepare: { ...kept.prepare, marginMm: 3 } });
   });
-
-  it("of a version without pens does not change them", () => {
-    const now = addPen(DEFAULTS, { name: "Brush" });
-    const { name, motion, pen } = withPreset([], "Old", DEFAULTS)[0];
-    expect(fromPreset(now, { name, motion, pen })).toEqual(now);
-  });
 });
 
 describe("the alignment mark", () => {

@@ -32,23 +32,6 @@ describe("the page's stored settings", () => {
     expect(readRemembered(store)).toEqual(kept);
   });
 
-  it("take a place that an earlier version chose by itself from the defaults", () => {
-    const chosen = {
-      ...DEFAULT_PLOT_SETTINGS.prepare,
-      outside: undefined,
-      marginMm: 22,
-      fit: false,
-      rotateDeg: 90,
-      clipToMargins: false,
-      cropToPage: true,
-    };
-    const stored = JSON.stringify({ settings: { ...DEFAULT_PLOT_SETTINGS, prepare: chosen } });
-    expect(parseRemembered(stored).settings.prepare).toEqual({
-      ...DEFAULT_PLOT_SETTINGS.prepare,
-      marginMm: 22,
-    });
-  });
-
   it("include layer switches, for the drawing that is restored with them", () => {
     const store = memoryStore();
     const settings = {

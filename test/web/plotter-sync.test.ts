@@ -1,4 +1,4 @@
-/** Pages that share a plotter have the same heights, pens and presets, with undo. Also migrates those stored in browsers. */
+/** Pages that share a plotter have the same heights, pens and presets, with undo. */
 import { describe, expect, it } from "vitest";
 import { machineById } from "../../src/index.js";
 import {
@@ -10,9 +10,8 @@ import {
 } from "../../src/schema/index.js";
 import { BackendFault, type Backend } from "../../web/backend/backend.js";
 import { addPen } from "../../web/layers/layer-settings.js";
+import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createActions } from "../../web/state/actions.js";
-import { noteTakenOver, readKeptHere } from "../../web/state/kept-here.js";
-import { DEFAULT_VIEW, type TextStore } from "../../web/state/persist.js";
 import { applyServerEvent } from "../../web/state/server-events.js";
 import { createPageStore, type PageState, type PageStore } from "../../web/state/store.js";
 import { makeJob, makePlotter } from "./fixtures.js";
@@ -270,79 +269,5 @@ describe("a job that is opened", () => {
     page.actions.openDrawing("next", "<svg/>");
     expect(page.pen().upPct).toBe(71);
     expect(plotters.stored["left"].pen.upPct).toBe(71);
-  });
-});
-
-describe("settings stored in a browser by an earlier version", () => {
-  /** Both entries as version 0.1 wrote them. */
-  const STORED: Readonly<Record<string, string>> = {
-    "plotwright.page.v1": JSON.stringify({
-      settings: {
-        ...DEFAULT_PLOT_SETTINGS,
-        machine: "axidraw-se-a3",
-        pen: { upPct: 66, downPct: 41, liftMs: 200, dropMs: 210, layers: { sky: { upPct: 80 } } },
-        pens: [{ id: "pen-1", name: "Gold", color: "#d4af37", widthMm: 1, offsetXMm: 0, offsetYMm: 0 }],
-      },
-      view: DEFAULT_VIEW,
-    }),
-    "plotwright.presets.v1": JSON.stringify([
-      {
-        name: "Brush",
-        motion: DEFAULT_PLOT_SETTINGS.motion,
-        pen: { upPct: 90, downPct: 10, liftMs: 1, dropMs: 1 },
-      },
-    ]),
-  };
-  const browser = (): TextStore => {
-    const texts = new Map(Object.entries(STORED));
-    return { getItem: (key) => texts.get(key) ?? null, setItem: (key, text) => void texts.set(key, text) };
-  };
-
-  it("are copied once to plotters without any, including model and presets", async () => {
-    const plotters = new Plotters();
-    const page = plotters.open();
-    const texts = browser();
-    const kept = readKeptHere(texts);
-    expect(await page.actions.takeOverKept(kept!)).toBe(true);
-    for (const id of ["left", "right"]) {
-      expect(plotters.stored[id].pen).toEqual({
-        ...DEFAULT_PLOT_SETTINGS.pen,
-        upPct: 66,
-        downPct: 41,
-        liftMs: 200,
-        dropMs: 210,
-      });
-      expect(plotters.stored[id].pens.map(({ name }) => name)).toEqual(["Gold"]);
-      expect(plotters.stored[id].presets.map(({ name }) => name)).toEqual(["Brush"]);
-    }
-    expect(plotters.machine).toBe("axidraw-se-a3");
-    noteTakenOver(texts);
-    expect(readKeptHere(texts)).toBeNull();
-    expect(texts.getItem("plotwright.presets.v1")).toBe(STORED["plotwright.presets.v1"]);
-  });
-
-  it("do not change a plotter that has its own", async () => {
-    const plotters = new Plotters();
-    const page = plotters.open();
-    await page.setUp(71);
-    await page.actions.takeOverKept(readKeptHere(browser())!);
-    expect(plotters.stored["left"].pen.upPct).toBe(71);
-    expect(plotters.stored["right"].pen.upPct).toBe(66);
-  });
-
-  it("are not copied while another browser is the operator, or if this one only watches", async () => {
-    const plotters = new Plotters();
-    const kept = readKeptHere(browser())!;
-    const busy = plotters.open({ operator: { id: "b", name: "B" } });
-    expect(await busy.actions.takeOverKept(kept)).toBe(false);
-    const watcher = plotters.open();
-    watcher.store.setState({ me: { role: "watch", id: "w", name: "W" } });
-    expect(await watcher.actions.takeOverKept(kept)).toBe(false);
-    expect(plotters.stored).toEqual({});
-  });
-
-  it("are absent in a new browser", () => {
-    expect(readKeptHere({ getItem: () => null, setItem: () => undefined })).toBeNull();
-    expect(readKeptHere(null)).toBeNull();
   });
 });

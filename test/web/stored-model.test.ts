@@ -50,7 +50,16 @@ afterEach(() => {
   rmSync(dir, { recursive: true, force: true });
 });
 
-const STATS = { strokeCount: 1, pointCount: 2, drawMm: 3, travelMm: 4, penLiftCount: 1, durationS: 10 };
+const SIZE = { widthMm: 60, heightMm: 40, scaleX: 1, scaleY: 1, turnedDeg: 0 };
+const STATS = {
+  size: SIZE,
+  strokeCount: 1,
+  pointCount: 2,
+  drawMm: 3,
+  travelMm: 4,
+  penLiftCount: 1,
+  durationS: 10,
+};
 
 function newJob(number: number): Job {
   const from = { plotterId: number % 2 === 0 ? "main" : "other", name: `job ${number}`, warnings: [] };

@@ -11,7 +11,6 @@ import { browserDrawings, keepDrawing, readKeptDrawing } from "../drawing/kept-d
 import { readRemembered, writeRemembered, type TextStore } from "../state/persist.js";
 import { showNotification, watchJobs } from "../queue/notify.js";
 import { Player } from "../preview/player.js";
-import { noteTakenOver, readKeptHere } from "../state/kept-here.js";
 import { listenForShortcuts, shortcutsFor } from "./shortcuts.js";
 import { applyServerEvent } from "../state/server-events.js";
 import { createPageStore } from "../state/store.js";
@@ -123,24 +122,10 @@ function keepRemembered(): void {
   });
 }
 
-/**
- * Model, heights, pens and presets belong to the plotter. Those that an earlier version stored in this browser are
- * copied to plotters that have none.
- */
+/** Model, heights, pens and presets belong to the plotter. */
 function followPlotter(): void {
-  let kept = readKeptHere(storage);
-  if (kept === null) noteTakenOver(storage);
-  const takeOver = async (): Promise<void> => {
-    const keptNow = kept;
-    if (keptNow === null || store.getState().link !== "connected") return;
-    kept = null;
-    const isDone = await actions.takeOverKept(keptNow);
-    if (isDone) noteTakenOver(storage);
-    else kept = keptNow;
-  };
   store.subscribe((state, before) => {
-    const { plotters, plotterId, plotterSettings, machines, me, operator } = state;
-    if (me !== before.me || operator !== before.operator) void takeOver();
+    const { plotters, plotterId, plotterSettings, machines } = state;
     const hasChanged =
       plotters !== before.plotters ||
       plotterId !== before.plotterId ||

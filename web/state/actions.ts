@@ -128,7 +128,6 @@ export const createActions = (deps: ActionDeps) => {
       sync.follow();
     },
     followPlotter: (): void => sync.follow(),
-    takeOverKept: sync.takeOver,
     /** Saves a custom machine and chooses it. Null if it failed, and the user has seen why. */
     saveMachine: async (profile: MachineProfile): Promise<MachineProfile | null> => {
       const saved = await attempt("machine", () => backend.machines.save(profile.id, profile));

@@ -1,6 +1,5 @@
 /**
- * What the page remembers between visits. It is parsed by the schema: a stored value that does not fit, for example
- * one of an older version, is replaced by its default. The rest stays.
+ * What the page remembers between visits. It is parsed by the schema: a stored value that does not fit is replaced by its default. The rest stays.
  */
 import { z } from "zod";
 import { findMachine, LENGTH_UNITS, plannable } from "../../src/internal.js";
@@ -64,7 +63,6 @@ export const parseRemembered = (stored: string | null): Remembered => {
  */
 const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   const defaults: Record<string, unknown> = DEFAULT_PLOT_SETTINGS;
-  stored = { ...stored, prepare: withoutOldPlacing(recordOf(stored.prepare)) };
   const parts = Object.entries(plotSettingsSchema.shape).map(([name, schema]) => [
     name,
     partOr<unknown>(schema, defaults[name], stored[name]),
@@ -77,17 +75,10 @@ const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   return { ...result.data, machine: machine?.id ?? DEFAULT_PLOT_SETTINGS.machine, motion };
 };
 
-const OLD_PLACING = ["fit", "rotateDeg", "clipToMargins", "cropToPage"];
-/** Earlier versions stored how they had placed a drawing by themselves as if the user had chosen it. */
-const withoutOldPlacing = (prepare: Record<string, unknown>): Record<string, unknown> => {
-  if ("outside" in prepare) return prepare;
-  return Object.fromEntries(Object.entries(prepare).filter(([key]) => !OLD_PLACING.includes(key)));
-};
-
 /** A part with more bad values than this is replaced as a whole. */
 const MAX_FAULTS = 100;
 
-/** Missing fields, which a newer version added, and values that do not fit come from the default. */
+/** Missing fields, and values that do not fit, come from the default. */
 const partOr = <T>(schema: z.ZodType<T>, whole: T, stored: unknown): T => {
   let part: unknown = isRecord(whole) ? { ...whole, ...recordOf(stored) } : stored;
   for (let faults = 0; faults < MAX_FAULTS; faults++) {

@@ -81,8 +81,6 @@ export const createPlotterSaver = (
   };
 
   return {
-    setMachine,
-    saveNow,
     /** Whether changes of this page are still being stored. */
     isBusy: (): boolean => unsent !== null || sendingCount > 0,
     /** Settings of the plotter that are not sent yet. */

@@ -16,10 +16,10 @@ import {
   type PlotterSettings,
 } from "../../src/schema/index.js";
 import { createPlotterSaver, type Shown, type SyncParts } from "./plotter-saver.js";
-import { ACTIVE_STATES, currentPlotter, mayOperate, otherOperator, type PageState } from "./store.js";
+import { ACTIVE_STATES, currentPlotter, mayOperate, type PageState } from "./store.js";
 
 export const createPlotterSync = (parts: SyncParts) => {
-  const { store, failed, show } = parts;
+  const { store, show } = parts;
   // After a failure, or if the user has not taken over, the plotter's values are shown again.
   const saver = createPlotterSaver(parts, () => follow());
   /** The plotter whose values the page shows. */
@@ -65,31 +65,8 @@ export const createPlotterSync = (parts: SyncParts) => {
       show(values, isStep && !isFirst);
   };
 
-  /** Copies the settings stored in this browser to each plotter that has none. True: done, do not try again. */
-  const takeOver = async (kept: KeptHere): Promise<boolean> => {
-    const state = store.getState();
-    if (state.me === null || !mayOperate(state) || otherOperator(state) !== null) return false;
-    try {
-      for (const { id, machine } of state.plotters) {
-        if (state.plotterSettings[id] !== undefined) continue;
-        if (!(await saver.saveNow(id, kept.settings))) return false;
-        if (machine === null) await saver.setMachine(id, kept.machine);
-      }
-      return true;
-    } catch (error) {
-      failed(error);
-      return false;
-    }
-  };
-
-  return { changed, follow, takeOver };
+  return { changed, follow };
 };
-
-/** Plotter settings that a browser stored before the server did. */
-export interface KeptHere {
-  readonly machine: string;
-  readonly settings: PlotterSettings;
-}
 
 /**
  * A job's settings as the page opens them. A running job keeps its own; another one gets the plotter's heights and

@@ -2,11 +2,7 @@
  * Presets: named settings, for example for a pen or a paper. They belong to the plotter and are stored on the server.
  */
 import { findMachine, plannable } from "../../src/internal.js";
-import { MAX_PRESETS, presetSchema, type PlotSettings, type Preset } from "../../src/schema/index.js";
-import type { TextStore } from "./persist.js";
-
-/** Where earlier versions stored presets in the browser. */
-export const PRESETS_KEY = "plotwright.presets.v1";
+import { MAX_PRESETS, type PlotSettings, type Preset } from "../../src/schema/index.js";
 
 export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }: Preset): PlotSettings => ({
   ...settings,
@@ -15,20 +11,6 @@ export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }
   ...pens,
   prepare: { ...settings.prepare, ...layers },
 });
-
-/** The presets that an earlier version stored in this browser. One that does not parse is left out. */
-export const readPresets = (store: TextStore | null): Preset[] => {
-  try {
-    const list: unknown = JSON.parse(store?.getItem(PRESETS_KEY) ?? "[]");
-    if (!Array.isArray(list)) return [];
-    return list.flatMap((item) => {
-      const parsed = presetSchema.safeParse(item);
-      return parsed.success ? [parsed.data] : [];
-    });
-  } catch {
-    return [];
-  }
-};
 
 /** The list with the preset at the end, in place of one of the same name. */
 export const withPreset = (presets: readonly Preset[], name: string, settings: PlotSettings): Preset[] => {

@@ -3,6 +3,7 @@ import type { StoredDrawing } from "../../../server/storage/drawing-files.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type JobStats } from "../../../src/schema/index.js";
 
 export const STATS: JobStats = {
+  size: { widthMm: 60, heightMm: 40, scaleX: 1, scaleY: 1, turnedDeg: 0 },
   strokeCount: 3,
   pointCount: 30,
   drawMm: 120,

@@ -1,27 +1,9 @@
-/** Profiles and jobs as stored by the first version can still be opened. */
+/** Profiles of machines, as stored or given. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PEN, setUpCommands } from "../../../src/index.js";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  machineProfileSchema,
-  plotSettingsSchema,
-} from "../../../src/schema/index.js";
+import { machineProfileSchema } from "../../../src/schema/index.js";
 
-const FORMAT_1 = {
-  id: "old-friend",
-  name: "Old Friend",
-  widthMm: 840,
-  heightMm: 594,
-  stepsPerMm: 100,
-  motors: "mixed",
-  flipX: true,
-  microstepMode: 2,
-  servoPosAt0Pct: 8_000,
-  servoPosAt100Pct: 26_000,
-  servoPin: 5,
-  homing: { x: { port: "B", pin: 0, pressed: 0 }, y: { port: "B", pin: 2, pressed: 1 } },
-};
-const FORMAT_2 = {
+const EBB = {
   id: "old-friend",
   name: "Old Friend",
   widthMm: 840,
@@ -40,16 +22,12 @@ const FORMAT_2 = {
 };
 
 describe("a stored machine profile", () => {
-  it("of format 1 is converted to the current one", () => {
-    expect(machineProfileSchema.parse(FORMAT_1)).toEqual(FORMAT_2);
-  });
-
-  it("of format 2 stays unchanged", () => {
-    expect(machineProfileSchema.parse(FORMAT_2)).toEqual(FORMAT_2);
+  it("is read unchanged", () => {
+    expect(machineProfileSchema.parse(EBB)).toEqual(EBB);
   });
 
   it("that is broken is refused with the field's name", () => {
-    const fault = machineProfileSchema.safeParse({ ...FORMAT_1, servoPin: 9 });
+    const fault = machineProfileSchema.safeParse({ ...EBB, controller: { ...EBB.controller, servoPin: 9 } });
     expect(fault.error?.issues[0]?.path).toEqual(["controller", "servoPin"]);
   });
 });
@@ -100,12 +78,5 @@ describe("a profile with another controller", () => {
     expect(() => setUpCommands(profile, DEFAULT_PEN, "2.8.1")).toThrow(
       /My Grbl is not driven by an EiBotBoard/,
     );
-  });
-});
-
-describe("a stored job's settings", () => {
-  it("keep their machine", () => {
-    const stored = { ...DEFAULT_PLOT_SETTINGS, machine: "old-friend", customMachine: FORMAT_1 };
-    expect(plotSettingsSchema.parse(stored).customMachine).toEqual(FORMAT_2);
   });
 });
