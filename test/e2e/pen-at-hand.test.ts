@@ -31,7 +31,8 @@ describe("model and heights that are set on one screen", () => {
     async () => {
       const { page } = test;
       expect((await state()).plotterSettings).toEqual({});
-      await panel(page).getByLabel("Model", { exact: true }).selectOption("axidraw-se-a3");
+      await page.locator(".group-head").filter({ hasText: "Model and position" }).click();
+      await page.getByLabel("Model", { exact: true }).selectOption("axidraw-se-a3");
       await height(page, "up").fill("70");
       await height(page, "down").fill("41");
       await expect.poll(storedPen).toMatchObject({ upPct: 70, downPct: 41 });
