@@ -1,4 +1,5 @@
 /** The last drawing, stored in the browser. In IndexedDB, which has room for large ones. */
+import { openDB, type IDBPDatabase } from "idb";
 import { z } from "zod";
 import type { PageStore } from "../state/store.js";
 
@@ -47,43 +48,20 @@ const TABLE = "page";
 const KEY = "drawing";
 
 export const browserDrawings = (): DrawingStorage => {
-  let opened: Promise<IDBDatabase> | null = null;
-  const table = async (mode: IDBTransactionMode): Promise<IDBObjectStore> => {
-    opened ??= openDatabase();
-    return (await opened).transaction(TABLE, mode).objectStore(TABLE);
-  };
-  /** Resolves when the change is stored. Only the end of the transaction shows whether there was room. */
-  const change = async (make: (table: IDBObjectStore) => void): Promise<void> => {
-    const changed = await table("readwrite");
-    return new Promise((resolve, reject) => {
-      const { transaction } = changed;
-      transaction.oncomplete = () => resolve();
-      transaction.onabort = () => reject(transaction.error ?? new Error("The browser does not store data."));
-      make(changed);
-    });
-  };
+  let opened: Promise<IDBPDatabase> | null = null;
+  const database = (): Promise<IDBPDatabase> =>
+    (opened ??= openDB(DATABASE, 1, { upgrade: (db) => void db.createObjectStore(TABLE) }));
   return {
-    read: async () => answerOf((await table("readonly")).get(KEY)),
+    read: async () => (await database()).get(TABLE, KEY) as Promise<unknown>,
     write: async (drawing) => {
+      const db = await database();
       try {
-        await change((drawings) => drawings.put(drawing, KEY));
+        await db.put(TABLE, drawing, KEY);
       } catch (error) {
         // There is no room for this drawing. Delete the older one, so that the next visit does not restore it instead.
-        await change((drawings) => drawings.delete(KEY));
+        await db.delete(TABLE, KEY);
         throw error;
       }
     },
   };
 };
-
-const openDatabase = (): Promise<IDBDatabase> => {
-  const request = indexedDB.open(DATABASE, 1);
-  request.onupgradeneeded = () => request.result.createObjectStore(TABLE);
-  return answerOf(request);
-};
-
-const answerOf = <T>(request: IDBRequest<T>): Promise<T> =>
-  new Promise((resolve, reject) => {
-    request.onsuccess = () => resolve(request.result);
-    request.onerror = () => reject(request.error ?? new Error("The browser does not store data."));
-  });

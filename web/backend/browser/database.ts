@@ -5,6 +5,7 @@
  * Durability is strict, except for transactions that change only journals. As on the server, journals survive a crash
  * of the browser but not of the computer, and the stream to the board never waits for the disk.
  */
+import { openDB, type IDBPDatabase } from "idb";
 
 /** One store for each kind of record. Keys are ids. Values are plain JSON, except drawings, which are text or bytes. */
 const STORES = ["jobs", "plotters", "settings", "journals", "machines", "drawings"] as const;
@@ -43,7 +44,7 @@ export interface DatabaseEvents {
 }
 
 export class Database implements Records {
-  #db!: IDBDatabase;
+  #db!: IDBPDatabase;
   readonly #name: string;
   readonly #events: DatabaseEvents;
   /** The latest of each record but the drawings, by store and key, to be stored again if the user clears the site's data. */
@@ -68,15 +69,15 @@ export class Database implements Records {
   }
 
   async #connect(): Promise<void> {
-    const request = indexedDB.open(this.#name, VERSION);
-    request.onupgradeneeded = () => {
-      for (const store of STORES) {
-        if (!request.result.objectStoreNames.contains(store)) request.result.createObjectStore(store);
-      }
-    };
-    this.#db = await settled(request);
-    // Not called for `close`: only if the browser closes it, when the user clears the site's data.
-    this.#db.onclose = () => void this.#connectAgain();
+    this.#db = await openDB(this.#name, VERSION, {
+      upgrade: (db) => {
+        for (const store of STORES) {
+          if (!db.objectStoreNames.contains(store)) db.createObjectStore(store);
+        }
+      },
+      // Not called for `close`: only if the browser closes it, when the user clears the site's data.
+      terminated: () => void this.#connectAgain(),
+    });
   }
 
   async #connectAgain(): Promise<void> {
@@ -92,19 +93,19 @@ export class Database implements Records {
   }
 
   async read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>> {
-    const found = this.#db.transaction(store).objectStore(store);
-    const [keys, values] = await Promise.all([settled(found.getAllKeys()), settled(found.getAll())]);
-    const records = new Map(keys.map((key, index) => [String(key), values[index] as unknown]));
+    const found = this.#db.transaction(store).store;
+    const [keys, values] = await Promise.all([found.getAllKeys(), found.getAll() as Promise<unknown[]>]);
+    const records = new Map(keys.map((key, index) => [String(key), values[index]]));
     for (const [key, value] of records) this.#remember({ store, key, value });
     return records;
   }
 
   async readDrawing(id: string): Promise<unknown> {
-    return settled(this.#db.transaction("drawings").objectStore("drawings").get(id));
+    return this.#db.get("drawings", id);
   }
 
   async drawingIds(): Promise<string[]> {
-    return (await settled(this.#db.transaction("drawings").objectStore("drawings").getAllKeys())).map(String);
+    return (await this.#db.getAllKeys("drawings")).map(String);
   }
 
   put(store: StoreName, key: string, value: unknown): void {
@@ -166,27 +167,17 @@ export class Database implements Records {
     }
   }
 
-  #transact(changes: readonly Change[]): Promise<void> {
-    return new Promise((resolve, reject) => {
-      const isJournal = changes.every(({ store }) => store === "journals");
-      const transaction = this.#db.transaction([...STORES], "readwrite", {
-        durability: isJournal ? "relaxed" : "strict",
-      });
-      transaction.oncomplete = () => resolve();
-      transaction.onabort = () => reject(transaction.error ?? new Error("The transaction was aborted."));
-      for (const { store, key, value } of changes) {
-        const records = transaction.objectStore(store);
-        if (value === undefined) records.delete(key);
-        else records.put(value, key);
-      }
-      // Otherwise the commit waits for the results of all requests, and is lost if the tab dies meanwhile.
-      transaction.commit();
+  async #transact(changes: readonly Change[]): Promise<void> {
+    const isJournal = changes.every(({ store }) => store === "journals");
+    const transaction = this.#db.transaction(STORES, "readwrite", {
+      durability: isJournal ? "relaxed" : "strict",
     });
+    const requests = changes.map(({ store, key, value }): Promise<unknown> => {
+      const records = transaction.objectStore(store);
+      return value === undefined ? records.delete(key) : records.put(value, key);
+    });
+    // Otherwise the commit waits for the results of all requests, and is lost if the tab dies meanwhile.
+    transaction.commit();
+    await Promise.all([...requests, transaction.done]);
   }
 }
-
-const settled = <T>(request: IDBRequest<T>): Promise<T> =>
-  new Promise((resolve, reject) => {
-    request.onsuccess = () => resolve(request.result);
-    request.onerror = () => reject(request.error ?? new Error("IndexedDB did not answer."));
-  });
