@@ -49,6 +49,7 @@ export {
   AXIS_TABLE,
   EASE_TABLE,
   FIT_TABLE,
+  MOTION_TABLE,
   TRAVEL_TABLE,
 } from "./settings/motion.js";
 export {

@@ -32,6 +32,7 @@ export type Shaper = (typeof SHAPERS)[number];
 const speed = {
   kind: "number",
   label: "Speed",
+  words: "velocity, feed rate, fast, slow",
   min: 0,
   minExcluded: true,
   max: 1_000,
@@ -41,6 +42,7 @@ const speed = {
 const accel = {
   kind: "number",
   label: "Acceleration",
+  words: "ramp, accel",
   min: 0,
   minExcluded: true,
   max: 50_000,
@@ -50,6 +52,7 @@ const accel = {
 const corner = {
   kind: "number",
   label: "Corner rounding",
+  words: "cornering, junction deviation, sharp corners",
   min: 0,
   minExcluded: true,
   max: 10,
@@ -61,6 +64,7 @@ const corner = {
 const jerk = {
   kind: "number",
   label: "Softness",
+  words: "jerk, s-curve",
   min: 0,
   minExcluded: true,
   max: 10_000_000,
@@ -135,6 +139,7 @@ export const MOTION_TABLE = {
   mode: {
     kind: "choice",
     label: "Corners",
+    words: "cornering, junction",
     about: "how corners are taken",
     flag: "--mode",
     default: "blend",
@@ -143,6 +148,7 @@ export const MOTION_TABLE = {
   shaper: {
     kind: "choice",
     label: "Reduce ringing",
+    words: "input shaping, resonance, vibration, wobble",
     about: "input shaper against the machine's swinging; needs its measured frequencies",
     flag: "--shaper",
     default: "none",
@@ -193,6 +199,7 @@ export const FIT_TABLE = {
   toleranceMm: {
     kind: "number",
     label: "Tolerance",
+    words: "deviation, merge",
     about: "how far merged commands may deviate from the plan",
     default: 0.02,
     min: 0.001,

@@ -17,6 +17,7 @@ export const PEN_TABLE = {
   upPct: {
     ...height,
     label: "Height up",
+    words: "pen up height, pen up position, servo up, lift height",
     about: "height while travelling",
     flag: "--pen-up",
     default: 60,
@@ -25,6 +26,7 @@ export const PEN_TABLE = {
   downPct: {
     ...height,
     label: "Height down",
+    words: "pen down height, pen down position, servo down, pressure, depth",
     about: "height while drawing",
     flag: "--pen-down",
     default: 30,
@@ -34,6 +36,7 @@ export const PEN_TABLE = {
   liftMs: {
     ...delay,
     label: "Wait after lifting",
+    words: "pen up delay, pen lift time, servo delay",
     about: "wait for the pen to lift",
     flag: "--pen-lift-ms",
     default: 250,
@@ -41,6 +44,7 @@ export const PEN_TABLE = {
   dropMs: {
     ...delay,
     label: "Wait after lowering",
+    words: "pen down delay, pen drop time, settle, servo delay",
     about: "wait for the pen to drop",
     flag: "--pen-drop-ms",
     default: 300,
@@ -57,6 +61,7 @@ export const LIFT_RATE = {
 export const DROP_RATE = {
   ...rate,
   label: "Lowering speed",
+  words: "pen down speed, servo speed",
   about: "how fast the pen is lowered",
   default: 60,
 } as const satisfies NumberSetting;
@@ -69,6 +74,7 @@ export const OVERLAP_TABLE = {
   overlap: {
     kind: "choice",
     label: "Move while the pen lifts",
+    words: "overlap, tails",
     about: "whether the carriage moves while the pen lifts and lowers clear of the paper",
     flag: "--pen-overlap",
     default: "safe",
@@ -78,6 +84,7 @@ export const OVERLAP_TABLE = {
   contactPct: {
     ...height,
     label: "Tip touches at",
+    words: "contact height",
     about: "share of the lift at which the tip leaves the paper",
     flag: "--pen-contact",
     default: 50,

@@ -96,6 +96,7 @@ export const PREPARE_TABLE = {
   landscape: {
     kind: "switch",
     label: "Landscape",
+    words: "portrait, orientation",
     about: "use a named paper size in landscape",
     aboutOff: "use a named paper size in portrait",
     flag: "--landscape",
@@ -104,6 +105,7 @@ export const PREPARE_TABLE = {
   marginMm: {
     kind: "number",
     label: "Margin",
+    words: "border, edge, padding",
     about: "free edge around the drawing",
     flag: "--margin",
     default: 15,
@@ -116,6 +118,7 @@ export const PREPARE_TABLE = {
   fit: {
     kind: "switch",
     label: "Fit paper",
+    words: "scale, size, zoom, fit to page, true size",
     about: "scale the drawing to the paper inside the margins",
     aboutOff: "draw at true size, page corner on paper corner",
     aboutAuto: "true size if the file's page fits the paper, otherwise --fit",
@@ -125,6 +128,7 @@ export const PREPARE_TABLE = {
   pxPerInch: {
     kind: "number",
     label: "Resolution of the file",
+    words: "dpi, ppi, px per inch, pixels, scale",
     about: "size of the px of a file whose page is given in px",
     aboutAuto: "guessed from the program that wrote the file, otherwise 96",
     flag: "--px-per-inch",
@@ -137,6 +141,7 @@ export const PREPARE_TABLE = {
   outside: {
     kind: "choice",
     label: "What lies outside the paper",
+    words: "crop, clip, overflow",
     about:
       "if the drawing leaves the paper: plot nothing, cut it off at the edge, move it onto the paper, fit it to the paper, or draw it",
     flag: "--outside",
@@ -146,6 +151,7 @@ export const PREPARE_TABLE = {
   rotateDeg: {
     kind: "number",
     label: "Rotate",
+    words: "turn, angle",
     about: "turn the drawing clockwise about its middle, before fitting",
     aboutAuto: "90 if the file's page fits the paper only that way, otherwise 0",
     flag: "--rotate",
@@ -158,6 +164,7 @@ export const PREPARE_TABLE = {
   mirror: {
     kind: "choice",
     label: "Mirror",
+    words: "flip, reflect, reverse",
     about: "mirror the drawing",
     flag: "--mirror",
     default: "none",
@@ -166,6 +173,7 @@ export const PREPARE_TABLE = {
   clipToMargins: {
     kind: "switch",
     label: "Cut off what lies outside the margins",
+    words: "clip, crop, mask",
     about: "cut off what lies outside the margins",
     aboutOff: "draw over the margins",
     flag: "--clip",
@@ -174,6 +182,7 @@ export const PREPARE_TABLE = {
   cropToPage: {
     kind: "switch",
     label: "Cut off what lies outside the file’s page",
+    words: "clip, crop, artboard",
     about: "cut off what lies outside the file's own page",
     flag: "--crop-to-page",
     default: false,
@@ -181,6 +190,7 @@ export const PREPARE_TABLE = {
   outlineFills: {
     kind: "switch",
     label: "Draw the outline of filled shapes",
+    words: "stroke, border",
     about: "draw the outline of shapes that are only filled",
     flag: "--outline-fills",
     default: true,
@@ -195,6 +205,7 @@ export const PREPARE_TABLE = {
   hideCovered: {
     kind: "switch",
     label: "Hide lines under filled shapes",
+    words: "occlusion, hidden lines, overlap",
     about: "leave out lines under shapes that are painted later",
     flag: "--hide-covered",
     default: false,
@@ -202,6 +213,7 @@ export const PREPARE_TABLE = {
   joinMm: {
     kind: "number",
     label: "Join ends closer than",
+    words: "merge lines, connect, weld",
     about: "join ends that are closer than this",
     flag: "--join",
     panel: "lines",
@@ -215,6 +227,7 @@ export const PREPARE_TABLE = {
   dropShorterMm: {
     kind: "number",
     label: "Skip strokes shorter than",
+    words: "filter, tiny, dots, remove short",
     about: "leave out strokes shorter than this; 0 keeps dots too",
     flag: "--drop-shorter",
     panel: "lines",
@@ -228,6 +241,7 @@ export const PREPARE_TABLE = {
   dropRepeatsMm: {
     kind: "number",
     label: "Leave out repeats within",
+    words: "duplicates, double lines, deduplicate",
     about: "leave out lines already drawn within this distance; 0 keeps all",
     flag: "--drop-repeats",
     panel: "lines",
@@ -241,6 +255,7 @@ export const PREPARE_TABLE = {
   simplifyMm: {
     kind: "number",
     label: "Simplify within",
+    words: "reduce points, optimise, optimize",
     about: "drop points closer than this to the line (Douglas–Peucker)",
     flag: "--simplify",
     panel: "lines",
@@ -254,6 +269,7 @@ export const PREPARE_TABLE = {
   flattenMm: {
     kind: "number",
     label: "Curve smoothness",
+    words: "flatten, resolution, segments, tolerance",
     about: "maximum gap between a curve and its chords, on paper",
     flag: "--flatten",
     panel: "lines",
@@ -267,6 +283,7 @@ export const PREPARE_TABLE = {
   smoothRounds: {
     kind: "number",
     label: "Smoothing, rounds",
+    words: "soften",
     about: "rounds of corner cutting (Chaikin); each round doubles the number of points",
     flag: "--smooth",
     panel: "lines",
@@ -289,6 +306,7 @@ export const PREPARE_TABLE = {
   order: {
     kind: "choice",
     label: "Order of strokes",
+    words: "sort, optimise, optimize, travel, reorder",
     about: "order of strokes",
     flag: "--order",
     default: "fast",
@@ -308,6 +326,7 @@ export const PREPARE_TABLE = {
   spread: {
     kind: "choice",
     label: "Let ink dry",
+    words: "shuffle, smear, bleed",
     about: "draw neighbouring strokes at different times, so that ink dries",
     flag: "--spread",
     default: "none",
@@ -316,6 +335,7 @@ export const PREPARE_TABLE = {
   reinkMm: {
     kind: "number",
     label: "Take up ink every",
+    words: "refill, dip, brush, paint",
     about: "stop after this length of drawing, to take up ink; 0: never",
     flag: "--reink",
     default: 0,
@@ -327,6 +347,7 @@ export const PREPARE_TABLE = {
   layers: {
     kind: "choice",
     label: "Layers from",
+    words: "groups, colours, colors, sublayers",
     about: "what makes a layer",
     flag: "--layers",
     default: "group",

@@ -7,6 +7,8 @@ interface Described {
   readonly label: string;
   /** Shown on the command line and in its documentation. */
   readonly about: string;
+  /** Other words that people use for it, by phrases, for the page's search. */
+  readonly words?: string;
   /** "--margin"; left out: the command line has no option for it. */
   readonly flag?: string;
   /** The page's panel that lists it as a plain field; left out: it has custom UI. */

@@ -5,6 +5,7 @@ export const STREAM_TABLE = {
   sendAheadMs: {
     kind: "number",
     label: "Motion sent ahead",
+    words: "buffer, latency",
     about:
       "motion sent ahead of the pen; with less, stops are faster, but the pen may pause when the computer is busy",
     flag: "--send-ahead-ms",

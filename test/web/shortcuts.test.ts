@@ -1,8 +1,10 @@
 /** Which keys run a shortcut, by what has the focus and what the page shows. */
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { listenForShortcuts, shortcutsFor } from "../../web/app/shortcuts.js";
-import type { Actions } from "../../web/state/actions.js";
+import { PAGE_ACTIONS, SEARCH } from "../../web/app/page-actions.js";
+import { ACTIONS_WITH_KEYS, listenForShortcuts } from "../../web/app/shortcuts.js";
+import { isPressed, whyOff, type Page } from "../../web/state/page-action.js";
+import { createUiActions } from "../../web/state/ui-actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore, type PageState } from "../../web/state/store.js";
 import type { Planned } from "../../web/worker/protocol.js";
@@ -27,6 +29,8 @@ const DRAWING = { key: "drawing-1", name: "waves", text: "<svg/>", jobId: null, 
 const planned = (strokeCount: number, x1: number): Planned =>
   ({ strokeCount, drawnBox: { x0: 0, y0: 0, x1, y1: 10 } }) as Planned;
 
+const STEP = { settings: DEFAULT_PLOT_SETTINGS, presets: [] };
+
 let listener: (event: KeyboardEvent) => void;
 
 beforeEach(() => {
@@ -45,17 +49,18 @@ const makePage = () => {
     plotters: [makePlotter("virtual")],
     drawing: DRAWING,
     planned: planned(1, 10),
+    undoStack: [STEP, STEP],
+    redoStack: [STEP],
   });
   const done = {
     undo: vi.fn(),
     redo: vi.fn(),
     queueDrawing: vi.fn(() => Promise.resolve()),
     actOnJob: vi.fn(() => Promise.resolve(null)),
-    toggle: vi.fn(),
+    togglePlaying: vi.fn(),
   };
-  listenForShortcuts(
-    shortcutsFor({ store, actions: done as unknown as Actions, player: { toggle: done.toggle } }),
-  );
+  const actions = { ...createUiActions(store, () => undefined), ...done };
+  listenForShortcuts({ store, actions, backend: { features: {} } } as unknown as Page);
   /** True: the browser does nothing of its own with the key. */
   const press = (key: string, more: Partial<KeyboardEvent> = {}, target = BODY): boolean => {
     const preventDefault = vi.fn();
@@ -95,7 +100,7 @@ describe("a key that is held", () => {
   it("does not scroll the page if it is Space", () => {
     const { done, press } = makePage();
     expect(press(" ", { repeat: true })).toBe(true);
-    expect(done.toggle).not.toHaveBeenCalled();
+    expect(done.togglePlaying).not.toHaveBeenCalled();
   });
 });
 
@@ -165,7 +170,7 @@ describe("the control that has the focus", () => {
     expect(press("z", { ctrlKey: true }, target)).toBe(true);
     expect(done.undo).toHaveBeenCalledTimes(1);
     expect(press(" ", {}, target)).toBe(false);
-    expect(done.toggle).not.toHaveBeenCalled();
+    expect(done.togglePlaying).not.toHaveBeenCalled();
   });
 
   it.each(typed)("handles every key if it takes text or lists choices: %o", (target) => {
@@ -201,5 +206,64 @@ describe("under a dialog", () => {
     store.setState({ openDialog: "machines" });
     press("?", {}, button);
     expect(store.getState().openDialog).toBe("machines");
+  });
+});
+
+describe("Ctrl K", () => {
+  const text = new FakeInput("text");
+
+  it("opens the search also while the user types, and closes it", () => {
+    const { store, press } = makePage();
+    expect(press("k", { ctrlKey: true }, text)).toBe(true);
+    expect(store.getState().openDialog).toBe("search");
+    press("k", { metaKey: true }, text);
+    expect(store.getState().openDialog).toBeNull();
+  });
+
+  it("leaves another dialog and the question open", () => {
+    const { store, press } = makePage();
+    store.setState({ openDialog: "console" });
+    press("k", { ctrlKey: true }, text);
+    expect(store.getState().openDialog).toBe("console");
+    store.setState({ openDialog: null, takeOverQuestion: { operator: null, answer: () => undefined } });
+    press("k", { ctrlKey: true }, text);
+    expect(store.getState().openDialog).toBeNull();
+  });
+});
+
+describe("the actions of the page", () => {
+  it("have names and keys of their own", () => {
+    const ids = PAGE_ACTIONS.map(({ id }) => id);
+    expect(new Set(ids).size).toBe(ids.length);
+    const keys = ACTIONS_WITH_KEYS.map(({ key }) => key);
+    expect(new Set(keys).size).toBe(keys.length);
+    expect(keys).toEqual(
+      expect.arrayContaining(["P", "Q", "?", "T", "G", "Space", "Ctrl Z", "Ctrl Shift Z"]),
+    );
+    expect(ACTIONS_WITH_KEYS).toContain(SEARCH);
+  });
+
+  it.each(ACTIONS_WITH_KEYS)("are performed by their own key only: $id", (action) => {
+    const held = (action.key ?? "").split(" ");
+    const last = held.pop() ?? "";
+    const event = {
+      key: last === "Space" ? " " : last.toLowerCase(),
+      ctrlKey: held.includes("Ctrl"),
+      shiftKey: held.includes("Shift") || last === "?",
+      metaKey: false,
+      altKey: false,
+    };
+    expect(ACTIONS_WITH_KEYS.filter((other) => isPressed(other, event))).toEqual([action]);
+    expect(isPressed(action, { ...event, key: "j" })).toBe(false);
+  });
+
+  it("say why they are off before the server has answered and without a drawing", () => {
+    const state = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW }).getState();
+    const reasons = PAGE_ACTIONS.map((action) => [action.id, whyOff(action, state)]);
+    const off = reasons.filter(([, why]) => why !== null);
+    expect(off.map(([id]) => id)).toEqual(
+      expect.arrayContaining(["plot", "queue", "undo", "redo", "home", "play", "frame"]),
+    );
+    for (const [, why] of off) expect(why).toMatch(/^[A-Z].*[.…]$/);
   });
 });

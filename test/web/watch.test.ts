@@ -2,7 +2,8 @@
 import { describe, expect, it, vi } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, type Trajectory } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { shortcutsFor } from "../../web/app/shortcuts.js";
+import { UNDO } from "../../web/app/page-actions.js";
+import { performByKey, type Page } from "../../web/state/page-action.js";
 import { BackendFault } from "../../web/backend/backend.js";
 import { createServerBackend } from "../../web/backend/server/server-backend.js";
 import { inkBox } from "../../web/drawing/crop-picture.js";
@@ -61,13 +62,13 @@ describe("keys for the laid-out drawing", () => {
   it("are ignored in Watch, which does not show it", () => {
     const store = makeStore();
     const actions = { undo: vi.fn() } as unknown as Actions;
-    const shortcuts = shortcutsFor({ store, actions, player: { toggle: vi.fn() } });
-    const press = (key: string): void => shortcuts.find(({ keys }) => keys === key)!.run();
-    store.setState({ pageView: "watch" });
-    press("Ctrl Z");
+    const press = (): void => performByKey(UNDO, { store, actions } as unknown as Page);
+    const { settings, presets } = store.getState();
+    store.setState({ pageView: "watch", undoStack: [{ settings, presets }] });
+    press();
     expect(actions.undo).not.toHaveBeenCalled();
     store.setState({ pageView: "prepare" });
-    press("Ctrl Z");
+    press();
     expect(actions.undo).toHaveBeenCalledTimes(1);
   });
 });

@@ -1,4 +1,3 @@
-import { useState } from "react";
 import { DrawingPanel } from "../drawing/drawing.js";
 import { DrawnSize } from "../drawing/drawn-size.js";
 import { Dialogs } from "./dialogs.js";
@@ -13,13 +12,11 @@ import { PensPanel } from "../pens/pens.js";
 import { PlotBar } from "../queue/plot-bar.js";
 import { HistoryPanel, QueuePanel } from "../queue/queue.js";
 import { PresetsPanel } from "../plotter/presets.js";
-import type { Player } from "../preview/player.js";
-import type { Shortcut } from "./shortcuts.js";
 import { Strips } from "./strips.js";
 import { TopBar } from "./top-bar.js";
 import { Preview } from "../preview/preview.js";
 import { TimeLine } from "../preview/time-line.js";
-import { shownView, unfinishedJob } from "../state/store.js";
+import { shownView, TABS, unfinishedJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { drawingText } from "../drawing/text.js";
 import { skipText, tabsText } from "./text.js";
@@ -35,17 +32,10 @@ const Camera = lazyPart(async () => (await import("../studio/camera.js")).Camera
 /** Targets of the skip link. */
 const PLOT_ID = "plot-bar";
 const WATCH_ID = "plot-status";
-const TABS = ["setup", "queue", "machine"] as const;
-type Tab = (typeof TABS)[number];
-
-interface AppProps {
-  readonly player: Player;
-  readonly shortcuts: readonly Shortcut[];
-}
 
 /** Arranges the panels. On a narrow screen the side columns become tabs under the paper. */
-export const App = ({ player, shortcuts }: AppProps) => {
-  const [tab, setTab] = useState<Tab>("setup");
+export const App = () => {
+  const tab = usePageState((state) => state.tab);
   const { openFile, openPasted } = useActions();
   const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
   const isEmpty = usePageState(
@@ -77,9 +67,9 @@ export const App = ({ player, shortcuts }: AppProps) => {
             {isEmpty && <EmptyPaper />}
             {!isWatching && <Notices />}
           </div>
-          {!isWatching && <TimeLine player={player} />}
+          {!isWatching && <TimeLine />}
         </main>
-        <Tabs tab={tab} onChange={setTab} />
+        <Tabs />
         <aside className="column column-setup" aria-label={tabsText.setup}>
           <DrawingPanel />
           <PaperPanel />
@@ -110,7 +100,7 @@ export const App = ({ player, shortcuts }: AppProps) => {
           </div>
         </aside>
       </div>
-      <Dialogs shortcuts={shortcuts} />
+      <Dialogs />
     </DropZone>
   );
 };
@@ -132,17 +122,21 @@ const SkipLink = ({ isWatching }: { isWatching: boolean }) => {
   );
 };
 
-const Tabs = ({ tab, onChange }: { tab: Tab; onChange(tab: Tab): void }) => (
-  <nav className="tabs" aria-label={tabsText.label}>
-    {TABS.map((name) => (
-      <button
-        key={name}
-        type="button"
-        aria-current={name === tab ? "page" : undefined}
-        onClick={() => onChange(name)}
-      >
-        {tabsText[name]}
-      </button>
-    ))}
-  </nav>
-);
+const Tabs = () => {
+  const tab = usePageState((state) => state.tab);
+  const { showTab } = useActions();
+  return (
+    <nav className="tabs" aria-label={tabsText.label}>
+      {TABS.map((name) => (
+        <button
+          key={name}
+          type="button"
+          aria-current={name === tab ? "page" : undefined}
+          onClick={() => showTab(name)}
+        >
+          {tabsText[name]}
+        </button>
+      ))}
+    </nav>
+  );
+};

@@ -1,10 +1,11 @@
-import type { Shortcut } from "./shortcuts.js";
+import { PAGE_ACTIONS } from "./page-actions.js";
 import { usePageState } from "../state/use-store.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
 const TakeOver = lazyPart(async () => (await import("./take-over.js")).TakeOver);
-const HelpSheet = lazyPart(async () => (await import("./help.js")).HelpSheet);
+const Search = lazyPart(async () => (await import("../search/search.js")).Search);
 const DIALOGS = {
+  keys: lazyPart(async () => (await import("./help.js")).HelpSheet),
   about: lazyPart(async () => (await import("./about.js")).AboutDialog),
   wizard: lazyPart(async () => (await import("../plotter/wizard.js")).Wizard),
   machines: lazyPart(async () => (await import("../plotter/machines-dialog.js")).MachinesDialog),
@@ -13,25 +14,21 @@ const DIALOGS = {
   studio: lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog),
 } as const;
 
-interface DialogsProps {
-  readonly shortcuts: readonly Shortcut[];
-}
-
 /** The open dialog, if any. The question is shown over it, so that what was typed into the dialog is kept. */
-export const Dialogs = ({ shortcuts }: DialogsProps) => {
+export const Dialogs = () => {
   const question = usePageState((state) => state.takeOverQuestion);
   return (
     <>
-      <OpenDialog shortcuts={shortcuts} />
+      <OpenDialog />
       {question && <TakeOver question={question} />}
     </>
   );
 };
 
-const OpenDialog = ({ shortcuts }: DialogsProps) => {
+const OpenDialog = () => {
   const name = usePageState((state) => state.openDialog);
   if (name === null) return null;
-  if (name === "keys") return <HelpSheet shortcuts={shortcuts} />;
+  if (name === "search") return <Search actions={PAGE_ACTIONS} />;
   const Named = DIALOGS[name];
   return <Named />;
 };

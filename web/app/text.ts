@@ -2,6 +2,8 @@
 export const historyText = {
   undo: "Undo",
   redo: "Redo",
+  nothingToUndo: "Nothing was changed yet.",
+  nothingToRedo: "Nothing was undone.",
 };
 
 export const skipText = {
@@ -16,12 +18,16 @@ export const tabsText = {
   machine: "Plotter",
 };
 
+export const searchLabel = "Search for anything";
+
 export const studioLink = "Sharing, plotters, camera";
 
 export const viewText = {
   label: "View",
   prepare: "Prepare",
   watch: "Watch",
+  show: { prepare: "Show Prepare", watch: "Show Watch" },
+  isShown: "It is shown already.",
 };
 
 export const pairingText = {
@@ -66,9 +72,5 @@ export const stripsText = {
 
 export const shortcutsText = {
   title: "Keyboard shortcuts",
-  play: "Play the preview, or stop",
-  travel: "Show pen-up moves",
-  graph: "Show speed over time",
-  pause: "Pause the plot, or resume",
   fields: "In a number field, the up and down arrows change the number; with Shift, ten times as much.",
 };

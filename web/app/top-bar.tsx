@@ -1,9 +1,10 @@
 import { currentPlotter, mayOperate, shownView } from "../state/store.js";
-import { THEMES, type Theme } from "../state/persist.js";
-import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
-import { IconButton } from "../ui/button.js";
+import type { Theme } from "../state/persist.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { ActionButton } from "../ui/action-button.js";
 import { appName } from "../ui/text.js";
-import { historyText, shortcutsText, studioLink, themeText, viewText } from "./text.js";
+import { REDO, SEARCH, SHORTCUTS, STUDIO, THEME, UNDO } from "./page-actions.js";
+import { viewText } from "./text.js";
 import { plotterText } from "../plotter/text.js";
 import type { IconName } from "../ui/icon.js";
 import { MachineState } from "../plotter/machine-state.js";
@@ -22,10 +23,12 @@ export const TopBar = () => {
       <PlotterSwitch />
       <MachineState />
       <div className="top-tools">
-        {isPreparing && <UndoButtons />}
-        <StudioButton />
+        <ActionButton action={SEARCH} kind="tool" icon="search" />
+        {isPreparing && <ActionButton action={UNDO} kind="tool" icon="undo" />}
+        {isPreparing && <ActionButton action={REDO} kind="tool" icon="redo" />}
+        <ActionButton action={STUDIO} kind="tool" icon="share" />
         <ThemeButton />
-        <HelpButton />
+        <ActionButton action={SHORTCUTS} kind="tool" icon="help" />
       </div>
     </header>
   );
@@ -55,33 +58,6 @@ const Mark = () => (
   </svg>
 );
 
-const UndoButtons = () => {
-  const canUndo = usePageState((state) => state.undoStack.length > 0);
-  const canRedo = usePageState((state) => state.redoStack.length > 0);
-  const { undo, redo } = useActions();
-  return (
-    <>
-      <IconButton kind="tool" icon="undo" label={historyText.undo} disabled={!canUndo} onClick={undo} />
-      <IconButton kind="tool" icon="redo" label={historyText.redo} disabled={!canRedo} onClick={redo} />
-    </>
-  );
-};
-
-const StudioButton = () => {
-  const store = usePageStore();
-  const { features } = useBackend();
-  const isMine = usePageState(mayOperate);
-  if (!isMine || !features.sharing) return null;
-  return (
-    <IconButton
-      kind="tool"
-      icon="share"
-      label={studioLink}
-      onClick={() => store.setState({ openDialog: "studio" })}
-    />
-  );
-};
-
 /** Chooses the plotter that the page shows and sends to. Not shown when there is only one. */
 const PlotterSwitch = () => {
   const plotters = usePageState((state) => state.plotters);
@@ -104,29 +80,7 @@ const PlotterSwitch = () => {
   );
 };
 
-const HelpButton = () => {
-  const store = usePageStore();
-  return (
-    <IconButton
-      kind="tool"
-      icon="help"
-      label={shortcutsText.title}
-      onClick={() => store.setState({ openDialog: "keys" })}
-    />
-  );
-};
-
 const ThemeButton = () => {
   const theme = usePageState((state) => state.view.theme);
-  const { changeView } = useActions();
-  const label = `${themeText.label}: ${themeText[theme]}`;
-  const next = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
-  return (
-    <IconButton
-      kind="tool"
-      icon={THEME_ICON[theme]}
-      label={label}
-      onClick={() => changeView({ theme: next })}
-    />
-  );
+  return <ActionButton action={THEME} kind="tool" icon={THEME_ICON[theme]} />;
 };

@@ -7,6 +7,7 @@ import {
   type PaperName,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import type { PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { paperText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -34,6 +35,10 @@ const nameOfPaper = ({ widthMm, heightMm }: PrepareSettings["paper"]): PaperName
     (name) => PAPER_SIZES[name].widthMm === widthMm && PAPER_SIZES[name].heightMm === heightMm,
   ) ?? CUSTOM;
 
+/** The paper's sides have fields. */
+export const isCustomPaper = ({ settings: { prepare }, typedPaper }: PageState): boolean =>
+  prepare.paper === typedPaper || nameOfPaper(prepare.paper) === CUSTOM;
+
 export const paperLabel = (name: PaperName): string => name.replace("in", " in").replace("x", " × ");
 
 export const PaperPanel = () => {
@@ -58,9 +63,8 @@ export const PaperPanel = () => {
         : { rotateDeg: wholeTurn(deg) },
     );
   const store = usePageStore();
-  const typedPaper = usePageState((state) => state.typedPaper);
+  const isCustom = usePageState(isCustomPaper);
   const name = nameOfPaper(paper);
-  const isCustom = paper === typedPaper || name === CUSTOM;
   const { widthMm, heightMm } = orientedPaper(paper, landscape);
   const size = formatSize(widthMm, heightMm, lengthUnit);
 

@@ -1,6 +1,6 @@
 import { QUALITIES, qualityOf, withQuality, type Quality } from "../../src/internal.js";
 
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, usePageState } from "../state/use-store.js";
 import { motionText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Segments } from "../ui/choice.js";
@@ -68,8 +68,7 @@ const QualityChoice = ({ chosen }: { chosen: Quality | "custom" }) => {
 /** How the machine swings and where to see it, or why to measure it. */
 const Swing = () => {
   const springs = useSprings();
-  const store = usePageStore();
-  const { changeView } = useActions();
+  const { changeView, openDialog } = useActions();
   const note =
     springs === null
       ? words.unmeasured
@@ -77,10 +76,7 @@ const Swing = () => {
   return (
     <div className="swing" data-measured={springs !== null || undefined}>
       <p className="note">{note}</p>
-      <Button
-        kind={springs === null ? "small" : "link"}
-        onClick={() => store.setState({ openDialog: "ringing" })}
-      >
+      <Button kind={springs === null ? "small" : "link"} onClick={() => openDialog("ringing")}>
         {springs === null ? words.measure : words.measureAgain}
       </Button>
       <Button kind="link" onClick={() => changeView({ colorBy: "swing" })}>

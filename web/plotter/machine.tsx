@@ -2,52 +2,40 @@ import type { ReactNode } from "react";
 import { MACHINES } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
 import type { Plotter } from "../../src/schema/index.js";
-import { activeJob, currentPlotter, mayOperate, type DialogName } from "../state/store.js";
-import { useActions, useBackend, useIsConnected, usePageState, usePageStore } from "../state/use-store.js";
+import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
+import { useActions, useBackend, useIsConnected, usePageState } from "../state/use-store.js";
 import { plotterText as words } from "./text.js";
-import { Button } from "../ui/button.js";
+import { ActionButton } from "../ui/action-button.js";
 import { Select } from "../ui/choice.js";
 import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { isMovingByHand, PenAtHand, StopMove } from "./pen-at-hand.js";
+import { PenAtHand, StopMove } from "./pen-at-hand.js";
 import { adviceWords, homeWords, lampOf, penWords, plotterWords } from "./machine-words.js";
-import { saveFile } from "../ui/save-file.js";
+import { CONNECT, CONSOLE, MACHINES_DIALOG, RINGING, SAVE_LOG, SET_UP } from "./plotter-actions.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 
 const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
 
 /** The plotter's state, and the controls that every plot needs. */
 export const MachinePanel = () => {
-  const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
-  const isMoving = usePageState(isMovingByHand);
-  const { connectPlotter } = useActions();
-  const mayConnect = backend.features.asksForPort && backend.features.whyNoPort === null;
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
-      {isMine && plotter?.kind === "virtual" && mayConnect && (
-        <Button onClick={() => void connectPlotter(plotter.id)}>{words.connect}</Button>
-      )}
-      {isMine ? <PenAtHand /> : isMoving && <StopMove />}
+      <ActionButton action={CONNECT} />
+      {isMine ? <PenAtHand /> : <StopMove />}
     </section>
   );
 };
 
 /** Controls that are needed less often. `children`: the pen-lift settings, from `web/pens`. */
 export const MachineSetUp = ({ children }: { children: ReactNode }) => {
-  const backend = useBackend();
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
   const home = usePageState(({ settings }) => homeWords(findMachine(settings)));
-  const { attempt } = useActions();
-  const saveLog = async (id: string): Promise<void> => {
-    const log = await attempt("log", () => backend.plotters.log(id));
-    if (log !== null) saveFile(`plotwright-${id}.log`, log, "text/plain");
-  };
   return (
     <section className="card machine-set-up" aria-label={words.rest}>
       <div className="group-in-card">
@@ -64,26 +52,11 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
         </SettingsGroup>
       </div>
       <p className="link-row">
-        {isMine && <DialogLink name="wizard">{words.setUp}</DialogLink>}
-        {isMine && <DialogLink name="machines">{words.profiles}</DialogLink>}
-        {isMine && <DialogLink name="ringing">{words.ringing}</DialogLink>}
-        {isMine && <DialogLink name="console">{words.console}</DialogLink>}
-        {plotter && (
-          <Button kind="link" onClick={() => void saveLog(plotter.id)}>
-            {words.log}
-          </Button>
-        )}
+        {[SET_UP, MACHINES_DIALOG, RINGING, CONSOLE, SAVE_LOG].map((action) => (
+          <ActionButton key={action.id} action={action} kind="link" />
+        ))}
       </p>
     </section>
-  );
-};
-
-const DialogLink = ({ name, children }: { name: DialogName; children: string }) => {
-  const store = usePageStore();
-  return (
-    <Button kind="link" onClick={() => store.setState({ openDialog: name })}>
-      {children}
-    </Button>
   );
 };
 

@@ -1,10 +1,12 @@
 import { useMemo, useState, type ReactNode } from "react";
 import { OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
-import { activeJob, currentPlotter, isReady, otherOperator, type PageState } from "../state/store.js";
+import { activeJob, currentPlotter, otherOperator, type PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
+import { ActionButton } from "../ui/action-button.js";
 import { Button } from "../ui/button.js";
 import { SettingField } from "../ui/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
+import { HOME, isMovingByHand, MOTORS_OFF, STOP_MOVE, TEST_LINE } from "./plotter-actions.js";
 import { servoFollower } from "./servo-follow.js";
 import { penText as words } from "./text.js";
 import "./pen-at-hand.css";
@@ -86,48 +88,26 @@ const FirstPlot = () => {
 };
 
 /** This plotter has never plotted. */
-const isFirstPlot = (state: PageState): boolean => {
+export const isFirstPlot = (state: PageState): boolean => {
   const id = currentPlotter(state)?.id;
   const hasPlotted = state.jobs.some((job) => job.plotterId === id && job.startedAt !== null);
   return !state.view.hidesFirstPlot && state.link === "connected" && !hasPlotted;
 };
 
 const HomeButtons = ({ onHome }: { onHome?(): void }) => {
-  const isOff = usePageState((state) => !isReady(state));
   const isMoving = usePageState(isMovingByHand);
-  const { moveByHand, motorsOff } = useActions();
   return (
     <div className="button-grid">
-      <Button
-        disabled={isOff}
-        onClick={() => {
-          onHome?.();
-          void moveByHand({ kind: "home" });
-        }}
-      >
-        {words.home}
-      </Button>
-      {isMoving ? (
-        <StopMove />
-      ) : (
-        <Button disabled={isOff} onClick={() => void motorsOff()}>
-          {words.motorsOff}
-        </Button>
-      )}
+      <ActionButton action={HOME} onPress={onHome} />
+      {isMoving ? <StopMove /> : <ActionButton action={MOTORS_OFF} />}
     </div>
   );
 };
 
-export const isMovingByHand = (state: PageState): boolean =>
-  state.link === "connected" && currentPlotter(state)?.activity === "moving";
-
+/** Shown while the plotter moves; for a watcher, too. */
 export const StopMove = () => {
-  const { stopMove } = useActions();
-  return (
-    <Button kind="danger" onClick={() => void stopMove()}>
-      {words.stop}
-    </Button>
-  );
+  const isMoving = usePageState(isMovingByHand);
+  return isMoving && <ActionButton action={STOP_MOVE} kind="danger" />;
 };
 
 /**
@@ -212,20 +192,6 @@ const Heights = ({ hasContact, onTry }: HeightsProps) => {
   );
 };
 
-const TestLine = ({ onDraw }: { onDraw?(): void }) => {
-  const { moveByHand } = useActions();
-  const isOff = usePageState((state) => !isReady(state));
-  return (
-    <Button
-      className="test-line"
-      title={words.testLineHint}
-      disabled={isOff}
-      onClick={() => {
-        onDraw?.();
-        void moveByHand({ kind: "test-line" });
-      }}
-    >
-      {words.testLine}
-    </Button>
-  );
-};
+const TestLine = ({ onDraw }: { onDraw?(): void }) => (
+  <ActionButton action={TEST_LINE} className="test-line" hint={words.testLineHint} onPress={onDraw} />
+);

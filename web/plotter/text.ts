@@ -73,6 +73,16 @@ export const penText = {
   hideHint: "Hide these steps",
 };
 
+/** Why the plotter can't be moved now. */
+export const whyNoMoveText = {
+  absent: "No plotter is connected.",
+  connecting: "The plotter is being connected.",
+  busy: "The plotter is moving.",
+  fault: "The plotter needs attention.",
+  still: "No move by hand is under way.",
+  nothingDrawn: "There is no drawing on the paper.",
+};
+
 export const presetsText = {
   title: "Presets",
   hint: "Save speeds, heights, pens and layers under a name, and apply them with one press.",

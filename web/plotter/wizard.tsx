@@ -3,7 +3,7 @@ import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
 import { Button } from "../ui/button.js";
 import { Sheet } from "../ui/sheet.js";
-import { usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { wizardText as words } from "./wizard-text.js";
 import { copyOf } from "./profile.js";
 import { DirectionStep } from "./wizard-direction.js";
@@ -18,6 +18,7 @@ const STEPS = [PlotterStep, DirectionStep, SquareStep, ServoStep, NameStep] as c
 /** Makes a profile for an unknown plotter from what the user sees it do. */
 export const Wizard = () => {
   const store = usePageStore();
+  const { closeDialog } = useActions();
   const made = usePageState((state) => state.machines);
   const [index, setIndex] = useState(0);
   const [profile, setProfile] = useState<MachineProfile>(() =>
@@ -26,7 +27,7 @@ export const Wizard = () => {
   const Step = STEPS[index];
   const onNext = (next: MachineProfile): void => {
     setProfile(next);
-    if (index === STEPS.length - 1) store.setState({ openDialog: null });
+    if (index === STEPS.length - 1) closeDialog();
     else setIndex(index + 1);
   };
   return (

@@ -1,10 +1,9 @@
 import type { RefObject } from "react";
-import { useActions, usePageState } from "../state/use-store.js";
+import { usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
-import { Button, IconButton } from "../ui/button.js";
-import { Icon } from "../ui/icon.js";
-import { usePrepareChange } from "../ui/use-change.js";
-import { placeOfFrame } from "../scene/placing.js";
+import { ActionButton } from "../ui/action-button.js";
+import { IconButton } from "../ui/button.js";
+import { PLACE, TRAVEL } from "./preview-actions.js";
 import type { Stage } from "./stage.js";
 
 const ZOOM_STEP = 1.5;
@@ -12,18 +11,16 @@ const ZOOM_STEP = 1.5;
 /** The controls on the desk beside the paper. */
 export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
   const showTravel = usePageState((state) => state.view.showTravel);
-  const { changeView } = useActions();
   return (
     <div className="preview-tools">
-      <Button
+      <ActionButton
+        action={TRAVEL}
         kind="tool"
         className="tool-wide"
-        aria-pressed={showTravel}
-        onClick={() => changeView({ showTravel: !showTravel })}
-      >
-        <Icon name="travel" />
-        {words.travel}
-      </Button>
+        icon="travel"
+        isPressed={showTravel}
+        hasText
+      />
       <PlaceTool />
       <span className="tool-gap" />
       <ZoomTools stage={stage} className="tool-zoom" />
@@ -31,21 +28,9 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
   );
 };
 
-/** Places the drawing by hand, with handles around it. A second press fits the drawing to the paper again. */
 const PlaceTool = () => {
-  const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);
-  const change = usePrepareChange();
-  return (
-    <IconButton
-      kind="tool"
-      icon="place"
-      label={words.place}
-      aria-pressed={isPlaced}
-      disabled={!frame}
-      onClick={() => change("place by hand", { place: isPlaced || !frame ? null : placeOfFrame(frame) })}
-    />
-  );
+  return <ActionButton action={PLACE} kind="tool" icon="place" isPressed={isPlaced} />;
 };
 
 /** The buttons that zoom a sheet. `className`: for the buttons that a small screen hides. */

@@ -71,13 +71,13 @@ const Progress = ({ swing }: { swing: Swing | null }) => {
 };
 
 const Springs = ({ swing: { springs, isAssumed } }: { swing: Swing }) => {
-  const store = usePageStore();
+  const { openDialog } = useActions();
   const [x, y] = [springs.xHz, springs.yHz].map((hz) => formatNumber(hz, 1));
   if (!isAssumed) return <p className="swing-springs">{words.measured(x, y)}</p>;
   return (
     <p className="swing-springs">
       {words.assumed(x, y)}{" "}
-      <Button kind="link" onClick={() => store.setState({ openDialog: "ringing" })}>
+      <Button kind="link" onClick={() => openDialog("ringing")}>
         {words.measure}
       </Button>
     </p>

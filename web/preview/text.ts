@@ -15,6 +15,8 @@ export const previewText = {
   zoomOut: "Zoom out",
   fitPaper: "Whole paper",
   travel: "Pen-up moves",
+  turnPaper: "Turn the paper",
+  needsDrawing: "There is no drawing on the paper.",
   place: "Place the drawing by hand",
   colorBy: "Colour by",
   looks: { speed: "Speed", ink: "Ink", layer: "Layer", order: "Order", pen: "Pen", swing: "Pen (simulated)" },

@@ -1,55 +1,50 @@
 import { lazy, Suspense } from "react";
 import { drawnUntilS } from "./drawn-until.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { GRAPH, PLAY } from "./preview-actions.js";
 import { timeLineText as words } from "./text.js";
-import { IconButton } from "../ui/button.js";
+import { ActionButton } from "../ui/action-button.js";
 import { formatMoment } from "../ui/format.js";
-import { PLAY_RATES, type Player } from "./player.js";
 
 const Graph = lazy(async () => ({ default: (await import("./graph.js")).Graph }));
 const STEPS = 2_000;
+const PLAY_RATES = [1, 2, 5, 10, 20, 50, 100];
 
 /** The time line of the plot: drag along it, play it, show speed and acceleration. */
-export const TimeLine = ({ player }: { player: Player }) => {
+export const TimeLine = () => {
   const totalS = usePageState((state) => state.planned?.trajectory.totalS ?? 0);
   const isOpen = usePageState((state) => state.view.showGraph);
+  const { seek } = useActions();
   if (totalS === 0) return null;
   return (
     <section className="time-line" aria-label={words.title}>
       <div className="time-row">
-        <PlayButton player={player} />
-        <Scrubber player={player} totalS={totalS} />
+        <PlayButton />
+        <Scrubber totalS={totalS} />
         <Moment totalS={totalS} />
         <RateSelect />
         <GraphButton />
       </div>
       {isOpen && (
         <Suspense fallback={<div className="graph" />}>
-          <Graph onSeek={(tS) => player.seek(tS)} />
+          <Graph onSeek={seek} />
         </Suspense>
       )}
     </section>
   );
 };
 
-const PlayButton = ({ player }: { player: Player }) => {
+const PlayButton = () => {
   const isPlaying = usePageState((state) => state.isPlaying);
-  const label = isPlaying ? words.pause : words.play;
-  return (
-    <IconButton
-      kind="tool"
-      icon={isPlaying ? "pause" : "play"}
-      label={label}
-      onClick={() => player.toggle()}
-    />
-  );
+  return <ActionButton action={PLAY} kind="tool" icon={isPlaying ? "pause" : "play"} />;
 };
 
 /** The shown moment, else how far this drawing has been plotted; null: the end. */
 const useMoment = (): number | null => usePageState((state) => state.momentS ?? drawnUntilS(state));
 
-const Scrubber = ({ player, totalS }: { player: Player; totalS: number }) => {
+const Scrubber = ({ totalS }: { totalS: number }) => {
   const momentS = useMoment() ?? totalS;
+  const { seek, stopPlaying } = useActions();
   return (
     <input
       type="range"
@@ -60,8 +55,8 @@ const Scrubber = ({ player, totalS }: { player: Player; totalS: number }) => {
       step={totalS / STEPS}
       value={momentS}
       onChange={(event) => {
-        player.pause();
-        player.seek(Number(event.target.value));
+        stopPlaying();
+        seek(Number(event.target.value));
       }}
     />
   );
@@ -78,7 +73,7 @@ const Moment = ({ totalS }: { totalS: number }) => {
 };
 
 const RateSelect = () => {
-  const store = usePageStore();
+  const { setPlayRate } = useActions();
   const playRate = usePageState((state) => state.playRate);
   return (
     <label className="tool-select">
@@ -86,7 +81,7 @@ const RateSelect = () => {
       <select
         value={playRate}
         title={words.rate}
-        onChange={(event) => store.setState({ playRate: Number(event.target.value) })}
+        onChange={(event) => setPlayRate(Number(event.target.value))}
       >
         {PLAY_RATES.map((rate) => (
           <option key={rate} value={rate}>
@@ -100,14 +95,5 @@ const RateSelect = () => {
 
 const GraphButton = () => {
   const showGraph = usePageState((state) => state.view.showGraph);
-  const { changeView } = useActions();
-  return (
-    <IconButton
-      kind="tool"
-      icon="graph"
-      label={words.graph}
-      aria-pressed={showGraph}
-      onClick={() => changeView({ showGraph: !showGraph })}
-    />
-  );
+  return <ActionButton action={GRAPH} kind="tool" icon="graph" isPressed={showGraph} />;
 };

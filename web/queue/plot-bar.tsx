@@ -2,12 +2,13 @@ import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
 import { isOutsideUnanswered, OutsidePaper } from "../drawing/outside-paper.js";
 import { plotterText } from "../plotter/text.js";
 import { activeJob, currentPlotter } from "../state/store.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
-import { canQueue, isSendingJob } from "./can-queue.js";
+import { isEnabled } from "../state/page-action.js";
+import { isSendingJob, PLOT, QUEUE, SAVE_TO_JOB } from "./plot-actions.js";
 import { CutOffNote } from "./cut-off-note.js";
 import { plotText as words } from "./text.js";
-import { Button } from "../ui/button.js";
+import { ActionButton } from "../ui/action-button.js";
 import { Facts } from "../ui/facts.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -66,27 +67,17 @@ const Figures = () => {
 const Buttons = () => {
   const store = usePageStore();
   const copies = usePageState((state) => state.copies);
-  const isOff = !usePageState(canQueue);
+  const isOff = !usePageState((state) => isEnabled(QUEUE, state));
   const isSending = usePageState(isSendingJob);
   const isActive = usePageState((state) => activeJob(state) !== null);
   const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
-  const { plotDrawing, queueDrawing } = useActions();
   const isUnreached = usePageState(isOutOfReach);
   const isOutside = usePageState(isOutsideUnanswered);
   return (
     <div className="plot-buttons">
-      <Button
-        kind="primary"
-        disabled={isOff || isActive || isAbsent}
-        aria-busy={isSending}
-        onClick={() => void plotDrawing()}
-      >
-        {words.plot}
-      </Button>
-      <Button disabled={isOff} onClick={() => void queueDrawing()}>
-        {copies === 1 ? words.addToQueue : words.addCopies(copies)}
-      </Button>
-      <SaveToJob isOff={isOff} />
+      <ActionButton action={PLOT} kind="primary" isBusy={isSending} />
+      <ActionButton action={QUEUE} />
+      <ActionButton action={SAVE_TO_JOB} className="save-to-job" />
       <div className="copies">
         <NumberField
           label={words.copies}
@@ -130,20 +121,6 @@ const PlotNote = ({ isSending, isBusy, isAbsent }: PlotNoteProps) => {
   if (link === "connecting") return <p className="note note-working">{plotterText.server.connecting}</p>;
   if (isBusy) return <p className="note">{words.queueBusy}</p>;
   return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
-};
-
-/** Shown when the drawing is a queued job's and its settings were changed here. */
-const SaveToJob = ({ isOff }: { isOff: boolean }) => {
-  const job = usePageState(({ drawing, jobs }) =>
-    drawing?.jobId === null ? (jobs.find(({ id }) => id === drawing.sourceId) ?? null) : null,
-  );
-  const { saveToJob } = useActions();
-  if (job?.state !== "queued") return null;
-  return (
-    <Button className="save-to-job" disabled={isOff} onClick={() => void saveToJob(job.id)}>
-      {words.saveToJob(job.name)}
-    </Button>
-  );
 };
 
 /** On a small screen, replaces the rest of the bar while a job has the plotter. */

@@ -21,6 +21,10 @@ export const plotText = {
       : `${number} lines are outside ${edge} and will not be drawn.`,
   cutOff: (count: number, number: string, edge: string) =>
     count === 1 ? `1 line is cut off at ${edge}.` : `${number} lines are cut off at ${edge}.`,
+  pauseOrResume: "Pause the plot, or resume",
+  noPlot: "No plot is running.",
+  watchesOnly: "This device can watch and stop a plot, nothing else.",
+  outOfReach: "The drawing is out of the plotter’s reach.",
   needsDrawing: "Choose a drawing, or try a sample.",
   needsPlotter: "No plotter is connected. The queue waits for one.",
 };
@@ -95,6 +99,7 @@ export const jobText = {
   left: (duration: string) => `${duration} left`,
   doneAt: (clock: string) => `done ${clock}`,
   pause: "Pause",
+  asked: "The plotter was asked already.",
   resume: "Resume",
   continue: "Continue",
   recover: "Go on from there",

@@ -1,20 +1,17 @@
-/**
- * The user's actions as functions on the store. Those for the drawing are in drawing-actions.ts, those for jobs and the
- * plotter in job-actions.ts.
- */
-import type { MachineProfile, StrokeSet } from "../../src/index.js";
-import { BackendFault, type Backend } from "../backend/backend.js";
+/** The user's actions as functions on the store: those of each slice, and those that need several. */
+import type { MachineProfile } from "../../src/index.js";
+import type { Backend } from "../backend/backend.js";
 import type { PlotSettings, Preset } from "../../src/schema/index.js";
 import type { Planner } from "../worker/planner.js";
-import type { ExportFormat } from "../worker/protocol.js";
-import { createDrawingActions } from "./drawing-actions.js";
-import { createJobActions } from "./job-actions.js";
-import { createNotices } from "./notices.js";
+import { createDocumentActions } from "./document-actions.js";
+import { createPlanActions } from "./plan-actions.js";
+import { createPlayerActions } from "./player-actions.js";
+import { createServerActions } from "./server-actions.js";
 import { createAsOperator } from "./take-over.js";
 import { createPlotterSync, withMachine } from "./plotter-sync.js";
 import { fromPreset, withPreset } from "./presets.js";
-import type { ViewSettings } from "./persist.js";
-import { boardFirmware, type PageStore, type PageView } from "./store.js";
+import type { PageStore } from "./store.js";
+import { createUiActions } from "./ui-actions.js";
 import { createUndo } from "./undo.js";
 
 export type Actions = ReturnType<typeof createActions>;
@@ -29,7 +26,8 @@ interface ActionDeps {
 
 export const createActions = (deps: ActionDeps) => {
   const { store, backend, planner } = deps;
-  const notices = createNotices(store, deps.after);
+  const ui = createUiActions(store, deps.after);
+  const plan = createPlanActions(store, planner);
   const asOperator = createAsOperator(store, backend);
 
   /** Sends a request to the server. A failure becomes a notice. The button called `name` is disabled meanwhile. */
@@ -37,7 +35,7 @@ export const createActions = (deps: ActionDeps) => {
     store.setState({ busyAction: name });
     try {
       const answer = await asOperator(request);
-      notices.clearErrors();
+      ui.clearErrors();
       return answer;
     } catch (error) {
       failed(error);
@@ -47,19 +45,11 @@ export const createActions = (deps: ActionDeps) => {
     }
   };
   const failed = (error: unknown): void =>
-    notices.notify("error", error instanceof Error ? error.message : String(error));
-
-  const replan = (): void => {
-    const state = store.getState();
-    const { drawing, settings } = state;
-    if (!drawing) return;
-    store.setState({ isPlanning: true });
-    planner.request({ drawing, settings, firmware: boardFirmware(state) });
-  };
+    ui.notify("error", error instanceof Error ? error.message : String(error));
 
   const setSettings = (settings: PlotSettings): void => {
     store.setState(({ drawing }) => ({ settings, drawing: drawing && { ...drawing, jobId: null } }));
-    replan();
+    plan.replan();
   };
 
   const undo = createUndo({
@@ -90,37 +80,23 @@ export const createActions = (deps: ActionDeps) => {
   };
 
   return {
-    notify: notices.notify,
-    dismiss: notices.dismiss,
+    ...ui,
+    ...plan,
+    ...createPlayerActions(store),
+    ...createDocumentActions({
+      store,
+      backend,
+      ui,
+      undo,
+      attempt,
+      replan: plan.replan,
+      followPlotter: () => sync.follow(false),
+    }),
+    ...createServerActions({ store, backend, attempt, notify: ui.notify }),
     attempt,
-    replan,
     changeSettings: undo.changeSettings,
     undo: undo.undo,
     redo: undo.redo,
-    changeView: (change: Partial<ViewSettings>): void =>
-      store.setState(({ view }) => ({ view: { ...view, ...change } })),
-    showView: (pageView: PageView): void => store.setState({ pageView, isFullScreen: false }),
-    ...createDrawingActions({
-      store,
-      backend,
-      notices,
-      undo,
-      attempt,
-      replan,
-      followPlotter: () => sync.follow(false),
-    }),
-    ...createJobActions({ store, backend, attempt, notify: notices.notify }),
-    takeOver: () => attempt("take-over", () => backend.operator.take()),
-    /** Gets this browser's identity. Called on each connection, because a restarted server may have forgotten it. */
-    meet: async (): Promise<void> => {
-      try {
-        store.setState({ me: await backend.state.me(), isUnpaired: false });
-      } catch (error) {
-        if (error instanceof BackendFault && error.code === "not-allowed")
-          store.setState({ isUnpaired: true });
-      }
-    },
-    dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.operator.dismissNotice(id)),
     chooseMachine,
     /** Shows another plotter with its model, heights, pens and presets. */
     choosePlotter: (id: string): void => {
@@ -141,12 +117,5 @@ export const createActions = (deps: ActionDeps) => {
       undo.changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
     removePreset: (name: string): void =>
       undo.changePresets(`remove ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
-    /** Gets the strokes of the current plan, to simulate the pen on them. Not answered while another plan is made. */
-    askStrokes: (take: (strokes: StrokeSet) => void): void => planner.strokes(take),
-    exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
-    loadSamples: async (): Promise<void> => {
-      const answer = await attempt("samples", () => backend.samples.list());
-      if (answer) store.setState({ samples: answer.samples });
-    },
   };
 };

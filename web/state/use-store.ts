@@ -1,20 +1,15 @@
-/** React's access to the page: one context with the store and the actions, created in main.tsx. */
+/** React's access to the page: one context with the store and the actions, created in app/open-page.ts. */
 import { createContext, useContext } from "react";
 import { useStore } from "zustand";
 import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import type { Actions } from "./actions.js";
+import type { Page } from "./page-action.js";
 import { currentPlotter, type PageState, type PageStore } from "./store.js";
-
-export interface Page {
-  readonly store: PageStore;
-  readonly backend: Backend;
-  readonly actions: Actions;
-}
 
 export const PageContext = createContext<Page | null>(null);
 
-const usePage = (): Page => {
+export const usePage = (): Page => {
   const page = useContext(PageContext);
   if (!page) throw new Error("a panel is used outside of <PageContext>");
   return page;

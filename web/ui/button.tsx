@@ -12,8 +12,10 @@ const CLASSES = {
   link: "link",
 } as const;
 
+export type ButtonKind = keyof typeof CLASSES;
+
 interface ButtonProps extends ComponentProps<"button"> {
-  readonly kind?: keyof typeof CLASSES;
+  readonly kind?: ButtonKind | undefined;
 }
 
 /** A button in one of the page's looks. `className` adds to the look. */

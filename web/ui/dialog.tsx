@@ -6,12 +6,15 @@ import "./dialog.css";
 
 interface DialogProps {
   readonly title: string;
+  /** Without a heading and a button to close it; the title is its name only. */
+  readonly isBare?: boolean;
+  readonly className?: string;
   onClose(): void;
   readonly children: ReactNode;
 }
 
 /** A modal dialog. The browser's own element keeps the focus inside and closes on Escape. */
-export const Dialog = ({ title, onClose, children }: DialogProps) => {
+export const Dialog = ({ title, isBare, className = "", onClose, children }: DialogProps) => {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => {
     const element = dialog.current;
@@ -21,19 +24,21 @@ export const Dialog = ({ title, onClose, children }: DialogProps) => {
   return (
     <dialog
       ref={dialog}
-      className="dialog"
+      className={`dialog ${className}`.trim()}
       aria-label={title}
       // The event is asynchronous: React's strict mode may have opened the dialog again by then.
       onClose={() => {
         if (!dialog.current?.open) onClose();
       }}
     >
-      <header className="dialog-head">
-        <h2>{title}</h2>
-        <Button kind="tool" aria-label={errorText.close} onClick={onClose}>
-          <Icon name="close" />
-        </Button>
-      </header>
+      {!isBare && (
+        <header className="dialog-head">
+          <h2>{title}</h2>
+          <Button kind="tool" aria-label={errorText.close} onClick={onClose}>
+            <Icon name="close" />
+          </Button>
+        </header>
+      )}
       {children}
     </dialog>
   );

@@ -4,7 +4,7 @@ import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { PlanFault } from "../worker/protocol.js";
-import type { createNotices } from "./notices.js";
+import type { createUiActions } from "./ui-actions.js";
 import { forOtherDrawing } from "./other-drawing.js";
 import { openedSettings } from "./plotter-sync.js";
 import type { OpenDrawing, PageState, PageStore } from "./store.js";
@@ -25,10 +25,10 @@ const headOf = (content: DrawingText): string => {
 const isAgain = (before: OpenDrawing, name: string, text: DrawingText): boolean =>
   name === before.name && (name !== stateText.pastedName || text === before.text);
 
-interface DrawingParts {
+interface DocumentParts {
   readonly store: PageStore;
   readonly backend: Pick<Backend, "samples" | "jobs">;
-  readonly notices: ReturnType<typeof createNotices>;
+  readonly ui: Pick<ReturnType<typeof createUiActions>, "notify" | "clearErrors">;
   readonly undo: ReturnType<typeof createUndo>;
   attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
   replan(): void;
@@ -36,8 +36,8 @@ interface DrawingParts {
   followPlotter(): void;
 }
 
-export const createDrawingActions = (parts: DrawingParts) => {
-  const { store, backend, notices, undo, attempt, replan, followPlotter } = parts;
+export const createDocumentActions = (parts: DocumentParts) => {
+  const { store, backend, ui, undo, attempt, replan, followPlotter } = parts;
   let nextDrawing = 1;
   /** The drawing before the one being opened, to return to if the new file can't be read. */
   let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
@@ -55,7 +55,7 @@ export const createDrawingActions = (parts: DrawingParts) => {
   };
 
   const openDrawing = (name: string, text: DrawingText, jobId: string | null = null): void => {
-    notices.clearErrors();
+    ui.clearErrors();
     const { drawing, planned, settings } = store.getState();
     const isOther = jobId === null && (drawing === null || !isAgain(drawing, name, text));
     const key = `drawing-${nextDrawing++}`;
@@ -91,7 +91,7 @@ export const createDrawingActions = (parts: DrawingParts) => {
     store.setState({ ...lastGood, planned: null, fault: null });
     lastGood = null;
     replan();
-    notices.notify("error", stateText.cannotRead(unread.name, message));
+    ui.notify("error", stateText.cannotRead(unread.name, message));
     return true;
   };
 
@@ -127,12 +127,12 @@ export const createDrawingActions = (parts: DrawingParts) => {
       const isLast = startRequest();
       const text = await file.arrayBuffer().then(contentOf, () => null);
       if (!isLast()) return;
-      if (text === null) notices.notify("error", stateText.unreadable(file.name));
-      else if (headOf(text).includes("\0")) notices.notify("error", stateText.notText(file.name));
+      if (text === null) ui.notify("error", stateText.unreadable(file.name));
+      else if (headOf(text).includes("\0")) ui.notify("error", stateText.notText(file.name));
       else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, text);
     },
     openPasted: (text: string): void => {
-      if (!/<svg[\s>]/i.test(text)) return notices.notify("error", stateText.pasteNothing);
+      if (!/<svg[\s>]/i.test(text)) return ui.notify("error", stateText.pasteNothing);
       startRequest();
       openDrawing(stateText.pastedName, text);
     },

@@ -1,4 +1,4 @@
-/** Requests about jobs, the queue and the plotter, as functions on the store. */
+/** Requests about jobs, the queue, the plotter and who operates, as functions on the store. */
 import type { MachineProfile } from "../../src/index.js";
 import {
   ENDED_STATES,
@@ -16,11 +16,11 @@ import {
   type Plotter,
   type QueueSettings,
 } from "../../src/schema/index.js";
-import { addJob, type Backend, type JobAction } from "../backend/backend.js";
+import { addJob, BackendFault, type Backend, type JobAction } from "../backend/backend.js";
 import { activeJob, currentPlotter, penOf, type Notice, type PageStore } from "./store.js";
 import { stateText } from "./text.js";
 
-interface JobActionDeps {
+interface ServerActionDeps {
   readonly store: PageStore;
   readonly backend: Backend;
   /** Sends a request. A failure becomes a notice, and the result is null. `name` names the button to disable meanwhile. */
@@ -28,7 +28,7 @@ interface JobActionDeps {
   notify(kind: Notice["kind"], text: string): void;
 }
 
-export const createJobActions = ({ store, backend, attempt, notify }: JobActionDeps) => {
+export const createServerActions = ({ store, backend, attempt, notify }: ServerActionDeps) => {
   const addToQueue = async (copies: number, from: JobPlace | null): Promise<Job | null> => {
     const state = store.getState();
     const { drawing, settings } = state;
@@ -76,6 +76,21 @@ export const createJobActions = ({ store, backend, attempt, notify }: JobActionD
     });
 
   return {
+    takeOver: () => attempt("take-over", () => backend.operator.take()),
+    /** Gets this browser's identity. Called on each connection, because a restarted server may have forgotten it. */
+    meet: async (): Promise<void> => {
+      try {
+        store.setState({ me: await backend.state.me(), isUnpaired: false });
+      } catch (error) {
+        if (error instanceof BackendFault && error.code === "not-allowed")
+          store.setState({ isUnpaired: true });
+      }
+    },
+    dismissServerNotice: (id: string) => attempt(`notice ${id}`, () => backend.operator.dismissNotice(id)),
+    loadSamples: async (): Promise<void> => {
+      const answer = await attempt("samples", () => backend.samples.list());
+      if (answer) store.setState({ samples: answer.samples });
+    },
     queueDrawing: async (): Promise<void> => {
       const job = await addToQueue(store.getState().copies, null);
       if (job) notify("info", stateText.added(job.name));

@@ -1,0 +1,63 @@
+/** Actions on the preview and the place of the drawing. */
+import { placeOfFrame } from "../scene/placing.js";
+import { isForOperator, type PageAction } from "../state/page-action.js";
+import { previewText, timeLineText } from "./text.js";
+
+const needsPlan: PageAction["whyOff"] = ({ planned }) => (planned ? null : previewText.needsDrawing);
+
+export const PLAY: PageAction = {
+  id: "play",
+  label: ({ isPlaying }) => (isPlaying ? timeLineText.pause : timeLineText.play),
+  words: "simulate, animate, preview",
+  key: "Space",
+  isForDrawing: true,
+  whyOff: needsPlan,
+  perform: ({ actions }) => actions.togglePlaying(),
+};
+export const TRAVEL: PageAction = {
+  id: "travel",
+  label: previewText.travel,
+  words: "travel moves, show or hide",
+  key: "T",
+  isForDrawing: true,
+  perform: ({ store, actions }) => actions.changeView({ showTravel: !store.getState().view.showTravel }),
+};
+export const GRAPH: PageAction = {
+  id: "graph",
+  label: timeLineText.graph,
+  words: "chart, show or hide",
+  key: "G",
+  isForDrawing: true,
+  perform: ({ store, actions }) => actions.changeView({ showGraph: !store.getState().view.showGraph }),
+};
+
+/** Places the drawing by hand, with handles around it. A second press fits the drawing to the paper again. */
+export const PLACE: PageAction = {
+  id: "place",
+  label: previewText.place,
+  words: "move, drag, scale, resize, position",
+  isForDrawing: true,
+  isOffered: isForOperator,
+  whyOff: ({ planned }) => (planned?.frameMm ? null : previewText.needsDrawing),
+  perform: ({ store, actions }) => {
+    const { planned, settings } = store.getState();
+    const frame = planned?.frameMm ?? null;
+    const place = settings.prepare.place !== null || !frame ? null : placeOfFrame(frame);
+    actions.changeSettings("place by hand", (now) => ({ ...now, prepare: { ...now.prepare, place } }));
+  },
+};
+
+export const TURN_PAPER: PageAction = {
+  id: "turn-paper",
+  label: previewText.turnPaper,
+  words: "landscape, portrait, rotate, orientation",
+  isForDrawing: true,
+  isOffered: isForOperator,
+  perform: ({ actions }) =>
+    actions.changeSettings("orientation", (now) => ({
+      ...now,
+      prepare: { ...now.prepare, landscape: !now.prepare.landscape },
+    })),
+};
+
+export const PREVIEW_ACTIONS: readonly PageAction[] = [PLAY, TRAVEL, GRAPH, PLACE, TURN_PAPER];

@@ -1,0 +1,268 @@
+/**
+ * The settings that the search finds, and where each is on the page. Names and other words come from the settings
+ * tables; words are added here only for fields without a row.
+ */
+import {
+  AXIS_TABLE,
+  DRAW_TABLE,
+  DROP_RATE,
+  EASE_TABLE,
+  FIT_TABLE,
+  HATCH_TABLE,
+  MOTION_TABLE,
+  OVERLAP_TABLE,
+  PAPER_TABLE,
+  PEN_TABLE,
+  PREPARE_TABLE,
+  STREAM_TABLE,
+  TRAVEL_TABLE,
+  findMachine,
+  type Setting,
+} from "../../src/internal.js";
+import { drawingText, fillText, linesText, paperText } from "../drawing/text.js";
+import { isCustomPaper } from "../drawing/paper.js";
+import { layersText } from "../layers/text.js";
+import { detailsText } from "../motion/details-text.js";
+import { motionText } from "../motion/text.js";
+import { heightsText, pensText } from "../pens/text.js";
+import { plotterText, presetsText } from "../plotter/text.js";
+import { isFirstPlot } from "../plotter/pen-at-hand.js";
+import type { PageState, Tab } from "../state/store.js";
+import { searchText as words } from "./text.js";
+
+/** A folded group of settings, with the groups around it. */
+interface Panel {
+  readonly tab: Tab;
+  /** Ids of the groups to open, the outermost first; none: the panel is always open. */
+  readonly groups: readonly string[];
+  /** What the user sees on the way there. */
+  readonly titles: readonly string[];
+}
+
+export const NO_LEGEND = "";
+
+/** A control on the page. */
+export interface Place {
+  readonly panel: Panel;
+  /** Its label; null: the panel's own heading. */
+  readonly control: string | null;
+  /** The legend around it, where a label occurs twice in a panel; `NO_LEGEND`: none is around it. */
+  readonly legend?: string;
+}
+
+export interface Field {
+  readonly id: string;
+  readonly label: string;
+  readonly words: string;
+  readonly place: Place;
+  /** The control that makes the field appear, while it is not on the page. */
+  instead?(state: PageState): Place | null;
+  /** Why the field can't be used now; null: it can. Left out: it always can. */
+  whyOff?(state: PageState): string | null;
+}
+
+const panel = (tab: Tab, groups: readonly string[], ...titles: readonly string[]): Panel => ({
+  tab,
+  groups,
+  titles,
+});
+const PANELS = {
+  drawing: panel("setup", ["drawing"], drawingText.title),
+  paper: panel("setup", ["paper"], paperText.title),
+  paperMore: panel("setup", ["paper", "paper-more"], paperText.title, paperText.more),
+  layers: panel("setup", ["layers"], layersText.title),
+  pens: panel("setup", ["layers", "pens"], layersText.title, pensText.title),
+  lines: panel("setup", ["lines"], linesText.title),
+  fill: panel("setup", ["lines", "fill"], linesText.title, fillText.title),
+  motion: panel("setup", ["motion"], motionText.title),
+  details: panel("setup", ["motion", "motion-details"], motionText.title, motionText.details),
+  presets: panel("setup", ["presets"], presetsText.title),
+  hand: panel("machine", [], plotterText.title),
+  moves: panel("machine", ["moves"], plotterText.rest, plotterText.moves),
+  pen: panel("machine", ["pen"], plotterText.rest, heightsText.title),
+  plotter: panel("machine", ["plotter"], plotterText.rest, plotterText.more),
+} as const satisfies Record<string, Panel>;
+
+type Named = Pick<Field, "label"> & Partial<Pick<Field, "id" | "words" | "instead" | "whyOff">>;
+type PanelName = keyof typeof PANELS;
+
+const field = (where: PanelName, { label, id, words = "", ...rest }: Named, legend?: string): Field => ({
+  id: `${where} ${id ?? label}`,
+  label,
+  words,
+  place: { panel: PANELS[where], control: label, ...(legend === undefined ? {} : { legend }) },
+  ...rest,
+});
+
+/** A field of the settings tables; what it is about is searched too. */
+const row = (where: PanelName, setting: Setting, more: Partial<Named> = {}, legend?: string): Field => {
+  const added = more.words === undefined ? "" : `${more.words}, `;
+  return field(
+    where,
+    { label: setting.label, ...more, words: `${added}${setting.words ?? ""}, ${setting.about}` },
+    legend,
+  );
+};
+
+const at = (where: PanelName, control: string): Place => ({ panel: PANELS[where], control });
+const unless =
+  (isThere: (state: PageState) => boolean, place: Place): NonNullable<Field["instead"]> =>
+  (state) =>
+    isThere(state) ? null : place;
+
+const PAPER: readonly Field[] = [
+  field("paper", {
+    label: paperText.size,
+    words: "paper size, format, A4, A3, A5, letter, custom size, width, height",
+  }),
+  field("paper", {
+    label: paperText.orientation,
+    words: `${PREPARE_TABLE.landscape.words}, ${PREPARE_TABLE.landscape.label}`,
+  }),
+  row("paper", PREPARE_TABLE.marginMm, {
+    instead: unless(({ settings }) => settings.prepare.margins === null, at("paperMore", paperText.margins)),
+  }),
+  field("paper", {
+    label: paperText.placement,
+    words: `${PREPARE_TABLE.fit.words}, ${PREPARE_TABLE.fit.about}`,
+  }),
+  row("paper", PREPARE_TABLE.pxPerInch, {
+    whyOff: ({ planned }) => ((planned?.pxPerInch ?? null) === null ? words.needsPx : null),
+  }),
+  row("paper", PREPARE_TABLE.rotateDeg),
+  field("paper", {
+    label: paperText.unit,
+    words: "units, inches, inch, mm, millimetres, millimeters, imperial, metric",
+  }),
+  field("paperMore", { label: paperText.margins, words: "margin top right bottom left, border" }),
+  row("paperMore", PREPARE_TABLE.mirror),
+  row("paperMore", PREPARE_TABLE.outside),
+  row("paperMore", PREPARE_TABLE.cropToPage),
+  row("paperMore", PREPARE_TABLE.clipToMargins),
+];
+
+const CUSTOM_PAPER: readonly Field[] = [PAPER_TABLE.widthMm, PAPER_TABLE.heightMm].map((setting) =>
+  row("paper", setting, { instead: unless(isCustomPaper, at("paper", paperText.size)) }),
+);
+
+const isFilled = ({ settings }: PageState): boolean => settings.prepare.hatch.spacingMm > 0;
+const ifFilled = { instead: unless(isFilled, at("fill", fillText.switch)) };
+const LINES: readonly Field[] = [
+  row("lines", PREPARE_TABLE.order),
+  row("lines", PREPARE_TABLE.orderS, {
+    instead: unless(
+      ({ settings }) => settings.prepare.order === "best",
+      at("lines", PREPARE_TABLE.order.label),
+    ),
+  }),
+  row("lines", PREPARE_TABLE.spread),
+  ...Object.values<Setting>(PREPARE_TABLE)
+    .filter((setting) => setting.panel === "lines")
+    .map((setting) => row("lines", setting)),
+  field("fill", { label: fillText.switch, words: "hatch, hatching, shading, infill" }),
+  row("fill", HATCH_TABLE.spacingMm, { ...ifFilled, words: "hatch spacing, density, distance" }),
+  row("fill", HATCH_TABLE.angleDeg, { ...ifFilled, words: "hatch angle" }),
+  row("fill", HATCH_TABLE.cross, { ...ifFilled, words: "cross-hatch" }),
+  row("fill", PREPARE_TABLE.hatchOutlines, ifFilled),
+  row("fill", PREPARE_TABLE.outlineFills),
+  row("fill", PREPARE_TABLE.hideCovered),
+];
+
+const LIMITS = ["speedMmPerS", "accelMmPerS2", "cornerMm"] as const;
+const isSoft = ({ settings }: PageState): boolean => settings.motion.mode === "scurve";
+const cornerRule = at("details", MOTION_TABLE.mode.label);
+const ease = unless(({ settings }) => Boolean(settings.motion.ease), at("details", detailsText.ease));
+/** Their labels occur elsewhere too, so the search names them in full. */
+const eased = (setting: Setting, label: string): Field => ({
+  ...row("details", setting, { id: label, instead: ease }, NO_LEGEND),
+  label,
+});
+const MOTION: readonly Field[] = [
+  ...LIMITS.map((key) => row("details", DRAW_TABLE[key], { id: `draw ${key}` }, detailsText.drawing)),
+  ...(["speedMmPerS", "accelMmPerS2"] as const).map((key) =>
+    row("details", TRAVEL_TABLE[key], { id: `travel ${key}`, words: "pen up" }, detailsText.travelling),
+  ),
+  row("details", DRAW_TABLE.jerkMmPerS3, { instead: unless(isSoft, cornerRule) }, detailsText.drawing),
+  row(
+    "details",
+    TRAVEL_TABLE.jerkMmPerS3,
+    { id: "travel jerk", words: "pen up", instead: unless(isSoft, cornerRule) },
+    detailsText.travelling,
+  ),
+  field("motion", { label: motionText.quality, words: "fine, normal, fast, precise, exact" }),
+  ...Object.values<Setting>(AXIS_TABLE).map((setting) => row("details", setting)),
+  row("details", MOTION_TABLE.shaper, {
+    whyOff: ({ settings }) => (findMachine(settings)?.springs ? null : words.needsMeasured),
+  }),
+  row("details", MOTION_TABLE.mode),
+  field("details", { label: detailsText.ease, words: "slow in, slow out, ease, ink start" }),
+  eased(EASE_TABLE.lengthMm, words.easeLength),
+  eased(EASE_TABLE.speedMmPerS, words.easeSpeed),
+  field("details", { label: detailsText.fit, words: "merge commands, stutter, smooth" }),
+  row("details", FIT_TABLE.toleranceMm, {
+    instead: unless(({ settings }) => Boolean(settings.motion.fit), at("details", detailsText.fit)),
+  }),
+  row("details", STREAM_TABLE.sendAheadMs),
+];
+
+const overlaps = ({ settings }: PageState): boolean => settings.pen.overlap !== "off";
+const overlapPlace = at("pen", OVERLAP_TABLE.overlap.label);
+const PEN: readonly Field[] = [
+  row("hand", PEN_TABLE.upPct),
+  row("hand", PEN_TABLE.downPct),
+  row("hand", OVERLAP_TABLE.contactPct, {
+    instead: unless((state) => overlaps(state) && !isFirstPlot(state), overlapPlace),
+  }),
+  row("pen", PEN_TABLE.liftMs),
+  row("pen", PEN_TABLE.dropMs),
+  field("pen", { label: heightsText.gentle, words: DROP_RATE.words }),
+  row("pen", DROP_RATE, {
+    instead: unless(({ settings }) => Boolean(settings.pen.dropPctPerS), at("pen", heightsText.gentle)),
+  }),
+  row("pen", OVERLAP_TABLE.overlap),
+  row("pen", OVERLAP_TABLE.fullHeightMm, { instead: unless(overlaps, overlapPlace) }),
+];
+
+const OTHER: readonly Field[] = [
+  row("layers", PREPARE_TABLE.layers),
+  field("pens", {
+    label: pensText.stops,
+    words: "pen change, pause between layers, stop",
+    whyOff: ({ settings }) => (settings.pens.length > 0 ? null : words.needsPens),
+  }),
+  field("plotter", { label: plotterText.model, words: "machine, axidraw, nextdraw, size of the plotter" }),
+];
+
+const HEADINGS: readonly (readonly [PanelName, string])[] = [
+  ["drawing", "open file, choose, sample, import"],
+  ["paper", ""],
+  ["layers", "colours, colors, inkscape"],
+  ["pens", "pen colour, line width, tool change"],
+  ["lines", "clean up"],
+  ["fill", "hatch, shading"],
+  ["motion", "fast, slow"],
+  ["details", "numbers, advanced"],
+  ["presets", "save settings, profile"],
+  ["moves", "jog, manual, go to"],
+  ["pen", "delay, servo"],
+  ["plotter", "firmware, version, where is the pen"],
+];
+
+/** In the order of results that fit equally well. */
+export const FIELDS: readonly Field[] = [
+  ...PEN,
+  ...MOTION,
+  ...PAPER,
+  ...CUSTOM_PAPER,
+  ...OTHER,
+  ...LINES,
+  ...HEADINGS.map(([where, heading]): Field => {
+    const { titles } = PANELS[where];
+    return {
+      id: `panel ${where}`,
+      label: titles.at(-1) ?? "",
+      words: heading,
+      place: { panel: PANELS[where], control: null },
+    };
+  }),
+];

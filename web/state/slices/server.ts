@@ -1,0 +1,129 @@
+/** What the server has: plotters, jobs, and who operates. Its actions: ../server-actions.ts. */
+import type {
+  Job,
+  ListedMachine,
+  Me,
+  Notice as ServerNotice,
+  Operator,
+  PlotSettings,
+  Plotter,
+  PlotterSettings,
+  QueueSettings,
+} from "../../../src/schema/index.js";
+
+export type ServerLink = "connecting" | "connected" | "lost";
+
+/** The latest live report of a plot. */
+interface LivePlot {
+  readonly jobId: string;
+  readonly plotterId: string;
+  readonly planS: number;
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly penUp: boolean;
+  readonly penMoving: boolean;
+}
+
+export interface ServerSlice {
+  readonly link: ServerLink;
+  /** The server refuses this device until it is paired. */
+  readonly isUnpaired: boolean;
+  readonly version: string | null;
+  /** The server has a newer page than this one. */
+  readonly isOutdated: boolean;
+  readonly plotters: readonly Plotter[];
+  readonly plotterId: string | null;
+  /** Heights, pens and presets as the server has them, by plotter id. A plotter without settings has no entry. */
+  readonly plotterSettings: Readonly<Record<string, PlotterSettings>>;
+  /** The built-in machines, and the custom ones of this server. */
+  readonly machines: readonly ListedMachine[];
+  readonly samples: readonly { readonly name: string; readonly title: string }[];
+  readonly jobs: readonly Job[];
+  /** The server has ended jobs that are not in `jobs`. */
+  readonly hasOlderJobs: boolean;
+  /** Plotters whose older jobs are all in `jobs`; "" if the jobs of all plotters are. */
+  readonly wholeHistories: readonly string[];
+  /** Whether each plotter's queue starts the next job by itself, by plotter id. */
+  readonly queues: Readonly<Record<string, QueueSettings>>;
+  /** This browser's identity and role; null until the server has answered. */
+  readonly me: Me | null;
+  /** The browser that holds the operator lock; null: none. */
+  readonly operator: Operator | null;
+  /** Server errors that no request of this page caused. */
+  readonly serverNotices: readonly ServerNotice[];
+  /** The server's name on the network; null while it has none. */
+  readonly localName: string | null;
+  readonly live: LivePlot | null;
+  /** The newest pen settings sent for a running plot, until the server has answered: it plans the rest first. */
+  readonly wantedPen: { readonly jobId: string; readonly pen: PlotSettings["pen"] } | null;
+  /** The name of the request that is running: its button is disabled meanwhile. */
+  readonly busyAction: string | null;
+  /** Small jobs besides the drawing, such as alignment marks. Watch does not open for them. */
+  readonly sideJobIds: readonly string[];
+}
+
+export const SERVER_AT_FIRST = {
+  link: "connecting",
+  isUnpaired: false,
+  version: null,
+  isOutdated: false,
+  plotters: [],
+  plotterId: null,
+  plotterSettings: {},
+  machines: [],
+  samples: [],
+  jobs: [],
+  hasOlderJobs: false,
+  wholeHistories: [],
+  queues: {},
+  me: null,
+  operator: null,
+  serverNotices: [],
+  localName: null,
+  live: null,
+  wantedPen: null,
+  busyAction: null,
+  sideJobIds: [],
+} as const satisfies Partial<ServerSlice>;
+
+/** The plotter that the page shows and sends to. */
+export const currentPlotter = (state: ServerSlice): Plotter | null =>
+  state.plotters.find((plotter) => plotter.id === state.plotterId) ?? state.plotters[0] ?? null;
+
+/** The current plotter is connected and idle. */
+export const isReady = (state: ServerSlice): boolean =>
+  state.link === "connected" && currentPlotter(state)?.connection === "idle";
+
+/** States in which a job has the plotter, or waits to get it back. */
+export const ACTIVE_STATES: readonly Job["state"][] = ["plotting", "paused", "interrupted"];
+
+/** The pen that a paused job waits for; null: it does not wait for one. */
+export const penWait = ({ state, wait }: Job): Job["wait"] => (state === "paused" ? wait : null);
+
+/** The current plotter's running or paused job, if any. */
+export const activeJob = (state: ServerSlice): Job | null => {
+  const plotterId = currentPlotter(state)?.id;
+  return (
+    state.jobs.find(
+      (job) => (job.state === "plotting" || job.state === "paused") && job.plotterId === plotterId,
+    ) ?? null
+  );
+};
+
+/** The running job, else an interrupted job of the current plotter, which can be resumed. */
+export const unfinishedJob = (state: ServerSlice): Job | null => {
+  const plotterId = currentPlotter(state)?.id;
+  const isBroken = (job: Job): boolean => job.state === "interrupted" && job.plotterId === plotterId;
+  return activeJob(state) ?? state.jobs.find(isBroken) ?? null;
+};
+
+/** A job's pen settings, with changes that the server has not answered yet. */
+export const penOf = ({ wantedPen }: ServerSlice, { id, settings }: Job): PlotSettings["pen"] =>
+  wantedPen?.jobId === id ? wantedPen.pen : settings.pen;
+
+/** A watcher sees everything and may stop a plot, nothing else. */
+export const mayOperate = ({ me }: ServerSlice): boolean => me?.role !== "watch";
+
+/** The operator, if it is another browser. */
+export const otherOperator = ({ operator, me }: ServerSlice): Operator | null =>
+  operator !== null && operator.id !== me?.id ? operator : null;
