@@ -101,6 +101,19 @@ describe("server events", () => {
     expect(activeJob(state)).toBeNull();
   });
 
+  it("a snapshot keeps the live plot while its job is plotting, and drops it otherwise", () => {
+    const plotting = after(start(), snapshot("a", "b"), progress("a", 0.5));
+    const reconnected = (...jobs: ReturnType<typeof makeJob>[]): PageState["live"] => {
+      const connected = snapshot() as Extract<ServerEvent, { type: "snapshot" }>;
+      return after(plotting, { type: "snapshot", snapshot: { ...connected.snapshot, jobs } }).live;
+    };
+    expect(reconnected(makeJob("b"), makeJob("a", { state: "plotting" }))).toMatchObject({ jobId: "a" });
+    expect(reconnected(makeJob("a", { state: "done" }))).toBeNull();
+    expect(reconnected(makeJob("a", { state: "stopped" }), makeJob("b", { state: "plotting" }))).toBeNull();
+    expect(reconnected(makeJob("b", { state: "plotting" }))).toBeNull();
+    expect(reconnected()).toBeNull();
+  });
+
   it("a removed job is gone", () => {
     expect(after(start(), snapshot("a", "b"), { type: "job-removed", id: "a" }).jobs).toHaveLength(1);
   });

@@ -1,6 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { MACHINES, machineById } from "../../../src/index.js";
+import { MACHINES, machineById, type MachineProfile } from "../../../src/index.js";
 import { ebbOf } from "../../../src/drivers/ebb/protocol/ebb-controller.js";
 import { checkMachine } from "../../../src/drivers/registry.js";
 import {
@@ -13,6 +13,7 @@ import {
 } from "../../../src/internal.js";
 
 const flips = fc.record({ flipX: fc.boolean(), flipY: fc.boolean(), swapAxes: fc.boolean() });
+const NOT_WIRED = { flipX: false, flipY: false, swapAxes: false };
 const mm = fc.double({ min: -1_000, max: 1_000, noNaN: true });
 
 describe("machine profiles", () => {
@@ -44,11 +45,36 @@ describe("motor axes", () => {
     );
   });
 
-  it("both turn for a move along x or y on a mixed machine, one for a diagonal", () => {
-    const machine = machineById("axidraw-v3");
-    expect([motor1FromXy(machine, 1, 0), motor2FromXy(machine, 1, 0)]).toEqual([80, 80]);
-    expect([motor1FromXy(machine, 0, 1), motor2FromXy(machine, 0, 1)]).toEqual([80, -80]);
-    expect([motor1FromXy(machine, 1, 1), motor2FromXy(machine, 1, 1)]).toEqual([160, 0]);
+  /** Steps of both motors for 10 mm along x, then along y; + 0 turns -0 into 0. */
+  const moves = (machine: MachineProfile): number[][] =>
+    [[10, 0], [0, 10]].map(([x, y]) => [motor1FromXy(machine, x, y) + 0, motor2FromXy(machine, x, y) + 0]); // prettier-ignore
+
+  it.each(MACHINES)("turn in these directions on $id", (machine) => {
+    const direct = ["eggbot", "watercolorbot"].includes(machine.id);
+    const steps = machine.id === "eggbot" ? 10 * (3_200 / (40 * Math.PI)) : 800;
+    expect(moves(machine)).toEqual(direct ? [[steps, 0], [0, steps]] : [[steps, steps], [steps, -steps]]); // prettier-ignore
+  });
+
+  // prettier-ignore
+  const WIRINGS: readonly (readonly [keyof typeof NOT_WIRED | "all", "mixed" | "direct", number[], number[]])[] = [
+    ["flipX",    "mixed",  [-800, -800], [800, -800]],
+    ["flipY",    "mixed",  [800, 800],   [-800, 800]],
+    ["swapAxes", "mixed",  [800, -800],  [800, 800]],
+    ["all",      "mixed",  [-800, 800],  [-800, -800]],
+    ["flipX",    "direct", [-800, 0],    [0, 800]],
+    ["flipY",    "direct", [800, 0],     [0, -800]],
+    ["swapAxes", "direct", [0, 800],     [800, 0]],
+    ["all",      "direct", [0, -800],    [-800, 0]],
+  ];
+  it.each(WIRINGS)("turn in these directions with %s on a %s machine", (wired, motors, alongX, alongY) => {
+    const flags = wired === "all" ? { flipX: true, flipY: true, swapAxes: true } : { [wired]: true };
+    const machine = { ...machineById("axidraw-v3"), motors, ...NOT_WIRED, ...flags };
+    expect(moves(machine)).toEqual([alongX, alongY]);
+  });
+
+  it("flip x before they are swapped", () => {
+    const machine = { ...machineById("axidraw-v3"), flipX: true, swapAxes: true };
+    expect(moves(machine)).toEqual([[-800, 800], [800, 800]]); // prettier-ignore
   });
 });
 
