@@ -4,7 +4,9 @@
  *   x, y     mm, n + 1 points          length   mm, n segments, at least 2 SHORTEST_MM
  *   ux, uy   unit directions           v2       (mm/s)², n + 1: max speed² at each point, then planned speed²
  *   cap2     (mm/s)², n: max speed² inside each segment, never below `v2` at its ends
- *   drawn    mm, n: how much of the stroke each segment covers, which differs from its length if the planner moved its ends
+ *   sine     n + 1: sin(φ/2) of a corner that is drawn as a curve; 0 if the velocity jumps there
+ *   tangent  mm, n + 1: how much of each adjacent segment that curve may use
+ *   drawn    mm, n: how much of the stroke each segment covers, which differs from its length in a stretched frame
  *
  * One object is reused for every run, so planning allocates nothing per stroke.
  */
@@ -31,6 +33,8 @@ export class RunPath {
   uy = new Float64Array(0);
   v2 = new Float64Array(0);
   cap2 = new Float64Array(0);
+  sine = new Float64Array(0);
+  tangent = new Float64Array(0);
   drawn = new Float64Array(0);
   /** mm along the whole stroke at the first point. */
   startAlong = 0;
@@ -221,6 +225,8 @@ export class RunPath {
     this.uy = new Float64Array(size);
     this.v2 = new Float64Array(size);
     this.cap2 = new Float64Array(size);
+    this.sine = new Float64Array(size);
+    this.tangent = new Float64Array(size);
     this.drawn = new Float64Array(size);
   }
 }

@@ -1,18 +1,20 @@
 /**
  * Writes one run, from rest to rest:
  *
- *   1. blocks of constant acceleration       junction.ts, blend.ts
+ *   1. blocks of constant acceleration       a corner rule, look-ahead.ts, corner-blocks.ts
  *   2. fewer, longer blocks                  merge.ts, if the settings ask for it
  *   3. a filter over time                    filter.ts in mode `scurve`, impulse-filter.ts with a shaper
  *   4. a second merge, with a shaper         because its filter splits each block into several
  */
 import { AxisFrame } from "./axis-frame.js";
-import { BlendPlanner } from "./blend.js";
+import { limitBlends } from "./blend-rule.js";
 import { BlockColumns } from "./block-columns.js";
+import { writeCornerBlocks } from "./corner-blocks.js";
 import { writeFiltered } from "./filter.js";
 import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
-import { writeJunctionRun } from "./junction.js";
-import { isStretched, shapedLimits, type RunLimits } from "./limits.js";
+import { limitJunctions } from "./junction-rule.js";
+import { capSegments, isStretched, shapedLimits, type RunLimits } from "./limits.js";
+import { lookAhead } from "./look-ahead.js";
 import { mergeBlocks, SHAPED_RULES, type MergeRules } from "./merge.js";
 import { RunPath } from "./run-path.js";
 import { filteredPlan, stopsAreFaster } from "./scurve.js";
@@ -24,20 +26,17 @@ export interface WritesRuns {
   write(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void;
 }
 
-/** Writes the blocks of one run with corners, before any filter. */
-interface WritesBlocks {
-  write(path: RunPath, limits: RunLimits, out: BlockColumns): void;
-}
+/** Sets `v2`, `sine` and `tangent` of a path whose `cap2` is known, and may lower `cap2`. */
+type CornerRule = (path: RunPath, limits: RunLimits) => void;
 
-/** The planner of each mode. `scurve` filters the blocks of `blend`. */
-const CORNERS: Readonly<Record<MotionMode, () => WritesBlocks>> = {
-  junction: () => ({ write: writeJunctionRun }),
-  blend: () => new BlendPlanner(),
-  scurve: () => new BlendPlanner(),
+/** The rule of each mode. `scurve` filters the blocks of `blend`. */
+const CORNER_RULES: Readonly<Record<MotionMode, CornerRule>> = {
+  junction: limitJunctions,
+  blend: limitBlends,
+  scurve: limitBlends,
 };
 
 export class RunWriter implements WritesRuns {
-  private readonly corners: WritesBlocks;
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
   private readonly shaper: ImpulseFilter | null;
@@ -52,7 +51,6 @@ export class RunWriter implements WritesRuns {
     shaper: Kernel | null,
   ) {
     this.shaper = shaper && new ImpulseFilter(shaper);
-    this.corners = CORNERS[mode]();
     this.rules = fit && {
       toleranceMm: fit.toleranceMm,
       shortToleranceMm: fit.toleranceMm,
@@ -119,9 +117,10 @@ export class RunWriter implements WritesRuns {
 
   private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const first = out.count;
-    // A single straight has no corners, so its blocks are the same in all modes.
-    if (path.segmentCount === 1) writeJunctionRun(path, limits, out);
-    else this.corners.write(path, limits, out);
+    capSegments(path, limits);
+    CORNER_RULES[this.mode](path, limits);
+    lookAhead(path, limits.accel);
+    writeCornerBlocks(path, limits.accel, out);
     if (this.rules !== null && path.segmentCount > 1) {
       mergeBlocks(out, first, path.end(), limits, this.rules);
     }

@@ -8,15 +8,15 @@
  *                       from A' to −A' within w; on a straight the box does not deviate
  *   polygon             a stop at every corner, if that is faster: each side is then a single straight
  *
- * A larger BOX_SHARE allows a larger A', but leaves less of δ for corners. On the sample drawings 3/4 takes the
- * least total time (1/2: 2 % more; 0.85: about the same). As J grows, w tends to 0, A' to A, and the motion to
+ * A larger BOX_SHARE allows a larger A', but leaves less of δ for corners. On the sample drawings 5/8 takes the
+ * least total time (1/2 and 3/4: up to 1.5 % more on some). As J grows, w tends to 0, A' to A, and the motion to
  * that of `blend`.
  */
 import { capSegments, mmPerFrameMm, type RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 
 /** Share of δ for the box. */
-const BOX_SHARE = 3 / 4;
+const BOX_SHARE = 5 / 8;
 
 /** The limits for planning the blocks of constant acceleration, and the width of the box that filters them, s. */
 export interface FilteredPlan {

@@ -35,20 +35,11 @@ export function junctionLoss({ speed, accel, deviation, turn }: CornerCase): num
   return (speed - v) ** 2 / (accel * speed);
 }
 
-/**
- * Brake to the parabola's speed; the parabola takes 2 v s/A and replaces 2 v² s/A mm; speed up again. Where
- * the pen would have to brake, the corner is moved outwards by up to δ. This makes it rounder, both sides
- * (`side` mm) longer, and the turn a little wider.
- */
-export function blendLoss({ speed, accel, deviation, turn }: CornerCase, side: number): number {
-  const [s, c] = [Math.sin(turn / 2), Math.cos(turn / 2)];
-  const enough = (speed * s) ** 2 / (2 * accel) - deviation;
-  const outwards = Math.max(0, Math.min(deviation, enough, (side * s) / 4 - deviation));
-  const longer = Math.hypot(side + outwards * s, outwards * c) - side;
-  const sine = Math.sin(turn / 2 + Math.atan2(outwards * c, side + outwards * s));
-  const v = Math.min(speed, Math.sqrt(2 * accel * (deviation + outwards)) / sine);
-  const curve = ((2 * v * sine) / accel) * (1 - v / speed);
-  return (speed - v) ** 2 / (accel * speed) + curve + (2 * longer) / speed;
+/** Brake to the parabola's speed; the parabola takes 2 v s/A and replaces 2 v² s/A mm; speed up again. */
+export function blendLoss({ speed, accel, deviation, turn }: CornerCase): number {
+  const s = Math.sin(turn / 2);
+  const v = Math.min(speed, Math.sqrt(2 * accel * deviation) / s);
+  return (speed - v) ** 2 / (accel * speed) + ((2 * v * s) / accel) * (1 - v / speed);
 }
 
 const RADII = 160;

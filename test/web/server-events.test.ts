@@ -109,7 +109,7 @@ describe("server events", () => {
     };
     expect(reconnected(makeJob("b"), makeJob("a", { state: "plotting" }))).toMatchObject({ jobId: "a" });
     expect(reconnected(makeJob("a", { state: "done" }))).toBeNull();
-    expect(reconnected(makeJob("a", { state: "stopped" }), makeJob("b", { state: "plotting" }))).toBeNull();
+    expect(reconnected(makeJob("a", { state: "cancelled" }), makeJob("b", { state: "plotting" }))).toBeNull();
     expect(reconnected(makeJob("b", { state: "plotting" }))).toBeNull();
     expect(reconnected()).toBeNull();
   });

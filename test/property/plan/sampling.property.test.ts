@@ -125,7 +125,7 @@ const smooth: fc.Arbitrary<Point[]> = fc.oneof(
 const cornered = fc.array(fc.tuple(real(0, 200), real(0, 200)), { minLength: 2, maxLength: 8 });
 
 describe.each(CASES)("points within 1 µm of a line, $name", (mode) => {
-  it("change its time by at most 1 %, and its lowest speed by at most 8 %", () => {
+  it("change its time by at most 1 %, and its lowest speed by at most 5 %", () => {
     fc.assert(
       fc.property(smooth, real(0.3, 3), fc.nat(), (line, perSegment, seed) => {
         const clean = planned([line], mode);
@@ -133,7 +133,7 @@ describe.each(CASES)("points within 1 µm of a line, $name", (mode) => {
         expect(Math.abs(drawS(noisy) / drawS(clean) - 1)).toBeLessThanOrEqual(0.01);
         // Shaping changes the speed of the carriage where the pen's is even.
         const unshaped = (trajectory: Trajectory): Trajectory => trajectory.planned?.trajectory ?? trajectory;
-        expect(slowest(unshaped(noisy))).toBeGreaterThanOrEqual(0.92 * slowest(unshaped(clean)));
+        expect(slowest(unshaped(noisy))).toBeGreaterThanOrEqual(0.95 * slowest(unshaped(clean)));
       }),
       { numRuns: cases(1_000, 12) },
     );

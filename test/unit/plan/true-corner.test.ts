@@ -14,13 +14,13 @@ describe.each(cases)("an isolated corner of $deg° at $speed mm/s", ({ deg, spee
 
   it("costs what the formulas predict, in junction and blend mode", () => {
     expect(lossInPlan("junction")).toBeCloseTo(junctionLoss(corner), 9);
-    expect(lossInPlan("blend")).toBeCloseTo(blendLoss(corner, SIDE), 9);
+    expect(lossInPlan("blend")).toBeCloseTo(blendLoss(corner), 9);
   });
 
-  it("costs blend at most 7 % more than the minimum of any motion within A, V and δ, or nothing", () => {
+  it("costs blend at most 17 ms more than the minimum of any motion within A, V and δ, or nothing", () => {
     const leastS = leastLoss(corner);
-    expect(blendLoss(corner, SIDE)).toBeGreaterThanOrEqual(leastS - 1e-4);
-    expect(blendLoss(corner, SIDE)).toBeLessThanOrEqual(Math.max(1.07 * leastS, 0.01));
+    expect(blendLoss(corner)).toBeGreaterThanOrEqual(leastS - 1e-4);
+    expect(blendLoss(corner)).toBeLessThanOrEqual(Math.max(leastS + 0.017, 0.01));
   });
 
   /** Compared with one straight line of the same length. */
@@ -44,10 +44,15 @@ describe("a corner met at high speed", () => {
       expect(junctionLoss(cornerOf(deg))).toBeLessThan(leastLoss(cornerOf(deg)) - 0.001);
     }
   });
+});
 
-  it("takes less time by blend than by junction, if it is shallow", () => {
-    for (const deg of [20, 30, 40]) {
-      expect(blendLoss(cornerOf(deg), SIDE)).toBeLessThan(junctionLoss(cornerOf(deg)) - 0.001);
+describe("a corner met at √(2 A δ)/s", () => {
+  it("costs nothing by blend, and time by junction, if it is sharp", () => {
+    for (const deg of [90, 120, 150]) {
+      const turn = (deg * Math.PI) / 180;
+      const corner = { speed: Math.sqrt(2 * accel * deviation) / Math.sin(turn / 2), accel, deviation, turn };
+      expect(blendLoss(corner)).toBeCloseTo(0, 9);
+      expect(junctionLoss(corner)).toBeGreaterThan(0.0003);
     }
   });
 });

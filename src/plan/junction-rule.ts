@@ -1,5 +1,6 @@
 /**
- * Corner speeds by junction deviation: the highest speed at each vertex of a polyline.
+ * Corner speeds of the mode `junction`, by junction deviation: the highest speed at each vertex of a polyline. The
+ * velocity changes direction instantly there.
  *
  * Source: Sungeun K. Jeon (2011), as used in Grbl: replace the corner by a circle of radius R that is tangent
  * to both segments and passes the vertex at distance δ; then v² = A R. The second limit, the circle that is
@@ -18,6 +19,7 @@
  * s and c come from |u1 − u0| = 2 s and |u1 + u0| = 2 c. This keeps full precision for the tiny turns of
  * dense curves, where 1 − cos φ would cancel. A straight line has no limit; a reversal is a full stop.
  */
+import type { RunLimits } from "./limits.js";
 import type { RunPath } from "./run-path.js";
 
 /** Below this sin²(φ/2) a vertex counts as straight: its limit would be far above the speed limit. */
@@ -33,9 +35,11 @@ const CURVE = Math.cos(0.5) ** 2;
  * direction. The curve's speed then applies inside the segment too; otherwise the pen would accelerate and
  * brake on every chord.
  */
-export function limitJunctions(path: RunPath, accel: number, deviation: number): void {
+export function limitJunctions(path: RunPath, { accel, corner }: RunLimits): void {
   const { segmentCount: n, length, ux, uy, v2, cap2 } = path;
-  const accelDeviation = accel * deviation;
+  path.sine.fill(0, 0, n + 1);
+  path.tangent.fill(0, 0, n + 1);
+  const accelDeviation = accel * corner;
   const halfAccel = accel / 2;
   // The tangent limit of the previous vertex, signed by its turn direction, if it belongs to a curve;
   // otherwise 0.
