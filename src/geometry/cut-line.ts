@@ -1,14 +1,17 @@
 /** The parts of lines inside or outside a region. A line on the region's edge belongs to both. */
 import { boxContains, boxesTouch, grownBox } from "./box.js";
-import { clipLine } from "./clip.js";
 import { LineBuilder, isClosedLine, lineBox, lineCount, mix, type Lines } from "./polyline.js";
 import { regionContains, type Region } from "./region.js";
-import { ON_EDGE, type Part } from "./region-edges.js";
+import { onEdgeFor, type Part } from "./region-edges.js";
 
-/** Adds the parts of line `i` inside the region (or outside, with `keepOutside`) to `builder`, and those on its edge. */
+/**
+ * Adds the parts of line `i` inside the region (or outside, with `keepOutside`) to `builder`, and those on its edge. `gap`:
+ * max gap between the line and the curve it replaces, mm.
+ */
 export function cutLine(
   lines: Lines,
   i: number,
+  gap: number,
   region: Region,
   keepOutside: boolean,
   builder: LineBuilder,
@@ -16,12 +19,15 @@ export function cutLine(
   const { xy, offsets } = lines;
   const tag = lines.tag[i];
   const bounds = lineBox(lines, i);
-  if (region.rings.length === 0 || !boxesTouch(bounds, region.box)) {
+  const onEdge = onEdgeFor(gap, region.gap);
+  if (region.rings.length === 0 || !boxesTouch(bounds, grownBox(region.box, onEdge))) {
     if (keepOutside) builder.copy(lines, i, tag);
     return;
   }
-  if (region.isBox && !keepOutside) return clipLine(lines, i, region.box, builder);
-  if (region.isBox && boxContains(grownBox(region.box, -ON_EDGE), bounds)) return;
+  if (region.isBox && boxContains(grownBox(region.box, -onEdge), bounds)) {
+    if (!keepOutside) builder.copy(lines, i, tag);
+    return;
+  }
   if (offsets[i + 1] - offsets[i] < 2) {
     if (regionContains(region, xy[2 * offsets[i]], xy[2 * offsets[i] + 1]) !== keepOutside)
       builder.copy(lines, i, tag);
@@ -31,7 +37,7 @@ export function cutLine(
   const kept: Part[] = [];
   let winding: number | null = null;
   for (let p = offsets[i]; p + 1 < offsets[i + 1]; p++) {
-    const cut = edges.partsOf(xy[2 * p], xy[2 * p + 1], xy[2 * p + 2], xy[2 * p + 3], keepOutside, winding);
+    const cut = edges.partsOf(lines, i, p, keepOutside, onEdge, winding);
     winding = cut.windingAtEnd;
     addParts(cut.parts, p - offsets[i], kept);
   }
@@ -82,13 +88,9 @@ function addPiece(
   else builder.end(tag[i]);
 }
 
-/** Clips every line to the region of its tag; null leaves the line unchanged. */
-export function cutLines(lines: Lines, regionOfTag: (tag: number) => Region | null): Lines {
+/** The parts of straight lines inside a region. */
+export function cutLines(lines: Lines, region: Region): Lines {
   const builder = new LineBuilder();
-  for (let i = 0; i < lineCount(lines); i++) {
-    const region = regionOfTag(lines.tag[i]);
-    if (region === null) builder.copy(lines, i, lines.tag[i]);
-    else cutLine(lines, i, region, false, builder);
-  }
+  for (let i = 0; i < lineCount(lines); i++) cutLine(lines, i, 0, region, false, builder);
   return builder.finish();
 }

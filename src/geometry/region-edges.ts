@@ -9,18 +9,35 @@
  * A tree of boxes (Flatbush) finds the edges near a segment, so that the cost grows with the crossings and not with the
  * size of the region. A vertex on the segment's line counts as to the right of it, for all edges that meet there. So a
  * crossing at a vertex is neither lost nor counted twice.
+ *
+ * A line on an edge is half inside, and kept. A run is a part of the line that stays within `onEdge` mm of edges. A short
+ * run from one side to the other is a crossing, and the line is cut at the edge. A long run lies on the edge; so does one
+ * that leaves to the kept side at both ends.
  */
 import Flatbush from "flatbush";
 import type { Paths64 } from "clipper2-ts";
 import { boxOfPoints } from "./box.js";
-import { SAME_POINT } from "./polyline.js";
+import { insideRange } from "./clip.js";
+import { SAME_POINT, isClosedLine, mix, type Lines } from "./polyline.js";
 
 /** A line this close to an edge lies on it, mm: far below any pen width, above all rounding. */
-export const ON_EDGE = 0.002;
-/** A segment that crosses an edge is near it too, but not over this length. */
-const SHORTEST_ON_EDGE = 8 * ON_EDGE;
+const ON_EDGE = 0.002;
+/** Lines further apart than this are never taken for the same, even if curves become very coarse chords, mm. */
+const MAX_GAP_OF_CHORDS = 0.09;
+/** A crossing at more than 6° is shorter than this many times `onEdge`. */
+const LONG_RUN = 20;
 /** With fewer edges a tree does not pay. */
 const MIN_EDGES_OF_TREE = 16;
+
+/**
+ * How close to an edge a line lies on it, mm. The same curve may be divided into other chords there. All their ends lie on
+ * the curve, so the line and the edge are no further apart than the larger of their gaps to the curve.
+ */
+export const onEdgeFor = (gapOfLine: number, gapOfEdges: number): number =>
+  ON_EDGE + Math.min(Math.max(gapOfLine, gapOfEdges), MAX_GAP_OF_CHORDS);
+
+/** The least length of a run that is no crossing, mm. */
+export const longRun = (onEdge: number): number => LONG_RUN * onEdge;
 
 /** A part of a segment, from and to a share of its length. */
 export type Part = [from: number, to: number];
@@ -29,6 +46,14 @@ interface Crossing {
   readonly t: number;
   /** Change of the winding number. */
   readonly turn: number;
+}
+
+/** Where a run ends. */
+interface RunEnd {
+  /** Its length up to there, beyond the segment, mm. */
+  readonly length: number;
+  /** Whether the line continues where it is kept. */
+  readonly isKept: boolean;
 }
 
 export class RegionEdges {
@@ -89,79 +114,133 @@ export class RegionEdges {
   }
 
   /**
-   * The parts of a segment inside the region, or outside with `keepOutside`; parts on an edge always belong to them.
-   * `known` is the winding number at the segment's start, or null. Also returns the one at its end, null if an edge is
-   * near.
+   * The parts of segment `p` of line `i` inside the region, or outside with `keepOutside`; parts on an edge, within
+   * `onEdge` mm, always belong to them. A segment has the number of its first point. `known` is the winding number at the
+   * segment's start, or null. Also returns the one at its end, null if an edge is near.
    */
   partsOf(
-    x0: number,
-    y0: number,
-    x1: number,
-    y1: number,
+    lines: Lines,
+    i: number,
+    p: number,
     keepOutside: boolean,
+    onEdge: number,
     known: number | null,
   ): { readonly parts: readonly Part[]; readonly windingAtEnd: number | null } {
+    const { length, crossings, runs } = this.meet(lines, p, onEdge);
+    const isKept = (winding: number): boolean => (winding === 0) === keepOutside;
+    let start = known;
+    const windingAtStart = (): number => (start ??= this.windingAtStart(lines, p, crossings, runs));
+    const turnsBefore = turnsAlong(crossings);
+    const endOfRun = (t: number): RunEnd => {
+      if (t === 0) return this.follow(lines, i, p, -1, isKept, onEdge);
+      if (t === 1) return this.follow(lines, i, p, 1, isKept, onEdge);
+      return { length: 0, isKept: isKept(windingAtStart() + turnsBefore(t)) };
+    };
+    const parts = runs.filter(([from, to]) => {
+      const here = (to - from) * length;
+      if (here >= longRun(onEdge)) return true;
+      const before = endOfRun(from);
+      if (before.length + here >= longRun(onEdge)) return true;
+      const after = endOfRun(to);
+      return (before.isKept && after.isKept) || before.length + here + after.length >= longRun(onEdge);
+    });
+    if (parts.length === 1 && isWhole(parts[0])) return { parts, windingAtEnd: null };
+    const windingAtEnd = addCrossed(crossings, windingAtStart(), isKept, parts);
+    const isEndFree = runs.at(-1)?.[1] !== 1;
+    return { parts: merged(parts, SAME_POINT / length), windingAtEnd: isEndFree ? windingAtEnd : null };
+  }
+
+  /** The edges that cross segment `p`, and its parts within `onEdge` mm of edges. Both ascend. */
+  private meet(
+    { xy }: Lines,
+    p: number,
+    onEdge: number,
+  ): { readonly length: number; readonly crossings: readonly Crossing[]; readonly runs: Part[] } {
+    const [x0, y0, x1, y1] = [xy[2 * p], xy[2 * p + 1], xy[2 * p + 2], xy[2 * p + 3]];
     const dx = x1 - x0;
     const dy = y1 - y0;
     const length = Math.sqrt(dx * dx + dy * dy);
     const rounding = SAME_POINT / length;
-    const margin = ON_EDGE / length;
     const crossings: Crossing[] = [];
-    /** Where the segment is near an edge; those that run along it are among the parts. */
     const near: Part[] = [];
-    const parts: Part[] = [];
-    let isEndFree = true;
     for (const e of this.near(
-      Math.min(x0, x1) - ON_EDGE,
-      Math.min(y0, y1) - ON_EDGE,
-      Math.max(x0, x1) + ON_EDGE,
-      Math.max(y0, y1) + ON_EDGE,
+      Math.min(x0, x1) - onEdge,
+      Math.min(y0, y1) - onEdge,
+      Math.max(x0, x1) + onEdge,
+      Math.max(y0, y1) + onEdge,
     )) {
       const ax = this.ends[4 * e] - x0;
       const ay = this.ends[4 * e + 1] - y0;
       const bx = this.ends[4 * e + 2] - x0;
       const by = this.ends[4 * e + 3] - y0;
-      // Distances from the segment's line, and shares of the segment.
+      // Distances of the edge's ends from the segment's line.
       const a = (dx * ay - dy * ax) / length;
       const b = (dx * by - dy * bx) / length;
-      const ta = (ax * dx + ay * dy) / (length * length);
-      const tb = (bx * dx + by * dy) / (length * length);
-      const along = (distance: number): number =>
-        a === b ? ta : ta + ((tb - ta) * (a - distance)) / (a - b);
+      if (Math.min(a, b) > onEdge || Math.max(a, b) < -onEdge) continue;
       if (a > 0 !== b > 0) {
-        const t = along(0);
+        // Shares of the segment.
+        const ta = (ax * dx + ay * dy) / (length * length);
+        const tb = (bx * dx + by * dy) / (length * length);
+        const t = ta + ((tb - ta) * a) / (a - b);
         if (t > rounding && t < 1 - rounding) crossings.push({ t, turn: b > 0 ? -1 : 1 });
       }
-      if (Math.min(a, b) > ON_EDGE || Math.max(a, b) < -ON_EDGE) continue;
-      const first = Math.abs(a) <= ON_EDGE ? ta : along(a > 0 ? ON_EDGE : -ON_EDGE);
-      const last = Math.abs(b) <= ON_EDGE ? tb : along(b > 0 ? ON_EDGE : -ON_EDGE);
-      const [from, to] = first < last ? [first, last] : [last, first];
-      if (to >= 1 - margin && from <= 1 + margin) isEndFree = false;
-      const part: Part = [Math.max(from - margin, 0), Math.min(to + margin, 1)];
-      if (part[0] >= part[1]) continue;
-      near.push([Math.max(from, 0), Math.min(to, 1)]);
-      const isWhole = (part[0] === 0 && part[1] === 1) || (Math.abs(a) <= ON_EDGE && Math.abs(b) <= ON_EDGE);
-      if (isWhole || (to - from) * length > SHORTEST_ON_EDGE) parts.push(part);
+      const part = partAround(ax, ay, bx, by, dx, dy, onEdge);
+      if (part !== null) near.push(part);
     }
-    crossings.sort((p, q) => p.t - q.t);
-    const winding = known ?? this.windingAtStart(crossings, near, (t) => [x0 + t * dx, y0 + t * dy]);
-    const windingAtEnd = addCrossed(crossings, winding, keepOutside, parts);
-    return { parts: merged(parts, rounding), windingAtEnd: isEndFree ? windingAtEnd : null };
+    crossings.sort((c, d) => c.t - d.t);
+    return { length, crossings, runs: merged(near, rounding) };
   }
 
-  /** The winding number at the start of a segment, from the one in the middle of its longest part without an edge near. */
+  /**
+   * Follows a run from the end of segment `p`, or backwards from its start: its length there, as far as it matters, and
+   * whether the line continues where it is kept. The end of a line counts as kept.
+   */
+  private follow(
+    lines: Lines,
+    i: number,
+    p: number,
+    step: 1 | -1,
+    isKept: (winding: number) => boolean,
+    onEdge: number,
+  ): RunEnd {
+    const first = lines.offsets[i];
+    const last = lines.offsets[i + 1] - 2;
+    const isClosed = isClosedLine(lines, i);
+    let length = 0;
+    for (let q = p + step; length < longRun(onEdge); q += step) {
+      if (isClosed && q > last) q = first;
+      else if (isClosed && q < first) q = last;
+      if (q === p || q < first || q > last) break;
+      const { length: ofSegment, runs } = this.meet(lines, q, onEdge);
+      const joint = step === 1 ? 0 : 1;
+      const run = runs.find((part) => part.includes(joint)) ?? [joint, joint];
+      length += (run[1] - run[0]) * ofSegment;
+      if (isWhole(run)) continue;
+      const end = step === 1 ? run[1] : run[0];
+      return { length, isKept: isKept(this.windingAt(...pointAt(lines, q, end))) };
+    }
+    return { length, isKept: true };
+  }
+
+  /**
+   * The winding number at the start of segment `p`, from the one in the middle of its longest part without an edge near;
+   * if edges are near all of it, of its longest part without a crossing.
+   */
   private windingAtStart(
+    lines: Lines,
+    p: number,
     crossings: readonly Crossing[],
-    near: Part[],
-    placeOf: (t: number) => readonly [x: number, y: number],
+    runs: readonly Part[],
   ): number {
+    const isNearAll = runs.length === 1 && isWhole(runs[0]);
+    const stops = isNearAll ? crossings.map(({ t }): Part => [t, t]) : runs;
     let [middle, longest, from] = [0.5, 0, 0];
-    for (const part of [...near.sort((p, q) => p[0] - q[0]), [1, 1]]) {
-      if (part[0] - from > longest) [middle, longest] = [(from + part[0]) / 2, part[0] - from];
-      from = Math.max(from, part[1]);
+    for (const stop of [...stops, [1, 1]]) {
+      if (stop[0] - from > longest) [middle, longest] = [(from + stop[0]) / 2, stop[0] - from];
+      from = stop[1];
     }
     const turns = crossings.reduce((sum, { t, turn }) => (t < middle ? sum + turn : sum), 0);
-    return this.windingAt(...placeOf(middle)) - turns;
+    return this.windingAt(...pointAt(lines, p, middle)) - turns;
   }
 
   /** The edges whose boxes touch this box. */
@@ -180,21 +259,65 @@ export class RegionEdges {
   }
 }
 
+/**
+ * The part of the segment from the origin to (dx, dy) in a box around the edge from a to b, which goes `onEdge` beyond it
+ * on all sides. Null if there is none.
+ */
+function partAround(
+  ax: number,
+  ay: number,
+  bx: number,
+  by: number,
+  dx: number,
+  dy: number,
+  onEdge: number,
+): Part | null {
+  const ex = bx - ax;
+  const ey = by - ay;
+  const length = Math.sqrt(ex * ex + ey * ey);
+  if (length === 0) return null;
+  // The segment's start and extent along the edge and across it.
+  const u = -(ax * ex + ay * ey) / length;
+  const v = (ax * ey - ay * ex) / length;
+  const du = (dx * ex + dy * ey) / length;
+  const dv = (dy * ex - dx * ey) / length;
+  const around = { x0: -onEdge, y0: -onEdge, x1: length + onEdge, y1: onEdge };
+  const range = insideRange(u, v, u + du, v + dv, around);
+  return range === null ? null : [range[0], range[1]];
+}
+
+const isWhole = ([from, to]: Part): boolean => from === 0 && to === 1;
+
+const pointAt = ({ xy }: Lines, p: number, t: number): [x: number, y: number] => [
+  mix(xy[2 * p], xy[2 * p + 2], t),
+  mix(xy[2 * p + 1], xy[2 * p + 3], t),
+];
+
+/** The change of the winding number from the start to `t`, for ascending `t`. */
+function turnsAlong(crossings: readonly Crossing[]): (t: number) => number {
+  let k = 0;
+  let turns = 0;
+  return (t) => {
+    for (; k < crossings.length && crossings[k].t < t; k++) turns += crossings[k].turn;
+    return turns;
+  };
+}
+
 /** Adds the parts between crossings that are wanted. Returns the winding number at the end. */
 function addCrossed(
   crossings: readonly Crossing[],
   windingAtStart: number,
-  keepOutside: boolean,
+  isKept: (winding: number) => boolean,
   parts: Part[],
 ): number {
   let winding = windingAtStart;
   let from = 0;
   for (const { t, turn } of crossings) {
-    if ((winding === 0) === keepOutside) parts.push([from, t]);
+    if (isKept(winding)) parts.push([from, t]);
     winding += turn;
     from = t;
   }
-  if ((winding === 0) === keepOutside) parts.push([from, 1]);
+  if (isKept(winding)) parts.push([from, 1]);
   return winding;
 }
 

@@ -24,6 +24,8 @@ export interface Region {
   readonly box: Box;
   /** True if the region is exactly its box: then a line is clipped faster. */
   readonly isBox: boolean;
+  /** Max gap between its edges and the curves they replace, mm. */
+  readonly gap: number;
   /** For lines and points in the region; collected by the first call. */
   edges(): RegionEdges;
 }
@@ -40,8 +42,8 @@ export function ringOf(xy: ArrayLike<number>, from = 0, to = xy.length): Path64 
 export const ringOfLine = ({ xy, offsets }: Lines, i: number): Path64 =>
   ringOf(xy, 2 * offsets[i], 2 * offsets[i + 1]);
 
-/** A region from rings that are already clean. */
-export function regionOf(rings: Paths64): Region {
+/** A region from rings that are already clean; `gap` if they replace curves. */
+export function regionOf(rings: Paths64, gap = 0): Region {
   const { x0, y0, x1, y1 } = boxOfRings(rings);
   const box = { x0: x0 / SCALE, y0: y0 / SCALE, x1: x1 / SCALE, y1: y1 / SCALE };
   let edges: RegionEdges | null = null;
@@ -49,6 +51,7 @@ export function regionOf(rings: Paths64): Region {
     rings,
     box,
     isBox: rings.length === 1 && isRectangle(rings[0]),
+    gap,
     edges: () => (edges ??= new RegionEdges(rings, SCALE)),
   };
 }

@@ -9,12 +9,13 @@ import { stopIfCancelled, type Work } from "./work.js";
 /**
  * The region of each filled shape, in paint order, by its fill rule, cut to its clip. With `hasOutlines`,
  * shapes without a fill also have a region: the inside of their closed lines. `lines` are the shapes' subpaths, tagged
- * with their shape. An open subpath of a filled shape is closed by a straight line, as in SVG.
+ * with their shape, `gaps` those of `gapsOfShapes`. An open subpath of a filled shape is closed by a straight line, as in SVG.
  */
 export function filledAreas(
   lines: Lines,
   drawing: Drawing,
   clipOf: (shape: number) => Region | null,
+  gaps: Float64Array,
   hasOutlines: boolean,
   work: Work,
 ): Map<number, Region> {
@@ -32,9 +33,13 @@ export function filledAreas(
     const isEvenOdd = !isFilled || drawing.paths.fillRule[shape] === RULE_EVENODD;
     const rule = isEvenOdd ? FillRule.EvenOdd : FillRule.NonZero;
     let area = cleanRings(rings, rule);
+    let gap = gaps[shape];
     const clip = clipOf(shape);
-    if (clip !== null) area = combine(ClipType.Intersection, area, clip.rings);
-    if (area.length > 0) areas.set(shape, regionOf(area));
+    if (clip !== null) {
+      area = combine(ClipType.Intersection, area, clip.rings);
+      gap = Math.max(gap, clip.gap);
+    }
+    if (area.length > 0) areas.set(shape, regionOf(area, gap));
   }
   return areas;
 }
@@ -47,7 +52,7 @@ export function cropAreas(areas: ReadonlyMap<number, Region>, limit: Box): Map<n
   for (const [shape, area] of areas) {
     const inside = boxContains(limit, area.box)
       ? area
-      : regionOf(combine(ClipType.Intersection, area.rings, [frame]));
+      : regionOf(combine(ClipType.Intersection, area.rings, [frame]), area.gap);
     if (inside.rings.length > 0) kept.set(shape, inside);
   }
   return kept;

@@ -12,11 +12,15 @@ import type { Work } from "./work.js";
 /** If a clip cuts off no more than this, it is rounding, and the shape counts as whole, mm. */
 const UNCUT = 0.001;
 
-/** `lines` are the shapes' outlines, tag = shape; `clipOf` gives the region that clips a shape, or null. */
+/**
+ * `lines` are the shapes' outlines, tag = shape; `clipOf` gives the region that clips a shape, or null; `gaps` are those
+ * of `gapsOfShapes`.
+ */
 export function clipLines(
   lines: Lines,
   drawing: Drawing,
   clipOf: (shape: number) => Region | null,
+  gaps: Float64Array,
   work: Work,
 ): Lines {
   const builder = new LineBuilder();
@@ -24,8 +28,8 @@ export function clipLines(
     const shape = lines.tag[first];
     const clip = clipOf(shape);
     if (clip === null) copyAll(lines, first, end, builder);
-    else if (drawing.paths.stroke[shape] >= 0) cutAll(lines, first, end, clip, builder);
-    else clipFill(lines, first, end, drawing, clip, builder, work);
+    else if (drawing.paths.stroke[shape] >= 0) cutAll(lines, first, end, gaps[shape], clip, builder);
+    else clipFill(lines, first, end, drawing, clip, gaps, builder, work);
   }
   return builder.finish();
 }
@@ -34,8 +38,15 @@ function copyAll(lines: Lines, from: number, to: number, builder: LineBuilder): 
   for (let i = from; i < to; i++) builder.copy(lines, i, lines.tag[i]);
 }
 
-function cutAll(lines: Lines, from: number, to: number, clip: Region, builder: LineBuilder): void {
-  for (let i = from; i < to; i++) cutLine(lines, i, clip, false, builder);
+function cutAll(
+  lines: Lines,
+  from: number,
+  to: number,
+  gap: number,
+  clip: Region,
+  builder: LineBuilder,
+): void {
+  for (let i = from; i < to; i++) cutLine(lines, i, gap, clip, false, builder);
 }
 
 /** Copies the outline if the clip leaves it whole; otherwise adds the outline of the clipped area. */
@@ -45,19 +56,20 @@ function clipFill(
   to: number,
   drawing: Drawing,
   clip: Region,
+  gaps: Float64Array,
   builder: LineBuilder,
   work: Work,
 ): void {
   const copy = new LineBuilder();
   copyAll(lines, from, to, copy);
   const outline = copy.finish();
+  const shape = lines.tag[from];
   const cut = new LineBuilder();
-  cutAll(lines, from, to, clip, cut);
+  cutAll(lines, from, to, gaps[shape], clip, cut);
   if (totalLength(outline) - totalLength(cut.finish()) < UNCUT) {
     copyAll(lines, from, to, builder);
     return;
   }
-  const shape = lines.tag[from];
-  const area = filledAreas(outline, drawing, () => clip, false, work).get(shape);
+  const area = filledAreas(outline, drawing, () => clip, gaps, false, work).get(shape);
   for (const ring of area?.rings ?? []) addPath([...ring, ring[0]], shape, builder);
 }

@@ -5,7 +5,7 @@ import { filterLines, lineBox, lineCount, type Lines } from "../geometry/polylin
 import type { PrepareSettings } from "../settings/prepare.js";
 import { clipRegions } from "./clip-regions.js";
 import { clipLines } from "./clipped-fills.js";
-import { flattenShapes } from "./flatten.js";
+import { flattenShapes, gapsOfShapes } from "./flatten.js";
 import { layersOf, visibleLayers } from "./layers.js";
 import { isFarAway, type Placement } from "./place.js";
 import { cropBox, strokedOnly } from "./shapes.js";
@@ -40,7 +40,8 @@ export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: 
   let lines = flattenShapes(drawing.paths, place.map, FLATTEN_MM, wanted, {});
   if (!settings.outlineFills) lines = strokedOnly(lines, drawing);
   if (drawing.clips.length > 0) {
-    lines = clipLines(lines, drawing, clipRegions(drawing, place.map, FLATTEN_MM), {});
+    const clipOf = clipRegions(drawing, place.map, FLATTEN_MM);
+    lines = clipLines(lines, drawing, clipOf, gapsOfShapes(drawing.paths, FLATTEN_MM), {});
   }
   const leaving = filterLines(lines, (i) => !boxContains(widened, lineBox(lines, i)));
   const outside = filterLines(leaving, (i) => !boxesTouch(lineBox(leaving, i), limit));

@@ -1,5 +1,5 @@
 /** Converts shapes to polylines. */
-import { curvesOf, type DrawingPaths } from "../drawing/drawing.js";
+import { VERB_CUBIC, curvesOf, type Curves, type DrawingPaths } from "../drawing/drawing.js";
 import { flattenVerbs } from "../drawing/flatten.js";
 import type { Affine } from "../geometry/affine.js";
 import { LineBuilder, type Lines } from "../geometry/polyline.js";
@@ -26,3 +26,11 @@ export function flattenShapes(
   }
   return builder.finish();
 }
+
+/** Max gap between the chords of `flattenShapes` and their curves, mm, by shape. */
+export const gapsOfShapes = (paths: DrawingPaths, toleranceMm: number): Float64Array =>
+  Float64Array.from({ length: paths.count }, (_, shape) => gapOf(curvesOf(paths, shape), toleranceMm));
+
+/** The same for the curves of one shape or clip. Straight lines stay as they are. */
+export const gapOf = ({ verbs }: Pick<Curves, "verbs">, toleranceMm: number): number =>
+  verbs.includes(VERB_CUBIC) ? toleranceMm : 0;

@@ -13,7 +13,7 @@ import { insideRange } from "../geometry/clip.js";
 import { addParts, addPieces } from "../geometry/cut-line.js";
 import { LineBuilder, SAME_POINT, distance, lineCount, mix, type Lines } from "../geometry/polyline.js";
 import { SCALE, cleanRings, regionContains, regionOf, ringsInBox, type Region } from "../geometry/region.js";
-import { merged, type Part } from "../geometry/region-edges.js";
+import { longRun, merged, onEdgeFor, type Part } from "../geometry/region-edges.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** A tile with fewer pairs of an edge and a segment is not divided. */
@@ -22,8 +22,6 @@ const FEW_PAIRS = 50_000;
 const WORTH_DIVIDING = 0.8;
 /** Smaller tiles are not divided, mm. */
 const SMALLEST_TILE = 0.1;
-/** Covers are cut this far outside their tile, mm, so that the cut is no edge of the lines inside. */
-const MARGIN = 0.02;
 /** Larger unions cost more than they save. */
 const MAX_UNION_POINTS = 400;
 /** Cost of cutting a segment by a cover, in pairs that are only compared. */
@@ -50,13 +48,14 @@ interface Tile {
 
 /**
  * The tag of each line is its shape; `areas` by shape. A shape with a higher index is painted later. Shapes for which
- * `takesPart` is false (hidden layers) cover nothing, and nothing covers them. Throws `too-large` if more than `maxPairs`
- * pairs of an edge and a segment must be compared.
+ * `takesPart` is false (hidden layers) cover nothing, and nothing covers them. `gaps` are those of `gapsOfShapes`. Throws
+ * `too-large` if more than `maxPairs` pairs of an edge and a segment must be compared.
  */
 export function hideCovered(
   lines: Lines,
   areas: ReadonlyMap<number, Region>,
   takesPart: (shape: number) => boolean,
+  gaps: Float64Array,
   work: Work,
   maxPairs = MAX_PAIRS,
 ): Lines {
@@ -65,7 +64,7 @@ export function hideCovered(
     .sort(([a], [b]) => b - a)
     .map(([shape, region]) => coverOf(shape, region));
   if (covers.length === 0) return lines;
-  const hiding = new Hiding(lines, work, maxPairs);
+  const hiding = new Hiding(lines, gaps, work, maxPairs);
   hiding.run(covers, takesPart);
   const builder = new LineBuilder();
   for (let i = 0; i < lineCount(lines); i++) hiding.addVisible(i, builder);
@@ -75,18 +74,21 @@ export function hideCovered(
 class Hiding {
   /** The hidden parts of each segment that has any, by the number of its first point. */
   private readonly hidden: (Part[] | undefined)[];
-  /** The shape of each point. */
-  private readonly shapeOf: Uint32Array;
+  /** The line of each point. */
+  private readonly lineOf: Uint32Array;
+  private readonly maxGap: number;
   /** 1 for the point of a dot, which is a segment to itself. */
   private readonly isDot: Uint8Array;
   private pairs = 0;
 
   constructor(
     private readonly lines: Lines,
+    private readonly gaps: Float64Array,
     private readonly work: Work,
     private readonly maxPairs: number,
   ) {
-    this.shapeOf = new Uint32Array(lines.xy.length / 2);
+    this.maxGap = gaps.reduce((max, gap) => Math.max(max, gap), 0);
+    this.lineOf = new Uint32Array(lines.xy.length / 2);
     this.hidden = Array.from({ length: lines.xy.length / 2 });
     this.isDot = new Uint8Array(lines.xy.length / 2);
   }
@@ -96,12 +98,12 @@ class Hiding {
     const segments: number[] = [];
     for (let i = 0; i < lineCount(this.lines); i++) {
       const [first, end] = [offsets[i], offsets[i + 1]];
-      this.shapeOf.fill(tag[i], first, end);
+      this.lineOf.fill(i, first, end);
       if (end - first === 1) this.isDot[first] = 1;
       if (!takesPart(tag[i])) continue;
       for (let p = first; p < Math.max(end - 1, first + 1); p++) segments.push(p);
     }
-    segments.sort((p, q) => this.shapeOf[q] - this.shapeOf[p]);
+    segments.sort((p, q) => this.shapeOf(q) - this.shapeOf(p));
     this.hideIn({ box: boxOfPoints(xy), covers, segments });
   }
 
@@ -147,11 +149,11 @@ class Hiding {
     let segments = tile.segments.filter((p) => this.touches(p, box));
     const covers: Cover[] = [];
     for (const cover of tile.covers) {
-      if (segments.length === 0 || this.shapeOf[segments[segments.length - 1]] >= cover.shape) break;
+      if (segments.length === 0 || this.shapeOf(segments[segments.length - 1]) >= cover.shape) break;
       this.spend(cover.points);
-      const inside = coverIn(cover, box);
+      const inside = coverIn(cover, box, this.maxGap);
       if (inside === "whole") {
-        const above = segments.filter((p) => this.shapeOf[p] >= cover.shape);
+        const above = segments.filter((p) => this.shapeOf(p) >= cover.shape);
         for (const p of segments.slice(above.length)) this.hide(p, this.rangeIn(p, box));
         segments = above;
         break;
@@ -159,14 +161,14 @@ class Hiding {
       if (inside !== null) covers.push(inside);
     }
     const top = covers[0]?.shape ?? 0;
-    return { box, covers, segments: segments.filter((p) => this.shapeOf[p] < top) };
+    return { box, covers, segments: segments.filter((p) => this.shapeOf(p) < top) };
   }
 
   private cutIn({ box, covers, segments }: Tile): void {
     const joined: Cover[] = [];
     let next = 0;
     for (const p of segments) {
-      for (; next < covers.length && covers[next].shape > this.shapeOf[p]; next++) join(joined, covers[next]);
+      for (; next < covers.length && covers[next].shape > this.shapeOf(p); next++) join(joined, covers[next]);
       this.cut(p, this.rangeIn(p, box), joined);
     }
     this.spend(segments.length + covers.length);
@@ -188,7 +190,8 @@ class Hiding {
         continue;
       }
       this.spend(PAIRS_OF_CUT);
-      const { parts } = region.edges().partsOf(x0, y0, x1, y1, true, null);
+      const onEdge = onEdgeFor(this.gaps[this.shapeOf(p)], region.gap);
+      const { parts } = region.edges().partsOf(this.lines, this.lineOf[p], p, true, onEdge, null);
       for (const [from, to] of outsideOf(parts)) {
         this.hide(p, [Math.max(from, enter), Math.min(to, leave)]);
         if (from <= enter) enter = Math.max(enter, to);
@@ -197,6 +200,10 @@ class Hiding {
       }
     }
     this.spend(covers.length);
+  }
+
+  private shapeOf(p: number): number {
+    return this.lines.tag[this.lineOf[p]];
   }
 
   private hide(p: number, part: Part): void {
@@ -244,20 +251,25 @@ function segmentTouches(x0: number, y0: number, x1: number, y1: number, box: Box
   return left >= 0 && right <= 0;
 }
 
-/** The part of a cover in a box: "whole" if it covers the box, null if it misses it. */
-function coverIn(cover: Cover, box: Box): Cover | "whole" | null {
+/**
+ * The part of a cover in a box: "whole" if it covers the box, null if it misses it. It is cut so far outside the box that
+ * the cut is no edge of the lines inside.
+ */
+function coverIn(cover: Cover, box: Box, gapOfLines: number): Cover | "whole" | null {
   const { shape, region } = cover;
   if (!boxesTouch(region.box, box)) return null;
-  const around = grownBox(box, MARGIN);
+  const onEdge = onEdgeFor(gapOfLines, region.gap);
+  const around = grownBox(box, 2 * longRun(onEdge));
   if (boxContains(around, region.box)) return cover;
+  const near = grownBox(box, onEdge);
   const rings = ringsInBox(region.rings, around);
   const hasEdge = rings.some((ring) =>
     ring.some((p, k) => {
       const q = ring[(k + 1) % ring.length];
-      return segmentTouches(p.x / SCALE, p.y / SCALE, q.x / SCALE, q.y / SCALE, box);
+      return segmentTouches(p.x / SCALE, p.y / SCALE, q.x / SCALE, q.y / SCALE, near);
     }),
   );
-  const inside = regionOf(rings);
+  const inside = regionOf(rings, region.gap);
   if (hasEdge) return coverOf(shape, inside);
   return regionContains(inside, (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2) ? "whole" : null;
 }
@@ -272,7 +284,8 @@ function join(covers: Cover[], cover: Cover): void {
   ) {
     const rings = cleanRings([...last.region.rings, ...cover.region.rings], FillRule.NonZero);
     if (pointsOf(rings) <= last.points + cover.points) {
-      covers[covers.length - 1] = coverOf(cover.shape, regionOf(rings));
+      const gap = Math.max(last.region.gap, cover.region.gap);
+      covers[covers.length - 1] = coverOf(cover.shape, regionOf(rings, gap));
       return;
     }
   }

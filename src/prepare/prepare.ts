@@ -25,7 +25,7 @@ import { clipRegions } from "./clip-regions.js";
 import { clipLines } from "./clipped-fills.js";
 import { completeSettings } from "./complete-settings.js";
 import { dashLines } from "./dash.js";
-import { flattenShapes } from "./flatten.js";
+import { flattenShapes, gapsOfShapes } from "./flatten.js";
 import { hideCovered } from "./hidden-lines.js";
 import { joinInFileOrder, joinLines } from "./join.js";
 import { inOrder, layersOf, visibleLayers } from "./layers.js";
@@ -118,6 +118,7 @@ export function prepare(
 
   progress(0.05, "flattening");
   const subpaths = flattenShapes(drawing.paths, place.map, settings.flattenMm, wanted, options);
+  const gaps = gapsOfShapes(drawing.paths, settings.flattenMm);
   const clipOf = clipRegions(drawing, place.map, settings.flattenMm);
   const dashOf = dashesOf(drawing, place);
   let lines = drawing.dashes.length > 0 ? dashLines(subpaths, dashOf, area) : subpaths;
@@ -127,8 +128,8 @@ export function prepare(
   progress(0.15, "cutting");
   let dashed = dashedAcross(subpaths, dashOf, limit);
   if (drawing.clips.length > 0) {
-    lines = clipLines(lines, drawing, clipOf, options);
-    dashed = clipLines(dashed, drawing, clipOf, options);
+    lines = clipLines(lines, drawing, clipOf, gaps, options);
+    dashed = clipLines(dashed, drawing, clipOf, gaps, options);
   }
   lines = cropLines(lines, dashed, limit, edge, warnings);
   if (settings.cropToPage) lines = cropToPage(lines, drawing, place);
@@ -136,7 +137,7 @@ export function prepare(
   progress(0.25, "filling");
   const hatches = hatchesOf(settings, table);
   if (hatches !== null || settings.hideCovered) {
-    const whole = filledAreas(subpaths, drawing, clipOf, settings.hatchOutlines, options);
+    const whole = filledAreas(subpaths, drawing, clipOf, gaps, settings.hatchOutlines, options);
     const areas = cropAreas(whole, area);
     // If the outline is drawn too, the warning about its lines is enough.
     const isHatchOnly = (shape: number): boolean =>
@@ -155,6 +156,7 @@ export function prepare(
         lines,
         filledOnly(areas, drawing),
         (shape) => isVisible[table.ofShape[shape]],
+        gaps,
         options,
       );
   }

@@ -145,7 +145,7 @@ export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Li
   const [x0, y0, x1, y1] = corners;
   const isUpright = Math.min(Math.abs(x1 - x0), Math.abs(y1 - y0)) < 1e-6;
   if (isUpright && boxContains(boxOfPoints(corners), boxOfPoints(lines.xy))) return lines;
-  return cutLines(lines, () => page);
+  return cutLines(lines, page);
 }
 
 /** Removes the outlines of the page's background. */

@@ -3,13 +3,17 @@ import { ClipType, type Path64, type Paths64 } from "clipper2-ts";
 import type { ClipRegion, Curves } from "../../drawing/drawing.js";
 import { ringsOfClip } from "../../drawing/flatten.js";
 import { IDENTITY } from "../../geometry/affine.js";
+import { boxOfPoints } from "../../geometry/box.js";
 import { SCALE, combine, ringOf } from "../../geometry/region.js";
 import type { ClipNode, ClipShapes } from "../clip-node.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import { subpathsOf } from "../subpaths.js";
 
-/** mm */
-const FLATNESS = 0.005;
+/** Max gap between a curve and its chords, as a share of the shapes' size: the drawing may be enlarged. */
+const FLATNESS = 1e-5;
+/** The same in mm. */
+const MIN_FLATNESS_MM = 1 / SCALE;
+const MAX_FLATNESS_MM = 0.005;
 
 /** A flattened subpath in Clipper units. */
 interface Outline {
@@ -51,8 +55,15 @@ function shapeOf(rings: Paths64): ShapeBuffer {
 }
 
 /** The union of the shapes, each filled by its own rule. */
-export const ringsOf = (clip: Omit<ClipRegion, "parent">): Paths64 => ringsOfClip(clip, IDENTITY, FLATNESS);
+export const ringsOf = (clip: Omit<ClipRegion, "parent">): Paths64 =>
+  ringsOfClip(clip, IDENTITY, flatnessOf(clip));
 
 /** The subpaths of a path in page mm. */
 export const outlinesOf = (curves: Curves): Outline[] =>
-  subpathsOf(curves, FLATNESS).map(({ xy, isClosed }) => ({ ring: ringOf(xy), isClosed }));
+  subpathsOf(curves, flatnessOf(curves)).map(({ xy, isClosed }) => ({ ring: ringOf(xy), isClosed }));
+
+function flatnessOf({ coords }: Curves): number {
+  const { x0, y0, x1, y1 } = boxOfPoints(coords);
+  const size = Math.max(x1 - x0, y1 - y0);
+  return Math.min(MAX_FLATNESS_MM, Math.max(MIN_FLATNESS_MM, FLATNESS * size));
+}

@@ -41,7 +41,7 @@ function cut(points: readonly Point[], region: Region, keepOutside: boolean): Li
   for (const [x, y] of points) whole.point(x, y);
   whole.end(0);
   const parts = new LineBuilder();
-  cutLine(whole.finish(), 0, region, keepOutside, parts);
+  cutLine(whole.finish(), 0, 0, region, keepOutside, parts);
   return parts.finish();
 }
 

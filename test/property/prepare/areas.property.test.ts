@@ -197,7 +197,7 @@ describe("hidden lines", () => {
           builder.end(i);
           areas.set(i, regionOf([ringOf(ring.flat())]));
         });
-        const visible = hideCovered(builder.finish(), areas, () => true, {});
+        const visible = hideCovered(builder.finish(), areas, () => true, new Float64Array(rings.length), {});
         for (let i = 0; i < rings.length; i += 10) {
           const above = rings.slice(i + 1);
           const isVisible = (x: number, y: number): boolean =>

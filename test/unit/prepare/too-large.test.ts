@@ -30,7 +30,9 @@ describe("hiding covered lines", () => {
       builder.end(shape);
       areas.set(shape, regionOf([ringOf(xy)]));
     });
-    return lineCount(hideCovered(builder.finish(), areas, () => true, {}, maxPairs));
+    return lineCount(
+      hideCovered(builder.finish(), areas, () => true, new Float64Array(polygons.length), {}, maxPairs),
+    );
   }
 
   /** Circles that cover each other many times. */
