@@ -228,10 +228,13 @@ describe("machines as files", () => {
       heightMm: 594,
       stepsPerMm: 100,
       motors: "mixed",
-      microstepMode: 1,
-      servoPosAt0Pct: 8_000,
-      servoPosAt100Pct: 26_000,
-      servoPin: 4,
+      controller: {
+        kind: "ebb",
+        microstepMode: 1,
+        servoPosAt0Pct: 8_000,
+        servoPosAt100Pct: 26_000,
+        servoPin: 4,
+      },
     };
     const file = (content: unknown): { name: string; mimeType: string; buffer: Buffer } => ({
       name: "machine.json",
