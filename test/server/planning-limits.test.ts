@@ -117,12 +117,15 @@ describe("a planner", () => {
   }, 120_000);
 
   it.runIf(IS_FULL).each([
-    ["one long line", () => `<path d="M100 100${"l.7.3.1-.6-.7.2-.1.1".repeat(1_250_000)}"/>`],
+    [
+      "one long line",
+      () => `<path d="M100 100${"l.7135.3125.1315-.6275-.7425.2215-.1415.1275".repeat(570_000)}"/>`,
+    ],
     [
       "hundreds of thousands of short lines",
       () =>
-        range(780_000)
-          .map((i) => `<path d="M${i % 197} ${(i * 7) % 193}l2 1"/>`)
+        range(690_000)
+          .map((i) => `<path d="M${i % 197}.125 ${(i * 7) % 193}.375l2.125 1.375"/>`)
           .join(""),
     ],
     [
