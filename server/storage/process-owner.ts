@@ -19,16 +19,32 @@ export function isAlive(owner: ProcessOwner): boolean {
     // EPERM: the process is alive and belongs to another user.
     if ((error as NodeJS.ErrnoException).code !== "EPERM") return false;
   }
+  if (statOf(owner.pid)[STATE] === ENDED) return false;
   return owner.began === "" || owner.began === processBegan(owner.pid);
 }
 
-/** Field 22 of /proc/PID/stat. The name in field 2 may contain spaces, so count from its closing bracket. */
+/** Indexes into `statOf`. */
+const STATE = 0;
+const START_TICKS = 19;
+/** The state of a process that has ended, while its parent has not asked for its result: it still has its id. */
+const ENDED = "Z";
+
 function processBegan(pid: number): string {
   try {
-    const stat = readFileSync(`/proc/${pid}/stat`, "utf8");
-    const ticks = stat.slice(stat.lastIndexOf(")") + 2).split(" ")[19] ?? "";
+    const ticks = statOf(pid)[START_TICKS];
+    if (ticks === undefined) return "";
     return `${ticks}@${readFileSync("/proc/sys/kernel/random/boot_id", "utf8").trim()}`;
   } catch {
     return "";
+  }
+}
+
+/** /proc/PID/stat from its third field on; empty where it is not available. The second is a name and may contain spaces. */
+function statOf(pid: number): readonly string[] {
+  try {
+    const stat = readFileSync(`/proc/${pid}/stat`, "utf8");
+    return stat.slice(stat.lastIndexOf(")") + 2).split(" ");
+  } catch {
+    return [];
   }
 }

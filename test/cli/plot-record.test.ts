@@ -1,4 +1,5 @@
 /** Which stored plots count as interrupted, and the faults of the files they are stored in. */
+import { spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -51,6 +52,23 @@ describe("a stored plot", () => {
     beginAs({ pid: process.ppid, began: "100@an-earlier-boot" });
     expect(record.find()).toMatchObject({ name: "a.svg", progress: 0.4 });
   });
+
+  it.runIf(process.platform === "linux")(
+    "is interrupted if its process was killed, also before its parent has noticed",
+    async () => {
+      // The shell begins a process that ends at once, and becomes a `sleep`, which never asks for its result.
+      const parent = spawn("sh", ["-c", "true & echo $!; exec sleep 60"]);
+      try {
+        const pid = Number(await new Promise((resolve) => parent.stdout.once("data", resolve)));
+        const state = () => readFileSync(`/proc/${pid}/stat`, "utf8");
+        await vi.waitFor(() => expect(state()).toContain(") Z "), 10_000);
+        beginAs({ pid, began: "" });
+        expect(record.find()).toMatchObject({ name: "a.svg", progress: 0.4 });
+      } finally {
+        parent.kill();
+      }
+    },
+  );
 
   it("is kept when the next drawing can't be read, and that drawing is named", () => {
     const gone = join(dir, "gone.svg");
