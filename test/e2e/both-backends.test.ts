@@ -1,4 +1,5 @@
 /** Queue, settings and recovery: the same with plotwright's server and without one. */
+import { text } from "node:stream/consumers";
 import type { Browser, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { BACKENDS, startPage, type StartedPage } from "../support/backends.js";
@@ -56,6 +57,12 @@ async function choose(page: Page, name: string, what: string): Promise<void> {
   await openMenu(page, name);
   await page.getByRole("button", { name: `${what} ${name}` }).click();
 }
+
+/** The commands for heights of 22 and 77 %. */
+const SERVOS = [
+  { label: "NextDraw 8511", model: "nextdraw-8511", commands: ["S2,6984,5", "S2,10944,5"] },
+  { label: "AxiDraw V3/A3", model: "axidraw-v3-a3", commands: ["SC,5,12010", "SC,4,23285"] },
+].slice(0, IS_FULL ? 2 : 1);
 
 /** Other tests of `npm test` (story, machine, interrupted) have a server. */
 const CHECKED = IS_FULL ? BACKENDS : (["browser"] as const);
@@ -133,6 +140,36 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
       await page.getByRole("button", { name: "Cut off at the edge", exact: true }).click();
       await size().toBe("Drawn 287.5 × 0 mm, 100 %");
       await expect.poll(() => plot.isEnabled()).toBe(true);
+    },
+  );
+
+  it.each(SERVOS)(
+    "plots on $label with the plotter's heights, by the commands that reach the board",
+    { timeout: 300_000 },
+    async ({ label, model, commands }) => {
+      const { page } = started;
+      await openGroup(page, "Model and position");
+      await page.getByLabel("Model", { exact: true }).selectOption({ label });
+      for (const [which, pct] of [
+        ["down", "22"],
+        ["up", "77"],
+      ] as const) {
+        const height = page.getByLabel(`Height ${which}`, { exact: true });
+        await height.fill(pct);
+        await height.blur();
+      }
+      await expect
+        .poll(() => started.storedPlotters(), { timeout: PATIENCE_MS })
+        .toMatch(new RegExp(`(?=.*"upPct":77\\b)(?=.*"downPct":22\\b)(?=.*"${model}")`, "s"));
+      await lay(page, "one", 1);
+      await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
+      await openView(page, "Prepare");
+      await historyPanel(page).getByText("Done", { exact: true }).waitFor({ timeout: PATIENCE_MS });
+      const download = page.waitForEvent("download");
+      await page.getByRole("button", { name: "Save the connection log" }).click();
+      const log = await text(await (await download).createReadStream());
+      const sent = Array.from(log.matchAll(/\b(?:SC,[45],\d+|S2,\d+,\d+)/g), ([command]) => command);
+      expect(new Set(sent)).toEqual(new Set(commands));
     },
   );
 
