@@ -42,6 +42,8 @@ export class EventHub {
   #snapshot: { readonly text: Buffer; readonly atMs: number } | null = null;
   /** The callers to whom a snapshot is being sent, with the clients that wait for their turn. */
   readonly #waiting = new Map<string, (() => void)[]>();
+  /** The time limits of the snapshots that are being sent. */
+  readonly #transfers = new Set<NodeJS.Timeout>();
   #isClosed = false;
 
   constructor() {
@@ -101,7 +103,7 @@ export class EventHub {
   async #inTurn(
     response: Response,
     callerId: string,
-    transfer: (isRead: () => void) => Promise<void>,
+    transfer: (isRead: () => unknown) => Promise<void>,
   ): Promise<void> {
     const before = this.#waiting.get(callerId);
     if (before === undefined) this.#waiting.set(callerId, []);
@@ -115,11 +117,17 @@ export class EventHub {
       if (next === undefined) this.#waiting.delete(callerId);
       else next();
     };
+    if (this.#isClosed || response.closed) {
+      pass();
+      return;
+    }
     const stuck = setTimeout(pass, STUCK_MS).unref();
+    this.#transfers.add(stuck);
     try {
-      if (!response.closed) await transfer(() => stuck.refresh());
+      await transfer(() => !this.#isClosed && stuck.refresh());
     } finally {
       clearTimeout(stuck);
+      this.#transfers.delete(stuck);
       pass();
     }
   }
@@ -132,6 +140,7 @@ export class EventHub {
   close(): void {
     this.#isClosed = true;
     clearInterval(this.#heartbeat);
+    for (const stuck of this.#transfers) clearTimeout(stuck);
     this.#events.close();
     for (const response of this.#streams.keys()) this.#end(response);
   }
@@ -157,13 +166,13 @@ export class EventHub {
 }
 
 /** The same bytes without a copy, one slice in each turn of the event loop. False: the client has closed. */
-const send = (bytes: Buffer, response: Response, isRead: () => void): Promise<boolean> =>
+const send = (bytes: Buffer, response: Response, isRead: () => unknown): Promise<boolean> =>
   pipeline(slicesOf(bytes, isRead), response, { end: false }).then(
     () => true,
     () => false,
   );
 
-async function* slicesOf(bytes: Buffer, isRead: () => void): AsyncGenerator<Buffer> {
+async function* slicesOf(bytes: Buffer, isRead: () => unknown): AsyncGenerator<Buffer> {
   for (let from = 0; from < bytes.length; from += SLICE_BYTES) {
     isRead();
     yield bytes.subarray(from, from + SLICE_BYTES);
