@@ -5,8 +5,12 @@ import { PageTest } from "../support/page-test.js";
 
 const LIMIT_MS = 120_000;
 const MAX_STOPS = 12;
+/** Boxes inside each other, so that the plot lasts while the page is loaded again. */
+const BOXES = Array.from({ length: 14 }, (_, i) => `M${5 + i} ${5 + i}H${55 - i}V${35 - i}H${5 + i}Z`).join(
+  "",
+);
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
-  <path fill="none" stroke="#000" d="M5 5H55V35H5Z"/></svg>`;
+  <path fill="none" stroke="#000" d="${BOXES}"/></svg>`;
 
 let test: PageTest;
 
