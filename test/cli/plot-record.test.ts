@@ -56,8 +56,8 @@ describe("a stored plot", () => {
   it.runIf(process.platform === "linux")(
     "is interrupted if its process was killed, also before its parent has noticed",
     async () => {
-      // The shell begins a process that ends at once, and becomes a `sleep`, which never asks for its result.
-      const parent = spawn("sh", ["-c", "true & echo $!; exec sleep 60"]);
+      // The shell begins a process that ends soon, and becomes a `sleep` before, which never asks for its result.
+      const parent = spawn("sh", ["-c", "sleep 0.5 & echo $!; exec sleep 60"]);
       try {
         const pid = Number(await new Promise((resolve) => parent.stdout.once("data", resolve)));
         const state = () => readFileSync(`/proc/${pid}/stat`, "utf8");
