@@ -47,7 +47,7 @@ export class HpglCanvas {
   private pen = 1;
   /** The pen was lowered here and has not moved: a dot, unless a line begins. */
   private isDot = false;
-  private window: { readonly box: Box; readonly clip: ClipNode } | null = null;
+  private inputWindow: { readonly box: Box; readonly clip: ClipNode } | null = null;
   /** "turned": what follows is on another page of the file. */
   private page: "empty" | "used" | "turned" = "empty";
   private turnedBy = "";
@@ -193,8 +193,8 @@ export class HpglCanvas {
 
   /** What is outside the box, in plotter units, is cut off; null for nothing. */
   setWindow(given: Box | null): void {
-    if (given !== null || this.window !== null) this.flush();
-    if (given === null) this.window = null;
+    if (given !== null || this.inputWindow !== null) this.flush();
+    if (given === null) this.inputWindow = null;
     else {
       const box = intersectBoxes(given, ANYWHERE);
       const clip = new ClipNode(null, {
@@ -203,7 +203,7 @@ export class HpglCanvas {
         rule: Uint8Array.of(RULE_NONZERO),
         shape: Uint32Array.of(0),
       });
-      this.window = { box, clip };
+      this.inputWindow = { box, clip };
     }
   }
 
@@ -232,11 +232,11 @@ export class HpglCanvas {
   }
 
   private add(shape: ShapeBuffer, look: Look): boolean {
-    const { window, warnings } = this;
+    const { inputWindow, warnings } = this;
     if (shape.isEmpty || this.pen === 0) return false;
-    if (window !== null && !boxesTouch(window.box, curveBox(shape))) return false;
+    if (inputWindow !== null && !boxesTouch(inputWindow.box, curveBox(shape))) return false;
     const where = (): string => `pen ${this.pen}`;
-    const isDrawn = this.builder.addShape(shape, PAGE, look, this.group, window?.clip ?? null, where);
+    const isDrawn = this.builder.addShape(shape, PAGE, look, this.group, inputWindow?.clip ?? null, where);
     if (isDrawn) {
       // Most files end with PG, which loses nothing. Only a page with something on it is reported.
       if (this.page === "turned")
