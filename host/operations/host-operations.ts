@@ -130,7 +130,7 @@ const moveOperations = ({ queue, registry, jobBoxMm }: HostParts) => {
       perform(id, { kind, ...numbers } as unknown as HandMove, { settings, profile });
   return {
     home: handler("home"),
-    walk: handler("walk"),
+    "move-to": handler("move-to"),
     jog: handler("jog"),
     "set-home": handler("set-home"),
     "cycle-pen": handler("cycle-pen"),

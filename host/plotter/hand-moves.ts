@@ -10,13 +10,13 @@ import type { BoxMm, HandMove, PlotSettings } from "../../src/schema/index.js";
 /** Rejects with `out-of-bounds` before anything moves, or with the board's error. */
 export async function moveByHand(plotter: Machine, move: HandMove, settings: PlotSettings): Promise<void> {
   switch (move.kind) {
-    case "walk":
+    case "move-to":
       mustReach(machineOf(settings), move.xMm, move.yMm);
-      return plotter.walk(move.xMm, move.yMm, settings);
+      return plotter.moveTo(move.xMm, move.yMm, settings);
     case "jog":
       return jog(plotter, move.dxMm, move.dyMm, settings);
     case "home":
-      if (!(await plotter.findHome(settings))) await plotter.walk(0, 0, settings);
+      if (!(await plotter.findHome(settings))) await plotter.moveTo(0, 0, settings);
       return;
     case "set-home":
       return plotter.setHome(settings);
@@ -47,7 +47,7 @@ async function jog(plotter: Machine, dxMm: number, dyMm: number, settings: PlotS
   const isWithin =
     x + dxMm <= widthMm && x + dxMm >= -widthMm && y + dyMm <= heightMm && y + dyMm >= -heightMm;
   if (!isWithin) throw beyond(machine, x + dxMm, y + dyMm);
-  await plotter.walk(x + dxMm, y + dyMm, settings);
+  await plotter.moveTo(x + dxMm, y + dyMm, settings);
 }
 
 async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings): Promise<void> {
@@ -67,7 +67,7 @@ async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings):
   const { stopCount } = plotter;
   for (const [cornerX, cornerY] of corners) {
     if (plotter.stopCount !== stopCount) throw moveStopped();
-    await plotter.walk(cornerX, cornerY, settings);
+    await plotter.moveTo(cornerX, cornerY, settings);
   }
 }
 

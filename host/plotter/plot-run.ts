@@ -61,7 +61,7 @@ export class MachinePlot implements LivePlotRun {
   #planningS = 0;
   #changing: Promise<void> | null = null;
   /** Moves to the hold place; nothing else may move until they have finished. */
-  #walking: Promise<void> = Promise.resolve();
+  #checking: Promise<void> = Promise.resolve();
   #journalDueS = -Infinity;
   #stopTicking: () => void = () => undefined;
   #wakeHold: (() => void) | null = null;
@@ -194,15 +194,15 @@ export class MachinePlot implements LivePlotRun {
   async checkHoldPlace(): Promise<void> {
     const { x, y } = pointOfPlace(this.#strokes, this.#heldPlace());
     const { stopCount } = this.#machine;
-    const walk = this.#walking.then(() => {
+    const check = this.#checking.then(() => {
       if (this.#machine.stopCount !== stopCount) throw moveStopped();
-      return this.#machine.walk(x, y, this.#settings.current);
+      return this.#machine.moveTo(x, y, this.#settings.current);
     });
-    this.#walking = walk.catch((error: unknown) => {
+    this.#checking = check.catch((error: unknown) => {
       // The plot cannot resume from a lost position.
       if (!this.#machine.state && error instanceof PlotwrightError) this.fail(error);
     });
-    await walk;
+    await check;
   }
 
   #heldPlace(): Place {
@@ -344,18 +344,18 @@ export class MachinePlot implements LivePlotRun {
       });
     }
     this.#wakeHold = null;
-    await this.#untilWalked();
+    await this.#untilChecked();
     if (this.#failure) throw this.#failure;
     if (this.#requested === "run") this.#stops.answer(this.holdPlace);
     this.#setHeld(false, null);
   }
 
-  async #untilWalked(): Promise<void> {
+  async #untilChecked(): Promise<void> {
     let last: Promise<void>;
     do {
-      last = this.#walking;
+      last = this.#checking;
       await last;
-    } while (last !== this.#walking);
+    } while (last !== this.#checking);
   }
 
   /** Handles a stop after everything was drawn, on the way home. */
@@ -368,7 +368,7 @@ export class MachinePlot implements LivePlotRun {
     if (this.#failure) throw this.#failure;
     if (this.#staysPut) return { kind: "cancelled" };
     try {
-      await this.#machine.walk(0, 0, this.#settings.current);
+      await this.#machine.moveTo(0, 0, this.#settings.current);
     } catch (error) {
       // After an emergency stop, and if home is lost, the carriage stays where it is.
       if (!(error instanceof PlotwrightError)) throw error;

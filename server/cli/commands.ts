@@ -75,10 +75,10 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await hand()).declareJog,
   },
   {
-    name: "walk",
+    name: "move-to",
     about: "move to a position in mm from home, pen up",
-    examples: ["plotwright walk 100 5cm --travel-speed 80"],
-    load: async () => (await hand()).declareWalk,
+    examples: ["plotwright move-to 100 5cm --travel-speed 80"],
+    load: async () => (await hand()).declareMoveTo,
   },
   {
     name: "set-home",

@@ -64,9 +64,9 @@ export const declareJog: Declare = (command, { io }) => {
   );
 };
 
-export const declareWalk: Declare = (command, { io }) => {
+export const declareMoveTo: Declare = (command, { io }) => {
   addMove(place(command, "x", "y"), PEN_AND_TRAVEL).action((xMm: number, yMm: number, options: HandOptions) =>
-    move({ kind: "walk", xMm, yMm }, options, io),
+    move({ kind: "move-to", xMm, yMm }, options, io),
   );
 };
 

@@ -1,5 +1,4 @@
 import { resolve } from "node:path";
-import { Option } from "commander";
 import { PlotwrightError } from "../../src/index.js";
 import { withDrawingFile } from "./files.js";
 import type { PlanCommandOptions } from "./plan.js";
@@ -14,8 +13,6 @@ export const declarePlan: Declare = (command, { io }) => {
     .option("--json", "print one JSON object")
     .option("--pen-error", "report how far the pen deviates from the drawing when the machine swings")
     .option("--commands <out>", "write the machine's commands, one per line, to a file or - for stdout")
-    // The option's name while the EiBotBoard was the only controller.
-    .addOption(new Option("--ebb <out>").hideHelp())
     .option("--firmware <version>", "firmware to make the commands for", "3.0.3")
     .option("--preview <out.svg>", "write a picture coloured by speed, to a file or -")
     .option(
@@ -23,8 +20,7 @@ export const declarePlan: Declare = (command, { io }) => {
       "write the prepared drawing, its layers' settings as codes in their names, to a file or -",
     )
     .option("--strokes <out.json>", "write the prepared drawing as polylines in mm, to a file or -")
-    .action((file: string, { ebb, ...given }: PlanCommandOptions & OptionValues & { ebb?: string }) => {
-      const options = ebb === undefined ? given : { commands: ebb, ...given };
+    .action((file: string, options: PlanCommandOptions & OptionValues) => {
       const settings = settingsFromOptions(options);
       mustKeepDrawing(file, options);
       return withDrawingFile(file, (path) => runPlanInThread({ file: path, settings, options }, io));

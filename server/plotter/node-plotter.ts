@@ -36,8 +36,8 @@ export class PlotterDriver extends HostDriver {
   }
 
   /** Moves to a position in mm from home, pen up. */
-  walkTo(xMm: number, yMm: number, settings?: PlotSettings): Promise<void> {
-    return this.move({ kind: "walk", xMm, yMm }, settings);
+  moveTo(xMm: number, yMm: number, settings?: PlotSettings): Promise<void> {
+    return this.move({ kind: "move-to", xMm, yMm }, settings);
   }
 
   /** Moves by a distance in mm, pen up. May go beyond home, since this is how the user finds home. */

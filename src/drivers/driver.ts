@@ -126,7 +126,7 @@ export interface Machine {
   /** Moves the pen's servo to a raw position. */
   moveServo(pos: number, settings: MachineSettings): Promise<void>;
   /** Lifts the pen and moves in a straight line to a position, at travel speed. */
-  walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
+  moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
   /** Plays a job that ends with the pen up, outside any run. */
   perform(plot: PlannedPlot, settings: MachineSettings): Promise<void>;
   /** Makes the current position home. */

@@ -11,9 +11,9 @@ const how = { settings, profile };
 /** A position, or a distance to either side. */
 const mm = z.number().min(-5_000).max(5_000);
 
-/** …/walk: pen up, to a position in mm from home. */
-export const walkRequestSchema = z.object({ xMm: mm, yMm: mm, ...how });
-export type WalkRequest = z.infer<typeof walkRequestSchema>;
+/** …/move-to: pen up, to a position in mm from home. */
+export const moveToRequestSchema = z.object({ xMm: mm, yMm: mm, ...how });
+export type MoveToRequest = z.infer<typeof moveToRequestSchema>;
 
 /** …/jog: pen up, by a distance in mm. */
 export const jogRequestSchema = z.object({ dxMm: mm, dyMm: mm, ...how });
@@ -59,7 +59,7 @@ export const handMoveSchema = z.discriminatedUnion("kind", [
   z.object({ kind: z.literal("test-line") }),
   /** Draws a small pattern at the current position, and comes back. */
   z.object({ kind: z.literal("test-patch") }),
-  walkRequestSchema.omit({ settings: true, profile: true }).extend({ kind: z.literal("walk") }),
+  moveToRequestSchema.omit({ settings: true, profile: true }).extend({ kind: z.literal("move-to") }),
   /** May go beyond home, since this is how the user finds home. */
   jogRequestSchema.omit({ settings: true, profile: true }).extend({ kind: z.literal("jog") }),
   /** Moves around a box with the pen up, and back. */

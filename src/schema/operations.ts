@@ -29,7 +29,7 @@ import {
   jogRequestSchema,
   servoRequestSchema,
   squareRequestSchema,
-  walkRequestSchema,
+  moveToRequestSchema,
 } from "./hand-moves.js";
 import { jobSchema } from "./job.js";
 import { machineListSchema, machineProfileSchema } from "./machine.js";
@@ -231,7 +231,7 @@ export const OPERATIONS = {
       "Lifts the pen and moves home, to the limit switches if the machine has them",
       handMoveRequestSchema,
     ),
-    walk: move("walk", "Moves to a position in mm from home, pen up", walkRequestSchema),
+    "move-to": move("move-to", "Moves to a position in mm from home, pen up", moveToRequestSchema),
     jog: move("jog", "Moves by a distance in mm, pen up", jogRequestSchema),
     "set-home": move("set-home", "Makes the current position home", handMoveRequestSchema),
     "cycle-pen": move("cycle-pen", "Lowers the pen and lifts it again", handMoveRequestSchema),

@@ -34,13 +34,13 @@ describe("moves by hand from the command line", () => {
     expect(await onBoard("jog", "20", "10.5")).toEqual(done);
     expect(await onBoard("jog", "-5", "-0.5", "--travel-speed", "50")).toEqual(done);
     expect(await place()).toEqual({ xMm: 15, yMm: 10, penUp: true, motorsOn: true });
-    expect(await onBoard("walk", "40", "30")).toEqual(done);
+    expect(await onBoard("move-to", "40", "30")).toEqual(done);
     expect(await place()).toMatchObject({ xMm: 40, yMm: 30 });
     expect(await onBoard("cycle-pen")).toEqual(done);
     expect(await onBoard("test-patch")).toEqual(done);
     expect(await place()).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
     expect(await onBoard("set-home")).toEqual(done);
-    expect(await onBoard("walk", "10", "0")).toEqual(done);
+    expect(await onBoard("move-to", "10", "0")).toEqual(done);
     expect(await onBoard("home")).toEqual(done);
     expect((await onBoard("info")).out).toMatch(/place {5}0\.00, 0\.00 mm/);
     expect(await onBoard("align")).toEqual(done);
@@ -75,11 +75,11 @@ describe("moves by hand from the command line", () => {
   });
 
   it("stay within the machine: exit code 3 and one line", async () => {
-    expect(await onBoard("walk", "400", "0")).toMatchObject({
+    expect(await onBoard("move-to", "400", "0")).toMatchObject({
       code: 3,
       err: expect.stringMatching(/^plotwright: 400, 0 mm is beyond the AxiDraw V3[^\n]*\n$/) as string,
     });
-    expect(await onBoard("walk", "x", "0")).toMatchObject({ code: 2 });
+    expect(await onBoard("move-to", "x", "0")).toMatchObject({ code: 2 });
     expect(await onBoard("jog", "10")).toMatchObject({ code: 2 });
   });
 });
@@ -113,7 +113,7 @@ describe("a custom machine", () => {
   it("is taken from a file", async () => {
     const file = join(folder, "mine.json");
     writeFileSync(file, JSON.stringify(MINE));
-    expect(await onBoard("walk", "400", "0", "--machine-file", file)).toEqual(done);
+    expect(await onBoard("move-to", "400", "0", "--machine-file", file)).toEqual(done);
     expect(await place()).toMatchObject({ xMm: 400, yMm: 0 });
     writeFileSync(file, JSON.stringify({ ...MINE, widthMm: -1 }));
     expect(await cli("plan", "x.svg", "--machine-file", file)).toMatchObject({

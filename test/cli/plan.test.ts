@@ -115,13 +115,6 @@ describe("plotwright plan", () => {
     expect(lines.at(-1)).toBe("EM,0,0");
   });
 
-  it("still understands --ebb, the old name of --commands", async () => {
-    const plan = ["plan", sample(firstSample), "--firmware", "2.8.1"];
-    const { code, out } = await cli(...plan, "--ebb", "-");
-    expect({ code, out }).toEqual({ code: 0, out: (await cli(...plan, "--commands", "-")).out });
-    expect(out).toMatch(/^EM,1/);
-  });
-
   it("refuses --json together with --commands -, because both write to stdout", async () => {
     expect(await cli("plan", sample(firstSample), "--json", "--commands", "-")).toMatchObject({
       code: 2,

@@ -177,15 +177,15 @@ const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
   frame: ["drawing.svg"],
   pen: ["up"],
   jog: ["1", "2"],
-  walk: ["1", "2"],
+  "move-to": ["1", "2"],
   raw: ["QM"],
 };
 
 /** What the other options do, with what shows it. */
 const EFFECTS: readonly (readonly [string, readonly string[], RegExp])[] = [
   ["plan", ["drawing.svg", "--json"], /^\{.*\}\s*$/s],
-  ["plan", ["drawing.svg", "--ebb", "-", "--firmware", "2.5.3"], /\nLM,/],
-  ["plan", ["drawing.svg", "--ebb", "-", "--firmware", "3.0.3"], /\nLT,/],
+  ["plan", ["drawing.svg", "--commands", "-", "--firmware", "2.5.3"], /\nLM,/],
+  ["plan", ["drawing.svg", "--commands", "-", "--firmware", "3.0.3"], /\nLT,/],
   ["plan", ["drawing.svg", "--svg", "-"], /<svg[^>]* width="297mm"/],
   [
     "plan",

@@ -162,7 +162,7 @@ describe("a file that cannot be used", () => {
     ...(process.platform === "linux" ? inProc : []),
     [["plot", "in", "--data", "in"], /The data folder .* can't be created: a part of this path is a file/],
     [["plan", "in", "--svg", "no-folder/x.svg"], /x\.svg can't be written: there is no such file or folder/],
-    [["plan", "in", "--ebb", "in/x.txt"], /x\.txt can't be written: a part of this path is a file/],
+    [["plan", "in", "--commands", "in/x.txt"], /x\.txt can't be written: a part of this path is a file/],
     [["plan", "."], /can't be read: it is a folder/],
     [["logs", "--data", "no-folder"], /--data no-folder: there is no such folder/],
     [["logs", "--data", "in"], /--data .*: there is no such folder/],

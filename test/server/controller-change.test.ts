@@ -56,12 +56,12 @@ it("a machine with another controller, chosen during a move, is used after it", 
     devices: { find: () => Promise.resolve([]), open: () => Promise.reject(new Error("no port")) },
   });
   await world.run(driver.start());
-  const walk = driver.move({ kind: "walk", xMm: 30, yMm: 20 });
+  const move = driver.move({ kind: "move-to", xMm: 30, yMm: 20 });
   await world.advance(0.5);
   driver.use(WITH_GRBL);
   await world.advance(0.1);
   expect(driver.state).toMatchObject({ activity: "moving", firmware: "2.8.1" });
-  await world.run(walk);
+  await world.run(move);
   await world.advance(1);
   expect(driver.state).toMatchObject({ connection: "idle", firmware: "Grbl 1.1h" });
 });

@@ -213,10 +213,10 @@ describe("a move by hand", { timeout: 60_000 }, () => {
     async (fault) => {
       for (let early = 0; early < 6; early++) {
         const { world, board, driver, within, mustWork } = await newPlotter();
-        const walk = driver.move({ kind: "walk", xMm: 30, yMm: 20 });
+        const move = driver.move({ kind: "move-to", xMm: 30, yMm: 20 });
         await world.advance(0.1 * early);
         board.spoil(fault);
-        const outcome = await within(walk);
+        const outcome = await within(move);
         if (outcome !== undefined) expect(outcome).toMatch(/^board-(error|timeout): /);
         board.spoil(fault, 0);
         await world.advance(10);
@@ -267,6 +267,6 @@ describe("connecting", { timeout: 60_000 }, () => {
     await world.advance(0.1);
     line.isMute = false;
     expect(await within(query)).toBe("good");
-    expect(await within(machine.walk(5, 6, SETTINGS))).toBeUndefined();
+    expect(await within(machine.moveTo(5, 6, SETTINGS))).toBeUndefined();
   });
 });

@@ -92,11 +92,11 @@ describe("a plot ends", { timeout: 60_000 }, () => {
 
   it("and a stopped move by hand, if the board does not answer", async () => {
     const { world, machine, line, lost, within } = await newMachine();
-    const walk = machine.walk(100, 50, SETTINGS);
+    const move = machine.moveTo(100, 50, SETTINGS);
     await world.advance(0.6);
     line.isMute = true;
     machine.stopAtOnce();
-    expect(await within(walk)).toMatch(/^board-timeout/);
+    expect(await within(move)).toMatch(/^board-timeout/);
     expect(lost).toEqual(["board-timeout"]);
   });
 });
@@ -136,7 +136,7 @@ describe("after an error", { timeout: 60_000 }, () => {
     });
     expect(await within(machine.perform(plot, SETTINGS))).toMatch(/^board-error: The Grbl refused G5X1/);
     expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
-    expect(await within(machine.walk(3, 4, SETTINGS))).toBeUndefined();
+    expect(await within(machine.moveTo(3, 4, SETTINGS))).toBeUndefined();
     expect(board.state()).toMatchObject({ xMm: 3, yMm: 4 });
   });
 
@@ -225,13 +225,13 @@ describe("a restart of a board whose boot loader waits before the Grbl starts", 
 describe("a restart at rest", { timeout: 60_000 }, () => {
   it("is reported, and the old position no longer counts", async () => {
     const { world, board, driver, within } = await newPlotter();
-    expect(await within(driver.move({ kind: "walk", xMm: 100, yMm: 50 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 100, yMm: 50 }))).toBeUndefined();
     board.restart();
     expect(driver.state).toMatchObject({ connection: "fault", xMm: null, penUp: null, motorsOn: null });
     expect(driver.state.message).toMatch(/^The Grbl has restarted: .*Push the carriage to home/);
     await world.advance(5);
     expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
-    expect(await within(driver.move({ kind: "walk", xMm: 5, yMm: 6 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 5, yMm: 6 }))).toBeUndefined();
     expect(board.state()).toMatchObject({ xMm: 5, yMm: 6 });
   });
 
@@ -287,13 +287,13 @@ describe("an emergency stop", { timeout: 60_000 }, () => {
 
   it("while the pen lifts for a move by hand cancels the move", async () => {
     const { world, board, machine, within } = await newMachine();
-    const walk = machine.walk(100, 50, SETTINGS);
+    const move = machine.moveTo(100, 50, SETTINGS);
     await world.advance(0.05);
     expect(machine.penMoving).toBe(true);
     machine.stopAtOnce();
-    expect(await within(walk)).toBe("conflict: The move was stopped at once.");
+    expect(await within(move)).toBe("conflict: The move was stopped at once.");
     expect(board.state()).toMatchObject({ state: "Idle", xMm: 0, yMm: 0, penUp: true });
-    expect(await within(machine.walk(3, 4, SETTINGS))).toBeUndefined();
+    expect(await within(machine.moveTo(3, 4, SETTINGS))).toBeUndefined();
     expect(board.state()).toMatchObject({ xMm: 3, yMm: 4 });
   });
 

@@ -154,7 +154,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
 
   it("moves by hand, sets home, switches its motors off, and answers typed lines", async () => {
     const { world, driver, board } = await newPlotter();
-    await world.run(driver.walkTo(30, 20));
+    await world.run(driver.moveTo(30, 20));
     expect(board.state()).toMatchObject({ xMm: 30, yMm: 20, penUp: true });
     await world.run(driver.setHome());
     await world.run(driver.jog(5, 0));
@@ -172,7 +172,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(await outcome(world.run(driver.command("!")))).toMatch(/^bad-setting/);
     await world.run(driver.motorsOff());
     expect(driver.state).toMatchObject({ motorsOn: false, xMm: null });
-    await world.run(driver.walkTo(1, 2));
+    await world.run(driver.moveTo(1, 2));
     expect(driver.state).toMatchObject({ motorsOn: true, xMm: 1, yMm: 2 });
   });
 
@@ -211,7 +211,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     await world.run(machine.takeOver(SETTINGS, null));
     expect(machine.firmware).toBe("Grbl 1.1h");
     expect(board.state().state).toBe("Idle");
-    await world.run(machine.walk(10, 20, SETTINGS));
+    await world.run(machine.moveTo(10, 20, SETTINGS));
     expect(board.state()).toMatchObject({ zMm: 5, penUp: true });
     expect(machine.place(GRBL)?.x).toBeCloseTo(10, 3);
     await machine.close();
@@ -246,7 +246,7 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expect(driver.state.firmware).toBe("2.8.1");
     expect(virtualBoardOf(driver).state()).toMatchObject({ steps1: 0, penUp: true });
-    await world.run(driver.walkTo(10, 10, SETTINGS));
+    await world.run(driver.moveTo(10, 10, SETTINGS));
     expect(driver.state).toMatchObject({ firmware: "Grbl 1.1h", xMm: 10, yMm: 10 });
   });
 });

@@ -34,10 +34,10 @@ describe("a Grbl that reports in inches ($13=1)", { timeout: 60_000 }, () => {
 
   it("is also understood if home is not where it was started, and if it is set in the console", async () => {
     const { board, driver, within } = await newPlotter();
-    expect(await within(driver.move({ kind: "walk", xMm: 40, yMm: 30 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 40, yMm: 30 }))).toBeUndefined();
     expect(await within(driver.move({ kind: "set-home" }))).toBeUndefined();
     expect(await within(driver.command("$13=1"))).toMatchObject({ refused: false });
-    expect(await within(driver.move({ kind: "walk", xMm: 10, yMm: 20 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 10, yMm: 20 }))).toBeUndefined();
     expect(board.state()).toMatchObject({ xMm: 10, yMm: 20 });
     expect(driver.state.xMm).toBeCloseTo(10, 2);
   });
@@ -64,7 +64,7 @@ describe("a Grbl with other settings than its profile", { timeout: 60_000 }, () 
     const right = { 110: 10_000, 111: 10_000, 112: 3_000, 120: 1_000, 121: 1_000, 122: 1_000, 11: 0.01 };
     await within(driver.command(`$${number}=${right[Number(number) as keyof typeof right]}`));
     await world.advance(1);
-    expect(await within(driver.move({ kind: "walk", xMm: 5, yMm: 5 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 5, yMm: 5 }))).toBeUndefined();
   });
 
   it("that is faster than its profile plots no faster than told", async () => {
@@ -88,7 +88,7 @@ describe("soft limits ($20=1)", { timeout: 60_000 }, () => {
     const words =
       /^out-of-bounds: This needs Z from 5 to 5 mm, but the Grbl's soft limits \(\$20=1\) end at -200 and 0 mm/;
     expect(await within((await begin()).finished)).toMatch(words);
-    expect(await within(driver.move({ kind: "walk", xMm: 10, yMm: 10 }))).toMatch(words);
+    expect(await within(driver.move({ kind: "move-to", xMm: 10, yMm: 10 }))).toMatch(words);
     expect(driver.log()).not.toContain("ALARM");
     expect(board.state()).toMatchObject({ state: "Idle", zMm: 0 });
   });
@@ -110,12 +110,12 @@ describe("a Grbl that is locked until it is homed ($22=1)", { timeout: 60_000 },
     expect(driver.state.connection).toBe("idle");
     const words = /^board-error: The Grbl is locked until it is homed \(\$22=1\).*send \$X in the console/;
     expect(await within(driver.pen({ up: true }))).toMatch(words);
-    expect(await within(driver.move({ kind: "walk", xMm: 10, yMm: 10 }))).toMatch(words);
+    expect(await within(driver.move({ kind: "move-to", xMm: 10, yMm: 10 }))).toMatch(words);
     expect(await within((await begin()).finished)).toMatch(words);
     expect(board.state()).toMatchObject({ state: "Alarm", xMm: 0, zMm: 0 });
     expect(driver.log()).not.toContain("> $X");
     expect(await within(driver.command("$X"))).toMatchObject({ refused: false });
-    expect(await within(driver.move({ kind: "walk", xMm: 10, yMm: 10 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 10, yMm: 10 }))).toBeUndefined();
     expect(board.state()).toMatchObject({ state: "Idle", xMm: 10, yMm: 10, penUp: true });
   });
 
@@ -146,7 +146,7 @@ describe("a Grbl that is locked until it is homed ($22=1)", { timeout: 60_000 },
     expect(await within(run.finished)).toEqual({ kind: "done" });
     expectDrawn(board as never, DRAWING, 0.02);
     expect(await within(driver.motorsOff())).toBeUndefined();
-    expect(await within(driver.move({ kind: "walk", xMm: 1, yMm: 2 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 1, yMm: 2 }))).toBeUndefined();
     expect(board.state()).toMatchObject({ state: "Idle", xMm: 1, yMm: 2 });
   });
 });

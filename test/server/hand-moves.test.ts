@@ -67,7 +67,7 @@ const addJob = async (settings: unknown = DEFAULT_PLOT_SETTINGS, drawing = SVG):
 
 describe("moves by hand over HTTP", () => {
   it("end exactly where requested", async () => {
-    expect(await move("walk", { xMm: 40, yMm: 30 })).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
+    expect(await move("move-to", { xMm: 40, yMm: 30 })).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
     expect(await move("jog", { dxMm: -10.5, dyMm: 5 })).toMatchObject({ xMm: 29.5, yMm: 35 });
     expect(await move("frame", { boxMm: { xMm: 5, yMm: 5, widthMm: 50, heightMm: 20 } })).toMatchObject({
       xMm: 29.5,
@@ -96,18 +96,18 @@ describe("moves by hand over HTTP", () => {
 
   it("stay within the plotter's machine", async () => {
     const far = { xMm: 500, yMm: 10 };
-    expect(await fault(await call("POST", "/plotters/main/walk", far))).toMatchObject({
+    expect(await fault(await call("POST", "/plotters/main/move-to", far))).toMatchObject({
       status: 422,
       code: "out-of-bounds",
     });
     const settings = { machine: "mine", customMachine: MINE };
     // Settings do not change the plotter's machine.
-    expect(await fault(await call("POST", "/plotters/main/walk", { ...far, settings }))).toMatchObject({
+    expect(await fault(await call("POST", "/plotters/main/move-to", { ...far, settings }))).toMatchObject({
       status: 422,
     });
     await call("PUT", "/machines/mine", MINE);
     expect((await call("PATCH", "/plotters/main", { machine: "mine" })).status).toBe(200);
-    expect(await move("walk", far)).toMatchObject(far);
+    expect(await move("move-to", far)).toMatchObject(far);
     expect(await fault(await call("POST", "/plotters/main/jog", { dxMm: 110, dyMm: 0 }))).toMatchObject({
       code: "out-of-bounds",
     });
@@ -119,13 +119,13 @@ describe("moves by hand over HTTP", () => {
   });
 
   it.each([
-    ["walk", { xMm: 1 }],
+    ["move-to", { xMm: 1 }],
     ["jog", { dxMm: "far", dyMm: 0 }],
     ["frame", {}],
     ["square", { sizeMm: 1e9 }],
     ["servo", { pos: 0 }],
     ["command", { line: "V\rEM,0,0" }],
-    ["walk", { xMm: 1, yMm: 1, settings: { machine: "typewriter" } }],
+    ["move-to", { xMm: 1, yMm: 1, settings: { machine: "typewriter" } }],
   ])("answer an empty or invalid body with 400: %s", async (name, body) => {
     expect(await fault(await call("POST", `/plotters/main/${name}`, body))).toMatchObject({
       status: 400,
@@ -137,7 +137,7 @@ describe("moves by hand over HTTP", () => {
     const { id } = await addJob(DEFAULT_PLOT_SETTINGS, LONG);
     expect((await call("POST", `/jobs/${id}/start`)).status).toBe(200);
     for (const [name, body] of [
-      ["walk", { xMm: 1, yMm: 1 }],
+      ["move-to", { xMm: 1, yMm: 1 }],
       ["jog", { dxMm: 1, dyMm: 1 }],
       ["home", {}],
       ["set-home", {}],
@@ -176,7 +176,7 @@ describe("the board's console", () => {
   });
 
   it("reports the effect of a line on the position", async () => {
-    await move("walk", { xMm: 10, yMm: 0 });
+    await move("move-to", { xMm: 10, yMm: 0 });
     expect(await say("SM,100,80,80")).toMatchObject({ note: expect.stringContaining("read back") as string });
     const { xMm } = plotterSchema.parse(await (await call("GET", "/plotters/main")).json());
     expect(xMm).toBe(11);
@@ -191,7 +191,7 @@ describe("the board's console", () => {
         message: expect.stringContaining("not sent") as string,
       });
     }
-    expect(await move("walk", { xMm: 1, yMm: 1 })).toMatchObject({ xMm: 1, yMm: 1 });
+    expect(await move("move-to", { xMm: 1, yMm: 1 })).toMatchObject({ xMm: 1, yMm: 1 });
   });
 });
 

@@ -42,7 +42,7 @@ describe("a machine with switches", () => {
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
     expect(Math.abs(seen.x - SWITCH_X_MM)).toBeLessThan(0.1);
     expect(Math.abs(seen.y - SWITCH_Y_MM)).toBeLessThan(0.1);
-    await world.run(driver.walkTo(10, 5));
+    await world.run(driver.moveTo(10, 5));
     expect(driver.state).toMatchObject({ xMm: 10, yMm: 5 });
   });
 

@@ -46,7 +46,7 @@ async function continuedOn(first: Kind, second: Kind, isSame = false) {
     while (driver.state.connection !== "idle") await world.advance(0.1);
   };
   await world.run(driver.start());
-  await world.run(driver.move({ kind: "walk", xMm: 80, yMm: 60 }));
+  await world.run(driver.move({ kind: "move-to", xMm: 80, yMm: 60 }));
   await plug(0);
   const journal: JournalEntry[] = [];
   const planner = new LocalPlanner(FAULT_DRAWING);

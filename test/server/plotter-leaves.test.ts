@@ -54,11 +54,11 @@ describe("a plotter that is closed", () => {
 
   it("starts nothing from the first instant on, and is not idle again when its move has ended", async () => {
     const { world, driver } = await idle();
-    const moved = outcome(driver.walkTo(100, 100));
+    const moved = outcome(driver.moveTo(100, 100));
     await world.advance(0.5);
     const closing = driver.close();
     expect(driver.state).toMatchObject({ connection: "absent", message: null });
-    expect(await outcome(world.run(driver.walkTo(10, 10)))).toMatch(/^disconnected/);
+    expect(await outcome(world.run(driver.moveTo(10, 10)))).toMatch(/^disconnected/);
     await world.run(closing);
     await moved;
     expect(driver.state.connection).toBe("absent");
@@ -105,7 +105,7 @@ describe("a plotter that is closed", () => {
 
   it("after its board was lost stops searching for it", async () => {
     const { world, driver, board } = await idle();
-    const moved = outcome(driver.walkTo(100, 100));
+    const moved = outcome(driver.moveTo(100, 100));
     await world.advance(0.5);
     board.unplug();
     expect(await world.run(moved)).toMatch(/^disconnected/);
@@ -182,7 +182,7 @@ describe("a board that is lost while the plot is held", () => {
 describe("two requests at once", () => {
   it("are not both started: the second is refused", async () => {
     const { world, driver, board } = await idle();
-    const [first, second] = [outcome(driver.walkTo(30, 0)), outcome(driver.walkTo(0, 30))];
+    const [first, second] = [outcome(driver.moveTo(30, 0)), outcome(driver.moveTo(0, 30))];
     expect(await world.run(second)).toMatch(/^busy/);
     await world.run(first);
     expect(board.state()).toMatchObject({ xMm: 30, yMm: 0 });

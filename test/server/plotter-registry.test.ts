@@ -170,7 +170,9 @@ describe("a plotter that is changed to another machine", () => {
     const main = async (): Promise<Plotter> => (await snapshotOf(server.url)).plotters[0];
     try {
       await expect.poll(async () => (await main()).connection).toBe("idle");
-      expect((await send(server.url, "POST", "/plotters/main/walk", { xMm: 20, yMm: 15 })).status).toBe(200);
+      expect((await send(server.url, "POST", "/plotters/main/move-to", { xMm: 20, yMm: 15 })).status).toBe(
+        200,
+      );
       const patched = await send(server.url, "PATCH", "/plotters/main", { machine: "axidraw-v3-a3" });
       expect(plotterSchema.parse(await patched.json())).toMatchObject({
         machine: "axidraw-v3-a3",

@@ -149,7 +149,7 @@ describe("moves by hand", () => {
 
 describe("moves by hand from place to place", () => {
   const MOVES: readonly HandMove[] = [
-    { kind: "walk", xMm: 250, yMm: 150 },
+    { kind: "move-to", xMm: 250, yMm: 150 },
     { kind: "jog", dxMm: 100, dyMm: 50 },
     { kind: "frame", boxMm: { xMm: 20, yMm: 20, widthMm: 100, heightMm: 80 } },
     { kind: "test-patch" },
@@ -165,7 +165,7 @@ describe("moves by hand from place to place", () => {
           fc.double({ min: 0, max: 4, noNaN: true }),
           async (move, s) => {
             const { world, driver, board } = await newPlotter(firmware);
-            await world.run(driver.move({ kind: "walk", xMm: 10, yMm: 10 }));
+            await world.run(driver.move({ kind: "move-to", xMm: 10, yMm: 10 }));
             const moved = outcome(driver.move(move));
             await world.advance(s);
             const isMoving = driver.state.activity === "moving";
@@ -192,13 +192,13 @@ describe("moves by hand from place to place", () => {
   it("need no stop when nothing moves", async () => {
     const { world, driver } = await newPlotter();
     await world.run(driver.stopMove());
-    await world.run(driver.walkTo(20, 10));
+    await world.run(driver.moveTo(20, 10));
     expect(driver.state).toMatchObject({ connection: "idle", xMm: 20, yMm: 10 });
   });
 
   it("moves to positions, jogs, sets home, and traces a frame with the pen up", async () => {
     const { world, driver, board } = await newPlotter();
-    await world.run(driver.walkTo(40, 30));
+    await world.run(driver.moveTo(40, 30));
     expect(driver.state).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
     await world.run(driver.jog(-10, 5));
     expect(board.state()).toMatchObject({ xMm: 30, yMm: 35 });
@@ -212,10 +212,10 @@ describe("moves by hand from place to place", () => {
 
   it("never moves beyond the machine", async () => {
     const { world, driver, board } = await newPlotter();
-    expect(await outcome(driver.walkTo(400, 10))).toMatch(
+    expect(await outcome(driver.moveTo(400, 10))).toMatch(
       /^out-of-bounds: 400, 10 mm is beyond the AxiDraw V3/,
     );
-    expect(await outcome(driver.walkTo(NaN, 10))).toMatch(/^out-of-bounds/);
+    expect(await outcome(driver.moveTo(NaN, 10))).toMatch(/^out-of-bounds/);
     expect(await outcome(driver.jog(1e9, 0))).toMatch(/^out-of-bounds/);
     await world.advance(1);
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, isBusy: false });
@@ -223,7 +223,7 @@ describe("moves by hand from place to place", () => {
 
   it("draws a test patch at the carriage's position and returns there", async () => {
     const { world, driver, board } = await newPlotter();
-    await world.run(driver.walkTo(50, 50));
+    await world.run(driver.moveTo(50, 50));
     await world.run(driver.drawTestPatch());
     expect(driver.state).toMatchObject({ xMm: 50, yMm: 50, penUp: true });
     expect(drawn(board).map(([x, y]) => [x, y])).toEqual([
@@ -435,7 +435,7 @@ describe("a plotter that is closed in mid-plot", () => {
 describe("another machine on the same board", () => {
   it("uses its own microsteps from the carriage's position", async () => {
     const { world, driver, board } = await newPlotter();
-    await world.run(driver.walkTo(30, 0));
+    await world.run(driver.moveTo(30, 0));
     expect(board.state()).toMatchObject({ steps1: 2_400, steps2: 2_400 });
     const fine = machineById("axidraw-v3");
     const coarse: MachineProfile = {
@@ -445,14 +445,14 @@ describe("another machine on the same board", () => {
       controller: { ...fine.controller, microstepMode: 2 },
     };
     const settings = { ...SETTINGS, machine: "coarse", customMachine: coarse };
-    await world.run(driver.walkTo(60, 0, settings));
+    await world.run(driver.moveTo(60, 0, settings));
     expect(driver.log()).toContain("> EM,2,2\n");
     expect(board.state()).toMatchObject({ steps1: 1_200, steps2: 1_200 });
     expect(driver.state).toMatchObject({ xMm: 60, yMm: 0 });
     await world.run(driver.home(settings));
     expect(board.state()).toMatchObject({ steps1: -1_200, steps2: -1_200 });
     await world.run(driver.setHome(SETTINGS));
-    await world.run(driver.walkTo(1, 0, SETTINGS));
+    await world.run(driver.moveTo(1, 0, SETTINGS));
     expect(board.state()).toMatchObject({ steps1: 80, steps2: 80 });
   });
 });

@@ -295,7 +295,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
   describe("wherever the carriage is moved between two starts of the server, a plot", () => {
     /** On the way from the first stroke to the second, as if the first one were drawn. */
     async function movedBetweenStarts(): Promise<void> {
-      await world.run(driver.walkTo(200, 40));
+      await world.run(driver.moveTo(200, 40));
       await world.run(stopServer());
       await startServer();
     }

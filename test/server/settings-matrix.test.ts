@@ -170,7 +170,7 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
       }
       // Moves with the pen up.
       for (const [move, body] of [
-        ["walk", { xMm: 30, yMm: 30 }],
+        ["move-to", { xMm: 30, yMm: 30 }],
         ["jog", { dxMm: 5, dyMm: 5 }],
         ["home", {}],
       ] as const) {
@@ -309,8 +309,12 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
           422,
           expect.stringContaining("out-of-bounds"),
         ]);
-        const walk = await send(server.url, "POST", "/plotters/main/walk", { xMm: 800, yMm: 800, settings });
-        expect([walk.status, await walk.text()]).toEqual([
+        const move = await send(server.url, "POST", "/plotters/main/move-to", {
+          xMm: 800,
+          yMm: 800,
+          settings,
+        });
+        expect([move.status, await move.text()]).toEqual([
           422,
           expect.stringContaining(machineById(model).name),
         ]);
@@ -395,7 +399,9 @@ describe("a plotter whose model is not set", () => {
         const far = { paper: { widthMm: 850, heightMm: 590 }, place: { xMm: 500, yMm: 300 } };
         const refusal = await post("/jobs", { ...job, settings: { machine: "nextdraw-2234", prepare: far } });
         expect([refusal.status, await refusal.text()]).toEqual([422, expect.stringContaining("AxiDraw V3")]);
-        expect((await post("/plotters/main/walk", { xMm: 500, yMm: 30, settings: other })).status).toBe(422);
+        expect((await post("/plotters/main/move-to", { xMm: 500, yMm: 30, settings: other })).status).toBe(
+          422,
+        );
       } finally {
         await server.close();
         rmSync(dataDir, { recursive: true, force: true });

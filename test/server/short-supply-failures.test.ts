@@ -96,7 +96,7 @@ describe("a failure of 0.1 s while nothing moves, on firmware 3.0.3", () => {
     const world = new ManualClock();
     const driver = new PlotterDriver({ device: "virtual", clock: world, firmware: "3.0.3" });
     await world.run(driver.start());
-    await world.run(driver.walkTo(20, 10));
+    await world.run(driver.moveTo(20, 10));
     const board = virtualBoardOf(driver);
     const fail = async (): Promise<void> => {
       board.setMotorVolts(0);
@@ -119,10 +119,10 @@ describe("a failure of 0.1 s while nothing moves, on firmware 3.0.3", () => {
     const { world, driver, board, fail } = await plotter();
     await fail();
     const { moveCount } = board.statistics();
-    expect(await outcome(world.run(driver.walkTo(40, 10)))).toMatch(/^The motors had no power.*for a moment/);
+    expect(await outcome(world.run(driver.moveTo(40, 10)))).toMatch(/^The motors had no power.*for a moment/);
     expect(board.statistics().moveCount).toBe(moveCount);
     await world.advance(6);
-    await world.run(driver.walkTo(40, 10));
+    await world.run(driver.moveTo(40, 10));
     expect(driver.state).toMatchObject({ xMm: 40, yMm: 10 });
   });
 

@@ -37,7 +37,7 @@ describe.each([0.5, 0.02])("a virtual board at %d of real time", (virtualSpeed) 
   it.each(["2.5.3", "2.8.1", "3.0.3"])("can be moved by hand, on firmware %s", async (firmware) => {
     const { world, driver, board } = await slowPlotter(virtualSpeed, firmware);
     await world.run(driver.cyclePen(SLOW));
-    await world.run(driver.walkTo(280, 200, SLOW));
+    await world.run(driver.moveTo(280, 200, SLOW));
     await world.run(driver.move({ kind: "servo", pos: 20_000 }));
     await world.run(driver.pen({ up: true }));
     await world.run(driver.command("SM,4000,3000,0"));

@@ -129,17 +129,17 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
 
     it("of a manual move leaves no known position", async () => {
       const { clock, board, machine } = await newMachine({ firmware });
-      const walk = outcome(machine.walk(100, 50, SETTINGS));
+      const move = outcome(machine.moveTo(100, 50, SETTINGS));
       await clock.advance(0.8);
       board.restart();
       machine.stopAtOnce();
-      expect(await clock.run(walk)).toMatch(/^board-error: The board restarted/);
+      expect(await clock.run(move)).toMatch(/^board-error: The board restarted/);
       expect(machine).toMatchObject({ state: null, motorsOn: false });
     });
 
     it("by a typed line leaves no known position", async () => {
       const { clock, board, machine } = await newMachine({ firmware });
-      await clock.run(machine.walk(10, 5, SETTINGS));
+      await clock.run(machine.moveTo(10, 5, SETTINGS));
       board.restart();
       expect(await clock.run(machine.command("ES"))).toMatchObject({
         note: expect.stringContaining("position is unknown") as string,
@@ -293,10 +293,10 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])("a supply that fails on firm
 
   it("ends a manual move", async () => {
     const plotter = await newPlotter(firmware);
-    const walk = outcome(plotter.driver.walkTo(280, 180));
+    const move = outcome(plotter.driver.moveTo(280, 180));
     await plotter.world.advance(0.6);
     await fails(plotter);
-    expect(await plotter.world.run(walk)).toMatch(/^conflict/);
+    expect(await plotter.world.run(move)).toMatch(/^conflict/);
   });
 
   it("ends a cancelled plot's way home", async () => {
@@ -317,16 +317,16 @@ describe("a manual move that is stopped while the pen is lifted for it", () => {
     const { clock, board, machine } = await newMachine();
     for (let times = 1; times <= 2; times++) {
       await clock.run(machine.movePen(false, SETTINGS));
-      const walk = outcome(machine.walk(40, 30, SETTINGS));
+      const move = outcome(machine.moveTo(40, 30, SETTINGS));
       await clock.advance(0.1);
       for (let i = 0; i < times; i++) machine.stopAtOnce();
-      expect(await clock.run(walk)).toMatch(/^conflict: The move was stopped/);
+      expect(await clock.run(move)).toMatch(/^conflict: The move was stopped/);
       await clock.advance(1);
       expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
     }
     machine.stopAtOnce();
     await clock.run(machine.movePen(false, SETTINGS));
-    await clock.run(machine.walk(40, 30, SETTINGS));
+    await clock.run(machine.moveTo(40, 30, SETTINGS));
     expect(board.state()).toMatchObject({ xMm: 40, yMm: 30, penUp: true });
   });
 
@@ -398,7 +398,7 @@ describe("firmware without step counters", () => {
 
   it("has lost the position after a typed line that moves the motors", async () => {
     const { world, driver, board } = await newOldPlotter();
-    await world.run(driver.walkTo(10, 0));
+    await world.run(driver.moveTo(10, 0));
     const { note } = await world.run(driver.command("SM,1000,800,800"));
     expect(note).toContain("position is unknown");
     expect(board.state()).toMatchObject({ xMm: 20, isBusy: false });

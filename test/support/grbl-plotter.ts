@@ -85,7 +85,7 @@ export async function newPlotter(options: VirtualGrblOptions = {}, machine: Mach
   const mustWork = async (lostCount = 0): Promise<void> => {
     await world.advance(5);
     expect(driver.state).toMatchObject({ connection: "idle", activity: "none" });
-    expect(await within(driver.move({ kind: "walk", xMm: 12, yMm: 13 }))).toBeUndefined();
+    expect(await within(driver.move({ kind: "move-to", xMm: 12, yMm: 13 }))).toBeUndefined();
     const { xMm, yMm, ...rest } = board.state();
     expect(rest).toMatchObject({ state: "Idle", penUp: true, lostCount });
     // A stop leaves it between two steps.

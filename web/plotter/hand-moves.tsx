@@ -19,33 +19,33 @@ export const HandMoves = () => {
     <div className="hand-moves">
       {hasJob && <p className="note">{words.heldOff}</p>}
       <JogPad isOff={isOff} move={moveByHand} />
-      <Walk isOff={isOff} />
+      <MoveTo isOff={isOff} />
       <Moves />
       <NudgeSettings isOff={isOff} />
     </div>
   );
 };
 
-const Walk = ({ isOff }: { isOff: boolean }) => {
+const MoveTo = ({ isOff }: { isOff: boolean }) => {
   const { moveByHand } = useActions();
   const [[xMm, yMm], setPlace] = useState<readonly [number, number]>([0, 0]);
   return (
     <form
-      className="walk"
+      className="move-to"
       onSubmit={(event) => {
         event.preventDefault();
-        void moveByHand({ kind: "walk", xMm, yMm });
+        void moveByHand({ kind: "move-to", xMm, yMm });
       }}
     >
       <MmPair
-        labels={[words.walkX, words.walkY]}
+        labels={[words.moveToX, words.moveToY]}
         values={[xMm, yMm]}
         min={0}
         step={1}
         onChange={(x, y) => setPlace([x, y])}
       />
       <Button type="submit" disabled={isOff}>
-        {words.walk}
+        {words.moveTo}
       </Button>
     </form>
   );

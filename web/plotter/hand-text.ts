@@ -20,9 +20,9 @@ export const jogText = {
 
 export const movesText = {
   heldOff: "A plot is running. You can move by hand again when it ends.",
-  walkX: "From home, right",
-  walkY: "From home, down",
-  walk: "Go there",
+  moveToX: "From home, right",
+  moveToY: "From home, down",
+  moveTo: "Go there",
   setHome: "Set home here",
   setHomeHint: "Makes this position 0, 0",
   cyclePen: "Cycle the pen",

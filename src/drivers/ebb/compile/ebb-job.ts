@@ -46,7 +46,7 @@ export function planEbbJob(
 }
 
 /** A straight move with the pen up, mm from home, as a separate job. */
-export const planEbbWalk = (
+export const planEbbMoveTo = (
   from: { readonly x: number; readonly y: number },
   to: { readonly x: number; readonly y: number },
   settings: JobSettings,

@@ -15,7 +15,7 @@ import { boardRestarted, moveStopped, powerFailed, powerLost, stuck } from "../.
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { delay } from "../../transport.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
-import { planEbbWalk } from "../compile/ebb-job.js";
+import { planEbbMoveTo } from "../compile/ebb-job.js";
 import { MAX_TICKS } from "../compile/leg.js";
 import { penCommand, penMoveOf, penSetUpCommands, setUpCommands } from "../protocol/commands.js";
 import { ebbOf, STANDARD_PIN } from "../protocol/ebb-controller.js";
@@ -308,7 +308,7 @@ export class Carriage {
   }
 
   /** Lifts the pen and moves in a straight line to a position, at travel speed. */
-  async walk(x: number, y: number, settings: MachineSettings): Promise<void> {
+  async moveTo(x: number, y: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
     const { stopCount } = this;
     await this.ready(settings);
@@ -317,7 +317,7 @@ export class Carriage {
     if (this.stopCount !== stopCount) throw moveStopped();
     const from = this.place(machine)!;
     const { version } = this.connection.features;
-    const job = planEbbWalk(from, { x, y }, settings, machine, version, this.state!);
+    const job = planEbbMoveTo(from, { x, y }, settings, machine, version, this.state!);
     const { trajectory } = job;
     if (trajectory.blockCount > 0) await this.perform({ trajectory, commands: job.commands() }, settings);
   }

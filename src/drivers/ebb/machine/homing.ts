@@ -48,7 +48,7 @@ async function seekAxis(
   const step = async (byMm: number): Promise<void> => {
     if (carriage.stopCount !== stopCount) throw moveStopped();
     const { x, y } = carriage.place(machine)!;
-    await carriage.walk(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
+    await carriage.moveTo(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
   };
   for (let movedMm = 0; !(await isPressed(carriage, input)); movedMm += SEEK_MM) {
     if (movedMm > maxMm) throw noSwitch(machine, axis, maxMm, input);

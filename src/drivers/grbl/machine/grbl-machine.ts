@@ -150,7 +150,7 @@ export class GrblMachine implements Machine {
     );
   }
 
-  async walk(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
+  async moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
     const machine = machineOf(settings);
     const { stopCount } = this;
     await this.ready(settings);
