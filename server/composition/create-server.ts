@@ -29,7 +29,7 @@ import { findBoards } from "../serial/find-boards.js";
 import type { PluginHost, RunningPlugin } from "../plugins/server-plugin.js";
 import { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
 import { jobHooksOf, loadPlugins } from "./load-plugins.js";
-import type { ServerOptions } from "./server-options.js";
+import { checkServerOptions, type ServerOptions } from "./server-options.js";
 
 export type { ServerOptions } from "./server-options.js";
 
@@ -52,6 +52,7 @@ const DEFAULT_MAX_UPLOAD_BYTES = 200_000_000;
  * Throws `conflict` (port or data folder in use), `no-board` (the named device is missing), `bad-setting`.
  */
 export async function createServer(options: ServerOptions = {}): Promise<PlotwrightServer> {
+  checkServerOptions(options);
   const dataDir = options.dataDir ?? defaultDataDir();
   let book: LogBook | null = null;
   const log = (text: string): void => {

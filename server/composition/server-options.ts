@@ -1,3 +1,4 @@
+import { PlotwrightError } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 
 /** The options of a server. */
@@ -47,4 +48,41 @@ export interface ServerOptions {
   readonly onNewPairing?: () => void;
   /** Receives the lines of the log. */
   readonly log?: (line: string) => void;
+}
+
+const NAMES = Object.keys({
+  port: true,
+  host: true,
+  lan: true,
+  mdns: true,
+  tls: true,
+  pairAlways: true,
+  device: true,
+  virtualSpeed: true,
+  virtualSprings: true,
+  dataDir: true,
+  maxUploadBytes: true,
+  allowedHosts: true,
+  webhooks: true,
+  watchDir: true,
+  sharedQueue: true,
+  sharedPollMs: true,
+  sharedLostAfterMs: true,
+  sharedTimeoutMs: true,
+  onNewPairing: true,
+  log: true,
+} satisfies Record<keyof ServerOptions, true>);
+
+/**
+ * For programs written without types: a misspelt `dataDir` would write into the user's own folder.
+ *
+ * @throws PlotwrightError "bad-setting"
+ */
+export function checkServerOptions(options: object): void {
+  const unknown = Object.keys(options).find((name) => !NAMES.includes(name));
+  if (unknown === undefined) return;
+  throw new PlotwrightError(
+    "bad-setting",
+    `createServer has no option "${unknown}". Options: ${NAMES.join(", ")}.`,
+  );
 }

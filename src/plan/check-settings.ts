@@ -70,13 +70,9 @@ const MOTION_NAMES = [
   "layers",
 ];
 
-/** @throws PlotwrightError "bad-setting" for missing settings and unknown names */
+/** @throws PlotwrightError "bad-setting" for unknown names */
 export function checkSettingNames(motion: MotionSettings, pen: PenSettings): void {
   checkNames("motion", motion, MOTION_NAMES);
-  for (const name of ["mode", "draw", "travel"] as const) {
-    if ((motion[name] as unknown) !== undefined) continue;
-    throw bad(`motion ${name} is missing: begin with { ...DEFAULT_MOTION } and change what differs`);
-  }
   checkNames("draw", motion.draw, Object.keys(DRAW_TABLE));
   checkNames("travel", motion.travel, Object.keys(TRAVEL_TABLE));
   checkNames("pen", pen, PEN_NAMES);

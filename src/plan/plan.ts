@@ -29,6 +29,7 @@ import { RunWriter, type WritesRuns } from "./run-writer.js";
 import { fillAlong } from "./shaped-along.js";
 import { shaperKernel } from "./shapers.js";
 import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
+import { withGiven, type DeepPartial } from "../settings/partial.js";
 import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
 import type { Place, Trajectory } from "./trajectory.js";
 
@@ -74,18 +75,21 @@ export interface PlanOptions {
 }
 
 /**
- * Plans the motion that draws `strokes` in order, from rest to rest. Linear in the number of points.
+ * Plans the motion that draws `strokes` in order, from rest to rest. Linear in the number of points. Settings that are
+ * left out have their defaults.
  *
  * @throws PlotwrightError "bad-setting" for settings that contradict each other; "cancelled"
  * @throws RangeError for coordinates that are not finite, or a place that is not in the drawing
  */
 export function plan(
   strokes: StrokeSet,
-  motion: MotionSettings = DEFAULT_MOTION,
-  pen: PenSettings = DEFAULT_PEN,
+  givenMotion: DeepPartial<MotionSettings> = {},
+  givenPen: DeepPartial<PenSettings> = {},
   options: PlanOptions = {},
 ): Trajectory {
   checkStrokes("plan", strokes);
+  const motion = withGiven(DEFAULT_MOTION, givenMotion);
+  const pen = withGiven(DEFAULT_PEN, givenPen);
   checkSettings(motion, pen, options.machine);
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, startX = 0, startY = 0, penBesideMm = 0 } = options;

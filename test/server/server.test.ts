@@ -1,5 +1,5 @@
 /** The whole server, embedded or served: real threads, real disk, the virtual board. */
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
@@ -263,6 +263,13 @@ describe("a server", () => {
     await start({ port });
     expect(server.url).toBe(`http://127.0.0.1:${port}`);
     rmSync(other, { recursive: true });
+  });
+
+  it("refuses an option that it does not know, before it touches a folder", async () => {
+    const folder = join(dataDir, "new");
+    const options = { dataDir: folder, prot: 0 };
+    await expect(createServer(options)).rejects.toThrow(/no option "prot"\. Options: port,/);
+    expect(existsSync(folder)).toBe(false);
   });
 
   it("returns every sample exactly as on disk", async () => {

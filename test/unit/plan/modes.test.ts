@@ -213,8 +213,6 @@ describe("settings beyond speed and acceleration", () => {
       [{}, { dropPctPerS: 0 }, /pen lowering speed is 0/],
       [{ layers: { red: { speedFactor: 3 } } }, {}, /share of the speed is 3: it must be 0.01 to 1/],
       [{}, { contactPct: 120 }, /tip touches at is 120/],
-      [{}, { contactPct: undefined as never }, /tip touches at is missing/],
-      [{}, { fullHeightMm: undefined as never }, /full lift for travels from is missing/],
       [{}, { overlap: "often" as never }, /overlap is "often": choose one of off, safe, fast/],
       [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
     ];

@@ -20,6 +20,22 @@ const square: Point[] = [
   [10, 10],
 ];
 
+describe("settings that are left out", () => {
+  it("have their defaults, at every depth", () => {
+    const strokes = strokeSetOf([square]);
+    const draw = { ...DEFAULT_MOTION.draw, speedMmPerS: 40 };
+    const complete = plan(strokes, { ...DEFAULT_MOTION, draw }, { ...DEFAULT_PEN, upPct: 70 });
+    expect(plan(strokes, { draw: { speedMmPerS: 40 } }, { upPct: 70 })).toEqual(complete);
+    expect(plan(strokes)).toEqual(plan(strokes, DEFAULT_MOTION, DEFAULT_PEN));
+  });
+
+  it("are not mistaken for misspelt ones", () => {
+    expect(() => plan(strokeSetOf([square]), { draw: { speedMmS: 40 } as never })).toThrow(
+      /no draw setting "speedMmS"/,
+    );
+  });
+});
+
 describe("the sequence of runs", () => {
   it("is travel, drop, draw, lift for every stroke, then home", () => {
     const t = plan(
