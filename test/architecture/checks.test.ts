@@ -9,8 +9,10 @@ import {
   foreignPrivateMembers,
   GRBL_COMMAND,
   importsBetweenDrivers,
+  localTypesNamedLikeExported,
   plannedElsewhere,
   staticPluginImports,
+  typesExportedTwice,
   type Sources,
 } from "./checks.js";
 
@@ -82,6 +84,35 @@ const CASES: readonly Case[] = [
     good: {
       "src/plan/a.ts": 'class A { private speed = "#1"; }',
       "server/a.ts": "class A { #b = 1; private constructor(readonly c: number) {} }",
+    },
+  },
+  {
+    name: "types of one name that two files export",
+    check: typesExportedTwice,
+    bad: {
+      "src/plan/a.ts": "export interface Place { x: number }",
+      "web/b.ts": "export type Place = string;",
+      "web/c.ts": "export abstract class Place {}",
+    },
+    found: ["Place: src/plan/a.ts, web/b.ts, web/c.ts"],
+    good: {
+      "src/plan/a.ts": "export interface Place { x: number }\nexport const Spot = 1;",
+      "web/b.ts": 'export type { Place } from "../src/plan/a.js";\ntype Spot = string;',
+    },
+  },
+  {
+    name: "a local type with the name of an exported one, unless its meaning is obvious",
+    check: (sources) => localTypesNamedLikeExported(sources, ["Point"]),
+    bad: {
+      "src/plan/a.ts": "export class Place {}",
+      "web/b.ts": "interface Place { y: number }",
+      "web/c.ts": "type Place = number;",
+    },
+    found: ["web/b.ts: Place", "web/c.ts: Place"],
+    good: {
+      "src/plan/a.ts": "export interface Point { x: number }",
+      "web/b.ts": "type Point = readonly [number, number];\ninterface Row { y: number }",
+      "web/c.ts": "interface Row { z: number }",
     },
   },
   {

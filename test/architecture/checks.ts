@@ -110,6 +110,42 @@ const isPrivate = (node: ts.Node): boolean =>
   ts.canHaveModifiers(node) &&
   (ts.getModifiers(node) ?? []).some(({ kind }) => kind === ts.SyntaxKind.PrivateKeyword);
 
+const isTypeDeclaration = (
+  node: ts.Statement,
+): node is ts.InterfaceDeclaration | ts.TypeAliasDeclaration | ts.ClassDeclaration =>
+  ts.isInterfaceDeclaration(node) || ts.isTypeAliasDeclaration(node) || ts.isClassDeclaration(node);
+
+/** The files that declare each type at their top level, those that export it first. */
+function typesByName(sources: Sources): Map<string, { exporting: string[]; local: string[] }> {
+  const types = new Map<string, { exporting: string[]; local: string[] }>();
+  for (const [file, text] of Object.entries(sources)) {
+    for (const statement of parsed(file, text).statements) {
+      if (!isTypeDeclaration(statement) || statement.name === undefined) continue;
+      const name = statement.name.text;
+      const files = types.get(name) ?? { exporting: [], local: [] };
+      const isExported =
+        statement.modifiers?.some(({ kind }) => kind === ts.SyntaxKind.ExportKeyword) === true;
+      (isExported ? files.exporting : files.local).push(file);
+      types.set(name, files);
+    }
+  }
+  return types;
+}
+
+/** Names of types that several files export: a reader can't tell which one is meant. */
+export const typesExportedTwice = (sources: Sources): string[] =>
+  [...typesByName(sources)]
+    .filter(([, { exporting }]) => exporting.length > 1)
+    .map(([name, { exporting }]) => `${name}: ${exporting.join(", ")}`);
+
+/** Local types that have the name of a type that another file exports. */
+export const localTypesNamedLikeExported = (sources: Sources, obvious: readonly string[] = []): string[] =>
+  [...typesByName(sources)]
+    .filter(
+      ([name, { exporting, local }]) => exporting.length > 0 && local.length > 0 && !obvious.includes(name),
+    )
+    .flatMap(([name, { local }]) => local.map((file) => `${file}: ${name}`));
+
 const driverOf = (file: string): string | undefined => /^src\/drivers\/([^/]+)\//.exec(file)?.[1];
 
 /** A driver that uses another one. */
