@@ -33,7 +33,7 @@ const { metafile } = await build({
     "web/serial/web-serial": "web/serial/web-serial.ts",
     "server/index": "server/index.ts",
     "server/main": "server/main.ts",
-    // Beside the chunks that start them (server/planning/worker-entry.ts).
+    // Beside the chunks that start them (server/planning/bounded-thread.ts).
     "chunks/plan-worker": "server/planning/plan-worker.ts",
     "chunks/plan-command-worker": "server/cli/plan-command-worker.ts",
   },

@@ -1,12 +1,15 @@
-/** The handlers of the operations that every host has: the server, and the page without one. */
+/** Performs operations, and has the handlers of those that every host has: the server, and the page without one. */
 import { PlotwrightError } from "../../src/index.js";
-import type {
-  BoxMm,
-  FrameRequest,
-  HandMove,
-  HandMoveRequest,
-  OperationHandlers,
-  Plotter,
+import {
+  type BoxMm,
+  type FrameRequest,
+  type HandMove,
+  type HandMoveRequest,
+  type OperationHandlers,
+  type Plotter,
+  handlerArguments,
+  type Operation,
+  type OperationInput,
 } from "../../src/schema/index.js";
 import type { CustomMachines } from "../custom-machines.js";
 import type { Requester } from "../planning/lane.js";
@@ -17,6 +20,7 @@ import type { JobQueue } from "../queue/job-queue.js";
 import type { Notices } from "../queue/notices.js";
 import type { UploadedDrawings } from "../queue/uploaded-drawings.js";
 import type { StoredDrawing } from "../storage.js";
+import { parseWith } from "../parse-with.js";
 
 export interface HostParts {
   readonly queue: JobQueue;
@@ -162,3 +166,19 @@ const machineOperations = ({ machines }: HostParts) =>
     },
     remove: (id) => machines.remove(id),
   }) satisfies OperationHandlers<Requester>["machines"];
+
+/** Checks what was sent, then calls the handler. Throws `bad-setting` that names the first invalid field. */
+export async function performOperation(
+  operation: Operation,
+  handler: (...args: never[]) => unknown,
+  { id, sent }: OperationInput,
+  context: unknown,
+): Promise<unknown> {
+  const { body, query, isBodyOptional } = operation;
+  const schema = query ?? (body === "file" ? undefined : body);
+  const given = isBodyOptional === true ? (sent ?? {}) : sent;
+  const checked = schema === undefined ? given : parseWith(schema, given);
+  const args = [...handlerArguments(operation, { id, sent: checked }), context];
+  const answer = await (handler as (...all: unknown[]) => unknown)(...args);
+  return answer === undefined ? { ok: true } : answer;
+}

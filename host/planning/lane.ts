@@ -12,7 +12,7 @@ export interface Requester {
   readonly signal?: AbortSignal | undefined;
 }
 
-export type Lane = <T>(requester: Requester, work: () => Promise<T>) => Promise<T>;
+type Lane = <T>(requester: Requester, work: () => Promise<T>) => Promise<T>;
 
 export function lane(slots: number): Lane {
   const running: string[] = [];

@@ -1,8 +1,7 @@
 /** Messages between the planner and its worker thread. Large arrays are transferred, not copied. */
 import { PlotwrightError, type ErrorCode, type StrokeSet } from "../../src/index.js";
 import type { DrawnSize } from "../../src/internal.js";
-import type { Measured } from "./planning.js";
-import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
+import type { Measured, PlanRequest, PlannedPlot } from "./planning.js";
 
 /** A drawing that is prepared for planning. */
 export interface ReadyDrawing {

@@ -4,8 +4,7 @@
  */
 import { PlotwrightError } from "../../src/index.js";
 import type { FromWorker, ReadyDrawing, ToWorker } from "./messages.js";
-import type { Measured } from "./planning.js";
-import type { PlotPlanner } from "./plot-planner.js";
+import type { Measured, PlotPlanner } from "./planning.js";
 
 export interface PlannerListener {
   message(message: FromWorker): void;
@@ -20,7 +19,7 @@ export interface PlannerThread {
 }
 
 /** Starts a thread that prepares the drawing and answers "ready" or "failed". */
-export type StartPlanner = (listener: PlannerListener) => PlannerThread;
+type StartPlanner = (listener: PlannerListener) => PlannerThread;
 
 export interface OpenPlanner extends PlotPlanner, ReadyDrawing {
   /** Plans the whole drawing from home, for a board with this firmware (null: unknown), and returns only its figures. */

@@ -6,8 +6,7 @@ import { planJob, trajectoryStats, type MachineProfile, type Prepared } from "..
 import { pointCount, strokeCount } from "../../src/internal.js";
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
 import { faultOf, type FromWorker, type ToWorker } from "./messages.js";
-import type { Measured } from "./planning.js";
-import type { PlanRequest, PlannedPlot } from "./plot-planner.js";
+import type { Measured, PlanRequest, PlannedPlot } from "./planning.js";
 
 /** The input with which the planner's thread is started. */
 export interface ThreadInput {

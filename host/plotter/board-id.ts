@@ -1,6 +1,6 @@
 /** Tells boards apart: a plot that is resumed on another board must not believe that board's position. */
 import type { BoardId } from "../../src/schema/index.js";
-import type { JournalEntry, PlotStart } from "./types.js";
+import type { JournalEntry, PlotStart } from "./plotter-port.js";
 
 /** In words for the user, before what to do. */
 export const OTHER_BOARD =

@@ -8,9 +8,8 @@ import {
   type UsbId,
   type VirtualMachine,
 } from "../../src/internal.js";
-import type { Devices } from "./devices.js";
 
-export interface ConnectOptions {
+interface PlotterConnectOptions {
   readonly driver: Driver;
   /** USB ids that only this driver's boards use. */
   readonly usbIds: readonly UsbId[];
@@ -42,7 +41,7 @@ export interface Connection {
  * Rejects with `no-board`, `not-allowed`, `busy`, `board-timeout` or `disconnected`, and a message for the
  * user.
  */
-export async function connect(options: ConnectOptions): Promise<Connection> {
+export async function connect(options: PlotterConnectOptions): Promise<Connection> {
   const path = options.device === "auto" ? await firstBoard(options) : options.device;
   if (path === null && !options.virtualIfNone) throw notFound(options);
   if (path === null || path === "virtual") {
@@ -57,7 +56,10 @@ export async function connect(options: ConnectOptions): Promise<Connection> {
 }
 
 /** A port can be used without it, so errors are ignored. */
-async function serialNumberAt(path: string, { usbIds, devices }: ConnectOptions): Promise<string | null> {
+async function serialNumberAt(
+  path: string,
+  { usbIds, devices }: PlotterConnectOptions,
+): Promise<string | null> {
   const boards = await devices.find(usbIds).catch(() => []);
   return boards.find((board) => board.path === path)?.serialNumber ?? null;
 }
@@ -66,12 +68,12 @@ async function firstBoard({
   usbIds,
   devices,
   isTaken = () => false,
-}: ConnectOptions): Promise<string | null> {
+}: PlotterConnectOptions): Promise<string | null> {
   const boards = await devices.find(usbIds);
   return boards.find(({ path }) => !isTaken(path))?.path ?? null;
 }
 
-function identified(transport: Transport, options: ConnectOptions): Promise<Machine> {
+function identified(transport: Transport, options: PlotterConnectOptions): Promise<Machine> {
   const { driver, clock, speed, events } = options;
   return driver.identify(transport, { clock, machineClock: scaledClock(clock, speed), speed, events });
 }
@@ -82,7 +84,7 @@ function atDevice(error: unknown, device: string): unknown {
   return new PlotwrightError(error.code, `${device}: ${error.message}`, { cause: error });
 }
 
-const notFound = ({ usbIds }: ConnectOptions): PlotwrightError =>
+const notFound = ({ usbIds }: PlotterConnectOptions): PlotwrightError =>
   new PlotwrightError(
     "no-board",
     usbIds.length === 0
@@ -92,3 +94,20 @@ const notFound = ({ usbIds }: ConnectOptions): PlotwrightError =>
 
 export const connectFailed = (cause: unknown): PlotwrightError =>
   new PlotwrightError("internal", "Connecting to the board failed because of an internal error.", { cause });
+
+/** A board on a serial port of this computer. */
+export interface FoundBoard {
+  /** The name by which `open` opens it; on the server the path to pass to `--device`. */
+  readonly path: string;
+  /** Manufacturer, to show to users. */
+  readonly description: string;
+  readonly serialNumber: string | null;
+}
+
+/** The serial ports of this computer. The server opens them with serialport, the page with Web Serial. */
+export interface Devices {
+  /** All boards on USB with these ids, sorted by path. */
+  find(ids: readonly UsbId[]): Promise<readonly FoundBoard[]>;
+  /** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`. */
+  open(path: string): Promise<Transport>;
+}

@@ -2,7 +2,7 @@
 import type { Place, StrokeSet } from "../../src/index.js";
 import { landingMm, leavesDrawingMm, machineOf, stoppedPlace, type Machine } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import type { JournalEntry } from "./types.js";
+import type { JournalEntry } from "./plotter-port.js";
 
 /** Max time between two journal entries, in real seconds. */
 export const JOURNAL_S = 0.25;

@@ -26,8 +26,15 @@ import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { JOURNAL_S, placeLeft, PROGRESS_S } from "./place-left.js";
 import { PenStops } from "./pen-stops.js";
 import { RunSettings } from "./run-settings.js";
-import type { PlannedPlot, PlotPlanner } from "../planning/plot-planner.js";
-import type { JournalEntry, LivePlotRun, PlotChange, PlotOutcome, PlotProgress, PlotStart } from "./types.js";
+import type { PlannedPlot, PlotPlanner } from "../planning/planning.js";
+import type {
+  JournalEntry,
+  LivePlotRun,
+  PlotChange,
+  PlotOutcome,
+  PlotProgress,
+  PlotStart,
+} from "./plotter-port.js";
 import { Waiters } from "./waiters.js";
 
 /** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */

@@ -24,7 +24,7 @@ import {
   type HandMove,
   type PlotSettings,
 } from "../../src/schema/index.js";
-import type { PlotPlanner } from "../planning/plot-planner.js";
+import type { PlotPlanner } from "../planning/planning.js";
 import { isOtherBoard, startOn } from "./board-id.js";
 import { connect, connectFailed, type Connection } from "./connection.js";
 import { moveByHand } from "./hand-moves.js";
@@ -40,7 +40,7 @@ import {
   type PlotterState,
 } from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";
-import type { LivePlotRun, PlotProgress, PlotStart } from "./types.js";
+import type { LivePlotRun, PlotProgress, PlotStart } from "./plotter-port.js";
 
 const RECONNECT_S = 2;
 

@@ -1,9 +1,22 @@
-/** A plotter as the queue, the routes and the command line use it. */
-import type { CommandAnswer, HandMove, Plotter, PlotSettings } from "../../src/schema/index.js";
-import type { PlotPlanner } from "../planning/plot-planner.js";
-import type { LivePlotRun, PlotStart } from "./types.js";
+/**
+ * A plotter and a running plot, as the queue, the routes and the command line use them.
+ *
+ * The queue knows jobs and drawings, the plotter knows the board. The plotter is given a planner and returns a run. It never
+ * plans; the planner (a worker thread) never accesses the board.
+ */
+import type {
+  CommandAnswer,
+  HandMove,
+  Plotter,
+  PlotSettings,
+  BoardId,
+  PlotWait,
+} from "../../src/schema/index.js";
+import type { PlotPlanner } from "../planning/planning.js";
+import type { MotionSettings, PenSettings, Place } from "../../src/index.js";
+import type { PlotProgress } from "../../src/internal.js";
 
-interface PenMove {
+interface PenTarget {
   readonly up: boolean;
   /** Default: the height in the settings. */
   readonly heightPct?: number | undefined;
@@ -19,7 +32,7 @@ export interface PlotterPort {
   /** Starts a plot; throws `no-board`, `busy` or `board-error` if it can't. */
   plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;
   /** With the machine and heights of `settings`; default: those of the last job or move. */
-  pen(request: PenMove, settings?: PlotSettings): Promise<void>;
+  pen(request: PenTarget, settings?: PlotSettings): Promise<void>;
   motorsOff(): Promise<void>;
   /**
    * A manual move with the machine, speeds and heights of `settings`; default: those of the last job or move.
@@ -39,4 +52,93 @@ export interface ManagedPlotter extends PlotterPort {
   rename(name: string): void;
   /** Sets the model, with the plotter's settings; null: not set. The board stays connected and home stays the same. */
   useMachine(machine: string | null, settings: PlotSettings): void;
+}
+
+export type { PlotProgress } from "../../src/internal.js";
+
+export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelled" };
+
+/** A running plot. `finished` rejects with a PlotwrightError when the board fails. */
+export interface PlotRun {
+  readonly finished: Promise<PlotOutcome>;
+  onProgress(listener: (progress: PlotProgress) => void): void;
+  /** `wait`: what the plot waits for if it stopped by itself; none if the hold was requested. */
+  onHeld(listener: (held: boolean, wait?: PlotWait | null) => void): void;
+  /** Resolves when the pen is up and the carriage has stopped. */
+  pause(): Promise<void>;
+  resume(): Promise<void>;
+  /** Lifts the pen and goes home; `finished` then resolves with "cancelled". */
+  cancel(): Promise<void>;
+  /**
+   * Ends the plot where it is, so that it can be resumed later: slows down, lifts the pen, and writes the place to the
+   * journal. Nothing else moves, and no planning is waited for. `finished` then resolves with "cancelled".
+   */
+  interrupt(): Promise<void>;
+}
+
+/** Changes to a plot that is running or held; omitted fields stay the same. */
+export interface PlotChange {
+  readonly pen?: PenSettings | undefined;
+  readonly motion?: MotionSettings | undefined;
+  /** Percent of the drawing and travel speeds in the settings; accelerations stay the same. */
+  readonly speedPct?: number | undefined;
+}
+
+/** All operations on a running plot. */
+export interface LivePlotRun extends PlotRun {
+  /** Ends the plot because the server stops. Like `cancel`, but nothing moves if the plot is held or was stopped at once. */
+  leave(): Promise<void>;
+  /** Stops at once, without slowing down (ES), then reads back the motor positions; the plot is then held. */
+  emergencyStop(): Promise<void>;
+  /**
+   * Re-plans the rest of the drawing. Takes effect within a second while running, at the hold point while
+   * held.
+   */
+  change(change: PlotChange): Promise<void>;
+  /** While held: the place from which the plot will resume. */
+  readonly holdPlace: Place | null;
+  /**
+   * While held: moves the hold point along the drawing, forward or back; mm may continue into the next
+   * stroke.
+   */
+  moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place;
+  /** While held: moves to the hold point with the pen up, so that the user can check it. */
+  checkHoldPlace(): Promise<void>;
+}
+
+/**
+ * The progress of a plot, which the owner of the journal stores, so that the plot can continue after a crash.
+ */
+export interface JournalEntry {
+  /** The first place not yet drawn, at most half a second old. */
+  readonly place: Place;
+  /**
+   * The end of what the board had received, and draws even if this program ends. Undefined if the plot is at rest, or is
+   * still on its way to `place`: then it has drawn nothing after `place`.
+   */
+  readonly received?: Place | undefined;
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly penUp: boolean;
+  readonly elapsedS: number;
+  /** The board that draws; the plotter adds it. */
+  readonly board?: BoardId | undefined;
+}
+
+interface PlotJournal {
+  record(entry: JournalEntry): void;
+}
+
+export interface PlotStart {
+  /** Where in the drawing to start; after a crash, the journal's place. Default: the beginning. */
+  readonly from?: Place | null | undefined;
+  /** `received` of the same journal entry. Default: nothing was drawn after `from`. */
+  readonly received?: Place | undefined;
+  /** `board` of the same journal entry. The position of any other board says nothing about this plot. */
+  readonly board?: BoardId | undefined;
+  /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */
+  readonly held?: boolean | undefined;
+  readonly journal?: PlotJournal | undefined;
+  /** Called with words for the user about something that may be seen on the paper; the plot continues. */
+  readonly noted?: ((message: string) => void) | undefined;
 }

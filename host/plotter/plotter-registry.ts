@@ -17,7 +17,7 @@ import {
 } from "../../src/schema/index.js";
 import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
 import type { PlotterRow, PlotterStore } from "../storage.js";
-import type { FoundBoard } from "./devices.js";
+import type { FoundBoard } from "./connection.js";
 import { settingsOfPlotter, type SettingsOfPlotter, type WithMachine } from "./settings-of-plotter.js";
 
 interface RegistryParts {
@@ -41,7 +41,7 @@ interface RegistryParts {
 }
 
 /** How jobs that have not ended use a plotter. */
-export interface PlotterUse {
+interface PlotterUse {
   isPlotterBusy(plotterId: string): boolean;
   liveJobCount(plotterId: string): number;
 }

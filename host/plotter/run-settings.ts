@@ -1,6 +1,6 @@
 /** The settings of a running plot, with the changes made while it runs. */
 import type { PlotSettings } from "../../src/schema/index.js";
-import type { PlotChange } from "./types.js";
+import type { PlotChange } from "./plotter-port.js";
 
 export class RunSettings {
   /** How many changes were made so far. */

@@ -21,7 +21,7 @@ const RETRY_MS = 5_000;
 const HISTORY_PAGE = 50;
 
 /** The source of a new job, its place in the queue, and the number of jobs to add. */
-export interface Origin extends Pick<NewQueueJob, "watched" | "sharedId" | "copies"> {
+interface Origin extends Pick<NewQueueJob, "watched" | "sharedId" | "copies"> {
   readonly beforeId?: string | null;
 }
 

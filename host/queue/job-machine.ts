@@ -1,6 +1,6 @@
 /**
  * The state machine of a job (diagram: src/schema/job.ts), as one pure function: (job, event) -> job; throws `conflict`.
- * The queue applies, stores and announces the result.
+ * The queue applies, stores and announces the result. And the first state of a new job.
  */
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import type { Job, JobPlace, JobState } from "../../src/schema/index.js";
@@ -36,6 +36,34 @@ export const TRANSITIONS: Readonly<Record<JobEvent["type"], Transition>> = {
   cancel: { from: ["queued", "plotting", "paused", "interrupted"], to: "cancelled", verb: "cancelled" },
   requeue: { from: ["done", "failed", "cancelled", "interrupted"], to: "queued", verb: "queued again" },
 };
+
+/** A new queued job with a new id; plotter, name, settings and figures come from `from`. */
+export function queuedJob(
+  from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">,
+  nowIso: string,
+): Job {
+  return {
+    id: crypto.randomUUID(),
+    plotterId: from.plotterId,
+    name: from.name,
+    state: "queued",
+    settings: from.settings,
+    stats: from.stats,
+    warnings: from.warnings,
+    progress: 0,
+    elapsedS: 0,
+    remainingS: from.stats?.durationS ?? null,
+    message: null,
+    place: null,
+    speedPct: 100,
+    plottedS: null,
+    expectedS: null,
+    wait: null,
+    createdAt: nowIso,
+    startedAt: null,
+    endedAt: null,
+  };
+}
 
 /** Whether the job is being plotted, or held on the plotter. */
 export const isOnPlotter = ({ state }: Job): boolean => state === "plotting" || state === "paused";

@@ -18,11 +18,10 @@ import { expectedS, timeRatio } from "./expected-time.js";
 import type { SettingsOfPlotter } from "../plotter/settings-of-plotter.js";
 import { findPlotter } from "./find-plotter.js";
 import { JobList } from "./job-list.js";
-import { JobSettings } from "./job-settings.js";
-import { applyJobEvent, isOnPlotter } from "./job-machine.js";
+import { SettingsOfJobs } from "./job-settings.js";
+import { applyJobEvent, isOnPlotter, queuedJob } from "./job-machine.js";
 import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
-import { queuedJob } from "./queued-job.js";
 
 /**
  * Each job stores its settings, and every client gets those of all waiting jobs. Only settings of single layers can
@@ -35,7 +34,7 @@ export class JobQueue {
   readonly plots: RunningPlots;
   readonly #parts: QueueParts;
   readonly #jobs: JobList;
-  readonly #settings: JobSettings;
+  readonly #settings: SettingsOfJobs;
   /** Starts in progress, by job id. */
   readonly #beginning = new Map<string, Promise<Job | string>>();
 
@@ -43,7 +42,7 @@ export class JobQueue {
   constructor(parts: QueueParts) {
     this.#parts = parts;
     this.#jobs = new JobList(parts);
-    this.#settings = new JobSettings(parts, this.#jobs);
+    this.#settings = new SettingsOfJobs(parts, this.#jobs);
     this.plots = new RunningPlots(parts, this.#jobs, this.#settings, (job) => this.#done(job));
   }
 

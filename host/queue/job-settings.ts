@@ -13,7 +13,7 @@ import type { QueueParts } from "./queue-parts.js";
 
 type Parts = Pick<QueueParts, "settingsOf" | "withMachine">;
 
-export class JobSettings {
+export class SettingsOfJobs {
   readonly #parts: Parts;
   readonly #jobs: JobList;
 

@@ -4,7 +4,7 @@ import { PlotwrightError } from "../../src/index.js";
 import { noticeSchema, type Notice, type ServerEvent } from "../../src/schema/index.js";
 import type { SettingStore } from "../storage.js";
 
-export interface NoticeParts {
+interface NoticeParts {
   readonly store: SettingStore;
   readonly announce: (event: ServerEvent) => void;
   readonly nowIso: () => string;

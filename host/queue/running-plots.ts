@@ -14,15 +14,21 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
-import type { JournalEntry, LivePlotRun, PlotOutcome, PlotProgress, PlotStart } from "../plotter/types.js";
+import type {
+  JournalEntry,
+  LivePlotRun,
+  PlotOutcome,
+  PlotProgress,
+  PlotStart,
+  PlotterPort,
+} from "../plotter/plotter-port.js";
 import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
-import type { JobSettings } from "./job-settings.js";
+import type { SettingsOfJobs } from "./job-settings.js";
 import { applyJobEvent, canContinue, isOnPlotter } from "./job-machine.js";
-import type { PlotterPort } from "../plotter/plotter-port.js";
 import { findPlotter, mustBeIdle } from "./find-plotter.js";
 import type { QueueParts } from "./queue-parts.js";
-import { MotionTimer } from "./queued-job.js";
+import { MotionTimer } from "./expected-time.js";
 
 export const SERVER_STOPPED =
   "The server stopped while this was plotting. Check pen and paper, then resume where it stopped.";
@@ -46,12 +52,12 @@ interface Running {
 }
 const MAX_NOTES = 5;
 
-type RunEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
+type PlotEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
 
 export class RunningPlots {
   readonly #parts: QueueParts;
   readonly #jobs: JobList;
-  readonly #settings: JobSettings;
+  readonly #settings: SettingsOfJobs;
   readonly #done: (job: Job) => void;
   /** By plotter id. */
   readonly #running = new Map<string, Running>();
@@ -62,7 +68,7 @@ export class RunningPlots {
    * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
    * plot.
    */
-  constructor(parts: QueueParts, jobs: JobList, settings: JobSettings, done: (job: Job) => void) {
+  constructor(parts: QueueParts, jobs: JobList, settings: SettingsOfJobs, done: (job: Job) => void) {
     this.#parts = parts;
     this.#jobs = jobs;
     this.#settings = settings;
@@ -204,7 +210,7 @@ export class RunningPlots {
 
   /** Plots, and applies the end to the job. */
   async #follow(running: Running): Promise<void> {
-    const end = await this.#plot(running).catch((error: unknown): RunEnd => {
+    const end = await this.#plot(running).catch((error: unknown): PlotEnd => {
       const wanted =
         running.abort.signal.aborted && error instanceof PlotwrightError && error.code === "cancelled";
       return wanted
@@ -342,7 +348,7 @@ export class RunningPlots {
     this.#saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
   }
 
-  #ended(running: Running, end: RunEnd): void {
+  #ended(running: Running, end: PlotEnd): void {
     this.#running.delete(running.plotter.id);
     const {
       job: { id },

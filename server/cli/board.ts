@@ -10,6 +10,8 @@ import { applyFault, faultHelp } from "./board-faults.js";
 import { fileFault } from "../storage/file-fault.js";
 import { writeOut } from "./files.js";
 import type { CliIo } from "./io.js";
+import { Option } from "commander";
+import { positive, springs, type Declare } from "./options.js";
 
 export interface BoardCommandOptions {
   /** Where the serial port appears: a link to the pseudo-terminal. */
@@ -288,3 +290,21 @@ function closePty(pty: RawPty): Promise<void> {
     pty.kill("SIGKILL");
   });
 }
+
+export const declareBoard: Declare = (command, { io }) => {
+  command
+    .requiredOption("--pty <path>", "path where the serial port appears")
+    .option("--firmware <version>", "firmware version of the board", "2.8.1")
+    .addOption(
+      new Option("--speed <factor>", "board seconds per real second (default: 1)").argParser(positive),
+    )
+    .addOption(
+      new Option(
+        "--springs <x,y>",
+        "Hz at which the pen swings, and the damping (15,25,0.05); default: not at all",
+      ).argParser(springs),
+    )
+    .option("--machine <id>", "plotter model (default: axidraw-v3)")
+    .option("--svg <file>", "file for the drawn lines, or - for stdout (default: drawn.svg)")
+    .action((options: BoardCommandOptions) => runBoard(options, io));
+};

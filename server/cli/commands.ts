@@ -1,7 +1,7 @@
 /** All commands by name. Each command's module is loaded only when the command is used, to start quickly. */
 import type { Declare } from "./options.js";
 
-export interface CliCommand {
+interface CliCommand {
   readonly name: string;
   readonly about: string;
   /** Shown in its help and in docs/cli.md; a test runs each of them. */
@@ -42,7 +42,7 @@ export const COMMANDS: readonly CliCommand[] = [
       "plotwright plot drawing.svg other.svg --copies 2 --paper-s 30",
       "plotwright plot --resume",
     ],
-    load: async () => (await import("./plot-command.js")).declarePlot,
+    load: async () => (await import("./plot.js")).declarePlot,
   },
   {
     name: "add",
@@ -160,6 +160,6 @@ export const COMMANDS: readonly CliCommand[] = [
     name: "board",
     about: "run a virtual board that other programs can drive",
     examples: ["plotwright board --pty /tmp/plotter --speed 10 --svg drawn.svg"],
-    load: async () => (await import("./board-command.js")).declareBoard,
+    load: async () => (await import("./board.js")).declareBoard,
   },
 ];

@@ -1,52 +1,90 @@
-/** Declares the single commands to the machine: pen, manual moves, a raw line, info. */
+/** The single commands to the machine: pen, manual moves, a raw line, info. */
 import { InvalidArgumentError, type Command } from "commander";
+import { PlotwrightError } from "../../src/index.js";
+import { firmwareAdvice, machineOf, printableJson } from "../../src/internal.js";
 import type { HandMove, PlotSettings } from "../../src/schema/index.js";
-import { mustBeDataFolder } from "./files.js";
-import type { CliIo } from "./io.js";
-import { length } from "./lengths.js";
-import {
-  runAlign,
-  runFrame,
-  runInfo,
-  runMove,
-  runPen,
-  runRaw,
-  type FrameOptions,
-  type PenPlace,
-} from "./machine-commands.js";
+import type { PlotterPort } from "../../host/plotter/plotter-port.js";
+import { drawingBoxMm } from "../planning/planner.js";
+import { openPlotter } from "../plotter/node-plotter.js";
+import { mustBeDataFolder, withDrawingFile } from "./files.js";
+import { printed, type CliIo } from "./io.js";
 import {
   addData,
   addDevice,
   addHandOptions,
   addJson,
+  length,
   percent,
   type Declare,
   type DeviceOptions,
 } from "./options.js";
+import { serverHint } from "./server-client.js";
 import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
 
 type HandOptions = OptionValues & DeviceOptions;
 
+/** Up, down or a height in percent. */
+type PenHeight = "up" | "down" | number;
+
 export const declarePen: Declare = (command, { io }) => {
-  addHandOptions(command.argument("<where>", "up, down, or a height in percent", penPlace))
+  addHandOptions(command.argument("<where>", "up, down, or a height in percent", penHeight))
     .option("--pen-up <percent>", "height when up (default: 60)", percent)
     .option("--pen-down <percent>", "height when down (default: 30)", percent)
-    .action((where: PenPlace, options: HandOptions) => runPen(where, handSettings(options, io), options, io));
+    .action((where: PenHeight, options: HandOptions) =>
+      byHand(options, io, (plotter, { pen: { upPct, downPct } }) => {
+        const heightPct = where === "up" ? upPct : where === "down" ? downPct : where;
+        // A height in percent counts as down: the next move lifts the pen first.
+        return plotter.pen({ up: where === "up", heightPct });
+      }),
+    );
 };
 
 export const declareAlign: Declare = (command, { io }) => {
-  addHandOptions(command).action((options: HandOptions) => runAlign(handSettings(options, io), options, io));
+  addHandOptions(command).action((options: HandOptions) =>
+    byHand(options, io, async (plotter) => {
+      await plotter.pen({ up: true });
+      await plotter.motorsOff();
+    }),
+  );
 };
 
 export const declareInfo: Declare = (command, { io }) => {
   addJson(addHandOptions(command)).action((options: HandOptions & { json?: boolean }) =>
-    runInfo(handSettings(options, io), options, io),
+    byHand(options, io, (plotter, settings) => {
+      const { name, kind, device, firmware, penUp, motorsOn, xMm, yMm } = plotter.snapshot();
+      if (options.json === true) {
+        io.out(`${printableJson({ name, kind, device, firmware, penUp, motorsOn, xMm, yMm })}\n`);
+        return;
+      }
+      const advice = firmwareAdvice(machineOf(settings), { kind, firmware });
+      io.out(
+        [
+          printed`name      ${name}`,
+          printed`device    ${device ?? kind}`,
+          printed`firmware  ${firmware ?? "not known"}`,
+          `pen       ${penUp === null ? "not known" : penUp ? "up" : "down"}`,
+          `motors    ${motorsOn === null ? "not known" : motorsOn ? "on" : "off"}`,
+          `place     ${xMm === null || yMm === null ? "not known" : `${xMm.toFixed(2)}, ${yMm.toFixed(2)} mm`}`,
+          ...(advice === null ? [] : [`note      ${advice}`]),
+          "",
+        ].join("\n"),
+      );
+    }),
   );
 };
 
+/** Sends one line to the board and prints its answer. Rejects with `board-error` if the board refuses the line. */
 export const declareRaw: Declare = (command, { io }) => {
   addHandOptions(command.argument("<line>", "a command of the board, for example QM")).action(
-    (line: string, options: HandOptions) => runRaw(line, handSettings(options, io), options, io),
+    (line: string, options: HandOptions) =>
+      byHand(options, io, async (plotter) => {
+        const { replies, refused, note } = await plotter.command(line);
+        if (refused) {
+          throw new PlotwrightError("board-error", `The board refused ${line}: ${replies.join(", ")}`);
+        }
+        replies.forEach((reply) => io.out(printed`${reply}\n`));
+        if (note !== null) io.err(printed`${note}\n`);
+      }),
   );
 };
 
@@ -84,13 +122,39 @@ export const declareTestPatch: Declare = (command, { io }) => {
   );
 };
 
+/** Moves around the edge of the drawing on the paper. */
 export const declareFrame: Declare = (command, { io }) => {
   addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"])
     .option("--only <layer...>", "around these layers only, by name, id or leading number")
-    .action((file: string, options: OptionValues & FrameOptions) =>
-      runFrame(file, handSettings(options, io), options, io),
-    );
+    .action(async (file: string, options: HandOptions & { readonly only?: readonly string[] }) => {
+      const settings = handSettings(options, io);
+      const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, settings, options.only));
+      await withInterrupt(options, settings, io, (plotter) =>
+        plotter.move({ kind: "frame", boxMm }, settings),
+      );
+    });
 };
+
+/** Makes one manual move, with the machine, speeds and heights of the settings. */
+const move = (how: HandMove, options: HandOptions, io: CliIo): Promise<void> =>
+  byHand(options, io, (plotter, settings) => plotter.move(how, settings));
+
+const addMove = (command: Command, settings: readonly string[]): Command =>
+  addData(addDevice(addSettingOptions(command, settings)));
+
+function place(command: Command, ...names: readonly string[]): Command {
+  for (const name of names) command.argument(`<${name}>`, "mm, or with a unit as in 2cm", length);
+  return command;
+}
+
+function penHeight(text: string): PenHeight {
+  if (text === "up" || text === "down") return text;
+  const height = text.trim() === "" ? NaN : Number(text.replace(/%$/, ""));
+  if (!(height >= 0 && height <= 100)) {
+    throw new InvalidArgumentError("It must be up, down, or a height of 0 to 100 percent.");
+  }
+  return height;
+}
 
 /** The plotter's settings with the options. Says if they name another model than the plotter's. */
 function handSettings(options: HandOptions, io: CliIo): PlotSettings {
@@ -100,22 +164,47 @@ function handSettings(options: HandOptions, io: CliIo): PlotSettings {
   return settings;
 }
 
-const addMove = (command: Command, settings: readonly string[]): Command =>
-  addData(addDevice(addSettingOptions(command, settings)));
-
-const move = (how: HandMove, options: HandOptions, io: CliIo): Promise<void> =>
-  runMove(how, handSettings(options, io), options, io);
-
-function place(command: Command, ...names: readonly string[]): Command {
-  for (const name of names) command.argument(`<${name}>`, "mm, or with a unit as in 2cm", length);
-  return command;
+function byHand(
+  options: HandOptions,
+  io: CliIo,
+  use: (plotter: PlotterPort, settings: PlotSettings) => Promise<void> | void,
+): Promise<void> {
+  const settings = handSettings(options, io);
+  return withInterrupt(options, settings, io, (plotter) => use(plotter, settings));
 }
 
-function penPlace(text: string): PenPlace {
-  if (text === "up" || text === "down") return text;
-  const height = text.trim() === "" ? NaN : Number(text.replace(/%$/, ""));
-  if (!(height >= 0 && height <= 100)) {
-    throw new InvalidArgumentError("It must be up, down, or a height of 0 to 100 percent.");
+/** For a single command: an interrupt stops the move, and closing the plotter then lifts the pen. */
+async function withInterrupt(
+  options: DeviceOptions,
+  settings: PlotSettings,
+  io: CliIo,
+  use: (plotter: PlotterPort) => Promise<void> | void,
+): Promise<void> {
+  let forget = (): void => undefined;
+  try {
+    await withPlotter(options, settings, (plotter) => {
+      const interrupted = new Promise<never>((_resolve, reject) => {
+        forget = io.onInterrupt(() => reject(new PlotwrightError("cancelled", "The command was stopped.")));
+      });
+      return Promise.race([use(plotter), interrupted]);
+    });
+  } finally {
+    // Only after closing: a second Ctrl-C must not end the process before the pen is up.
+    forget();
   }
-  return height;
+}
+
+export async function withPlotter<T>(
+  options: DeviceOptions,
+  settings: PlotSettings,
+  use: (plotter: PlotterPort) => Promise<T> | T,
+): Promise<T> {
+  const plotter = await openPlotter(options, settings).catch(async (error: unknown) => {
+    throw await serverHint(error);
+  });
+  try {
+    return await use(plotter);
+  } finally {
+    await plotter.close();
+  }
 }

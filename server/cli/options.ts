@@ -1,6 +1,6 @@
 /** Options that several commands have, and how their values are read. */
 import { InvalidArgumentError, Option, type Command } from "commander";
-import { isAllowed, rangeInWords, SPRINGS_TABLE, type Springs } from "../../src/internal.js";
+import { isAllowed, rangeInWords, SPRINGS_TABLE, type Springs, parseLength } from "../../src/internal.js";
 import type { PenChoice } from "../planning/layers-by-name.js";
 import type { CliIo } from "./io.js";
 
@@ -79,7 +79,7 @@ export function percent(text: string): number {
 }
 
 /** Collects the values of --pen LAYER=NAME. */
-export function penChoice(text: string, before: readonly PenChoice[] = []): PenChoice[] {
+function penChoice(text: string, before: readonly PenChoice[] = []): PenChoice[] {
   const at = text.lastIndexOf("=");
   const [layer, pen] = [text.slice(0, at).trim(), text.slice(at + 1).trim()];
   if (at < 0 || layer === "" || pen === "") {
@@ -108,4 +108,11 @@ export function seconds(text: string): number {
   const value = text.trim() === "" ? NaN : Number(text);
   if (!(value >= 0 && value <= 86_400)) throw new InvalidArgumentError("It must be 0 to 86400 seconds.");
   return value;
+}
+
+export function length(text: string): number {
+  const mm = parseLength(text);
+  if (mm === null)
+    throw new InvalidArgumentError("It must be a length in mm, or with a unit as in 2cm or 1in.");
+  return mm;
 }

@@ -73,7 +73,7 @@ export interface PlanReport {
   readonly penError?: PenError;
 }
 
-interface Planned {
+interface PlannedFile {
   readonly report: PlanReport;
   readonly settings: PlotSettings;
   readonly job: PreparedJob;
@@ -123,7 +123,12 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
   else io.err(`${sizeInWords(prepared.size)}\n`);
 }
 
-function planFile(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): Planned {
+function planFile(
+  file: string,
+  base: PlotSettings,
+  options: PlanCommandOptions,
+  io: PlanOutput,
+): PlannedFile {
   const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
   const drawing = importDrawing(basename(file), readDrawing(file));

@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
 import { boardIdSchema, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { makeDataFolder } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
 import { isAlive, thisProcess } from "../storage/process-owner.js";
@@ -28,7 +28,7 @@ const entrySchema = z.object({
 });
 
 /** What is stored of a plot when it begins, beside its drawing. */
-export interface StoredPlot {
+interface StoredPlot {
   readonly name: string;
   readonly settings: PlotSettings;
   /** The layers that are drawn, by name. Absent: all. */

@@ -1,5 +1,5 @@
 /** What `plotwright plot` prints of its progress: a line that changes on a terminal, lines elsewhere, or JSON. */
-import type { PlotProgress } from "../../host/plotter/types.js";
+import type { PlotProgress } from "../../host/plotter/plotter-port.js";
 import { printableJson } from "../../src/internal.js";
 import type { PlotWait } from "../../src/schema/index.js";
 import { printed, type CliIo } from "./io.js";

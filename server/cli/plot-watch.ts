@@ -1,11 +1,11 @@
 /** Progress of a running plot, and the keys that control it. */
 import { OTHER_BOARD } from "../../host/plotter/board-id.js";
-import type { PlotRun } from "../../host/plotter/types.js";
+import type { PlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotWait } from "../../src/schema/index.js";
 import { printed, type CliIo } from "./io.js";
 import type { PlotReport } from "./plot-report.js";
 
-export interface Watched {
+interface Watched {
   readonly report: PlotReport;
   /** Resumed after an interruption: whether the board still knows the position, or is another board. */
   readonly resumed: { readonly position: keyof typeof POSITIONS } | null;

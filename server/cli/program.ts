@@ -3,6 +3,7 @@ import { Command, CommanderError } from "commander";
 import { COMMANDS, DEFAULT_COMMAND } from "./commands.js";
 import { printed, type CliIo } from "./io.js";
 import type { CommandContext } from "./options.js";
+import { PlotwrightError } from "../../src/index.js";
 
 /** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
 const BAD_USAGE = 2;
@@ -88,8 +89,41 @@ function wantedOf(args: readonly string[]): string[] {
 async function mustBeCommand(word: string | undefined): Promise<void> {
   const names = [...COMMANDS.map(({ name }) => name), "help"];
   if (word === undefined || word.startsWith("-") || names.includes(word)) return;
-  const { notACommand } = await import("./first-word.js");
   throw notACommand(word, names);
 }
 
 const oneLine = (text: string): string => text.trim().replace(/\s*\n\s*/g, " ");
+
+const DRAWING = /\.(svg|dxf|hpgl|hpg|plt|json)$/i;
+
+const notACommand = (word: string, commands: readonly string[]): PlotwrightError =>
+  new PlotwrightError("bad-setting", `There is no command ${word}. ${hint(word, commands)}`);
+
+function hint(word: string, commands: readonly string[]): string {
+  if (DRAWING.test(word)) return `To plot a drawing: plotwright plot ${word}`;
+  if (/^\d+$/.test(word)) {
+    return `To choose the port: plotwright --port ${word}, or npm start -- --port ${word} (with -- before the options).`;
+  }
+  if (word === "recover" || word === "resume")
+    return "To continue a drawing that was begun: plotwright plot --resume";
+  if (word === "version") return "To print the version: plotwright --version";
+  const near = nearest(word, commands);
+  if (near !== null) return `Did you mean ${near}?`;
+  return `The commands are ${commands.join(", ")}.`;
+}
+
+/** The command that `word` probably misspells; null if there is none. */
+function nearest(word: string, commands: readonly string[]): string | null {
+  return commands.find((command) => isTypo(word, command) || isTypo(command, word)) ?? null;
+}
+
+/** Whether `a` is `b` with one letter missing or different, or with two neighbouring letters swapped. */
+function isTypo(a: string, b: string): boolean {
+  for (let i = 0; i <= b.length; i++) {
+    const [head, tail] = [b.slice(0, i), b.slice(i + 1)];
+    if (a === head + tail) return true;
+    if (a.length === b.length && a.startsWith(head) && a.endsWith(tail)) return true;
+    if (a === head + b.slice(i + 1, i + 2) + b.slice(i, i + 1) + b.slice(i + 2)) return true;
+  }
+  return false;
+}

@@ -12,10 +12,10 @@ import { printed } from "./io.js";
 import { addData, addJson, addLayerOptions, copies, type Declare } from "./options.js";
 import { minutes } from "./plan.js";
 import { NOTHING_STORED } from "./stored-plotter.js";
-import { addJob, DEFAULT_URL, serverState, type ServerOptions, type ServerState } from "./server-client.js";
+import { addJob, DEFAULT_URL, serverState, type ServerAccess, type ServerState } from "./server-client.js";
 import { addSettingOptions, settingsOver, type OptionValues } from "./settings-options.js";
 
-interface AddOptions extends ServerOptions {
+interface AddOptions extends ServerAccess {
   readonly only?: readonly string[];
   readonly pen?: readonly PenChoice[];
   readonly copies: number;
@@ -85,7 +85,7 @@ const machinesOf =
   };
 
 export const declareQueue: Declare = (command, { io }) => {
-  addJson(addServer(command)).action(async (options: ServerOptions & { json?: boolean }) => {
+  addJson(addServer(command)).action(async (options: ServerAccess & { json?: boolean }) => {
     const state = await serverState(options);
     const waiting = state.jobs.filter((job) => !ENDED_STATES.some((ended) => ended === job.state));
     if (options.json === true) io.out(`${printableJson(waiting)}\n`);

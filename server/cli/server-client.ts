@@ -18,7 +18,7 @@ import {
 
 export const DEFAULT_URL = "http://127.0.0.1:9080";
 
-export interface ServerOptions {
+export interface ServerAccess {
   readonly url: string;
   /** For a server on another computer; created on its page under Sharing, Access. */
   readonly key?: string;
@@ -33,13 +33,13 @@ const stateSchema = z.object({
 });
 export type ServerState = z.infer<typeof stateSchema>;
 
-export async function serverState(options: ServerOptions): Promise<ServerState> {
+export async function serverState(options: ServerAccess): Promise<ServerState> {
   return (await send(options, { ...OPERATIONS.state.get, answer: stateSchema }, {})) as ServerState;
 }
 
 /** Uploads the drawing's file as it is, then adds the job. */
 export async function addJob(
-  options: ServerOptions,
+  options: ServerAccess,
   job: Omit<NewJob, "drawing" | "drawingId">,
   drawing: Buffer<ArrayBuffer>,
 ): Promise<Job> {
@@ -48,7 +48,7 @@ export async function addJob(
   return jobs.add({ ...job, drawingId });
 }
 
-async function send({ url, key }: ServerOptions, one: Operation, input: OperationInput): Promise<unknown> {
+async function send({ url, key }: ServerAccess, one: Operation, input: OperationInput): Promise<unknown> {
   const { path, headers, body, method } = requestOf(one, input);
   const response = await fetch(new URL(path, url), {
     method,

@@ -2,9 +2,13 @@
 import { Command, Option } from "commander";
 import { PlotwrightError } from "../../src/index.js";
 import { addData, addDevice, hostNames, port, positive, springs, type Declare } from "./options.js";
-import { runLogs, type LogsOptions } from "./logs.js";
 import type { ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
+import { OPERATIONS, requestOf } from "../../src/schema/index.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { bundleText, readLog } from "../storage/log-book.js";
+import { mustBeDataFolder, writeOut } from "./files.js";
+import type { CliIo } from "./io.js";
 
 export const declareServe: Declare = (command, { io }) => {
   addServe(command).action(async (options: ServeCommandOptions) => {
@@ -72,4 +76,37 @@ function addServe(command: Command): Command {
     )
     .option("--max-upload-mb <number>", "maximum size of a drawing, MB", positive, 200)
     .option("--open", "open the page in the browser");
+}
+
+interface LogsOptions {
+  readonly data?: string;
+  readonly port: number;
+  readonly out?: string;
+}
+
+const PATIENCE_MS = 3_000;
+
+/** From the running server, with the boards' logs; otherwise from its data folder. */
+export async function runLogs(options: LogsOptions, io: CliIo, version: string): Promise<void> {
+  const { data, port, out = "-" } = options;
+  mustBeDataFolder(data);
+  const text =
+    (data === undefined ? await fromServer(port) : null) ??
+    bundleText({ version, serverLog: readLog(data ?? defaultDataDir()) });
+  writeOut(out, `${text}\n`, io);
+  if (out !== "-") {
+    io.err(`${out} is written. Look through it before you send it.\n`);
+  }
+}
+
+async function fromServer(port: number): Promise<string | null> {
+  try {
+    const response = await fetch(`http://127.0.0.1:${port}${requestOf(OPERATIONS.operator.logs, {}).path}`, {
+      signal: AbortSignal.timeout(PATIENCE_MS),
+    });
+    const text = await response.text();
+    return response.ok && text.startsWith("plotwright ") ? text : null;
+  } catch {
+    return null;
+  }
 }

@@ -29,7 +29,7 @@ export interface ServiceServer {
   readonly host?: string;
 }
 
-export interface CommandResult {
+interface CommandResult {
   readonly code: number;
   readonly text: string;
 }

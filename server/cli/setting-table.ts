@@ -11,7 +11,7 @@ import {
   type PaperSize,
   type PlacedBox,
 } from "../../src/internal.js";
-import { length } from "./lengths.js";
+import { length } from "./options.js";
 
 export interface SettingOption {
   readonly flags: string;

@@ -10,7 +10,7 @@ import { Store } from "../storage/store.js";
 /** Nothing is stored of the plotter. */
 export const NOTHING_STORED: StoredOfPlotter = { machine: null, own: undefined, last: undefined };
 
-export interface StoredChoice {
+interface StoredChoice {
   readonly dataDir: string;
   /** As given by --device. */
   readonly device: string;

@@ -13,7 +13,7 @@ import { noteAddress } from "../storage/data-lock.js";
 import { fileFault } from "../storage/file-fault.js";
 import { LogBook, readLog } from "../storage/log-book.js";
 import { MachineFiles } from "../storage/machine-files.js";
-import { createPlanning } from "../planning/planning.js";
+import { createPlanning } from "../planning/planner.js";
 import { DrawingFiles, UNCLAIMED_DAYS } from "../storage/drawing-files.js";
 import { JobQueue } from "../../host/queue/job-queue.js";
 import { Notices } from "../../host/queue/notices.js";

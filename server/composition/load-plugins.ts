@@ -1,7 +1,6 @@
 /** Loads the plug-ins that the server's options ask for. Others are not imported. */
-import type { PluginCore, ServerPlugin } from "../plugins/server-plugin.js";
+import { type PluginCore, type ServerPlugin, claimsWithoutSharing } from "../plugins/server-plugin.js";
 import type { JobHooks } from "../../host/queue/queue-parts.js";
-import { claimsWithoutSharing } from "../queue/shared-claims.js";
 import type { ServerOptions } from "./server-options.js";
 
 /** The webhooks are first, so that their deliveries are closed even if a later plug-in fails to start. */

@@ -175,7 +175,7 @@ function limitBy(limit: number, keyGenerator: (request: Request) => string, refu
 }
 
 /** Whether the request comes from this computer and this computer needs no pairing. */
-export const isTrusted = (request: IncomingMessage, access: Access): boolean =>
+const isTrusted = (request: IncomingMessage, access: Access): boolean =>
   isTrustedAddress(request.socket.remoteAddress, access);
 
 export const isTrustedAddress = (address: string | undefined, access: Access): boolean =>

@@ -9,7 +9,7 @@ import {
   type OperationHandlers,
   type OperationTable,
 } from "../../src/schema/index.js";
-import { performOperation } from "../../host/operations/perform.js";
+import { performOperation } from "../../host/operations/host-operations.js";
 import type { Requester } from "../../host/planning/lane.js";
 
 /** The handlers of operations that a server offers. */
@@ -25,7 +25,7 @@ export type Responders = {
   >;
 };
 
-export interface RouteParts {
+interface RouteParts {
   readonly handlers: ServerHandlers;
   readonly responders: Responders;
   /** No JSON is larger than a drawing may be. */

@@ -1,12 +1,12 @@
-/** The operations of a server: those of every host, and those about its files, its users and its log. */
-import type { RequestHandler } from "express";
+/** The operations of a server: those of every host, and those about its state, its files, its users and its log. */
+import type { RequestHandler, Request } from "express";
 import { readFile, readdir } from "node:fs/promises";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import type { BoxMm, Pairing } from "../../src/schema/index.js";
+import type { BoxMm, Pairing, Snapshot } from "../../src/schema/index.js";
 import { hostOperations } from "../../host/operations/host-operations.js";
 import { lane } from "../../host/planning/lane.js";
-import { drawingBoxMm } from "../planning/drawing-box.js";
+import { drawingBoxMm } from "../planning/planner.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import { bundleText } from "../storage/log-book.js";
 import type { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
@@ -14,9 +14,27 @@ import type { Access } from "../security/access.js";
 import type { Browsers } from "./browser.js";
 import { jobResponders } from "./job-routes.js";
 import { bytesOf, type Responders, type ServerHandlers } from "./operation-routes.js";
-import { stateResponders, type StateParts } from "./state-routes.js";
+import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
+import type { Notices } from "../../host/queue/notices.js";
+import type { OperatorLock } from "../security/operator-lock.js";
+import type { MachineFiles } from "../storage/machine-files.js";
+import { callerOf } from "./auth.js";
+import type { EventHub } from "./events.js";
 
-export interface ServerParts extends StateParts {
+export interface ServerParts {
+  readonly version: string;
+  readonly queue: JobQueue;
+  readonly registry: PlotterRegistry;
+  readonly hub: EventHub;
+  readonly operatorLock: OperatorLock;
+  readonly notices: Notices;
+  /** Sessions and keys; normally required only of clients on other computers. */
+  readonly access: Access;
+  /** The server's mDNS name, which it accepts as Host; null while it has none. */
+  readonly localName: () => string | null;
+  /** Built-in and custom machine profiles. */
+  readonly machines: MachineFiles;
   readonly files: DrawingFiles;
   readonly uploads: UploadedDrawings;
   /** Operations of the plug-ins that are loaded. */
@@ -123,3 +141,38 @@ function titleOf(name: string): string {
   const words = name.replace(/\.svg$/, "").replaceAll("-", " ");
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
+
+/** `openApi`: the text of the OpenAPI document. */
+const stateResponders = (parts: ServerParts, browsers: Browsers, openApi: () => Promise<string>) => {
+  const { queue, registry, operatorLock, hub } = parts;
+  const snapshot = (): Snapshot => ({
+    version: parts.version,
+    plotters: registry.list(),
+    plotterSettings: registry.settings(),
+    queue: queue.settings(),
+    queues: queue.allSettings(),
+    operator: operatorLock.operator,
+    serverNotices: parts.notices.list(),
+    localName: parts.localName(),
+    machines: parts.machines.list(),
+    ...queue.recent(),
+  });
+  const callerIdOf = (request: Request): string => callerOf(request, parts.access)?.id ?? "";
+  return {
+    openApi: async (_request, response) => {
+      response.type("json").send(await openApi());
+    },
+    get: async (request, response) => {
+      await hub.answer(response, callerIdOf(request), snapshot);
+    },
+    events: async (request, response) => {
+      const browser = browsers.of(request);
+      if (browser !== null) request.on("close", operatorLock.streamOpened(browser.id));
+      await hub.open(request, response, callerIdOf(request), snapshot);
+    },
+    me: (request, response) => {
+      const { id = null, name = null } = browsers.of(request) ?? {};
+      response.json({ role: callerOf(request, parts.access)?.role, id, name });
+    },
+  } satisfies Responders["state"];
+};

@@ -1,12 +1,15 @@
-/** The plotter driver on Node, with the computer's clock and serial ports. */
-import type { Clock } from "../../src/index.js";
-import type { Devices } from "../../host/plotter/devices.js";
+/** The plotter driver on Node, with the computer's clock and serial ports: for programs, and for a command. */
+import { type Clock, PlotwrightError } from "../../src/index.js";
+import type { Devices } from "../../host/plotter/connection.js";
 import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
 import type { PlotterOptions as HostOptions } from "../../host/plotter/plotter-state.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { findBoards } from "../serial/find-boards.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { openSerial } from "../serial/serial-transport.js";
+import { controllerOf, machineOf } from "../../src/internal.js";
+import { FIRST_PLOTTER, NamedPlotter } from "../../host/plotter/named-plotter.js";
+import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 
 export type { PlotterState } from "../../host/plotter/plotter-state.js";
 
@@ -70,4 +73,35 @@ export class PlotterDriver extends HostDriver {
   drawSquare(sizeMm: number, settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "square", sizeMm }, settings);
   }
+}
+
+interface DeviceChoice {
+  /** Serial path or "virtual"; default: the first EiBotBoard. */
+  readonly device?: string | undefined;
+  readonly virtualSpeed?: number | undefined;
+}
+
+/**
+ * Connects one plotter for a command; throws `no-board` if that fails, `bad-setting` for an unknown machine. It never falls
+ * back to the virtual board: a command that silently draws nothing would look as if it had worked.
+ */
+export async function openPlotter(choice: DeviceChoice, settings: PlotSettings): Promise<PlotterPort> {
+  const { device = "auto", virtualSpeed } = choice;
+  // Throws for an unknown machine, which the plotter would report as a board that can't be reached.
+  const machine = machineOf(settings);
+  const plotter = new NamedPlotter(
+    { id: FIRST_PLOTTER, name: null, machine: null },
+    { device, virtualSpeed, virtualIfNone: false, settings, ...NODE_PARTS },
+  );
+  await plotter.start();
+  const { connection, message } = plotter.snapshot();
+  if (connection === "idle") return plotter;
+  await plotter.close();
+  if (connection === "absent" && device === "auto" && controllerOf(machine).usbIds.length > 0) {
+    throw new PlotwrightError(
+      "no-board",
+      "No plotter is plugged in: check its USB cable and its power. To try this without a plotter, add --device virtual.",
+    );
+  }
+  throw new PlotwrightError("no-board", message ?? "The plotter can't be reached.");
 }

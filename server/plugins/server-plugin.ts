@@ -9,7 +9,7 @@ import type { ServerHandlers } from "../http/operation-routes.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { Notices } from "../../host/queue/notices.js";
-import type { JobHooks } from "../../host/queue/queue-parts.js";
+import type { JobHooks, Claims } from "../../host/queue/queue-parts.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import type { Store } from "../storage/store.js";
 import type { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
@@ -29,7 +29,7 @@ export interface RunningPlugin {
   close(): Promise<void> | void;
 }
 
-export interface ServerAddress {
+interface ServerAddress {
   readonly port: number;
   readonly isTls: boolean;
 }
@@ -49,4 +49,21 @@ export interface PluginHost extends PluginCore {
   readonly notices: Notices;
   /** Sets the name that the server answers to and shows to its users; null: none. */
   readonly setLocalName: (name: string | null) => void;
+}
+
+/**
+ * The claims of a server that is not connected to the shared queue. Jobs taken from there can't start, since they may have been given to another server meanwhile.
+ */
+export function claimsWithoutSharing(store: Pick<Store, "unreportedShared">): Claims {
+  return {
+    claim: (jobId) => {
+      const isShared = store.unreportedShared().some((one) => one.jobId === jobId);
+      return Promise.resolve(
+        isShared
+          ? "This job is from the shared queue, so another server may have been given it. Start this server with --shared-queue, or duplicate the job and start the copy."
+          : null,
+      );
+    },
+    release: () => Promise.resolve(),
+  };
 }

@@ -12,7 +12,7 @@ import { PlotwrightError } from "../../src/index.js";
 import { operatorSchema, type Operator } from "../../src/schema/index.js";
 import type { Store } from "../storage/store.js";
 
-export interface OperatorLockParts {
+interface OperatorLockParts {
   readonly store: Pick<Store, "setting" | "saveSetting">;
   readonly announce: (operator: Operator | null) => void;
   readonly log: (line: string) => void;

@@ -1,8 +1,9 @@
 import { usbIds, type UsbId } from "../../src/internal.js";
-import type { FoundBoard } from "../../host/plotter/devices.js";
-import { sysfsPorts, type UsbPort } from "./sysfs-ports.js";
+import type { FoundBoard } from "../../host/plotter/connection.js";
+import { readdirSync, readFileSync, realpathSync } from "node:fs";
+import path from "node:path";
 
-export type { FoundBoard } from "../../host/plotter/devices.js";
+export type { FoundBoard } from "../../host/plotter/connection.js";
 
 /** All boards on USB with these ids, sorted by path; default: those that some driver knows. */
 export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<readonly FoundBoard[]> {
@@ -33,3 +34,49 @@ async function serialPorts(): Promise<readonly UsbPort[]> {
 
 const isMissingProgram = (error: unknown): boolean =>
   error instanceof Error && "code" in error && error.code === "ENOENT";
+
+/** A serial port, with what its USB device says of itself; undefined if it says nothing. */
+export interface UsbPort {
+  readonly path: string;
+  readonly vendorId?: string | undefined;
+  readonly productId?: string | undefined;
+  readonly manufacturer?: string | undefined;
+  readonly serialNumber?: string | undefined;
+}
+
+/**
+ * The modems (ttyACM*) under `root`. Each one's `device` is a link to an interface of the USB device, and the folder
+ * above it has the ids and names of the device.
+ */
+export function sysfsPorts(root = "/sys/class/tty"): readonly UsbPort[] {
+  return folderNames(root).flatMap((name) => {
+    if (!name.startsWith("ttyACM")) return [];
+    const read = (file: string): string | undefined => textOf(path.join(root, name, "device"), file);
+    return [
+      {
+        path: `/dev/${name}`,
+        vendorId: read("idVendor"),
+        productId: read("idProduct"),
+        manufacturer: read("manufacturer"),
+        serialNumber: read("serial"),
+      },
+    ];
+  });
+}
+
+function folderNames(folder: string): readonly string[] {
+  try {
+    return readdirSync(folder);
+  } catch {
+    return [];
+  }
+}
+
+/** Undefined if the device has no such file, or was unplugged meanwhile. */
+function textOf(device: string, file: string): string | undefined {
+  try {
+    return readFileSync(path.join(realpathSync(device), "..", file), "utf8").trim();
+  } catch {
+    return undefined;
+  }
+}

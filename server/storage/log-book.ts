@@ -67,7 +67,7 @@ export function readLog(dataDir: string): string {
   return [`${logPath(dataDir)}.1`, logPath(dataDir)].map(readOrNothing).join("");
 }
 
-export interface LogBundle {
+interface LogBundle {
   readonly version: string;
   readonly serverLog: string;
   readonly jobs?: readonly Job[];

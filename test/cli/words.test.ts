@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { optionsTakenByNpm } from "../../scripts/setup.mjs";
 import { parseSize } from "../../src/internal.js";
-import { length } from "../../server/cli/lengths.js";
+import { length } from "../../server/cli/options.js";
 import { buildProgram } from "../../server/cli/program.js";
 import { settingsFromOptions } from "../../server/cli/settings-options.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";

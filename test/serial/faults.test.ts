@@ -4,7 +4,7 @@ import { once } from "node:events";
 import { chmodSync } from "node:fs";
 import { describe, expect, it, type TestContext } from "vitest";
 import { PlotterDriver, type PlotterState } from "../../server/plotter/node-plotter.js";
-import type { JournalEntry, LivePlotRun } from "../../host/plotter/types.js";
+import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { childScript } from "../support/child-script.js";

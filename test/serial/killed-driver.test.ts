@@ -7,7 +7,7 @@ import { once } from "node:events";
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { JOURNAL_S, PROGRESS_S } from "../../host/plotter/place-left.js";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { childScript } from "../support/child-script.js";
 import { untilIdle, untilUnderWay, waitS } from "../support/faulty-plots.js";

@@ -6,7 +6,7 @@ import { fork } from "node:child_process";
 import { once } from "node:events";
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { machineById, planJob } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";
 import { childScript } from "../support/child-script.js";

@@ -3,7 +3,7 @@
  * waits endlessly. A host that is busy for seconds at any command is no fault at all.
  */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { VirtualBoard } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";

@@ -2,8 +2,7 @@ import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node
 import os from "node:os";
 import path from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { findBoards } from "../../server/serial/find-boards.js";
-import { sysfsPorts } from "../../server/serial/sysfs-ports.js";
+import { findBoards, sysfsPorts } from "../../server/serial/find-boards.js";
 
 let root: string;
 

@@ -1,7 +1,7 @@
 /** A Grbl whose lines and answers are lost, doubled or damaged on their way: nothing waits forever, nothing is left out. */
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { GrblSession } from "../../src/drivers/grbl/machine/session.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { LineFault } from "../../src/drivers/grbl/virtual/virtual-settings.js";

@@ -1,6 +1,6 @@
 /** A plotter with a Grbl that fails, or is stopped, at an awkward moment: nothing waits forever, and it works again. */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry, LivePlotRun } from "../../host/plotter/types.js";
+import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { Place, StrokeSet } from "../../src/index.js";
 import { pointOfPlace } from "../../src/internal.js";

@@ -5,7 +5,7 @@
  */
 import { describe, expect, it } from "vitest";
 import { JOURNAL_S, PROGRESS_S } from "../../host/plotter/place-left.js";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { StrokeSet } from "../../src/index.js";
 import { leavesDrawingMm, machineOf } from "../../src/internal.js";

@@ -5,7 +5,7 @@ import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import { SERVER_STOPPED } from "../../host/queue/running-plots.js";
-import type { Planning } from "../../server/planning/planning.js";
+import type { Planning } from "../../host/planning/planning.js";
 import type { Claims } from "../../host/queue/queue-parts.js";
 import type { Store } from "../../server/storage/store.js";
 import { PlotwrightError } from "../../src/index.js";

@@ -1,7 +1,7 @@
 /** A plot that is interrupted and resumed on another board, which was used before and so knows a position of its own. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { VirtualBoard } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";

@@ -1,7 +1,7 @@
 /** Hold and emergency stop: what they leave on the paper, and where the motors end. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { PlannedPlot, PlanRequest } from "../../host/planning/plot-planner.js";
+import type { PlannedPlot, PlanRequest } from "../../host/planning/planning.js";
 import type { StrokeSet } from "../../src/index.js";
 import { MOTION_MODES, type MotionMode } from "../../src/internal.js";
 import { cases } from "../support/full-run.js";

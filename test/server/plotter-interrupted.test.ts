@@ -3,8 +3,8 @@
  * and no more is drawn twice than the board can have drawn since its last certain position.
  */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry } from "../../host/plotter/types.js";
-import type { Devices } from "../../host/plotter/devices.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
+import type { Devices } from "../../host/plotter/connection.js";
 import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
 import { VirtualBoard, type PlotwrightError, type StrokeSet, type Transport } from "../../src/index.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";

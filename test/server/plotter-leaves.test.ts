@@ -1,7 +1,7 @@
 /** Closing a plotter: in the middle of an action, with its board lost, or with two requests at once. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DRAWING, expectDrawn, plotting, settingsOf } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";

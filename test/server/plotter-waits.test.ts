@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { JournalEntry, PlotProgress, PlotStart } from "../../host/plotter/types.js";
+import type { JournalEntry, PlotProgress, PlotStart } from "../../host/plotter/plotter-port.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings, type PlotWait } from "../../src/schema/index.js";
 import { layeredStrokes, LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";

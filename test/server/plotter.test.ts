@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { JournalEntry, PlotProgress } from "../../host/plotter/types.js";
+import type { JournalEntry, PlotProgress } from "../../host/plotter/plotter-port.js";
 import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type HandMove, type PlotSettings } from "../../src/schema/index.js";

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { PlotProgress } from "../../host/plotter/types.js";
+import type { PlotProgress } from "../../host/plotter/plotter-port.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";

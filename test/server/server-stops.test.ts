@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { JobQueue } from "../../host/queue/job-queue.js";
-import type { PlotPlanner } from "../../host/planning/plot-planner.js";
+import type { PlotPlanner } from "../../host/planning/planning.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";

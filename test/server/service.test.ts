@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import type { CliIo } from "../../server/cli/io.js";
 import { runCli } from "../../server/cli/program.js";
-import { runLogs } from "../../server/cli/logs.js";
+import { runLogs } from "../../server/cli/server-commands.js";
 import {
   installService,
   isListening,

@@ -1,6 +1,6 @@
 /** Jobs that a server has taken from the shared queue: what it does with one that it can't add, and after a restart. */
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import type { Planning } from "../../server/planning/planning.js";
+import type { Planning } from "../../host/planning/planning.js";
 import { SharedQueue } from "../../server/plugins/shared-queue/shared-queue.js";
 import { SharedStore } from "../../server/plugins/shared-queue/shared-store.js";
 import { prepareDataDir } from "../../server/storage/data-dir.js";

@@ -4,7 +4,7 @@
  * supply is measured between two commands, so a failure within one command, or while the pen is lifted, is not found.
  */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/types.js";
+import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/plotter-port.js";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";

@@ -1,7 +1,7 @@
 /** Emergency stops at awkward instants: pressed twice, together with a fault, before a move has begun, on old firmware. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/types.js";
+import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/plotter-port.js";
 import { moveByHand } from "../../host/plotter/hand-moves.js";
 import {
   machineById,

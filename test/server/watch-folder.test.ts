@@ -17,7 +17,7 @@ import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { JobQueue } from "../../host/queue/job-queue.js";
 import { Notices } from "../../host/queue/notices.js";
-import type { Planning } from "../../server/planning/planning.js";
+import type { Planning } from "../../host/planning/planning.js";
 import { Store } from "../../server/storage/store.js";
 import { withDrawing } from "../../server/plugins/watch-folder/watched-file.js";
 import { WatchFolder } from "../../server/plugins/watch-folder/watch-folder.js";

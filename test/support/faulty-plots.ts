@@ -4,7 +4,7 @@
  * compared with the drawing.
  */
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { JournalEntry, LivePlotRun } from "../../host/plotter/types.js";
+import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError, StrokeSet } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { compareDrawn, type DrawnTruth } from "./drawn-truth.js";

@@ -1,7 +1,7 @@
 /** A plotter whose machine has a virtual Grbl, on a manual clock and over a connection that a test can disturb. */
 import { expect } from "vitest";
 import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
-import type { PlotStart } from "../../host/plotter/types.js";
+import type { PlotStart } from "../../host/plotter/plotter-port.js";
 import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { VirtualGrblOptions } from "../../src/drivers/grbl/virtual/virtual-settings.js";

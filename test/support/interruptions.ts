@@ -4,7 +4,7 @@
  */
 import { placeLeft } from "../../host/plotter/place-left.js";
 import { MachinePlot } from "../../host/plotter/plot-run.js";
-import type { JournalEntry } from "../../host/plotter/types.js";
+import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { streamOf } from "../../src/drivers/ebb/compile/command-stream.js";
 import { driver as ebbDriver } from "../../src/drivers/ebb/controller.js";
 import { commandLine, VirtualBoard, type Place, type StrokeSet, type Transport } from "../../src/index.js";

@@ -2,7 +2,7 @@
 import { simplifyLines } from "../../src/prepare/simplify.js";
 import { expect } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import type { LivePlotRun } from "../../host/plotter/types.js";
+import type { LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { StrokeSet, VirtualBoard } from "../../src/index.js";
 import type { MotionMode } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";

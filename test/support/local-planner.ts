@@ -1,7 +1,7 @@
 import type { StrokeSet } from "../../src/index.js";
 import { machineOf, type StrokeLayer } from "../../src/internal.js";
 import { planAndCompile } from "../../host/planning/stages.js";
-import type { PlannedPlot, PlanRequest, PlotPlanner } from "../../host/planning/plot-planner.js";
+import type { PlannedPlot, PlanRequest, PlotPlanner } from "../../host/planning/planning.js";
 
 /** A planner without its worker thread: the same stages, in the test's own thread. */
 export class LocalPlanner implements PlotPlanner {

@@ -1,6 +1,6 @@
 /** A plot on a virtual board that a test has made, without a plotter driver around it. */
 import { MachinePlot } from "../../host/plotter/plot-run.js";
-import type { LivePlotRun, PlotProgress } from "../../host/plotter/types.js";
+import type { LivePlotRun, PlotProgress } from "../../host/plotter/plotter-port.js";
 import { driver as ebbDriver } from "../../src/drivers/ebb/controller.js";
 import type { StrokeSet, Trajectory, VirtualBoard } from "../../src/index.js";
 import type { Machine } from "../../src/internal.js";

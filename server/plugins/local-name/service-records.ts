@@ -3,7 +3,7 @@
 /// <reference path="./multicast-dns.d.ts" />
 import type { DnsPacket, DnsQuestion, DnsRecord } from "multicast-dns";
 
-export interface AnnouncedService {
+interface AnnouncedService {
   /** "plotwright-2.local" */
   readonly host: string;
   /** "_http._tcp.local" */

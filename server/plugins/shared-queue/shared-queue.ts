@@ -5,7 +5,7 @@
  * that a job taken just before a crash is added only once.
  */
 import { z } from "zod";
-import { PlotwrightError } from "../../../src/index.js";
+import { PlotwrightError, type ErrorCode } from "../../../src/index.js";
 import {
   nameSchema,
   givenSettingsSchema,
@@ -19,10 +19,9 @@ import type { DrawingFiles } from "../../storage/drawing-files.js";
 import type { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Store } from "../../storage/store.js";
 import { isDiskFault } from "../../../host/disk-fault.js";
-import { isDrawingFault } from "../drawing-fault.js";
 import type { SharedStore, TakenJob } from "./shared-store.js";
 
-export interface SharedParts {
+interface SharedParts {
   readonly shared: SharedStore;
   /** Stored in the data folder, so that the server finds the jobs it took before a restart. */
   readonly serverId: string;
@@ -48,7 +47,7 @@ const payloadSchema = z.object({
   settings: givenSettingsSchema.default({}),
 });
 
-export interface SentJob {
+interface SentJob {
   readonly name: string;
   /** The drawing's text. */
   readonly drawing: string;
@@ -309,3 +308,10 @@ async function startIfFree(queue: JobQueue, id: string): Promise<void> {
     if (!(error instanceof PlotwrightError)) throw error;
   }
 }
+
+/** `too-large` is missing: it depends on what else uses this computer's memory now. */
+const DRAWING_FAULTS: readonly ErrorCode[] = ["bad-file", "bad-setting", "out-of-bounds"];
+
+/** Whether the drawing or its settings are at fault, so that plotting it would fail again, on any server. */
+const isDrawingFault = (error: unknown): boolean =>
+  error instanceof PlotwrightError && DRAWING_FAULTS.includes(error.code);

@@ -18,7 +18,7 @@ export interface TakenJob {
   readonly payload: string;
 }
 
-export interface Taker {
+interface Taker {
   readonly serverId: string;
   /** Name shown to users. */
   readonly server: string;

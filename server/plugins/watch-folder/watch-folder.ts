@@ -30,7 +30,7 @@ import type { Notices } from "../../../host/queue/notices.js";
 import type { Store } from "../../storage/store.js";
 import { settingsText, withDrawing, type WatchedDrawing } from "./watched-file.js";
 
-export interface WatchParts {
+interface WatchParts {
   readonly queue: Pick<JobQueue, "add" | "list" | "firstPlotter" | "settingsOf">;
   readonly files: DrawingFiles;
   readonly store: Pick<Store, "isSeen" | "saveSeen">;

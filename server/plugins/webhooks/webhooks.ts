@@ -17,7 +17,7 @@ import { PlotwrightError } from "../../../src/index.js";
 import type { Job, NewWebhook, Webhook, WebhookEvent, WebhookMessage } from "../../../src/schema/index.js";
 import type { Delivery, WebhookStore } from "./webhook-store.js";
 
-export interface WebhookParts {
+interface WebhookParts {
   readonly store: WebhookStore;
   readonly plotterName: (id: string) => string;
   readonly log: (line: string) => void;

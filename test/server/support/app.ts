@@ -22,7 +22,7 @@ import { WebhookStore } from "../../../server/plugins/webhooks/webhook-store.js"
 import type { Operation, ServerEvent } from "../../../src/schema/index.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
-import type { Planning } from "../../../server/planning/planning.js";
+import type { Planning } from "../../../host/planning/planning.js";
 import { UploadedDrawings } from "../../../host/queue/uploaded-drawings.js";
 import { Store } from "../../../server/storage/store.js";
 import { Access } from "../../../server/security/access.js";

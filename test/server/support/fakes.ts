@@ -1,15 +1,15 @@
 /** A plotter and a planner without hardware or threads, controlled by the test. */
-import type { ManagedPlotter } from "../../../host/plotter/plotter-port.js";
-import type { Planning } from "../../../server/planning/planning.js";
-import type { PlotPlanner } from "../../../host/planning/plot-planner.js";
 import type {
+  ManagedPlotter,
   JournalEntry,
   LivePlotRun,
   PlotChange,
   PlotOutcome,
   PlotProgress,
   PlotStart,
-} from "../../../host/plotter/types.js";
+} from "../../../host/plotter/plotter-port.js";
+import type { Planning } from "../../../host/planning/planning.js";
+import type { PlotPlanner } from "../../../host/planning/planning.js";
 import type { Place } from "../../../src/index.js";
 import type { CommandAnswer, HandMove, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
 import { STATS } from "./jobs.js";

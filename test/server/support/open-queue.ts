@@ -5,7 +5,7 @@ import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Claims } from "../../../host/queue/queue-parts.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
 import { Store } from "../../../server/storage/store.js";
-import type { Planning } from "../../../server/planning/planning.js";
+import type { Planning } from "../../../host/planning/planning.js";
 import type { ServerEvent } from "../../../src/schema/index.js";
 import { LED_PLANNING, LedPlotter } from "./fakes.js";
 

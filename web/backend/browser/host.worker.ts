@@ -3,7 +3,7 @@
  * host's page is closed or dies, its lock is released, and the next worker takes over from the stored state.
  */
 import { faultOf } from "../../../host/planning/messages.js";
-import { performOperation } from "../../../host/operations/perform.js";
+import { performOperation } from "../../../host/operations/host-operations.js";
 import { PlotwrightError } from "../../../src/index.js";
 import { OPERATIONS, type Operation, type OperationTable } from "../../../src/schema/index.js";
 import { hasLocks, provideRandomIds } from "./capabilities.js";
