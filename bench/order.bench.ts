@@ -14,7 +14,7 @@ import {
   type StrokeSet,
 } from "../src/index.js";
 import { NearestPoints, PointGrid } from "../src/geometry/point-grid.js";
-import { randomFrom } from "../src/prepare/random.js";
+import { randomFrom } from "../src/prepare/work.js";
 import { drawingOf } from "../test/support/drawings.js";
 
 type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;

@@ -18,9 +18,9 @@ export { prepare, type Prepared } from "./prepare/prepare.js";
 export { DEFAULT_PREPARE, type PrepareSettings } from "./settings/prepare.js";
 export type { Work } from "./prepare/work.js";
 export { PAPER_SIZES } from "./drawing/paper.js";
-export { strokesOf, type Line } from "./drawing/lines.js";
+export { strokesOf, type Line } from "./drawing/stroke-set.js";
 export type { StrokeSet } from "./drawing/stroke-set.js";
-export { checkBounds } from "./prepare/check-bounds.js";
+export { checkBounds } from "./prepare/on-paper.js";
 export { toSvg } from "./export/strokes-to-svg.js";
 
 // Plan: strokes to motion

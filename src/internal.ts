@@ -72,13 +72,13 @@ export {
   valuesInWords,
   type SettingFlag,
 } from "./settings/tables.js";
-export { QUALITIES, type Quality } from "./settings/quality.js";
-export { SPRINGS_TABLE } from "./settings/springs.js";
-export { STREAM_TABLE } from "./settings/stream.js";
+export { QUALITIES, type Quality } from "./settings/motion.js";
+export { SPRINGS_TABLE } from "./settings/machine.js";
+export { STREAM_TABLE } from "./settings/machine.js";
 
 // prepare
 export { boxOfPoints, isEmptyBox, type Box } from "./geometry/box.js";
-export { isReached, unreachedCount } from "./prepare/check-bounds.js";
+export { isReached, unreachedCount } from "./prepare/on-paper.js";
 export {
   canBePaper,
   isOnFilesPage,
@@ -124,7 +124,7 @@ export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-h
 
 // job
 export { prepareJob, type PreparedJob } from "./job/prepare-job.js";
-export { unusedSettings } from "./job/unused-settings.js";
+export { unusedSettings } from "./job/prepare-job.js";
 
 // drivers
 export type { BoardState } from "./drivers/ebb/compile/command-stream.js";

@@ -36,6 +36,8 @@ export type LengthUnit = (typeof LENGTH_UNITS)[number];
 /** Rounded, because 8.5 in must be 215.9 mm, not 215.89999999999998. */
 export const mmFromLength = (length: number, unit: keyof typeof MM_PER_UNIT): number =>
   Number((length * MM_PER_UNIT[unit]).toFixed(9));
+/** Rounded to 0.1 mm, for messages. */
+export const mmInWords = (mm: number): string => String(Math.round(mm * 10) / 10);
 export const lengthFromMm = (mm: number, unit: LengthUnit): number => mm / MM_PER_UNIT[unit];
 
 const isUnit = (word: string): word is keyof typeof MM_PER_UNIT => Object.hasOwn(MM_PER_UNIT, word);

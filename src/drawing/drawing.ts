@@ -57,6 +57,12 @@ export interface DrawingPaths {
 export const isBackground = ({ background }: DrawingPaths, shape: number): boolean =>
   background?.[shape] === 1;
 
+/** How fast a shape or stroke is drawn, as a share of the usual speed. */
+export const MIN_SPEED_FACTOR = 0.01;
+
+export const isSpeedFactor = (value: unknown): value is number =>
+  typeof value === "number" && value >= MIN_SPEED_FACTOR && value <= 1;
+
 /** The curves of one shape or clip. */
 export type Curves = Pick<DrawingPaths, "verbs" | "coords">;
 

@@ -5,7 +5,16 @@ import { flattenCubic } from "../geometry/cubic.js";
 import { PointBuffer } from "../geometry/growable.js";
 import { LineBuilder, lineCount } from "../geometry/polyline.js";
 import { cleanRings, ringOfLine } from "../geometry/region.js";
-import { RULE_EVENODD, VERB_CLOSE, VERB_CUBIC, VERB_MOVE, type ClipRegion, type Curves } from "./drawing.js";
+import {
+  RULE_EVENODD,
+  VERB_CLOSE,
+  VERB_CUBIC,
+  VERB_MOVE,
+  type ClipRegion,
+  type Curves,
+  PAIRS_OF_VERB,
+} from "./drawing.js";
+import { getOrAdd } from "../get-or-add.js";
 
 const chords = new PointBuffer(1024);
 
@@ -79,11 +88,45 @@ export function ringsOfClip(clip: Omit<ClipRegion, "parent">, map: Affine, toler
     const subpath = lines.tag[i];
     const rule = clip.rule[subpath] === RULE_EVENODD ? FillRule.EvenOdd : FillRule.NonZero;
     const key = `${rule} ${clip.shape?.[subpath] ?? ""}`;
-    const shape = shapes.get(key);
-    if (shape === undefined) shapes.set(key, { rings: [ringOfLine(lines, i)], rule });
-    else shape.rings.push(ringOfLine(lines, i));
+    getOrAdd(shapes, key, () => ({ rings: [], rule })).rings.push(ringOfLine(lines, i));
   }
   const filled = [...shapes.values()].map(({ rings, rule }) => cleanRings(rings, rule));
   // Clean rings wind in the same direction, so overlapping shapes do not cancel.
   return filled.length === 1 ? filled[0] : cleanRings(filled.flat(), FillRule.NonZero);
+}
+
+/** Max gap between chords and the curves of a shape or clip. Straight lines stay as they are. */
+export const gapOf = ({ verbs }: Pick<Curves, "verbs">, toleranceMm: number): number =>
+  verbs.includes(VERB_CUBIC) ? toleranceMm : 0;
+
+interface Subpath {
+  /** x, y, x, y …; the line that closes it is left out. */
+  readonly xy: Float64Array;
+  readonly isClosed: boolean;
+}
+
+/**
+ * The subpaths of a shape, point by point.
+ *
+ * @param tolerance max gap between a curve and its chords, in the units of `coords`
+ */
+export function subpathsOf({ verbs, coords }: Curves, tolerance: number): Subpath[] {
+  const subpaths: Subpath[] = [];
+  const points = new PointBuffer();
+  const end = (isClosed: boolean): void => {
+    if (points.length > 0) subpaths.push({ xy: points.toArray(), isClosed });
+    points.clear();
+  };
+  let at = 0;
+  for (const verb of verbs) {
+    if (verb === VERB_MOVE) end(false);
+    const [a, b, c, d, e, f] = coords.subarray(at, at + 6);
+    if (verb === VERB_CLOSE) end(true);
+    else if (verb === VERB_CUBIC)
+      flattenCubic(points, coords[at - 2], coords[at - 1], a, b, c, d, e, f, tolerance);
+    else points.push(a, b);
+    at += 2 * PAIRS_OF_VERB[verb];
+  }
+  end(false);
+  return subpaths;
 }

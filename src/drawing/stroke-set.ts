@@ -49,3 +49,69 @@ export const checkStrokes = (call: string, strokes: StrokeSet): void =>
     ["xy", "offsets", "layer", "layers"],
     "prepare(drawing).strokes or strokesOf(lines)",
   );
+
+/** The value of a layer in a record by layer id. Ids come from files, so an id may be "constructor". */
+export const setFor = <T>(record: Readonly<Record<string, T>>, id: string): T | undefined =>
+  Object.hasOwn(record, id) ? record[id] : undefined;
+
+/** A copy of `strokes.xy` in which the strokes of each layer are moved; `strokes.xy` itself if no layer has an offset. */
+export function shiftedXy(
+  { xy, offsets, layer, layers }: StrokeSet,
+  offsetOf: (layer: StrokeLayer) => StrokeLayer["shiftMm"],
+): Float64Array {
+  const shifts = layers.map(offsetOf);
+  if (shifts.every((shift) => shift === undefined)) return xy;
+  const shifted = xy.slice();
+  layer.forEach((k, i) => {
+    const { x, y } = shifts[k] ?? { x: 0, y: 0 };
+    for (let p = offsets[i]; p < offsets[i + 1]; p++) {
+      shifted[2 * p] += x;
+      shifted[2 * p + 1] += y;
+    }
+  });
+  return shifted;
+}
+
+/** Where the ink lies: without the corrections for off-centre pens, which only concern the plotter. */
+export const inkXy = (strokes: StrokeSet): Float64Array =>
+  shiftedXy(strokes, ({ shiftMm }) => shiftMm && { x: -shiftMm.x, y: -shiftMm.y });
+
+/** Points of one line in drawing order, mm from home. */
+export type Line = readonly (readonly [x: number, y: number])[];
+
+const ONE_LAYER: StrokeLayer = { id: "lines", name: "Lines", color: null };
+
+/**
+ * Strokes of one layer from lines of points, in their order. A line of one point is a dot.
+ *
+ * @throws TypeError for anything but lines of points
+ * @throws RangeError for a line without points, and for a coordinate that is not a finite number.
+ */
+export function strokesOf(lines: readonly Line[], layer: StrokeLayer = ONE_LAYER): StrokeSet {
+  checkLines(lines);
+  const offsets = new Uint32Array(lines.length + 1);
+  lines.forEach((line, index) => {
+    if (line.length === 0) throw new RangeError(`line ${index} has no points: leave it out`);
+    offsets[index + 1] = offsets[index] + line.length;
+  });
+  const xy = new Float64Array(2 * offsets[lines.length]);
+  let at = 0;
+  lines.forEach((line, index) => {
+    for (const [x, y] of line) {
+      if (!Number.isFinite(x) || !Number.isFinite(y)) {
+        throw new RangeError(`line ${index} has the point ${x}, ${y}: both must be finite numbers of mm`);
+      }
+      xy[at++] = x;
+      xy[at++] = y;
+    }
+  });
+  return { xy, offsets, layer: new Uint16Array(lines.length), layers: [layer] };
+}
+
+function checkLines(lines: unknown): void {
+  const isLine = (line: unknown): boolean => Array.isArray(line) && line.every(Array.isArray);
+  if (Array.isArray(lines) && lines.every(isLine)) return;
+  throw new TypeError(
+    "strokesOf takes a list of lines, each a list of points [x, y] in mm: strokesOf([[[0, 0], [10, 10]]]).",
+  );
+}

@@ -1,6 +1,5 @@
 /** The prepared drawing as JSON: polylines in mm in drawing order, layer by layer, for other programs. */
-import { strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
-import { linesOnPaper } from "./lines-on-paper.js";
+import { strokeCount, type StrokeSet, inkXy } from "../drawing/stroke-set.js";
 
 interface StrokesJson {
   readonly format: "plotwright-strokes";
@@ -21,7 +20,7 @@ interface StrokesJson {
 
 /** Coordinates are rounded to 1 µm. */
 export function toJson(strokes: StrokeSet, paper: { widthMm: number; heightMm: number }): StrokesJson {
-  const xy = linesOnPaper(strokes);
+  const xy = inkXy(strokes);
   const layers = strokes.layers.map(({ id, name, color }) => ({
     id,
     name,

@@ -1,7 +1,6 @@
 /** The prepared drawing as an SVG that matches the plot: same strokes, order and layers, in mm. */
 import { checkObject } from "../check-arguments.js";
-import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
-import { linesOnPaper } from "./lines-on-paper.js";
+import { checkStrokes, strokeCount, type StrokeSet, inkXy } from "../drawing/stroke-set.js";
 import { mmText, pathData, svgOpening, xmlText } from "./svg-text.js";
 
 /** What the SVG of `toSvg` shows besides the lines. */
@@ -38,7 +37,7 @@ export function toSvg(strokes: StrokeSet, options: SvgOptions): string {
   );
   const parts = [svgOpening(options.widthMm, options.heightMm)];
   const count = strokeCount(strokes);
-  const xy = linesOnPaper(strokes);
+  const xy = inkXy(strokes);
   for (let i = 0, next = 0; i < count; i = next) {
     const layer = strokes.layer[i];
     parts.push(layerOpening(strokes, layer, options));

@@ -78,3 +78,33 @@ export function boxOfPoints(xy: ArrayLike<number>, from = 0, to = xy.length): Bo
   }
   return { x0, y0, x1, y1 };
 }
+
+/**
+ * The part of the line (x0, y0) + t (x1 − x0, y1 − y0) in a box, `from` ≤ t ≤ `to`; null if it misses the box. Points on
+ * the border count as inside. Each side of the box bounds t from below, where the line enters, or from above, where it
+ * leaves: the part from the largest entry to the smallest exit is inside.
+ * (Y.-D. Liang, B. A. Barsky, "A New Concept and Method for Line Clipping", ACM TOG 3(1), 1984)
+ */
+export function insideRange(
+  x0: number,
+  y0: number,
+  x1: number,
+  y1: number,
+  box: Box,
+  from = 0,
+  to = 1,
+): [enter: number, leave: number] | null {
+  let [enter, leave] = [from, to];
+  // t · rate ≤ room, with the rate towards the side and the distance to it.
+  for (const [rate, room] of [
+    [x0 - x1, x0 - box.x0],
+    [x1 - x0, box.x1 - x0],
+    [y0 - y1, y0 - box.y0],
+    [y1 - y0, box.y1 - y0],
+  ]) {
+    if (rate < 0) enter = Math.max(enter, room / rate);
+    else if (rate > 0) leave = Math.min(leave, room / rate);
+    else if (room < 0) return null;
+  }
+  return enter <= leave ? [enter, leave] : null;
+}

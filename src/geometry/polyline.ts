@@ -182,6 +182,9 @@ export function distance(x0: number, y0: number, x1: number, y1: number): number
   return Math.sqrt(dx * dx + dy * dy);
 }
 
+export const clamp = (value: number, low: number, high: number): number =>
+  Math.min(Math.max(value, low), high);
+
 /** The number at the share `t` between two numbers; exactly the second one for 1. */
 export const mix = (from: number, to: number, t: number): number => (t === 1 ? to : from + t * (to - from));
 

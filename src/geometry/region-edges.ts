@@ -16,8 +16,7 @@
  */
 import Flatbush from "flatbush";
 import type { Paths64 } from "clipper2-ts";
-import { boxOfPoints } from "./box.js";
-import { insideRange } from "./clip.js";
+import { boxOfPoints, insideRange } from "./box.js";
 import { SAME_POINT, isClosedLine, mix, type Lines } from "./polyline.js";
 
 /** A line this close to an edge lies on it, mm: far below any pen width, above all rounding. */
@@ -282,8 +281,7 @@ function partAround(
   const du = (dx * ex + dy * ey) / length;
   const dv = (dy * ex - dx * ey) / length;
   const around = { x0: -onEdge, y0: -onEdge, x1: length + onEdge, y1: onEdge };
-  const range = insideRange(u, v, u + du, v + dv, around);
-  return range === null ? null : [range[0], range[1]];
+  return insideRange(u, v, u + du, v + dv, around);
 }
 
 const isWhole = ([from, to]: Part): boolean => from === 0 && to === 1;

@@ -7,7 +7,7 @@
  */
 import { VERB_CUBIC, type ClipRegion } from "../drawing/drawing.js";
 import { boxContains, boxOfPoints, grownBox, type Box } from "../geometry/box.js";
-import { getOrAdd } from "./get-or-add.js";
+import { getOrAdd } from "../get-or-add.js";
 
 export type ClipShapes = Required<Omit<ClipRegion, "parent">>;
 

@@ -4,7 +4,7 @@
 /** CSS colours to "#rrggbb" and an opacity. */
 import "culori/css";
 import { clampRgb, converter, formatHex, parse } from "culori/fn";
-import { remembered } from "./get-or-add.js";
+import { remembered } from "../get-or-add.js";
 
 export interface Color {
   /** "#rrggbb", lower case. */

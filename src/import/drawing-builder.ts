@@ -13,7 +13,7 @@ import { IDENTITY, type Affine } from "../geometry/affine.js";
 import { boxOfPoints, EMPTY_BOX, intersectBoxes, isEmptyBox, uniteBoxes, type Box } from "../geometry/box.js";
 import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
-import { getOrAdd } from "./get-or-add.js";
+import { getOrAdd } from "../get-or-add.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
 import type { Warnings } from "./warnings.js";
 

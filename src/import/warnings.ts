@@ -2,7 +2,7 @@
 import type { DrawingWarning } from "../drawing/drawing.js";
 import { PX_NOTE } from "../drawing/px-size.js";
 import { isEmptyBox, type Box } from "../geometry/box.js";
-import { getOrAdd } from "./get-or-add.js";
+import { getOrAdd } from "../get-or-add.js";
 
 const MAX_BOXES = 20;
 const MAX_DETAILS = 3;

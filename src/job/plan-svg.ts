@@ -8,9 +8,9 @@ import type { Prepared } from "../prepare/prepare.js";
 import { DEFAULT_MOTION } from "../settings/motion.js";
 import { withGiven, type DeepPartial } from "../settings/partial.js";
 import { DEFAULT_PEN } from "../settings/pen.js";
-import { STREAM_TABLE } from "../settings/stream.js";
+import { STREAM_TABLE } from "../settings/machine.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import { planJob, type JobOptions, type JobSettings, type MachineJob } from "./plan-job.js";
+import { type JobOptions, type JobSettings, type MachineJob, planJob } from "./plan-job.js";
 import { prepareJob } from "./prepare-job.js";
 
 /**

@@ -5,13 +5,14 @@ import { strokeCount } from "../drawing/stroke-set.js";
 import type { JobSettings } from "../drivers/machine-job.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
-import { checkBounds } from "../prepare/check-bounds.js";
-import { checkPaper } from "../prepare/on-paper.js";
+import { checkBounds, checkPaper } from "../prepare/on-paper.js";
 import { prepareSettingsOf, type PenSetup } from "../prepare/pens.js";
 import { prepare, type Prepared } from "../prepare/prepare.js";
 import type { Work } from "../prepare/work.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import { unusedSettings } from "./unused-settings.js";
+import { controllerOf } from "../drivers/registry.js";
+import { DEFAULT_MOTION } from "../settings/motion.js";
+import { DEFAULT_PEN } from "../settings/pen.js";
 
 export interface PreparedJob {
   readonly prepared: Prepared;
@@ -47,4 +48,28 @@ export function prepareJob(
   });
   checkBounds(prepared.strokes, machine);
   return { prepared, warnings: [...warnings, ...unusedSettings(settings, machine)] };
+}
+
+/**
+ * A warning about changed settings that the machine's controller does not use, or none. Settings that are left out or have
+ * their default are not named.
+ */
+export function unusedSettings({ motion, pen }: JobSettings, machine: MachineProfile): string[] {
+  const { unusedSettings: unused = {} } = controllerOf(machine);
+  const changed = Object.keys(unused).filter((path) => {
+    const [usual = null] = valuesAt({ motion: DEFAULT_MOTION, pen: DEFAULT_PEN }, path.split("."));
+    return valuesAt({ motion, pen }, path.split(".")).some((value) => value !== usual);
+  });
+  if (changed.length === 0) return [];
+  const labels = changed.map((path) => unused[path]).join(", ");
+  return [`${machine.name} does not use these settings, because its controller plans by itself: ${labels}.`];
+}
+
+/** The values at a path such as "motion.layers.*.cornerMm", without those that are left out or null. */
+function valuesAt(value: unknown, [key, ...rest]: readonly string[]): unknown[] {
+  if (value === null || value === undefined) return [];
+  if (key === undefined) return [value];
+  const fields = value as Readonly<Record<string, unknown>>;
+  const next = key === "*" ? Object.values(fields) : [fields[key]];
+  return next.flatMap((one) => valuesAt(one, rest));
 }

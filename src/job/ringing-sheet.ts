@@ -9,8 +9,8 @@
 import { PlotwrightError } from "../errors.js";
 import type { Springs } from "../machines/profile.js";
 import { codeOfSpeed, speedOfCode } from "../plan/coded-layers.js";
-import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
-import { SPRINGS_TABLE } from "../settings/springs.js";
+import { type MotionSettings, DEFAULT_MOTION } from "../settings/motion.js";
+import { SPRINGS_TABLE } from "../settings/machine.js";
 import { isAllowed, rangeInWords } from "../settings/setting.js";
 
 /** The speeds of the three figures, mm/s. A ripple of 15 Hz is 2 to 5 mm long. */

@@ -28,7 +28,7 @@ import {
   PEN_TABLE,
   type PenSettings,
 } from "../settings/pen.js";
-import { SPRINGS_TABLE } from "../settings/springs.js";
+import { SPRINGS_TABLE } from "../settings/machine.js";
 import { isAllowed, rangeInWords, type NumberSetting } from "../settings/setting.js";
 import { drawLimitsOf } from "./limits.js";
 import { penOfLayer } from "./pen-times.js";

@@ -5,10 +5,15 @@
  * appears on paper. So on machines below 10 Hz A is reduced in proportion to f². Above 10 Hz the motors limit A.
  */
 import { PlotwrightError } from "../errors.js";
-import { DEFAULT_MOTION, DRAW_TABLE, type MotionSettings } from "../settings/motion.js";
-import { QUALITIES, type Quality } from "../settings/quality.js";
-import { defaultsOf } from "../settings/setting.js";
+import {
+  DEFAULT_MOTION,
+  DRAW_TABLE,
+  type MotionSettings,
+  QUALITIES,
+  type Quality,
+} from "../settings/motion.js";
 import type { Springs } from "../machines/profile.js";
+import { defaultsOf } from "../settings/setting.js";
 
 /** Speeds in mm/s, accelerations of machines of 10 Hz and more in mm/s², corner deviation in mm. */
 const STEPS = {

@@ -3,12 +3,10 @@
  * StrokeSet.
  */
 import type { Drawing } from "../drawing/drawing.js";
-import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
+import { setFor, settingsIdOf, shiftedXy, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { filterLines, lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
-import type { FileLayer, LayerTable } from "./layers.js";
+import { type FileLayer, type LayerTable, speedFactorsOf, type SpeedParts } from "./layers.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import { setFor } from "./set-for.js";
-import { speedFactorsOf, type SpeedParts } from "./speed-parts.js";
 import { inkPortions } from "./spread.js";
 
 /** A layer of the file, visible or hidden, with figures about its lines on this paper. */
@@ -20,7 +18,7 @@ export interface PreparedLayer extends FileLayer {
 }
 
 /**
- * Sorts lines by part of a layer (speed-parts.ts), with the file's order within a part, and tags them with their part and
+ * Sorts lines by part of a layer (layers.ts), with the file's order within a part, and tags them with their part and
  * colour (`partOfTag`).
  */
 export function byLayer(lines: Lines, parts: SpeedParts, drawing: Drawing): Lines {
@@ -98,31 +96,23 @@ export function strokeSetOf(
   reinkMm: number,
   shifts: PrepareSettings["layerShifts"] = {},
 ): StrokeSet {
-  const strokes = unshifted(lines, parts, layers, isVisible, reinkMm);
-  const shiftsMm = strokes.layers.map((layer) => setFor(shifts, settingsIdOf(layer)));
-  if (shiftsMm.every((shift) => shift === undefined)) return strokes;
-  const { offsets, layer } = strokes;
-  const xy = strokes.xy.slice();
-  for (let i = 0; i < layer.length; i++) {
-    const shift = shiftsMm[layer[i]];
-    if (!shift) continue;
-    for (let p = offsets[i]; p < offsets[i + 1]; p++) {
-      xy[2 * p] += shift.xMm;
-      xy[2 * p + 1] += shift.yMm;
-    }
-  }
-  const moved = strokes.layers.map((one, k) => {
-    const shift = shiftsMm[k];
-    return shift ? { ...one, shiftMm: { x: shift.xMm, y: shift.yMm } } : one;
+  const strokes = buildStrokes(lines, parts, layers, isVisible, reinkMm);
+  const moved = strokes.layers.map((layer) => {
+    const shift = setFor(shifts, settingsIdOf(layer));
+    return shift ? { ...layer, shiftMm: { x: shift.xMm, y: shift.yMm } } : layer;
   });
-  return { ...strokes, xy, layers: moved };
+  return {
+    ...strokes,
+    xy: shiftedXy({ ...strokes, layers: moved }, ({ shiftMm }) => shiftMm),
+    layers: moved,
+  };
 }
 
 /** A stroke stores its layer as a 16-bit index. */
 const MAX_PORTIONS = 65_536;
 
 /** Splits layers into portions if `reinkMm` is set. Each part of a layer begins a new portion. */
-function unshifted(
+function buildStrokes(
   given: Lines,
   parts: SpeedParts,
   layers: readonly StrokeLayer[],

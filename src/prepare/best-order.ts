@@ -9,11 +9,10 @@
  * has the same result. So the page, the server and a job resumed after a crash have the same strokes.
  */
 import { distance, isClosedLine, tagRanges, type Lines } from "../geometry/polyline.js";
-import { randomFrom } from "./random.js";
+import { randomFrom, stopIfCancelled, type Work } from "./work.js";
 import { improveBlocks } from "./tour-blocks.js";
 import { TourSearch } from "./tour-search.js";
 import { entryPoint, exitPoint, type Tour } from "./tour.js";
-import { stopIfCancelled, type Work } from "./work.js";
 
 /** Kicks that count as one second when there is no clock: about the speed of a desktop computer. */
 const KICKS_PER_S = 70_000;

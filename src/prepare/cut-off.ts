@@ -3,12 +3,10 @@ import { isBackground, type Drawing } from "../drawing/drawing.js";
 import { boxContains, boxesTouch, grownBox, isEmptyBox, type Box } from "../geometry/box.js";
 import { filterLines, lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import { clipRegions } from "./clip-regions.js";
-import { clipLines } from "./clipped-fills.js";
-import { flattenShapes, gapsOfShapes } from "./flatten.js";
+import { clipRegions, clipLines } from "./clips.js";
+import { flattenShapes, gapsOfShapes, cropBox, strokedOnly } from "./shapes.js";
 import { layersOf, visibleLayers } from "./layers.js";
 import { isFarAway, type Placement } from "./place.js";
-import { cropBox, strokedOnly } from "./shapes.js";
 
 export interface CutOff {
   /** Lines outside this box are not drawn, mm. */

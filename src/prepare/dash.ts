@@ -1,8 +1,7 @@
 /** Splits dashed lines into their dashes. */
 import type { DashPattern } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
-import type { Box } from "../geometry/box.js";
-import { insideRange } from "../geometry/clip.js";
+import { insideRange, type Box } from "../geometry/box.js";
 import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
 import { LineBuilder, SAME_POINT, lineCount, mix, type Lines } from "../geometry/polyline.js";
 

@@ -18,6 +18,7 @@ import { firstWhere } from "../geometry/binary-search.js";
 import { LineBuilder } from "../geometry/polyline.js";
 import { SCALE, heaps, regionContains, regionOf, type Region } from "../geometry/region.js";
 import type { HatchSettings } from "../settings/prepare.js";
+import { getOrAdd } from "../get-or-add.js";
 
 /** Min spacing, mm: no pen is finer, and smaller spacings would need too much memory. */
 const FINEST_SPACING = 0.05;
@@ -90,9 +91,7 @@ function crossings(rings: Paths64, spacing: number, cos: number, sin: number): M
       const end = Math.ceil(Math.max(v0, v1) / spacing);
       for (let n = first; n < end; n++) {
         const u = u0 + ((n * spacing - v0) / (v1 - v0)) * (u1 - u0);
-        const list = levels.get(n);
-        if (list === undefined) levels.set(n, [u]);
-        else list.push(u);
+        getOrAdd(levels, n, () => []).push(u);
       }
     }
   }

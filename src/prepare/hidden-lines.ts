@@ -8,8 +8,7 @@
  */
 import { FillRule, type Paths64 } from "clipper2-ts";
 import { PlotwrightError } from "../errors.js";
-import { boxContains, boxOfPoints, boxesTouch, grownBox, type Box } from "../geometry/box.js";
-import { insideRange } from "../geometry/clip.js";
+import { boxContains, boxOfPoints, boxesTouch, grownBox, insideRange, type Box } from "../geometry/box.js";
 import { addParts, addPieces } from "../geometry/cut-line.js";
 import { LineBuilder, SAME_POINT, distance, lineCount, mix, type Lines } from "../geometry/polyline.js";
 import { SCALE, cleanRings, regionContains, regionOf, ringsInBox, type Region } from "../geometry/region.js";
@@ -224,8 +223,7 @@ class Hiding {
 
   /** The part of a segment in a box; an empty one if it misses the box. */
   private rangeIn(p: number, box: Box): Part {
-    const range = insideRange(...this.endsOf(p), box);
-    return range === null ? [0, 0] : [range[0], range[1]];
+    return insideRange(...this.endsOf(p), box) ?? [0, 0];
   }
 
   private spend(pairs: number): void {

@@ -1,9 +1,13 @@
-/** What reaches the paper: the size of the drawing on it, and lines that leave it. */
+/** What reaches the paper: the size of the drawing on it, lines that leave it, and lines that the machine does not reach. */
 import { PlotwrightError } from "../errors.js";
-import { boxContains, boxOfPoints, hasRoom, isEmptyBox } from "../geometry/box.js";
+import { boxContains, boxOfPoints, grownBox, hasRoom, isEmptyBox, type Box } from "../geometry/box.js";
 import { lineBox, lineCount, type Lines } from "../geometry/polyline.js";
+import { mmInWords } from "../units.js";
 import type { OutsideMode } from "../settings/prepare.js";
 import { ROUNDING_MM, withTolerance, type Placement } from "./place.js";
+import { checkObject } from "../check-arguments.js";
+import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
+import type { MachineProfile } from "../machines/profile.js";
 
 /** The drawing's size on the paper. */
 export interface DrawnSize {
@@ -70,7 +74,7 @@ export function sizeInWords({ widthMm, heightMm, scaleX, scaleY, turnedDeg }: Dr
   return `drawn ${mmInWords(widthMm)} × ${mmInWords(heightMm)} mm, ${percents} %${turned}`;
 }
 
-const mmInWords = (mm: number): string => String(Math.round(mm * 10) / 10);
+const pointInWords = (x: number, y: number): string => `(${mmInWords(x)}, ${mmInWords(y)})`;
 const percentInWords = (factor: number): string =>
   String(factor < 0.1 ? Math.round(factor * 1_000) / 10 : Math.round(factor * 100));
 
@@ -110,3 +114,47 @@ export function checkPaper(
 }
 
 const MM_OF_EDGE = { left: "leftMm", upper: "topMm", right: "rightMm", lower: "bottomMm" } as const;
+
+/** Whether a machine reaches all of a box, with a tolerance of 0.01 mm for rounding. */
+export const isReached = (
+  box: Box,
+  { widthMm, heightMm }: Pick<MachineProfile, "widthMm" | "heightMm">,
+): boolean => boxContains(grownBox({ x0: 0, y0: 0, x1: widthMm, y1: heightMm }, ROUNDING_MM), box);
+
+/** How many strokes the machine does not reach, or reaches only in part. */
+export function unreachedCount(
+  strokes: StrokeSet,
+  machine: Pick<MachineProfile, "widthMm" | "heightMm">,
+): number {
+  const { xy, offsets } = strokes;
+  if (isReached(boxOfPoints(xy), machine)) return 0;
+  let count = 0;
+  for (let i = 0; i < strokeCount(strokes); i++) {
+    if (!isReached(boxOfPoints(xy, 2 * offsets[i], 2 * offsets[i + 1]), machine)) count++;
+  }
+  return count;
+}
+
+/**
+ * Checks that a machine reaches every stroke, with a tolerance of 0.01 mm for rounding. `planSvg` calls it; call it
+ * yourself if you use the single steps.
+ *
+ * @throws PlotwrightError "out-of-bounds", with the figures
+ */
+export function checkBounds(
+  strokes: StrokeSet,
+  machine: Pick<MachineProfile, "name" | "widthMm" | "heightMm">,
+): void {
+  checkStrokes("checkBounds", strokes);
+  const aMachine = 'a profile, for example machineById("axidraw-v3")';
+  checkObject("checkBounds", "the machine", machine, ["widthMm", "heightMm"], aMachine);
+  if (strokes.xy.length === 0) return;
+  const box = boxOfPoints(strokes.xy);
+  if (isReached(box, machine)) return;
+  throw new PlotwrightError(
+    "out-of-bounds",
+    `The drawing reaches from ${pointInWords(box.x0, box.y0)} to ${pointInWords(box.x1, box.y1)} mm, but the ${machine.name} ` +
+      `can only go from (0, 0) to ${pointInWords(machine.widthMm, machine.heightMm)} mm: choose a smaller paper, ` +
+      `turn the paper, or fit the drawing to it.`,
+  );
+}

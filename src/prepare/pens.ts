@@ -8,9 +8,14 @@
  *   strokes   0 1 2 | 3 4 | 5 6 7        "pens"    0, 5
  *   layers    a     | b   | c            "layers"  0, 3, 5
  */
-import { settingsIdOf, strokeCount, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
+import {
+  settingsIdOf,
+  strokeCount,
+  type StrokeLayer,
+  type StrokeSet,
+  setFor,
+} from "../drawing/stroke-set.js";
 import { parseLayerName, shownLayerName } from "./layer-codes.js";
-import { setFor } from "./set-for.js";
 import type { PrepareSettings, ShiftMm } from "../settings/prepare.js";
 
 export const PEN_STOP_MODES = ["never", "pens", "layers"] as const;

@@ -1,14 +1,14 @@
 /**
  * Converts the file's drawing to pen strokes, by the steps below.
  *
- * Until lines are sorted by layer, the tag of a line is its shape; after that, its part of a layer (speed-parts.ts).
+ * Until lines are sorted by layer, the tag of a line is its shape; after that, its part of a layer (layers.ts).
  * Hidden layers are processed until they are counted, so that the page can show their figures, and then dropped. They
  * hide nothing, and nothing hides them.
  */
 import { isBackground, type Drawing } from "../drawing/drawing.js";
 import { withPxPerInch } from "../drawing/px-size.js";
-import type { StrokeSet } from "../drawing/stroke-set.js";
-import { lineCount, totalLength, type Lines } from "../geometry/polyline.js";
+import { type StrokeSet, setFor } from "../drawing/stroke-set.js";
+import { lineCount, totalLength } from "../geometry/polyline.js";
 import { cropAreas, filledAreas, filledOnly } from "./areas.js";
 import {
   byLayer,
@@ -21,22 +21,12 @@ import {
   type PreparedLayer,
 } from "./assemble.js";
 import { checkObject } from "../check-arguments.js";
-import { clipRegions } from "./clip-regions.js";
-import { clipLines } from "./clipped-fills.js";
+import { clipRegions, clipLines } from "./clips.js";
 import { completeSettings } from "./complete-settings.js";
 import { dashLines } from "./dash.js";
-import { flattenShapes, gapsOfShapes } from "./flatten.js";
-import { hideCovered } from "./hidden-lines.js";
-import { joinInFileOrder, joinLines } from "./join.js";
-import { inOrder, layersOf, visibleLayers } from "./layers.js";
-import { repeatLines } from "./layer-passes.js";
-import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
-import { orderLines } from "./order.js";
-import { placeDrawing } from "./place.js";
-import { dropRepeats } from "./repeats.js";
-import { setFor } from "./set-for.js";
-import type { PrepareSettings } from "../settings/prepare.js";
 import {
+  flattenShapes,
+  gapsOfShapes,
   addHatch,
   areaToFill,
   cropBox,
@@ -51,11 +41,15 @@ import {
   strokedOnly,
   withoutBackgrounds,
 } from "./shapes.js";
-import { simplifyLines } from "./simplify.js";
-import { reloopLines, smoothLines } from "./smooth.js";
-import { speedPartsOf } from "./speed-parts.js";
-import { spreadLines } from "./spread.js";
-import { linesOfTour, travelAsDrawn } from "./tour.js";
+import { hideCovered } from "./hidden-lines.js";
+import { joinInFileOrder, joinLines } from "./join.js";
+import { inOrder, layersOf, visibleLayers, speedPartsOf } from "./layers.js";
+import { inDrawingOrder } from "./order.js";
+import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
+import { placeDrawing } from "./place.js";
+import { dropRepeats } from "./repeats.js";
+import type { PrepareSettings } from "../settings/prepare.js";
+import { simplifyLines, reloopLines, smoothLines } from "./points.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** The result of `prepare`: the strokes and figures about them. */
@@ -207,29 +201,6 @@ export function prepare(
     drawMm: totalLength(ordered.lines),
     warnings,
   };
-}
-
-/** Lines in drawing order, each as often as its layer is drawn, and the travel before and after ordering. */
-interface Ordered extends Pick<Prepared, "travelMmUnordered" | "travelMm"> {
-  readonly lines: Lines;
-}
-
-function inDrawingOrder(
-  lines: Lines,
-  passesOf: (part: number) => number,
-  settings: PrepareSettings,
-  work: Work,
-): Ordered {
-  const asInFile = repeatLines(lines, passesOf);
-  const travelMmUnordered = travelAsDrawn(asInFile);
-  const tour = orderLines(lines, settings, work);
-  const inOrder = repeatLines(spreadLines(linesOfTour(lines, tour), settings.spread), passesOf);
-  const travelMm = travelAsDrawn(inOrder);
-  // With several passes, an order with less travel per pass may need more travel between passes.
-  if (settings.spread === "none" && travelMm > travelMmUnordered) {
-    return { lines: asInFile, travelMmUnordered, travelMm: travelMmUnordered };
-  }
-  return { lines: inOrder, travelMmUnordered, travelMm };
 }
 
 const cutHatch = (edge: string): string =>

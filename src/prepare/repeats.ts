@@ -11,6 +11,7 @@
  */
 import Flatbush from "flatbush";
 import { LineBuilder, distance, lineCount, mix, type Lines } from "../geometry/polyline.js";
+import { merged, type Part } from "../geometry/region-edges.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
@@ -25,10 +26,7 @@ export const dropRepeats = (
 ): Lines =>
   tolerance > 0 && lineCount(lines) > 0 ? new Repeats(lines, tolerance, partOf).dropped(work) : lines;
 
-/** A part of a piece, from and to a share of its length, 0 … 1. */
-type Range = readonly [number, number];
-
-const WHOLE: readonly Range[] = [[0, 1]];
+const WHOLE: readonly Part[] = [[0, 1]];
 
 class Repeats {
   private readonly builder = new LineBuilder();
@@ -37,7 +35,7 @@ class Repeats {
   private readonly point: number[] = [];
   private readonly line: number[] = [];
   /** The drawn parts of each piece so far. */
-  private readonly drawn: (readonly Range[])[] = [];
+  private readonly drawn: (readonly Part[])[] = [];
 
   constructor(
     private readonly lines: Lines,
@@ -119,11 +117,11 @@ class Repeats {
   }
 
   /** Adds the new parts of the piece to the line under construction, ending the line before each gap. Returns the parts. */
-  private addNewParts(piece: number): readonly Range[] {
+  private addNewParts(piece: number): readonly Part[] {
     const { builder, tolerance } = this;
     const [x0, y0, x1, y1] = this.endsOf(piece);
     const covered = this.coveredRanges(piece);
-    const drawn: Range[] = [];
+    const drawn: Part[] = [];
     const length = distance(x0, y0, x1, y1);
     const addNew = (from: number, to: number): void => {
       // A remainder shorter than the tolerance is dropped too, to save a pen lift.
@@ -143,34 +141,21 @@ class Repeats {
     return drawn;
   }
 
-  /** Sorted, merged ranges of t where the piece runs along drawn parts of earlier ones. */
-  private coveredRanges(piece: number): [number, number][] {
-    const ranges: [number, number][] = [];
+  /** Ranges of t where the piece runs along drawn parts of earlier ones, ascending and apart. */
+  private coveredRanges(piece: number): Part[] {
+    const ranges: Part[] = [];
     for (const k of this.drawnNear(piece)) {
       for (const part of this.drawn[k]) {
         const range = sharedRange(this.lines.xy, this.point[piece], this.point[k], part, this.tolerance);
         if (range !== null) ranges.push(range);
       }
     }
-    ranges.sort((a, b) => a[0] - b[0]);
-    const merged: [number, number][] = [];
-    for (const range of ranges) {
-      const last = merged[merged.length - 1];
-      if (last !== undefined && range[0] <= last[1]) last[1] = Math.max(last[1], range[1]);
-      else merged.push(range);
-    }
-    return merged;
+    return merged(ranges, 0);
   }
 }
 
 /** The range of t on segment p where the part of segment q is within the tolerance; null if there is none. */
-function sharedRange(
-  xy: Float64Array,
-  p: number,
-  q: number,
-  part: Range,
-  tolerance: number,
-): [number, number] | null {
+function sharedRange(xy: Float64Array, p: number, q: number, part: Part, tolerance: number): Part | null {
   const x0 = xy[2 * p];
   const y0 = xy[2 * p + 1];
   const dx = xy[2 * p + 2] - x0;

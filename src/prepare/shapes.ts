@@ -1,5 +1,11 @@
-/** The steps of `prepare` while lines still belong to shapes: select, dash, crop, hatch. */
-import { isBackground, type DashPattern, type Drawing } from "../drawing/drawing.js";
+/** The steps of `prepare` while lines still belong to shapes: select, flatten, dash, crop, hatch. */
+import {
+  isBackground,
+  type DashPattern,
+  type Drawing,
+  curvesOf,
+  type DrawingPaths,
+} from "../drawing/drawing.js";
 import {
   EMPTY_BOX,
   boxContains,
@@ -10,7 +16,7 @@ import {
   isEmptyBox,
   type Box,
 } from "../geometry/box.js";
-import { clipLinesToBox } from "../geometry/clip.js";
+import { clipLinesToBox, cutLines } from "../geometry/cut-line.js";
 import {
   LineBuilder,
   filterLines,
@@ -19,7 +25,6 @@ import {
   totalLength,
   type Lines,
 } from "../geometry/polyline.js";
-import { cutLines } from "../geometry/cut-line.js";
 import { regionOf, ringOf, type Region } from "../geometry/region.js";
 import { patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
@@ -27,6 +32,8 @@ import type { LayerTable } from "./layers.js";
 import { isFarAway, pageCorners, withTolerance, type Placement } from "./place.js";
 import type { HatchSettings, PrepareSettings } from "../settings/prepare.js";
 import { stopIfCancelled, type Work } from "./work.js";
+import { flattenVerbs, gapOf } from "../drawing/flatten.js";
+import type { Affine } from "../geometry/affine.js";
 
 /** The box to which lines are cropped; null if nothing is cropped. */
 export function cropBox({ clipToMargins, outside, reach }: PrepareSettings, place: Placement): Box | null {
@@ -72,6 +79,32 @@ export function shapesOnPaper(
 }
 
 const shapes = (count: number): string => (count === 1 ? "1 shape is" : `${count} shapes are`);
+
+/**
+ * Makes one line from each subpath of the shapes for which `wanted` is 1; its tag is the shape. A subpath of zero
+ * length becomes a dot. A shape without a stroke is drawn as the outline of its fill: its subpaths are closed, and its
+ * dots are dropped.
+ */
+export function flattenShapes(
+  paths: DrawingPaths,
+  map: Affine,
+  toleranceMm: number,
+  wanted: Uint8Array,
+  work: Work,
+): Lines {
+  const builder = new LineBuilder();
+  for (let shape = 0; shape < paths.count; shape++) {
+    stopIfCancelled(work);
+    if (wanted[shape] === 0) continue;
+    const isArea = paths.stroke[shape] < 0;
+    flattenVerbs(curvesOf(paths, shape), map, toleranceMm, isArea, builder, () => shape);
+  }
+  return builder.finish();
+}
+
+/** Max gap between the chords of `flattenShapes` and their curves, mm, by shape. */
+export const gapsOfShapes = (paths: DrawingPaths, toleranceMm: number): Float64Array =>
+  Float64Array.from({ length: paths.count }, (_, shape) => gapOf(curvesOf(paths, shape), toleranceMm));
 
 /** 100 m around home. */
 const ANYWHERE: Box = { x0: -1e5, y0: -1e5, x1: 1e5, y1: 1e5 };

@@ -11,7 +11,7 @@ import {
   tagRanges,
   type Lines,
 } from "../geometry/polyline.js";
-import { randomFrom } from "./random.js";
+import { randomFrom } from "./work.js";
 import type { SpreadMode } from "../settings/prepare.js";
 
 /** Number of passes of "interleave": pass k draws every fourth line, starting with line k. */

@@ -1,4 +1,7 @@
-/** Progress, cancelling and time of a long computation, injected by the caller because src has no clock. */
+/**
+ * What a long computation takes from outside: progress, cancelling and time, injected by the caller because src has no
+ * clock; and random numbers, the same ones in every run.
+ */
 import { PlotwrightError } from "../errors.js";
 
 /** Progress and cancelling of a long computation. Everything is optional. */
@@ -16,4 +19,15 @@ export interface Work {
 /** Throws `cancelled` if the caller has asked to stop. */
 export function stopIfCancelled(work: Work): void {
   if (work.cancel?.aborted) throw new PlotwrightError("cancelled", "Preparing the drawing was cancelled.");
+}
+
+/** Random numbers, so that a plan can be reproduced from the same drawing. (Mulberry32 by T. Ettinger, public domain) */
+export function randomFrom(seed: number): () => number {
+  let state = seed | 0;
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), state | 1);
+    t = (t + Math.imul(t ^ (t >>> 7), t | 61)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+  };
 }

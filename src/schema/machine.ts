@@ -5,7 +5,7 @@ import type { ControllerDescription } from "../drivers/driver.js";
 import { CONTROLLERS } from "../drivers/registry.js";
 import type { Controller, ControllerField, ControllerFields } from "../machines/controller.js";
 import type { MachineProfile } from "../machines/profile.js";
-import { SPRINGS_TABLE } from "../settings/springs.js";
+import { SPRINGS_TABLE } from "../settings/machine.js";
 import { schemaOf, shapeOf } from "./setting.js";
 
 function fieldSchema(field: ControllerField): z.ZodType {

@@ -31,7 +31,7 @@ import {
   PREPARE_TABLE,
   type PrepareSettings,
 } from "../settings/prepare.js";
-import { STREAM_TABLE } from "../settings/stream.js";
+import { STREAM_TABLE } from "../settings/machine.js";
 import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/pens.js";
 import { machineProfileSchema } from "./machine.js";
 import { numberSchema, shapeOf, shapeWithDefaults } from "./setting.js";

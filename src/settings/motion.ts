@@ -1,4 +1,4 @@
-import { MIN_SPEED_FACTOR } from "../drawing/speed-factor.js";
+import { MIN_SPEED_FACTOR } from "../drawing/drawing.js";
 import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
 
 /**
@@ -301,3 +301,21 @@ export const DEFAULT_MOTION: MotionSettings = {
   travel: defaultsOf(TRAVEL_TABLE),
   fit: DEFAULT_FIT,
 };
+
+/**
+ * Quality is not stored as a setting: choosing one sets several other settings (src/plan/quality.ts), and each of
+ * those can still be changed.
+ */
+export const QUALITIES = ["fine", "normal", "fast"] as const;
+export type Quality = (typeof QUALITIES)[number];
+
+export const QUALITY_TABLE = {
+  quality: {
+    kind: "choice",
+    label: "Quality",
+    about: "sets speed, acceleration and corner rounding together, from the machine's measured swing",
+    flag: "--quality",
+    default: "normal",
+    choices: QUALITIES,
+  },
+} as const satisfies SettingsTable;

@@ -1,11 +1,9 @@
 /** All settings tables, by their path in a job's settings ("": top level). */
-import { AXIS_TABLE, DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE } from "./motion.js";
-import { OVERLAP_TABLE, PEN_TABLE } from "./pen.js";
+import { AXIS_TABLE, DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE, QUALITY_TABLE } from "./motion.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
-import { QUALITY_TABLE } from "./quality.js";
-import { SPRINGS_TABLE } from "./springs.js";
-import { STREAM_TABLE } from "./stream.js";
+import { SPRINGS_TABLE, STREAM_TABLE } from "./machine.js";
 import { rangeInWords, type Setting, type SettingsTable } from "./setting.js";
+import { PEN_TABLE, OVERLAP_TABLE } from "./pen.js";
 
 export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
   prepare: PREPARE_TABLE,

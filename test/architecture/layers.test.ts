@@ -25,7 +25,7 @@ import {
 const ROOT = path.join(import.meta.dirname, "..", "..");
 
 /** Files that all folders of src may import. */
-const BASE = ["units", "errors", "check-arguments", "plain-text"];
+const BASE = ["units", "errors", "check-arguments", "get-or-add", "plain-text"];
 
 /** What each folder of src may import, besides itself. The keys are all existing folders. */
 const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {

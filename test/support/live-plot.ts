@@ -1,5 +1,5 @@
 /** A plot on the virtual board with a manual clock, and checks of the line that it drew. */
-import { simplifyLines } from "../../src/prepare/simplify.js";
+import { simplifyLines } from "../../src/prepare/points.js";
 import { expect } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { LivePlotRun } from "../../host/plotter/plotter-port.js";

@@ -16,6 +16,7 @@ import {
   type DxfPoint,
   type DxfRecord,
 } from "./dxf-groups.js";
+import type { DashPattern } from "../../drawing/drawing.js";
 
 export interface DxfLayer {
   readonly name: string;
@@ -171,4 +172,26 @@ class FileReader {
       decimals: of("$DIMDEC", 4),
     };
   }
+}
+
+/**
+ * The dashes of a linetype: positive lengths are drawn, negative ones are gaps, 0 is a dot. Null for a solid
+ * line. The result begins with a dash, wherever the linetype begins.
+ */
+export function dashesOf(elements: readonly number[], scale: number): DashPattern | null {
+  const isDash = (i: number): boolean => elements[(i + elements.length) % elements.length] >= 0;
+  const first = elements.findIndex((_, i) => isDash(i) && !isDash(i - 1));
+  if (first < 0 || !(scale > 0)) return null;
+  const lengths: number[] = [];
+  let offset = 0;
+  for (let k = 0; k < elements.length; k++) {
+    const i = (first + k) % elements.length;
+    const length = Math.abs(elements[i]) * scale;
+    if (i >= first) offset += length;
+    if (k > 0 && isDash(i) === isDash(i - 1)) lengths[lengths.length - 1] += length;
+    else lengths.push(length);
+  }
+  const total = lengths.reduce((sum, length) => sum + length, 0);
+  if (!(total > 0 && Number.isFinite(total))) return null;
+  return { lengths, offset: first === 0 ? 0 : offset };
 }

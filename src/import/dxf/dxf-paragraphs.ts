@@ -8,11 +8,10 @@
  */
 import type { DxfPoint } from "./dxf-groups.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";
-import { getOrAdd } from "../get-or-add.js";
+import { getOrAdd } from "../../get-or-add.js";
 import { readMtext, type MtextFormat, type MtextParagraph, type MtextRun } from "./mtext-codes.js";
 import { ShapeBuffer } from "../shape-buffer.js";
-import { CAPITAL_EM, type TextFont } from "../text/text-font.js";
-import { drawLine, layOutLine, type TextLine } from "../text/text-line.js";
+import { CAPITAL_EM, type TextFont, drawLine, layOutLine, type TextLine } from "../text/text-font.js";
 import { RAD_PER_DEG } from "../../units.js";
 
 /** MTEXT. */

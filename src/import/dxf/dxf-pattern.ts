@@ -12,10 +12,10 @@
  * own base point.
  */
 import { numberIn, numbersIn, splitAt, type DxfGroup, type DxfPoint } from "./dxf-groups.js";
-import { getOrAdd } from "../get-or-add.js";
+import { getOrAdd } from "../../get-or-add.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
-import { subpathsOf } from "../subpaths.js";
 import { RAD_PER_DEG } from "../../units.js";
+import { subpathsOf } from "../../drawing/flatten.js";
 
 /** Parallel lines. */
 export interface PatternLine {

@@ -11,8 +11,14 @@ import type { DxfPoint } from "./dxf-groups.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";
 import { plainText } from "./mtext-codes.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
-import { CAPITAL_EM, DESCENT_EM, type TextFont } from "../text/text-font.js";
-import { drawLine, layOutLine, type TextLine } from "../text/text-line.js";
+import {
+  CAPITAL_EM,
+  DESCENT_EM,
+  type TextFont,
+  drawLine,
+  layOutLine,
+  type TextLine,
+} from "../text/text-font.js";
 import { RAD_PER_DEG } from "../../units.js";
 
 /** TEXT or ATTRIB. */

@@ -16,20 +16,19 @@ import {
   translation,
   type Affine,
 } from "../../geometry/affine.js";
-import type { Box } from "../../geometry/box.js";
+import { insideRange, type Box } from "../../geometry/box.js";
 import { MM_PER_INCH } from "../../units.js";
 import { DrawingBuilder, type Look } from "../drawing-builder.js";
-import { getOrAdd } from "../get-or-add.js";
+import { getOrAdd } from "../../get-or-add.js";
 import { fontOf, type ImportOptions } from "../import-options.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { TextFont } from "../text/text-font.js";
 import { Warnings } from "../warnings.js";
 import type { BlockCopy, Content } from "./dxf-content.js";
 import type { DxfEntity } from "./dxf-entities.js";
-import { readDxfFile, type DxfFile, type DxfLayer } from "./dxf-file.js";
+import { readDxfFile, type DxfFile, type DxfLayer, dashesOf } from "./dxf-file.js";
 import { keyOf } from "./dxf-groups.js";
 import { drawHatch } from "./dxf-hatch.js";
-import { dashesOf, endlessWithin } from "./dxf-lines.js";
 import { drawDxfParagraphs } from "./dxf-paragraphs.js";
 import { drawPattern } from "./dxf-pattern.js";
 import { drawDxfWriting } from "./dxf-text.js";
@@ -341,14 +340,15 @@ class DxfImport {
       const { map } = place;
       const [x, y] = [applyX(map, at.x, at.y), applyY(map, at.x, at.y)];
       const to = [applyX(map, at.x + along.x, at.y + along.y), applyY(map, at.x + along.x, at.y + along.y)];
-      const ends = endlessWithin(box, x, y, to[0] - x, to[1] - y, isBothWays);
-      if (ends === null) {
+      const range = insideRange(x, y, to[0], to[1], box, isBothWays ? -Infinity : 0, Infinity);
+      if (range === null || !(range[0] < range[1] && range.every(Number.isFinite))) {
         warnings.add("not-supported", undefined, `${place.entity.type} outside the drawing`);
         continue;
       }
       shape.clear();
-      shape.moveTo(ends[0], ends[1]);
-      shape.lineTo(ends[2], ends[3]);
+      const [from, until] = range;
+      shape.moveTo(x + from * (to[0] - x), y + from * (to[1] - y));
+      shape.lineTo(x + until * (to[0] - x), y + until * (to[1] - y));
       const paint = { isLine: true, isFilled: false, isDashed: true };
       this.addShape(shape, place.own.color, paint, { ...place, map: IDENTITY });
     }

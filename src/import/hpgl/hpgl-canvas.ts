@@ -8,7 +8,7 @@ import { boxesTouch, intersectBoxes, mappedCorners, type Box } from "../../geome
 import { ClipNode } from "../clip-node.js";
 import { MAX_COORDINATE_MM, type DrawingBuilder, type Look } from "../drawing-builder.js";
 import { drawPattern, type PatternLine } from "../dxf/dxf-pattern.js";
-import { getOrAdd } from "../get-or-add.js";
+import { getOrAdd } from "../../get-or-add.js";
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import type { Warnings } from "../warnings.js";
 import { HpglLineTypes } from "./hpgl-line-types.js";

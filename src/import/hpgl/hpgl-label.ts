@@ -18,8 +18,7 @@ import {
   type Affine,
 } from "../../geometry/affine.js";
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
-import { CAPITAL_EM, type TextFont } from "../text/text-font.js";
-import { drawLine, layOutLine } from "../text/text-line.js";
+import { CAPITAL_EM, type TextFont, drawLine, layOutLine } from "../text/text-font.js";
 import type { HpglFrame } from "./hpgl-frame.js";
 
 const UNITS_PER_CM = 400;

@@ -12,11 +12,10 @@ import type { TextFont } from "../text/text-font.js";
 import { Warnings } from "../warnings.js";
 import { HpglCanvas } from "./hpgl-canvas.js";
 import { GROUP_OF } from "./hpgl-commands.js";
-import { readEncodedPolyline } from "./hpgl-encoded.js";
+import { readEncodedPolyline, HpglReader, type HpglCommand } from "./hpgl-reader.js";
 import { HpglFrame } from "./hpgl-frame.js";
 import { HpglLabels } from "./hpgl-label.js";
 import { linesOfFill } from "./hpgl-polygon.js";
-import { HpglReader, type HpglCommand } from "./hpgl-reader.js";
 import {
   arcAbout,
   arcThrough,

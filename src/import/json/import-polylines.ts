@@ -8,8 +8,7 @@
  * dot. A layer may have "speedFactors": a number for each stroke, 0.5 for one at half the usual speed. `toJson`
  * writes this format, with "strokesMm" for "strokes".
  */
-import type { Drawing } from "../../drawing/drawing.js";
-import { isSpeedFactor } from "../../drawing/speed-factor.js";
+import { type Drawing, isSpeedFactor } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { IDENTITY } from "../../geometry/affine.js";
 import { parseColor } from "../color.js";

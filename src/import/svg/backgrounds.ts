@@ -13,11 +13,18 @@ import { curveBoxOf } from "../../drawing/curve-box.js";
 import { curvesOf, RULE_EVENODD, type Drawing } from "../../drawing/drawing.js";
 import { flattenVerbs, ringsOfClip } from "../../drawing/flatten.js";
 import { IDENTITY } from "../../geometry/affine.js";
-import { boxContains, grownBox, intersectBoxes, isEmptyBox, type Box } from "../../geometry/box.js";
-import { insideRange } from "../../geometry/clip.js";
+import {
+  boxContains,
+  grownBox,
+  insideRange,
+  intersectBoxes,
+  isEmptyBox,
+  type Box,
+} from "../../geometry/box.js";
 import { LineBuilder, lineCount } from "../../geometry/polyline.js";
 import { cleanRings, regionContains, regionOf, ringOfLine, SCALE } from "../../geometry/region.js";
 import { isNearWhite } from "../color.js";
+import { getOrAdd } from "../../get-or-add.js";
 
 /** A shape covers the page if it leaves no more than this free at its edges, as a share of the shorter side. */
 const FREE_EDGE = 0.01;
@@ -57,14 +64,8 @@ function pageCovers(drawing: Drawing): (shape: number) => boolean {
   const inner = grownBox({ x0: 0, y0: 0, x1: widthMm, y1: heightMm }, -freeMm);
   const tolerance = freeMm / 4;
   const clipCovers = new Map<number, boolean>();
-  const isOpen = (clip: number): boolean => {
-    let known = clipCovers.get(clip);
-    if (known === undefined) {
-      known = coversBox(ringsOfClip(clips[clip], IDENTITY, tolerance), inner);
-      clipCovers.set(clip, known);
-    }
-    return known;
-  };
+  const isOpen = (clip: number): boolean =>
+    getOrAdd(clipCovers, clip, () => coversBox(ringsOfClip(clips[clip], IDENTITY, tolerance), inner));
   return (shape) => {
     const curves = curvesOf(paths, shape);
     if (!boxContains(curveBoxOf(curves, IDENTITY), inner)) return false;

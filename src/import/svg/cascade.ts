@@ -7,8 +7,8 @@
  * rules that may match. css-select decides for selectors with more parts.
  */
 import { compile } from "css-select";
-import { getOrAdd } from "../get-or-add.js";
-import { IS_KEYWORD, IS_PROPERTY, NOT_DRAWN_PROPERTIES, PRESENTATION, type Declared } from "./properties.js";
+import { getOrAdd } from "../../get-or-add.js";
+import { IS_KEYWORD, type Declared, PRESENTATION, NOT_DRAWN_PROPERTIES, IS_PROPERTY } from "./properties.js";
 import { parseInlineStyle, parseStyleSheet, type Declaration, type Rule } from "./css-rules.js";
 import { attribute, attributeValue, childrenOf, TEXT_NODE, tagOf, textOf, type SvgTree } from "./svg-tree.js";
 

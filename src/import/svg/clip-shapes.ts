@@ -1,13 +1,12 @@
 /** Clip shapes as rings for Clipper: to clip the shapes of a clipPath, and to combine those of a mask. */
 import { ClipType, type Path64, type Paths64 } from "clipper2-ts";
 import type { ClipRegion, Curves } from "../../drawing/drawing.js";
-import { ringsOfClip } from "../../drawing/flatten.js";
+import { ringsOfClip, subpathsOf } from "../../drawing/flatten.js";
 import { IDENTITY } from "../../geometry/affine.js";
 import { boxOfPoints } from "../../geometry/box.js";
 import { SCALE, combine, ringOf } from "../../geometry/region.js";
 import type { ClipNode, ClipShapes } from "../clip-node.js";
 import { ShapeBuffer } from "../shape-buffer.js";
-import { subpathsOf } from "../subpaths.js";
 
 /** Max gap between a curve and its chords, as a share of the shapes' size: the drawing may be enlarged. */
 const FLATNESS = 1e-5;

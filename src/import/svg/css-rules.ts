@@ -2,7 +2,7 @@
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference
 /// <reference path="./css-tree-parser.d.ts" />
 /** Style sheets and `style` attributes to rules and declarations (parsing only; cascade.ts applies them). */
-import { remembered } from "../get-or-add.js";
+import { remembered } from "../../get-or-add.js";
 import { IS_PROPERTY } from "./properties.js";
 import parseCss from "css-tree/parser";
 import type { CssNode, List, Selector } from "css-tree";

@@ -12,9 +12,8 @@
 import { checkText } from "../../check-arguments.js";
 import { curveBoxOf } from "../../drawing/curve-box.js";
 import { curvesOf, type Drawing } from "../../drawing/drawing.js";
-import { otherPapers, PX_NOTE } from "../../drawing/px-size.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
-import { MM_PER_INCH, MM_PER_PX, PX_PER_INCH } from "../../units.js";
+import { MM_PER_INCH } from "../../units.js";
 import { backgroundsOf } from "./backgrounds.js";
 import type { Cascade } from "./cascade.js";
 import type { Declared } from "./properties.js";
@@ -23,10 +22,9 @@ import type { Context } from "./svg-context.js";
 import { SvgClips } from "./svg-clips.js";
 import { checkImportOptions, fontOf, type ImportOptions } from "../import-options.js";
 import { SvgPaintServers } from "./svg-paint-servers.js";
-import { SvgGeometry } from "./svg-geometry.js";
+import { SvgGeometry } from "./basic-shapes.js";
 import { SvgFile } from "./svg-file.js";
-import { pageOf, type SvgPage } from "./svg-page.js";
-import { guessPxPerInch, type PxGuess } from "./px-per-inch.js";
+import { type SvgPage, guessedPage, sizedPage, type SizedPage } from "./svg-page.js";
 import { SvgPainter } from "./svg-painter.js";
 import { parseSvgTree, type SvgTree } from "./svg-tree.js";
 import { SvgWalk } from "./svg-walk.js";
@@ -56,12 +54,6 @@ export function importSvg(text: string, options: ImportOptions = {}): Drawing {
   return page.isInPx ? { ...drawing, pxPerInch } : drawing;
 }
 
-/** A page, and the px per inch it was read with. */
-interface SizedPage {
-  readonly page: SvgPage;
-  readonly pxPerInch: number;
-}
-
 function draw(
   text: string,
   options: ImportOptions,
@@ -89,41 +81,6 @@ function draw(
   for (const selector of cascade.slowSelectors) warnings.add("style-slow", undefined, selector.slice(0, 80));
   return { builder, page, pxPerInch };
 }
-
-/** The page with the px per inch of the program that wrote the file, if it is known, otherwise CSS's. */
-function guessedPage(text: string, tree: SvgTree, root: Declared, warnings: Warnings): SizedPage {
-  const usual = pageOf(tree, root, PX_PER_INCH);
-  const { isInPx, pageFrom, widthMm, heightMm } = usual;
-  const isPagePx = isInPx && pageFrom !== "extent";
-  const pagePx = isPagePx ? { width: widthMm / MM_PER_PX, height: heightMm / MM_PER_PX } : null;
-  const guess = usual.areUnitsPx ? guessPxPerInch(text, pagePx) : null;
-  const guessed = guess?.pxPerInch ?? null;
-  const sized = guessed === null ? { page: usual, pxPerInch: PX_PER_INCH } : sizedPage(tree, root, guessed);
-  notePx(sized, guess, warnings);
-  return sized;
-}
-
-/** With the given px per inch, a viewBox tells the size of the page too. */
-function sizedPage(tree: SvgTree, root: Declared, pxPerInch: number): SizedPage {
-  const { pageFrom, ...page } = pageOf(tree, root, pxPerInch);
-  return { page: pageFrom === "extent" ? { ...page, pageFrom } : page, pxPerInch };
-}
-
-/** Says which px per inch were guessed, and which would make the page a paper. */
-function notePx({ page, pxPerInch }: SizedPage, guess: PxGuess | null, warnings: Warnings): void {
-  const others = page.isInPx ? otherPapers({ ...page, pxPerInch }) : [];
-  if (guess === null && others.length === 0) return;
-  const { pageFrom, widthMm, heightMm } = page;
-  const size = pageFrom === undefined ? `${mmInWords(widthMm)} × ${mmInWords(heightMm)} mm at ` : "";
-  const details = [
-    pageFrom === "proportions" ? "only its proportions are known" : `${size}${pxPerInch} px per inch`,
-    ...(guess === null ? [] : [`written by ${guess.program}`]),
-    ...others.map(({ name, pxPerInch: other }) => `--px-per-inch ${other} gives ${name}`),
-  ];
-  warnings.add(PX_NOTE, undefined, details.join("; "));
-}
-
-const mmInWords = (mm: number): string => String(Math.round(mm * 10) / 10);
 
 function reportParsing(tree: SvgTree, cascade: Cascade, warnings: Warnings): void {
   for (const repair of tree.repairs) warnings.add("xml-repaired", undefined, repair);

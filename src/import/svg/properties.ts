@@ -1,4 +1,5 @@
 import type { WarningCode } from "../warnings.js";
+import type { Color } from "../color.js";
 
 /** CSS properties that the importer uses; those in PRESENTATION may also be written as attributes. */
 export const PRESENTATION = [
@@ -121,3 +122,12 @@ export function isSameDeclared(a: Declared, b: Declared): boolean {
   for (const [property, value] of a) if (b.get(property) !== value) return false;
   return true;
 }
+
+/** What a shape is filled or stroked with. */
+export type Paint =
+  | { readonly kind: "none" }
+  | { readonly kind: "color"; readonly color: Color }
+  | { readonly kind: "currentColor" }
+  | { readonly kind: "context"; readonly of: "fill" | "stroke" }
+  /** A gradient or pattern, by id, and what to use where there is none. */
+  | { readonly kind: "server"; readonly id: string; readonly fallback: Paint };

@@ -1,7 +1,6 @@
 /** Computed style: inherited and declared properties, as values ready for drawing. */
-import type { Declared, Property } from "./properties.js";
+import type { Declared, Property, Paint } from "./properties.js";
 import { parseColor, type Color } from "../color.js";
-import type { Paint } from "./paint.js";
 import { computeTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
 import { lengthPx, listIn, splitLength, type LengthBasis } from "./length.js";
 

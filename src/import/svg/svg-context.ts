@@ -2,7 +2,7 @@
 import { compose, IDENTITY, type Affine } from "../../geometry/affine.js";
 import type { ClipNode } from "../clip-node.js";
 import type { LengthBasis } from "./length.js";
-import type { Paint } from "./paint.js";
+import type { Paint } from "./properties.js";
 import type { Style } from "./style.js";
 
 export interface Context {
@@ -71,3 +71,10 @@ export const withViewport = (context: Context, map: Affine, width: number, heigh
   map: compose(context.map, map),
   basis: { ...context.basis, viewportWidth: width, viewportHeight: height },
 });
+
+/** Elements that may have markers. */
+const MARKED = new Set(["path", "line", "polyline", "polygon"]);
+
+/** Whether the shape may have markers. */
+export const isMarked = (tag: string, { style }: Context): boolean =>
+  MARKED.has(tag) && (style.markerStart !== null || style.markerMid !== null || style.markerEnd !== null);

@@ -1,10 +1,13 @@
 /**
- * Finds the groups that are the file's layers, and their names.
+ * Finds the groups that are the file's layers, and their names; adds them to the drawing.
  *
  * Layers are the top-level groups. A single wrapper around them (group, switch, link or nested svg) is
  * skipped, since many programs and scripts wrap everything once.
  */
-import { attribute, childrenOf, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { attribute, tagOf, TEXT_NODE, type SvgTree, childrenOf } from "./svg-tree.js";
+import type { DrawingBuilder } from "../drawing-builder.js";
+import type { Warnings } from "../warnings.js";
+import type { Context } from "./svg-context.js";
 
 /** More top-level groups than this are data, not layers: some charts have one per point. */
 const MAX_LAYERS = 200;
@@ -89,14 +92,14 @@ function wrapperIn(tree: SvgTree, parent: number): number {
 const groupsIn = (tree: SvgTree, parent: number): number[] =>
   [...childrenOf(tree, parent)].filter((child) => tagOf(tree, child) === "g");
 
-export const isMarkedLayer = (tree: SvgTree, element: number): boolean =>
+const isMarkedLayer = (tree: SvgTree, element: number): boolean =>
   attribute(tree, element, "inkscape:groupmode") === "layer";
 
 /** Where programs keep a layer's name as it was typed: Inkscape, Affinity, Illustrator. */
 const NAMES = ["inkscape:label", "serif:id", "data-name"];
 
 /** The name as it was typed, or the id; null if it has none. */
-export function layerName(tree: SvgTree, element: number): string | null {
+function layerName(tree: SvgTree, element: number): string | null {
   for (const name of NAMES) {
     const typed = attribute(tree, element, name)?.trim() ?? "";
     if (typed !== "") return typed;
@@ -113,3 +116,57 @@ const decodeId = (id: string): string =>
       ? String.fromCodePoint(code)
       : whole;
   });
+
+/** The drawing's group for each element: its layer, or one that shapes outside every layer share. */
+export class LayerGroups {
+  /** The group for shapes outside every layer; −1 until needed. */
+  private looseGroup = -1;
+  private readonly unseen: number[] = [];
+
+  constructor(
+    private readonly tree: SvgTree,
+    private readonly layers: LayerPlan,
+    private readonly builder: DrawingBuilder,
+    private readonly warnings: Warnings,
+  ) {}
+
+  /** The group of an element inside `outer`; adds it if the element is a layer. */
+  groupOf(element: number, tag: string, outer: Context): number {
+    const { builder, tree, layers } = this;
+    if (outer.uses !== null) return outer.group;
+    if (tree.parents[element] !== layers.parent) {
+      const isSublayer = tag === "g" && outer.group >= 0 && layers.isSplit && isMarkedLayer(tree, element);
+      if (!isSublayer) return outer.group;
+      const id = attribute(tree, element, "id") ?? `sublayer-${builder.groups.length}`;
+      return builder.addGroup(id, layerName(tree, element) ?? id, false, outer.group);
+    }
+    const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
+    const number = builder.groups.filter(({ parent }) => parent === undefined).length + 1;
+    if (isLayer) {
+      const name = layerName(tree, element) ?? `Layer ${number}`;
+      return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
+    }
+    if (this.looseGroup < 0) this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
+    return this.looseGroup;
+  }
+
+  hide(group: number): void {
+    const { groups } = this.builder;
+    groups[group] = { ...groups[group], hidden: true };
+    this.warnOfHidden(group);
+  }
+
+  /** The layer's `visibility` is hidden, but elements inside may be visible. */
+  hideUnlessDrawn(group: number): void {
+    this.unseen.push(group);
+  }
+
+  /** Call when everything is drawn. */
+  finish(): void {
+    for (const group of this.unseen) if (!this.builder.hasShapes(group)) this.warnOfHidden(group);
+  }
+
+  private warnOfHidden(group: number): void {
+    this.warnings.add("hidden-layer", undefined, this.builder.groups[group].name);
+  }
+}

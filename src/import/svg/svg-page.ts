@@ -1,12 +1,14 @@
-/** The page size, and the map from the root's user units to page mm. */
+/** The page size, also of a file in px; and the map from the root's user units to page mm. */
 import type { Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { scaling, type Affine } from "../../geometry/affine.js";
-import { MM_PER_INCH, PX_PER_INCH } from "../../units.js";
+import { MM_PER_INCH, PX_PER_INCH, MM_PER_PX, mmInWords } from "../../units.js";
 import type { Declared } from "./properties.js";
 import { absolutePx, splitLength } from "./length.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import { parseViewBox, viewBoxMap } from "./svg-viewport.js";
+import { papersInPx, otherPapers, PX_NOTE } from "../../drawing/px-size.js";
+import type { Warnings } from "../warnings.js";
 
 export interface SvgPage {
   readonly widthMm: number;
@@ -23,6 +25,12 @@ export interface SvgPage {
   readonly areUnitsPx: boolean;
 }
 
+/** A page, and the px per inch it was read with. */
+export interface SizedPage {
+  readonly page: SvgPage;
+  readonly pxPerInch: number;
+}
+
 /** Ten times the largest roll of paper; anything larger is a mistake. */
 const MAX_PAGE_MM = 100_000;
 /** CSS's default size of an image. */
@@ -30,7 +38,7 @@ const DEFAULT_WIDTH_PX = 300;
 const DEFAULT_HEIGHT_PX = 150;
 
 /** @param pxPerInch for px and numbers without unit: 96 by CSS, 72 or 90 in some programs */
-export function pageOf(tree: SvgTree, root: Declared, pxPerInch: number): SvgPage {
+function pageOf(tree: SvgTree, root: Declared, pxPerInch: number): SvgPage {
   if (!(pxPerInch > 0 && Number.isFinite(pxPerInch))) {
     throw new RangeError(`importSvg: pxPerInch must be > 0, got ${pxPerInch}`);
   }
@@ -70,6 +78,39 @@ export function pageOf(tree: SvgTree, root: Declared, pxPerInch: number): SvgPag
   };
 }
 
+/** The page with the px per inch of the program that wrote the file, if it is known, otherwise CSS's. */
+export function guessedPage(text: string, tree: SvgTree, root: Declared, warnings: Warnings): SizedPage {
+  const usual = pageOf(tree, root, PX_PER_INCH);
+  const { isInPx, pageFrom, widthMm, heightMm } = usual;
+  const isPagePx = isInPx && pageFrom !== "extent";
+  const pagePx = isPagePx ? { width: widthMm / MM_PER_PX, height: heightMm / MM_PER_PX } : null;
+  const guess = usual.areUnitsPx ? guessPxPerInch(text, pagePx) : null;
+  const guessed = guess?.pxPerInch ?? null;
+  const sized = guessed === null ? { page: usual, pxPerInch: PX_PER_INCH } : sizedPage(tree, root, guessed);
+  notePx(sized, guess, warnings);
+  return sized;
+}
+
+/** With the given px per inch, a viewBox tells the size of the page too. */
+export function sizedPage(tree: SvgTree, root: Declared, pxPerInch: number): SizedPage {
+  const { pageFrom, ...page } = pageOf(tree, root, pxPerInch);
+  return { page: pageFrom === "extent" ? { ...page, pageFrom } : page, pxPerInch };
+}
+
+/** Says which px per inch were guessed, and which would make the page a paper. */
+function notePx({ page, pxPerInch }: SizedPage, guess: PxGuess | null, warnings: Warnings): void {
+  const others = page.isInPx ? otherPapers({ ...page, pxPerInch }) : [];
+  if (guess === null && others.length === 0) return;
+  const { pageFrom, widthMm, heightMm } = page;
+  const size = pageFrom === undefined ? `${mmInWords(widthMm)} × ${mmInWords(heightMm)} mm at ` : "";
+  const details = [
+    pageFrom === "proportions" ? "only its proportions are known" : `${size}${pxPerInch} px per inch`,
+    ...(guess === null ? [] : [`written by ${guess.program}`]),
+    ...others.map(({ name, pxPerInch: other }) => `--px-per-inch ${other} gives ${name}`),
+  ];
+  warnings.add(PX_NOTE, undefined, details.join("; "));
+}
+
 interface Side {
   readonly mm: number;
   readonly isInPx: boolean;
@@ -102,4 +143,46 @@ function checked(mm: number, what: string): number {
     "bad-file",
     `The page of this SVG is ${mm.toPrecision(3)} mm ${what}. Set the page size in your drawing program (at most ${MAX_PAGE_MM} mm) and export it again.`,
   );
+}
+
+/** How many px per inch a program means that does not write 96, as in CSS. */
+interface PxGuess {
+  readonly program: string;
+  /** Null: the program writes any number, and the page tells nothing. */
+  readonly pxPerInch: number | null;
+}
+
+/** Programs name themselves in comments before or just behind the begin of the root element, or in its attributes. */
+const HEAD_CHARS = 16_384;
+const HEAD = /^[^]*?<(?:\w+:)?svg\b[^>]*>(?:\s|<!--[^]*?-->)*/;
+const INKSCAPE = /\sinkscape:version\s*=\s*["'](\d+)\.(\d+)/;
+const SODIPODI = /\ssodipodi:version\s*=/;
+/** Without the comment and the namespace, its root element has a `data-name`. */
+const ILLUSTRATOR =
+  /Generator: Adobe Illustrator|\sxmlns:i\s*=\s*["'](?:&ns_ai;|https?:\/\/ns\.adobe\.com\/AdobeIllustrator)|\sdata-name=/;
+/** Or its layers have their names as `data-name`, and the root element has the id of one. */
+const LAYER_ID = /\sid="[^"]*_\d+"/;
+const LAYER_NAME = /<g\s[^>]*\sdata-name="/;
+const AFFINITY = /\sxmlns:serif\s*=\s*["']https?:\/\/www\.serif\.com/;
+
+/** Null if the program is not known, or writes 96. `pagePx`: null if the file does not define its page in px. */
+function guessPxPerInch(
+  text: string,
+  pagePx: { readonly width: number; readonly height: number } | null,
+): PxGuess | null {
+  const begin = text.slice(0, HEAD_CHARS);
+  const head = HEAD.exec(begin)?.[0] ?? "";
+  // Inkscape keeps the other programs' marks when it writes their files again.
+  const inkscape = INKSCAPE.exec(head);
+  if (inkscape !== null) {
+    const [major, minor] = inkscape.slice(1).map(Number);
+    return major === 0 && minor < 92 ? { program: "Inkscape before 0.92", pxPerInch: 90 } : null;
+  }
+  if (SODIPODI.test(head)) return { program: "Sodipodi", pxPerInch: 90 };
+  if (ILLUSTRATOR.test(head) || (LAYER_ID.test(head) && LAYER_NAME.test(begin)))
+    return { program: "Adobe Illustrator", pxPerInch: 72 };
+  if (!AFFINITY.test(head)) return null;
+  // Affinity's px are those of its document, which may have any number per inch.
+  const [paper] = pagePx === null ? [] : papersInPx(pagePx.width, pagePx.height);
+  return { program: "Affinity", pxPerInch: paper?.pxPerInch ?? null };
 }

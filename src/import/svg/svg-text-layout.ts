@@ -5,8 +5,7 @@
 import type { Style } from "./style.js";
 import type { TextPath } from "./svg-text-path.js";
 import { baselineOffset, decorationHeight } from "./text-style.js";
-import { USUAL_METRICS, type TextFont } from "../text/text-font.js";
-import { layOutLine } from "../text/text-line.js";
+import { USUAL_METRICS, type TextFont, layOutLine } from "../text/text-font.js";
 
 /** A character of the text and the attributes that apply to it. */
 export interface Char {

@@ -1,12 +1,11 @@
 /** The path of a `textPath`'s letters (SVG 2, §11.8). */
-import { SHAPE_TAGS } from "./basic-shapes.js";
+import { SHAPE_TAGS, type SvgGeometry } from "./basic-shapes.js";
 import { drawPathData } from "../path-data.js";
 import { elementTransform } from "./transform.js";
 import { splitLength, lengthPx } from "./length.js";
 import { MeasuredPath, type PathPlace } from "./measured-path.js";
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
-import type { SvgGeometry } from "./svg-geometry.js";
 import type { SvgFile } from "./svg-file.js";
 import { attribute, HREF, tagOf } from "./svg-tree.js";
 import { IDENTITY } from "../../geometry/affine.js";

@@ -5,13 +5,13 @@
 import type { Declared } from "./properties.js";
 import { lengthPx, listIn, type LengthBasis, type Side } from "./length.js";
 import { attribute, childrenOf, tagOf, textOf, TEXT_NODE } from "./svg-tree.js";
-import { effectsOf, type Effects } from "./svg-effects.js";
+import { type Effects, effectsOf } from "./svg-effects.js";
 import { computeStyle, declaredValue, type Style } from "./style.js";
-import { getOrAdd } from "../get-or-add.js";
+import { getOrAdd } from "../../get-or-add.js";
 import { withoutAlignment, withoutShift } from "./text-style.js";
 import type { Context } from "./svg-context.js";
 import type { SvgFile } from "./svg-file.js";
-import { layOutText, type Char, type LaidOutText, type Stretch } from "./svg-text-layout.js";
+import { type Char, type LaidOutText, type Stretch, layOutText } from "./svg-text-layout.js";
 import type { SvgTextPaths } from "./svg-text-path.js";
 import type { TextFont } from "../text/text-font.js";
 import { RAD_PER_DEG } from "../../units.js";

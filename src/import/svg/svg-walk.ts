@@ -5,26 +5,30 @@
  * as a frame with one child. The chain of enclosing targets stops cycles, and a limit on visits stops copies
  * of copies from growing without end.
  */
-import type { Drawing } from "../../drawing/drawing.js";
-import { isSpeedFactor } from "../../drawing/speed-factor.js";
+import { type Drawing, isSpeedFactor } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
-import { SHAPE_TAGS } from "./basic-shapes.js";
+import { SHAPE_TAGS, type SvgGeometry } from "./basic-shapes.js";
 import { isSameDeclared, type Declared } from "./properties.js";
 import { elementTransform } from "./transform.js";
 import { lengthPx, type Side } from "./length.js";
-import { contextPaints, isInsideUseOf, MAX_COPY_DEPTH, withStyle, type Context } from "./svg-context.js";
-import { backgroundOf, effectsOf, isErased, warnOf, type Effects } from "./svg-effects.js";
+import {
+  isInsideUseOf,
+  MAX_COPY_DEPTH,
+  withStyle,
+  type Context,
+  isMarked,
+  contextPaints,
+} from "./svg-context.js";
+import { effectsOf, isErased, warnOf, type Effects, backgroundOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
 import type { SvgClips } from "./svg-clips.js";
-import type { SvgGeometry } from "./svg-geometry.js";
-import { isMarked, markerPlaces } from "./markers.js";
-import { SvgMarkers } from "./svg-markers.js";
+import { markerPlaces, SvgMarkers } from "./svg-markers.js";
 import { SvgMasks, type DrawApart } from "./svg-masks.js";
-import { LayerGroups } from "./svg-layer-groups.js";
+import { LayerGroups } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
-import { attribute, childrenOf, HREF, tagOf, TEXT_NODE, type SvgTree } from "./svg-tree.js";
+import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree, childrenOf } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseOpacity, type Style } from "./style.js";
 import { withoutAlignment, withoutShift } from "./text-style.js";
 import { viewportInside } from "./svg-viewport.js";
@@ -87,7 +91,7 @@ export class SvgWalk {
     masks: SvgMasks | null = null,
   ) {
     this.markers = new SvgMarkers(file, clips);
-    this.layerGroups = new LayerGroups(file, builder, warnings);
+    this.layerGroups = new LayerGroups(file.tree, file.layers, builder, warnings);
     const drawApart: DrawApart = (element, context, work) => this.drawApart(element, context, work);
     this.masks = masks ?? new SvgMasks(file, clips, drawApart);
   }

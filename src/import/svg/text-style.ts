@@ -1,6 +1,5 @@
 /** CSS and SVG properties of text: baselines, spaces, decorations, directions. */
-import type { Property } from "./properties.js";
-import type { Paint } from "./paint.js";
+import type { Property, Paint } from "./properties.js";
 import type { FontMetrics } from "../text/text-font.js";
 
 export interface TextStyle {

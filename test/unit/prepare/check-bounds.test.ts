@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { checkBounds, unreachedCount } from "../../../src/prepare/check-bounds.js";
+import { checkBounds, unreachedCount } from "../../../src/prepare/on-paper.js";
 import { prepare } from "../../../src/prepare/prepare.js";
-import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
+import { type PrepareSettings, DEFAULT_PREPARE } from "../../../src/settings/prepare.js";
 import { drawingOf } from "../../support/drawings.js";
 
 const TRUE_SIZE: PrepareSettings = {

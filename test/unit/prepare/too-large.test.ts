@@ -5,7 +5,7 @@ import { LineBuilder, lineCount } from "../../../src/geometry/polyline.js";
 import { regionOf, ringOf, type Region } from "../../../src/geometry/region.js";
 import { hideCovered } from "../../../src/prepare/hidden-lines.js";
 import { prepare } from "../../../src/prepare/prepare.js";
-import { randomFrom } from "../../../src/prepare/random.js";
+import { randomFrom } from "../../../src/prepare/work.js";
 import { drawingOf } from "../../support/drawings.js";
 
 const range = (count: number): number[] => Array.from({ length: count }, (_, i) => i);

@@ -1,14 +1,13 @@
 /** Plans strokes for an EBB within the limits of its firmware, and compiles the commands. */
-import { strokesOf } from "../../../drawing/lines.js";
-import type { StrokeSet } from "../../../drawing/stroke-set.js";
+import { strokesOf, type StrokeSet } from "../../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { plan } from "../../../plan/plan.js";
 import type { MotionSettings } from "../../../settings/motion.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../../machine-job.js";
-import { closingCommands, setUpCommands } from "../protocol/commands.js";
 import { dropsAtStroke, motionForFirmware } from "../protocol/firmware-motion.js";
 import type { BoardState, CommandStream } from "./command-stream.js";
 import { commandLine, compile } from "./compile.js";
+import { setUpCommands, closingCommands } from "../protocol/commands.js";
 
 /** Firmware to plan for while the board's is unknown. All newer ones can do at least as much. */
 export const OLDEST_PLANNED_FIRMWARE = "2.5.3";

@@ -2,7 +2,7 @@
  * One connected Grbl: the position of its carriage and pen, and the operations that move them. Its work coordinates are
  * mm from home. If the position is unknown, the carriage is assumed to be at home.
  */
-import { strokesOf } from "../../../drawing/lines.js";
+import { strokesOf } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -19,7 +19,7 @@ import type {
 import { moveStopped } from "../../faults.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
 import type { Clock } from "../../transport.js";
-import { grblCommandsOf, MODES, penLines, planGrblJob, SYNC, type GrblCommands } from "../grbl-job.js";
+import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, penLines } from "../grbl-job.js";
 import { grblOf } from "../model/grbl-controller.js";
 import type { Axes } from "../model/planner.js";
 import { isLocked, locked, NOT_LIFTED, type Status } from "../protocol.js";

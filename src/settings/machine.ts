@@ -1,5 +1,24 @@
-/** The swing of a machine (`Springs` in src/machines/profile.ts), measured with the ringing sheet. */
+/** Settings of the connection to a machine, and of the machine itself. */
 import type { SettingsTable } from "./setting.js";
+
+/** How commands are sent. */
+export const STREAM_TABLE = {
+  sendAheadMs: {
+    kind: "number",
+    label: "Motion sent ahead",
+    words: "buffer, latency",
+    about:
+      "motion sent ahead of the pen; with less, stops are faster, but the pen may pause when the computer is busy",
+    flag: "--send-ahead-ms",
+    default: 300,
+    min: 100,
+    max: 1_000,
+    isWhole: true,
+    unit: "ms",
+    step: 50,
+    digits: 0,
+  },
+} as const satisfies SettingsTable;
 
 const frequency = {
   kind: "number",
@@ -12,6 +31,7 @@ const frequency = {
   slider: [5, 60],
 } as const;
 
+/** The swing of a machine (`Springs` in src/machines/profile.ts), measured with the ringing sheet. */
 export const SPRINGS_TABLE = {
   xHz: {
     ...frequency,

@@ -1,16 +1,45 @@
 /**
- * Cuts lines by clip paths. A fill without a stroke is drawn as the outline of its clipped area, so the clip's edge
- * becomes part of its outline.
+ * The file's clip paths: as regions on the paper, and lines cut by them. A fill without a stroke is drawn as the outline
+ * of its clipped area, so the clip's edge becomes part of its outline.
  */
+import { ClipType } from "clipper2-ts";
 import type { Drawing } from "../drawing/drawing.js";
-import { LineBuilder, tagRanges, totalLength, type Lines } from "../geometry/polyline.js";
+import { gapOf, ringsOfClip } from "../drawing/flatten.js";
+import type { Affine } from "../geometry/affine.js";
 import { cutLine } from "../geometry/cut-line.js";
-import { addPath, type Region } from "../geometry/region.js";
+import { LineBuilder, tagRanges, totalLength, type Lines } from "../geometry/polyline.js";
+import { addPath, combine, regionOf, type Region } from "../geometry/region.js";
+import { getOrAdd } from "../get-or-add.js";
 import { filledAreas } from "./areas.js";
 import type { Work } from "./work.js";
 
 /** If a clip cuts off no more than this, it is rounding, and the shape counts as whole, mm. */
 const UNCUT = 0.001;
+
+/**
+ * Returns a function for the region that clips a shape, nested clips included; null for a shape without a clip. Each
+ * region is computed on first use.
+ */
+export function clipRegions(
+  { paths, clips }: Drawing,
+  map: Affine,
+  toleranceMm: number,
+): (shape: number) => Region | null {
+  const regions = new Map<number, Region>();
+  const regionOfClip = (clip: number): Region => {
+    let rings = ringsOfClip(clips[clip], map, toleranceMm);
+    let gap = gapOf(clips[clip], toleranceMm);
+    for (let up = clips[clip].parent; up >= 0; up = clips[up].parent) {
+      rings = combine(ClipType.Intersection, rings, ringsOfClip(clips[up], map, toleranceMm));
+      gap = Math.max(gap, gapOf(clips[up], toleranceMm));
+    }
+    return regionOf(rings, gap);
+  };
+  return (shape) => {
+    const clip = paths.clip[shape];
+    return clip < 0 ? null : getOrAdd(regions, clip, () => regionOfClip(clip));
+  };
+}
 
 /**
  * `lines` are the shapes' outlines, tag = shape; `clipOf` gives the region that clips a shape, or null; `gaps` are those
