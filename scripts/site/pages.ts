@@ -21,6 +21,7 @@ export const PAGE_GROUPS: readonly PageGroup[] = [
     title: "Start",
     pages: [
       page("docs/README.md", "Overview"),
+      page("docs/install.md", "Install"),
       page("docs/first-plot.md", "Your first plot"),
       page("docs/without-installing.md", "Without installing"),
       page("docs/network.md", "Phone and network"),
@@ -29,6 +30,24 @@ export const PAGE_GROUPS: readonly PageGroup[] = [
       page("docs/troubleshooting.md", "Troubleshooting"),
       page("docs/upgrade.md", "Upgrade"),
       page("docs/which-program.md", "Choosing a program"),
+    ],
+  },
+  {
+    title: "Coming from",
+    pages: [
+      page("docs/from-axidraw.md", "AxiDraw, NextDraw software"),
+      page("docs/from-saxi.md", "saxi"),
+      page("docs/vpype.md", "vpype"),
+      page("docs/inkscape.md", "Inkscape"),
+      page("docs/p5.md", "p5.js and sketches"),
+    ],
+  },
+  {
+    title: "How to",
+    pages: [
+      page("docs/config-examples.md", "Config files"),
+      page("docs/brushless-servo.md", "Brushless servo"),
+      page("docs/classroom.md", "Classroom"),
     ],
   },
   {

@@ -1,7 +1,8 @@
 /**
  * Every example of the documents in TypeScript, JavaScript or as shell commands is run against the built package.
  * `// → text` at the end of a line is its expected output. An example that cannot run here, because it installs
- * something or needs a real machine, has the word `no-run` after its language.
+ * something or needs a real machine, has the word `no-run` after its language. JSON with the name of a file after its
+ * language is that file for the commands; each is read by `plan`.
  */
 import { spawnSync } from "node:child_process";
 import {
@@ -32,7 +33,7 @@ const DOCUMENTS = [
     .map((name) => `docs/${name}`),
 ];
 /** A new example that is not run is a decision: change this number with it. */
-const NO_RUN_COUNT = 23;
+const NO_RUN_COUNT = 41;
 /** For the commands: large enough for every option in them, and plotted in a moment. */
 const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40"><path d="M5 5H50V30" fill="none" stroke="#000"/></svg>`;
 
@@ -55,6 +56,22 @@ function examplesOf(document: string): Example[] {
   });
 }
 
+interface JsonFile {
+  readonly document: string;
+  readonly name: string;
+  readonly text: string;
+}
+
+function jsonFilesOf(document: string): JsonFile[] {
+  const text = readFileSync(path.join(ROOT, document), "utf8");
+  return [...text.matchAll(/^```json (\S+)\n([\s\S]*?)^```/gm)].map(([, name = "", json = ""]) => ({
+    document,
+    name,
+    text: json,
+  }));
+}
+
+const jsonFiles = DOCUMENTS.flatMap(jsonFilesOf);
 const allExamples = DOCUMENTS.flatMap(examplesOf);
 const run = allExamples.filter(({ isRun }) => isRun);
 const examples = run.filter(({ language }) => language !== "sh");
@@ -66,6 +83,7 @@ const folder = mkdtempSync(path.join(tmpdir(), "plotwright-examples-"));
 let compilerOutput: string;
 
 beforeAll(() => {
+  mkdirSync(path.join(folder, "data"));
   mkdirSync(path.join(folder, "node_modules"));
   symlinkSync(ROOT, path.join(folder, "node_modules", "plotwright"), "junction");
   symlinkSync(
@@ -75,6 +93,7 @@ beforeAll(() => {
   );
   symlinkSync(path.join(ROOT, "samples"), path.join(folder, "samples"), "junction");
   writeFileSync(path.join(folder, "drawing.svg"), DRAWING);
+  for (const { name, text } of jsonFiles) writeFileSync(path.join(folder, name), text);
   writeFileSync(path.join(folder, "package.json"), '{ "type": "module" }');
   const options = {
     target: "ES2022",
@@ -109,6 +128,11 @@ describe("the examples of the documents", () => {
       [...readFileSync(path.join(ROOT, document), "utf8").matchAll(/^ *```(\S+)/gm)].map((match) => match[1]),
     );
     expect([...new Set(languages)].sort()).toEqual(["js", "json", "sh", "ts"]);
+  });
+
+  it("have a name of its own for each JSON file", () => {
+    expect(jsonFiles.length).toBeGreaterThan(8);
+    expect(new Set(jsonFiles.map(({ name }) => name)).size).toBe(jsonFiles.length);
   });
 
   it("name only npm scripts that exist", () => {
@@ -158,6 +182,15 @@ describe("the commands of the documents", () => {
       const { status, stdout, stderr } = program === "curl" ? runCurl(args) : runPlotwright(program, args);
       expect(`${line}: ${status} ${status === 0 ? "" : stderr}${stdout}`).toContain(`${line}: 0 `);
     }
+  });
+
+  it.each(jsonFiles)("have $name of $document, which plan reads", ({ name, text }) => {
+    const json = JSON.parse(text) as Record<string, unknown>;
+    const isDrawing = "layers" in json;
+    const option = "controller" in json ? "--machine-file" : "--config";
+    const args = isDrawing ? [name] : ["drawing.svg", option, name];
+    const { status, stderr } = runPlotwright("plotwright", ["plan", ...args]);
+    expect(`${status} ${stderr}`).toBe("0 ");
   });
 
   /** Draws on the virtual board. */
