@@ -156,7 +156,7 @@ export type {
   UsbId,
   VirtualMachine,
 } from "./drivers/driver.js";
-export { moveStopped, powerFailed, powerLost, powerLow } from "./drivers/faults.js";
+export { powerFailed, powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
 

@@ -4,7 +4,7 @@
  */
 import { planJob, PlotwrightError, strokesOf } from "../../src/index.js";
 import type { Line, MachineProfile, StrokeSet } from "../../src/index.js";
-import { type Machine, machineOf, moveStopped } from "../../src/internal.js";
+import { type Machine, machineOf } from "../../src/internal.js";
 import type { BoxMm, HandMove, PlotSettings } from "../../src/schema/index.js";
 
 /** Rejects with `out-of-bounds` before anything moves, or with the board's error. */
@@ -16,7 +16,7 @@ export async function moveByHand(plotter: Machine, move: HandMove, settings: Plo
     case "jog":
       return jog(plotter, move.dxMm, move.dyMm, settings);
     case "home":
-      if (!(await plotter.findHome(settings))) await plotter.moveTo(0, 0, settings);
+      if (!(await plotter.homing?.seekHome(settings))) await plotter.moveTo(0, 0, settings);
       return;
     case "set-home":
       return plotter.setHome(settings);
@@ -32,7 +32,8 @@ export async function moveByHand(plotter: Machine, move: HandMove, settings: Plo
     case "square":
       return drawHere(plotter, squareOf(move.sizeMm), settings);
     case "servo":
-      return plotter.moveServo(move.pos, settings);
+      if (!plotter.servo) throw noServo(machineOf(settings));
+      return plotter.servo.moveTo(move.pos, settings);
   }
 }
 
@@ -42,11 +43,13 @@ async function jog(plotter: Machine, dxMm: number, dyMm: number, settings: PlotS
   if (!(Math.abs(dxMm) <= widthMm && Math.abs(dyMm) <= heightMm)) {
     throw new PlotwrightError("out-of-bounds", `A step of ${dxMm}, ${dyMm} mm is longer than the machine.`);
   }
+  const { stopSignal } = plotter;
   const { x, y } = await standing(plotter, settings);
   // Home may not be at the machine's corner, but cannot be farther from it than the machine's length.
   const isWithin =
     x + dxMm <= widthMm && x + dxMm >= -widthMm && y + dyMm <= heightMm && y + dyMm >= -heightMm;
   if (!isWithin) throw beyond(machine, x + dxMm, y + dyMm);
+  stopSignal.throwIfAborted();
   await plotter.moveTo(x + dxMm, y + dyMm, settings);
 }
 
@@ -55,6 +58,7 @@ async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings):
   const [x1, y1] = [box.xMm + box.widthMm, box.yMm + box.heightMm];
   mustReach(machine, box.xMm, box.yMm);
   mustReach(machine, x1, y1);
+  const { stopSignal } = plotter;
   const { x, y } = await standing(plotter, settings);
   const corners = [
     [box.xMm, box.yMm],
@@ -64,9 +68,8 @@ async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings):
     [box.xMm, box.yMm],
     [x, y],
   ] as const;
-  const { stopCount } = plotter;
   for (const [cornerX, cornerY] of corners) {
-    if (plotter.stopCount !== stopCount) throw moveStopped();
+    stopSignal.throwIfAborted();
     await plotter.moveTo(cornerX, cornerY, settings);
   }
 }
@@ -74,12 +77,13 @@ async function traceFrame(plotter: Machine, box: BoxMm, settings: PlotSettings):
 /** Draws strokes in mm from the carriage's position, and returns there. */
 async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSettings): Promise<void> {
   const machine = machineOf(settings);
-  const { stopCount } = plotter;
+  const { stopSignal } = plotter;
   const { x, y } = await standing(plotter, settings);
   const { xy } = strokes;
   for (let i = 0; i < xy.length; i += 2) mustReach(machine, x + xy[i], y + xy[i + 1]);
+  stopSignal.throwIfAborted();
   if (plotter.penUp !== true) await plotter.movePen(true, settings);
-  if (plotter.stopCount !== stopCount) throw moveStopped();
+  stopSignal.throwIfAborted();
   const here = { ...strokes, xy: xy.map((value, i) => value + (i % 2 === 0 ? x : y)) };
   const job = planJob({ strokes: here }, settings, machine, {
     startXMm: x,
@@ -92,11 +96,10 @@ async function drawHere(plotter: Machine, strokes: StrokeSet, settings: PlotSett
   await plotter.perform({ trajectory: job.trajectory, commands: job.commands() }, settings);
 }
 
+/** The carriage's position, with the motors on. */
 async function standing(plotter: Machine, settings: PlotSettings): Promise<{ x: number; y: number }> {
-  const { stopCount } = plotter;
-  await plotter.ready(settings);
-  if (plotter.stopCount !== stopCount) throw moveStopped();
-  return plotter.place(machineOf(settings))!;
+  await plotter.prepareMotors(settings);
+  return plotter.positionMm(machineOf(settings))!;
 }
 
 /** Tolerance for positions read from motor steps, mm. */
@@ -115,6 +118,12 @@ function beyond({ name, widthMm, heightMm }: MachineProfile, x: number, y: numbe
     `${at} is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home. Set home first if the carriage is elsewhere.`,
   );
 }
+
+const noServo = ({ name }: MachineProfile): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    `The ${name} does not lift its pen with a servo: there is none to set up.`,
+  );
 
 const oneLayer = (id: string, name: string, ...lines: readonly Line[]): StrokeSet =>
   strokesOf(lines, { id, name, color: null });

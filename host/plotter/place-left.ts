@@ -23,9 +23,9 @@ export function placeLeft(
   { from, received }: { readonly from: Place } & Pick<JournalEntry, "received">,
 ): Place {
   const profile = machineOf(settings);
-  const { left, speed } = machine;
-  const at = machine.place(profile);
-  if (!received || !left || !at) return from;
+  const { foundMidPlot, speed } = machine;
+  const at = machine.positionMm(profile);
+  if (!received || !foundMidPlot || !at) return from;
   const { motion, pen, sendAheadMs } = settings;
   const { draw, travel } = motion;
   const aheadS = (LEFT_S + sendAheadMs / 1_000) * speed;
@@ -35,5 +35,5 @@ export function placeLeft(
     stops: penStops,
     landingMm: landingMm(pen, travel.accelMmPerS2),
   };
-  return stoppedPlace(strokes, received, { ...at, up: left.penUp }, since) ?? from;
+  return stoppedPlace(strokes, received, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

@@ -13,7 +13,6 @@
 import { PlotwrightError, type Place, type StrokeSet } from "../../src/index.js";
 import {
   movedPlace,
-  moveStopped,
   pointOfPlace,
   type Machine,
   type MachineRun,
@@ -200,9 +199,9 @@ export class MachinePlot implements LivePlotRun {
 
   async checkHoldPlace(): Promise<void> {
     const { x, y } = pointOfPlace(this.#strokes, this.#heldPlace());
-    const { stopCount } = this.#machine;
+    const { stopSignal } = this.#machine;
     const check = this.#checking.then(() => {
-      if (this.#machine.stopCount !== stopCount) throw moveStopped();
+      stopSignal.throwIfAborted();
       return this.#machine.moveTo(x, y, this.#settings.current);
     });
     this.#checking = check.catch((error: unknown) => {
@@ -268,10 +267,10 @@ export class MachinePlot implements LivePlotRun {
 
   async #planFromRest(): Promise<PlannedPlot> {
     const settings = this.#settings.current;
-    const board = await this.#machine.ready(settings);
+    const board = await this.#machine.prepareMotors(settings);
     // A request meanwhile, when there was no planning to cancel yet.
     if (this.#requested !== "run") throw cancelled();
-    const { x, y } = this.#machine.place(machineOf(settings))!;
+    const { x, y } = this.#machine.positionMm(machineOf(settings))!;
     const planning = this.#plan(this.holdPlace, x, y, board);
     const cancel = new Promise<never>((_, reject) => {
       this.#cancelPlanning = reject;
@@ -443,7 +442,7 @@ export class MachinePlot implements LivePlotRun {
 
   /** The progress before anything has been streamed. */
   #initialProgress(): Omit<JournalEntry, "place"> {
-    const { x, y } = this.#machine.place(machineOf(this.#settings.current)) ?? { x: 0, y: 0 };
+    const { x, y } = this.#machine.positionMm(machineOf(this.#settings.current)) ?? { x: 0, y: 0 };
     return { xMm: x, yMm: y, penUp: this.#machine.penUp ?? true, elapsedS: 0 };
   }
 }

@@ -32,6 +32,7 @@ import { MachinePlot } from "./plot-run.js";
 import {
   closedError,
   initialState,
+  noConsole,
   notStarted,
   penRested,
   UNKNOWN,
@@ -128,7 +129,7 @@ export class PlotterDriver {
     await this.#connecting;
     if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
     if (start.board && isOtherBoard(start.board, this.#current)) {
-      await this.#byHand((machine) => machine.release(settings));
+      await this.#byHand((machine) => machine.liftAndFreeMotors(settings));
     }
     const machine = this.#idleMachine();
     this.#settings = settings;
@@ -193,7 +194,10 @@ export class PlotterDriver {
 
   /** Sends one line, returns the whole answer. `bad-setting` for commands that would break the connection. */
   async command(line: string): Promise<CommandAnswer> {
-    return this.#byHand((machine) => machine.command(line));
+    return this.#byHand((machine) => {
+      if (!machine.console) throw noConsole();
+      return machine.console.send(line);
+    });
   }
 
   /** Closes the connection. During a move or a plot it first stops at once and lifts the pen. */
@@ -303,7 +307,7 @@ export class PlotterDriver {
     this.#connection = connection;
     this.#hadSerial ||= connection.kind === "serial";
     const { machine } = connection;
-    await machine.takeOver(this.#settings, this.#penBefore);
+    await machine.readKeptState(this.#settings, this.#penBefore);
     // close() closes the connection.
     if (this.#closed) return;
     this.#machine = machine;
@@ -316,11 +320,11 @@ export class PlotterDriver {
       kind: connection.kind,
       device: connection.device,
       connection: "idle",
-      boardName: machine.name,
+      boardName: machine.name ?? null,
       boardSerialNumber: connection.serialNumber,
       firmware: machine.firmware,
       message:
-        machine.left?.penUp === false
+        machine.foundMidPlot?.penUp === false
           ? penRested(this.#current, restedS)
           : welcome(connection.kind, this.#options.device),
     });
@@ -358,8 +362,8 @@ export class PlotterDriver {
     // A manual move, or the way home of a cancelled plot.
     machine?.stopAtOnce();
     try {
-      await machine?.forgetPlace();
-      await machine?.release(settings);
+      await machine?.forgetPosition();
+      await machine?.liftAndFreeMotors(settings);
     } catch {
       // A lost connection is reported by the machine's own event.
     }
@@ -368,10 +372,10 @@ export class PlotterDriver {
   async #byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
     await this.#connecting;
     const machine = this.#idleMachine();
-    const { stopCount } = machine;
+    const { stopSignal } = machine;
     const moved = action(machine).catch(async (error: unknown) => {
       // A move that was stopped may have left the pen on the paper.
-      const isStopped = machine.stopCount !== stopCount && this.#machine === machine && !this.#closed;
+      const isStopped = stopSignal.aborted && this.#machine === machine && !this.#closed;
       if (isStopped && machine.penUp !== true) await machine.movePen(true, this.#settings);
       throw error;
     });
@@ -411,14 +415,14 @@ export class PlotterDriver {
   #machineChanged(): void {
     const machine = this.#machine;
     if (!machine) return;
-    const place = machine.place(machineOf(this.#settings));
+    const position = machine.positionMm(machineOf(this.#settings));
     this.#setState({
       emergencyStopMs: machine.emergencyStopMs(this.#settings),
       penUp: machine.penUp,
       penMoving: machine.penMoving,
       motorsOn: machine.motorsOn,
-      xMm: place?.x ?? null,
-      yMm: place?.y ?? null,
+      xMm: position?.x ?? null,
+      yMm: position?.y ?? null,
     });
   }
 

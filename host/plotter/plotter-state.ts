@@ -77,5 +77,11 @@ export function welcome(kind: PlotterState["kind"], device: string): string | nu
 export const notStarted = (): PlotwrightError =>
   new PlotwrightError("no-board", "The plotter is not connected yet: start it first.");
 
+export const noConsole = (): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    "This machine takes no typed lines: use the buttons of the page instead.",
+  );
+
 export const closedError = (): PlotwrightError =>
   new PlotwrightError("disconnected", "The plotter was closed: start it again to continue.");

@@ -70,8 +70,8 @@ export class SupplyWatch {
 
   async #ask(machine: Machine): Promise<void> {
     await this.#released;
-    let state = await machine.supply();
-    if (state === "low") state = await machine.supply();
+    let state = await readSupply(machine);
+    if (state === "low") state = await readSupply(machine);
     // After a failure that is known, the board also reports that the supply was low until now.
     if (state === "low" || (state === "failed" && !this.#isLow)) this.#lost(state === "failed");
     else if (this.#isLow) {
@@ -85,4 +85,11 @@ export class SupplyWatch {
     this.#isLow = true;
     this.#released = this.#events.lost(isBack);
   }
+}
+
+/** A machine that cannot measure its supply counts as having a good one. */
+async function readSupply(machine: Machine): Promise<SupplyState> {
+  if (machine.supply) return machine.supply.read();
+  await machine.ping?.();
+  return "good";
 }

@@ -4,7 +4,7 @@
  *
  *   ControllerDescription    the fields in a machine's profile, USB ids, versions
  *   PlanForMachine ──────> MachineJob   the motion and its commands; needs no connected machine
- *   Driver ──identify──> Machine      a connected machine: pen, manual moves, supply, console
+ *   Driver ──identify──> Machine      a connected machine: pen, manual moves, and optional parts such as a console
  *                          └──startRun──> MachineRun   one plot: play, hold, stop, switch to another plan
  *
  * A controller either follows our plan (EBB) or plans by itself (Grbl). In the second case the trajectory is a model of
@@ -15,6 +15,7 @@ import type { PlotwrightError } from "../errors.js";
 import type { Controller, ControllerFields } from "../machines/controller.js";
 import type { MachineProfile, Springs } from "../machines/profile.js";
 import type { Place } from "../plan/trajectory.js";
+import type { Cancellation } from "../prepare/work.js";
 import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
 import type { PlotProgress, RunProgress } from "./run-progress.js";
 import type { Clock, Transport } from "./transport.js";
@@ -92,11 +93,9 @@ export interface PenBefore {
   readonly penUp: boolean | null;
 }
 
-/** One connected machine. Positions are mm from home; null if unknown. */
-export interface Machine {
+/** One connected machine: its motion, its runs, and the parts that it has. Positions are mm from home; null if unknown. */
+export interface Machine extends MachineParts {
   readonly firmware: string;
-  /** The controller's own name; null if it has none. */
-  readonly name: string | null;
   /** Counts the machine's seconds. */
   readonly clock: Clock;
   /** The machine's seconds per second of this computer. */
@@ -105,60 +104,94 @@ export interface Machine {
   /** The pen is still moving to that state. */
   readonly penMoving: boolean;
   readonly motorsOn: boolean | null;
-  /**
-   * How the machine was found, if it still knew its position when it was connected. Null after the first move, and for
-   * a carriage that may have been brought home by hand.
-   */
-  readonly left: { readonly penUp: boolean } | null;
   /** Where and how the next job begins; null while the position is unknown. */
   readonly state: MachineState | null;
-  place(profile: MachineProfile): { readonly x: number; readonly y: number } | null;
+  positionMm(profile: MachineProfile): { readonly x: number; readonly y: number } | null;
 
   /**
    * Called after connecting: reads the state that the machine kept, and lifts a pen that was left on the paper. `before`:
    * the pen when an earlier connection to the machine was lost; null: there was none.
    */
-  takeOver(settings: MachineSettings, before: PenBefore | null): Promise<void>;
+  readKeptState(settings: MachineSettings, before: PenBefore | null): Promise<void>;
   /** Switches the motors on if they are off. If the position is unknown, the current position becomes home. */
-  ready(settings: MachineSettings): Promise<MachineState>;
+  prepareMotors(settings: MachineSettings): Promise<MachineState>;
   /** Resolves when the pen has arrived. */
   movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void>;
-  /** Moves the pen's servo to a raw position. */
-  moveServo(pos: number, settings: MachineSettings): Promise<void>;
   /** Lifts the pen and moves in a straight line to a position, at travel speed. */
   moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
   /** Plays a job that ends with the pen up, outside any run. */
   perform(plot: PlannedPlot, settings: MachineSettings): Promise<void>;
+  startRun(request: RunRequest): MachineRun;
   /** Makes the current position home. */
   setHome(settings: MachineSettings): Promise<void>;
-  /** Finds home with the machine's own switches. False if it has none; nothing moves then. */
-  findHome(settings: MachineSettings): Promise<boolean>;
   /** Switches the motors off, so that the carriage can be pushed by hand. Its position is then unknown. */
   motorsOff(): Promise<void>;
   /** Call when something else has moved the carriage: its position is then unknown. */
-  forgetPlace(): Promise<void>;
-  /** Call after the position is lost: lifts the pen and switches the motors off. */
-  release(settings: MachineSettings): Promise<void>;
-  /** Call before the connection is closed during motion: stops at once and lifts the pen. */
-  stopAndLift(settings: MachineSettings): Promise<void>;
+  forgetPosition(): Promise<void>;
+  /** Call after the position is lost. */
+  liftAndFreeMotors(settings: MachineSettings): Promise<void>;
+
   /** Stops a manual move, which then rejects with `conflict`, and reads the position back. */
   stopAtOnce(): void;
   /**
-   * How many times `stopAtOnce` was called. A move of several steps compares it before each: a stop between two of them
-   * finds no motion to stop, but must end the move.
+   * The signal for a move that begins now: `stopAtOnce` aborts it, and later moves get another one. A move of several
+   * steps checks it before each: a stop between two of them finds no motion to stop, but must end the move.
    */
-  readonly stopCount: number;
-
-  /** Queries the machine; "good" if it cannot measure its supply. */
-  supply(): Promise<SupplyState>;
+  readonly stopSignal: StopSignal;
+  /** Call before the connection is closed during motion: stops at once and lifts the pen. */
+  stopAndLift(settings: MachineSettings): Promise<void>;
   /** How long the motors may keep running after an emergency stop. */
   emergencyStopMs(settings: MachineSettings): number;
-  /** Sends a line that the user typed. Rejects with `bad-setting` for a line that would break the communication. */
-  command(line: string): Promise<ConsoleAnswer>;
+
   /** The log of the communication, as text to download. */
   log(): string;
-  startRun(request: RunRequest): MachineRun;
   close(): Promise<void>;
+}
+
+/** Tells the steps of a manual move that the user has stopped it. Like an AbortSignal, which `src` cannot use. */
+export interface StopSignal extends Cancellation {
+  /** @throws PlotwrightError "conflict" */
+  throwIfAborted(): void;
+}
+
+/** What only some controllers have. Left out or null: this one does not. */
+interface MachineParts {
+  /** The controller's own name. */
+  readonly name?: string | null;
+  /**
+   * How the machine was found, if it still knew its position when it was connected. Null after the first move, and for
+   * a carriage that may have been brought home by hand.
+   */
+  readonly foundMidPlot?: { readonly penUp: boolean } | null;
+  /** A servo that moves the pen. */
+  readonly servo?: ServoPart;
+  /** Measures the motors' supply. */
+  readonly supply?: SupplyPart;
+  /** Asks a machine without `supply` for anything, to notice if it no longer answers. */
+  ping?(): Promise<void>;
+  /** Finds home with switches. */
+  readonly homing?: HomingPart;
+  /** Takes lines that the user types. */
+  readonly console?: ConsolePart;
+}
+
+interface ServoPart {
+  /** Moves the servo to a raw position. */
+  moveTo(pos: number, settings: MachineSettings): Promise<void>;
+}
+
+interface SupplyPart {
+  read(): Promise<SupplyState>;
+}
+
+interface HomingPart {
+  /** False if the machine's profile has no switches; nothing moves then. */
+  seekHome(settings: MachineSettings): Promise<boolean>;
+}
+
+interface ConsolePart {
+  /** Sends one line. Rejects with `bad-setting` for a line that would break the communication. */
+  send(line: string): Promise<ConsoleAnswer>;
 }
 
 export interface ConsoleAnswer {

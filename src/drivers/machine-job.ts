@@ -1,4 +1,5 @@
 /** A job for one machine: its motion, and the commands that make the machine perform it. */
+import type { Cancellation } from "../prepare/work.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { MachineChoice } from "../machines/profiles.js";
@@ -71,8 +72,8 @@ export interface DriverPlanOptions {
   /** Where to go when everything is drawn, mm from home; default: home. */
   readonly endXMm?: number | undefined;
   readonly endYMm?: number | undefined;
-  /** Checked before every stroke. An AbortSignal fits. */
-  readonly cancel?: { readonly aborted: boolean } | undefined;
+  /** Checked before every stroke. */
+  readonly cancel?: Cancellation | undefined;
 }
 
 /** The properties of a controller's firmware that affect a plan. */

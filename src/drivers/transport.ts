@@ -38,8 +38,3 @@ export function scaledClock(clock: Clock, speed: number): Clock {
     after: (delayS, callback) => clock.after(delayS / speed, callback),
   };
 }
-
-/** Asks a long computation to stop. An AbortSignal fits. */
-export interface Cancellation {
-  readonly aborted: boolean;
-}

@@ -16,6 +16,7 @@ import {
   type StrokeSet,
 } from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";
+import type { Cancellation } from "../prepare/work.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
 import type { Kernel } from "./impulse-filter.js";
@@ -70,8 +71,8 @@ export interface PlanOptions {
    * @internal
    */
   readonly dropsAtStroke?: boolean | undefined;
-  /** Checked before every stroke. An AbortSignal fits. */
-  readonly cancel?: { readonly aborted: boolean } | undefined;
+  /** Checked before every stroke. */
+  readonly cancel?: Cancellation | undefined;
 }
 
 /**

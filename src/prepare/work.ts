@@ -4,12 +4,17 @@
  */
 import { PlotwrightError } from "../errors.js";
 
+/** Asks a long computation to stop. An AbortSignal fits. */
+export interface Cancellation {
+  readonly aborted: boolean;
+}
+
 /** Progress and cancelling of a long computation. Everything is optional. */
 export interface Work {
-  /** Checked often; an AbortSignal fits. */
-  readonly cancel?: { readonly aborted: boolean } | undefined;
+  /** Checked often. */
+  readonly cancel?: Cancellation | undefined;
   /** Set to stop the search early and use the best result so far. */
-  readonly enough?: { readonly aborted: boolean } | undefined;
+  readonly enough?: Cancellation | undefined;
   /** Seconds of a monotonic clock. */
   readonly nowS?: (() => number) | undefined;
   /** Fraction done, 0 … 1, never decreasing, and the name of the current step. */

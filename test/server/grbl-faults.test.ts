@@ -124,7 +124,7 @@ describe("after an error", { timeout: 60_000 }, () => {
   it("a hand move with a refused line leaves the pen up and the machine free", async () => {
     const { board, machine, within } = await newMachine();
     await within(machine.movePen(true, SETTINGS));
-    await within(machine.ready(SETTINGS));
+    await within(machine.prepareMotors(SETTINGS));
     const planner = new RefusedPlanner(TWO_LINES, 4);
     const plot = await planner.plan({
       from: null,

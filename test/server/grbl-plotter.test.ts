@@ -169,6 +169,9 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
       replies: ["error:20"],
       refused: true,
     });
+    expect(await outcome(world.run(driver.move({ kind: "servo", pos: 12_000 })))).toMatch(
+      /^bad-setting: .* does not lift its pen with a servo/,
+    );
     expect(await outcome(world.run(driver.command("!")))).toMatch(/^bad-setting/);
     await world.run(driver.motorsOff());
     expect(driver.state).toMatchObject({ motorsOn: false, xMm: null });
@@ -208,12 +211,12 @@ describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
     };
     const options = { clock: world, machineClock: world, speed: 1, events };
     const machine = await world.run(grblDriver.identify(board.transport(), options));
-    await world.run(machine.takeOver(SETTINGS, null));
+    await world.run(machine.readKeptState(SETTINGS, null));
     expect(machine.firmware).toBe("Grbl 1.1h");
     expect(board.state().state).toBe("Idle");
     await world.run(machine.moveTo(10, 20, SETTINGS));
     expect(board.state()).toMatchObject({ zMm: 5, penUp: true });
-    expect(machine.place(GRBL)?.x).toBeCloseTo(10, 3);
+    expect(machine.positionMm(GRBL)?.x).toBeCloseTo(10, 3);
     await machine.close();
   });
 

@@ -276,7 +276,7 @@ it("stops a motion that was left along its path, so that a Grbl with homing is n
     },
   };
   const machine = await world.run(grblDriver.identify(board.transport(), options));
-  await world.run(machine.takeOver(SETTINGS, null));
+  await world.run(machine.readKeptState(SETTINGS, null));
   expect(board.state().state).toBe("Idle");
   expect(machine.log()).not.toContain("ALARM");
   expect(machine.log()).not.toContain("> $X");

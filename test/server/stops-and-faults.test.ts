@@ -107,7 +107,7 @@ async function newMachine(options: Partial<VirtualBoardOptions> = {}) {
   const machine = await clock.run(
     driver.identify(board.transport(), { clock, machineClock: clock, speed: 1, events }),
   );
-  await clock.run(machine.takeOver(DEFAULT_PLOT_SETTINGS, null));
+  await clock.run(machine.readKeptState(DEFAULT_PLOT_SETTINGS, null));
   return { clock, board, machine };
 }
 
@@ -130,7 +130,7 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
     it("of a manual move leaves no known position", async () => {
       const { clock, board, machine } = await newMachine({ firmware });
       const move = outcome(machine.moveTo(100, 50, SETTINGS));
-      await clock.advance(0.8);
+      while (board.state().steps1 === 0) await clock.advance(0.1);
       board.restart();
       machine.stopAtOnce();
       expect(await clock.run(move)).toMatch(/^board-error: The board restarted/);
@@ -141,7 +141,7 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
       const { clock, board, machine } = await newMachine({ firmware });
       await clock.run(machine.moveTo(10, 5, SETTINGS));
       board.restart();
-      expect(await clock.run(machine.command("ES"))).toMatchObject({
+      expect(await clock.run(machine.console!.send("ES"))).toMatchObject({
         note: expect.stringContaining("position is unknown") as string,
       });
       expect(machine.state).toBeNull();

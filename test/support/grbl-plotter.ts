@@ -109,7 +109,7 @@ export async function newMachine(options: VirtualGrblOptions = {}) {
   const machine = await world.run(
     grblDriver.identify(line, { clock: world, machineClock: world, speed: 1, events }),
   );
-  await world.run(machine.takeOver(SETTINGS, null));
+  await world.run(machine.readKeptState(SETTINGS, null));
   const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
   return { world, board, line, machine, lost, within };
 }

@@ -109,7 +109,7 @@ export class InterruptiblePlot {
         events: NO_EVENTS,
       }),
     );
-    await world.run(machine.takeOver(this.settings, null));
+    await world.run(machine.readKeptState(this.settings, null));
     const startRun = machine.startRun.bind(machine);
     machine.startRun = (request) => (this.run = startRun(request));
     const record = (entry: JournalEntry): void => void this.journal.push(entry);

@@ -32,7 +32,7 @@ export async function plotOnBoard(
       events: { changed: ignore, buttonPressed: ignore, supplyRead: ignore, lost: ignore },
     }),
   );
-  await world.run(machine.takeOver(settings, null));
+  await world.run(machine.readKeptState(settings, null));
   const planner = new KeepingPlanner(strokes);
   const run = new MachinePlot(machine, planner, settings);
   const reports: PlotProgress[] = [];

@@ -1,5 +1,5 @@
 /** Plans strokes for an EBB within the limits of its firmware, and compiles the commands. */
-import { strokesOf, type StrokeSet } from "../../../drawing/stroke-set.js";
+import type { StrokeSet } from "../../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { plan } from "../../../plan/plan.js";
 import type { MotionSettings } from "../../../settings/motion.js";
@@ -43,24 +43,6 @@ export function planEbbJob(
   };
   return { trajectory, commands, lines };
 }
-
-/** A straight move with the pen up, mm from home, as a separate job. */
-export const planEbbMoveTo = (
-  from: { readonly x: number; readonly y: number },
-  to: { readonly x: number; readonly y: number },
-  settings: JobSettings,
-  machine: MachineProfile,
-  firmware: string,
-  board: BoardState,
-): MachineJob<CommandStream> =>
-  planEbbJob(strokesOf([]), settings, machine, {
-    startXMm: from.x,
-    startYMm: from.y,
-    endXMm: to.x,
-    endYMm: to.y,
-    firmware,
-    board,
-  });
 
 /**
  * How far a pen that stopped on the planned line can be from the drawing: the deviation of the planned line, plus the

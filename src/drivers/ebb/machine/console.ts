@@ -48,19 +48,19 @@ async function noteOn(carriage: Carriage, name: string, replies: readonly string
   const { features } = carriage.connection;
   // The board reports a failure only once: without this, the next move would not learn of it.
   if (name === "QG" && features.hasSupplyLatch && replies.some(hasSupplyFailed)) {
-    await carriage.forgetPlace();
+    await carriage.position.forget();
     return "The motors' supply has failed for a moment, so the position is unknown. The next move starts from here as home.";
   }
   if (PEN.has(name)) {
-    carriage.penIs(null);
+    carriage.pen.setState(null);
     return "The line may have moved the pen or changed its settings. The next move sets heights and speeds again.";
   }
   if (ZEROES.has(name)) {
-    await carriage.forgetPlace();
+    await carriage.position.forget();
     return "The line set the motors' counters to zero, so the position is unknown. The next move starts from here as home.";
   }
   if (!MOVES.has(name)) return null;
-  return (await carriage.findPlaceAgain(LONGEST_S))
+  return (await carriage.position.readBackOrForget(LONGEST_S))
     ? "The motors may have moved. The position was read back from their counters."
     : "The motors may have moved, so the position is unknown. The next move starts from here as home.";
 }

@@ -1,8 +1,12 @@
-/** One connected EiBotBoard as a `Machine`: its carriage and its operations. */
+/** One connected EiBotBoard as a `Machine`: its carriage, and the parts that this board has. */
+import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
+import { moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
+import type { BoardState } from "../compile/command-stream.js";
+import { planEbbJob } from "../compile/ebb-job.js";
 import { ebbOf } from "../protocol/ebb-controller.js";
 import { Carriage } from "./carriage.js";
 import { sendLine } from "./console.js";
@@ -10,12 +14,23 @@ import { EbbRun } from "./ebb-run.js";
 import { seekHome } from "./homing.js";
 
 export class EbbMachine extends Carriage implements Machine {
-  get firmware(): string {
-    return this.connection.features.version;
-  }
+  readonly servo = this.pen;
+  readonly supply = this.upkeep.supply;
+  readonly console = { send: (line: string): Promise<ConsoleAnswer> => sendLine(this, line) };
+  readonly homing = {
+    seekHome: async (settings: MachineSettings): Promise<boolean> => {
+      const { homing } = ebbOf(machineOf(settings));
+      if (homing) await seekHome(this, settings, homing);
+      return Boolean(homing);
+    },
+  };
 
   get name(): string | null {
     return this.connection.boardName;
+  }
+
+  get firmware(): string {
+    return this.connection.features.version;
   }
 
   get clock(): Clock {
@@ -26,26 +41,59 @@ export class EbbMachine extends Carriage implements Machine {
     return this.connection.speed;
   }
 
-  async findHome(settings: MachineSettings): Promise<boolean> {
-    const { homing } = ebbOf(machineOf(settings));
-    if (!homing) return false;
-    await seekHome(this, settings, homing);
-    return true;
+  get penUp(): boolean | null {
+    return this.pen.isUp;
   }
 
-  command(line: string): Promise<ConsoleAnswer> {
-    return sendLine(this, line);
+  get penMoving(): boolean {
+    return this.pen.isMoving;
   }
 
-  log(): string {
-    return this.connection.session.log.text();
+  get motorsOn(): boolean | null {
+    return this.position.motorsOn;
+  }
+
+  get foundMidPlot(): { readonly penUp: boolean } | null {
+    return this.position.foundMidPlot;
+  }
+
+  get state(): BoardState | null {
+    return this.position.state;
+  }
+
+  positionMm(profile: MachineProfile): { x: number; y: number } | null {
+    return this.position.mm(profile);
+  }
+
+  forgetPosition(): Promise<void> {
+    return this.position.forget();
+  }
+
+  motorsOff(): Promise<void> {
+    return this.position.motorsOff();
+  }
+
+  movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
+    return this.pen.move(up, settings, heightPct);
+  }
+
+  moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
+    return moveTo(this, planEbbJob, { xMm, yMm }, settings);
+  }
+
+  emergencyStopMs(settings: MachineSettings): number {
+    return this.upkeep.emergencyStopMs(settings);
   }
 
   startRun(request: RunRequest): MachineRun {
     return new EbbRun(this, request);
   }
 
-  async close(): Promise<void> {
-    await this.connection.session.close();
+  log(): string {
+    return this.connection.session.log.text();
+  }
+
+  close(): Promise<void> {
+    return this.connection.session.close();
   }
 }

@@ -107,10 +107,10 @@ export class EbbRun implements MachineRun {
     if (this.failure) throw this.failure;
     const { trajectory: whole } = plot;
     const commands = streamOf(plot.commands);
-    this.firstPart = { trajectory: whole, commands, start: carriage.state!, afterS };
+    this.firstPart = { trajectory: whole, commands, start: carriage.position.state!, afterS };
     this.progress.add(this.firstPart);
     this.certain = placeAt(whole, commands.planS[0]);
-    const streamer = carriage.streamer(this.settings, (at) => this.reached(at));
+    const streamer = carriage.upkeep.streamer(this.settings, (at) => this.reached(at));
     // First, because a reply that comes at once may call `fail`.
     this.streamer = streamer;
     const played = carriage.play(streamer, plot, this.settings);
@@ -123,7 +123,7 @@ export class EbbRun implements MachineRun {
       // A play stopped while the carriage was at rest ends in the middle of the plan; its path to rest has no command.
       const isWhole = report.complete && !this.stopped;
       const penUp = isPenUpBefore(trajectory, isWhole ? Infinity : planS);
-      carriage.penUp = penUp;
+      carriage.pen.isUp = penUp;
       // The board is at rest, so the pen is too, even if its planned end is slightly later by rounding.
       this.events.progressed({
         ...this.progress.update({ ...report.end, planS: isWhole ? trajectory.totalS : planS }),
@@ -139,7 +139,7 @@ export class EbbRun implements MachineRun {
         left = await this.afterEmergency(streamer);
       } else {
         // Without a state, the position is lost.
-        const isRefused = streamer.refused.length > 0 && carriage.state;
+        const isRefused = streamer.refused.length > 0 && carriage.position.state;
         left = isRefused ? await this.afterRefusal(streamer) : this.certain;
         throw error;
       }
@@ -147,7 +147,7 @@ export class EbbRun implements MachineRun {
       this.events.ended(left);
       this.streamer = null;
     }
-    if (this.wasStopped() && carriage.penUp !== true) await carriage.movePen(true, this.settings);
+    if (this.wasStopped() && carriage.pen.isUp !== true) await carriage.pen.move(true, this.settings);
   }
 
   /** Cuts the stream after what the board already has, and appends the path to rest. */
@@ -166,7 +166,7 @@ export class EbbRun implements MachineRun {
   stopAtOnce(): void {
     if (!this.streamer) return;
     this.emergency ??= new PlotwrightError("conflict", "The plot was stopped at once.");
-    this.carriage.noteEmergencyStop(this.settings);
+    this.carriage.upkeep.noteEmergencyStop(this.settings);
     this.streamer.stopAtOnce(this.emergency);
   }
 
@@ -286,14 +286,14 @@ export class EbbRun implements MachineRun {
   /** The board's queue is cleared: the counters show how far it drew. */
   private async afterEmergency(streamer: Streamer): Promise<Place | null> {
     const { carriage } = this;
-    await carriage.findPlace();
-    const { steps1, steps2 } = carriage.state!;
+    await carriage.position.readBack();
+    const { steps1, steps2 } = carriage.position.state!;
     const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2) ?? streamer.place();
-    const { x, y } = carriage.place(machineOf(this.settings))!;
+    const { x, y } = carriage.position.mm(machineOf(this.settings))!;
     // The board counts on if the supply fails just before or after the stop.
-    const place = (await carriage.motorSupply.wasLow()) ? this.certain : this.afterSwing(at, x, y);
+    const place = (await carriage.upkeep.supply.wasLow()) ? this.certain : this.afterSwing(at, x, y);
     this.stopped = { place };
-    carriage.penUp = null;
+    carriage.pen.isUp = null;
     return place;
   }
 
@@ -310,8 +310,8 @@ export class EbbRun implements MachineRun {
   private async afterRefusal(streamer: Streamer): Promise<Place | null> {
     const { carriage, strokes, settings } = this;
     try {
-      await carriage.findPlace();
-      const { steps1, steps2 } = carriage.state!;
+      await carriage.position.readBack();
+      const { steps1, steps2 } = carriage.position.state!;
       const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2);
       const place = placeAfterRefusal(
         strokes,
@@ -322,12 +322,12 @@ export class EbbRun implements MachineRun {
           placeOf: (found, x, y) => this.placeOrEnd(found, x, y),
         },
       );
-      carriage.penUp = null;
-      await carriage.movePen(true, settings);
+      carriage.pen.isUp = null;
+      await carriage.pen.move(true, settings);
       return place;
     } catch {
       // The position cannot be read back, so home has to be set again.
-      await carriage.forgetPlace().catch(() => undefined);
+      await carriage.position.forget().catch(() => undefined);
       return this.certain;
     }
   }

@@ -7,10 +7,10 @@
 import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import { moveStopped } from "../../faults.js";
+import type { Machine, StopSignal } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
 import type { HomingSwitches, SwitchInput } from "../protocol/ebb-controller.js";
-import type { Carriage } from "./carriage.js";
+import type { BoardSession } from "../stream/session.js";
 
 /** Shorter than the travel of a pressed switch. */
 const SEEK_MM = 1;
@@ -21,47 +21,51 @@ const MAX_RELEASE_MM = 10;
 const SLACK = 1.1;
 const SEEK_SPEED_MM_PER_S = 30;
 
+interface Board extends Pick<Machine, "prepareMotors" | "setHome" | "moveTo" | "positionMm" | "stopSignal"> {
+  readonly connection: { readonly session: BoardSession };
+}
+
 export async function seekHome(
-  carriage: Carriage,
+  board: Board,
   settings: MachineSettings,
   homing: HomingSwitches,
 ): Promise<void> {
   const machine = machineOf(settings);
   const slow = withTravelSpeed(settings, SEEK_SPEED_MM_PER_S);
-  const { stopCount } = carriage;
-  await carriage.ready(settings);
-  await seekAxis(carriage, slow, homing.x, "x", machine.widthMm * SLACK, stopCount);
-  await seekAxis(carriage, slow, homing.y, "y", machine.heightMm * SLACK, stopCount);
-  await carriage.setHome(settings);
+  const { stopSignal } = board;
+  await board.prepareMotors(settings);
+  await seekAxis(board, slow, homing.x, "x", machine.widthMm * SLACK, stopSignal);
+  await seekAxis(board, slow, homing.y, "y", machine.heightMm * SLACK, stopSignal);
+  await board.setHome(settings);
 }
 
 async function seekAxis(
-  carriage: Carriage,
+  board: Board,
   settings: MachineSettings,
   input: SwitchInput,
   axis: "x" | "y",
   maxMm: number,
-  stopCount: number,
+  stopSignal: StopSignal,
 ): Promise<void> {
   const machine = machineOf(settings);
-  await carriage.connection.session.send(`PD,${input.port},${input.pin},1`);
+  await board.connection.session.send(`PD,${input.port},${input.pin},1`);
   const step = async (byMm: number): Promise<void> => {
-    if (carriage.stopCount !== stopCount) throw moveStopped();
-    const { x, y } = carriage.place(machine)!;
-    await carriage.moveTo(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
+    stopSignal.throwIfAborted();
+    const { x, y } = board.positionMm(machine)!;
+    await board.moveTo(axis === "x" ? x + byMm : x, axis === "y" ? y + byMm : y, settings);
   };
-  for (let movedMm = 0; !(await isPressed(carriage, input)); movedMm += SEEK_MM) {
+  for (let movedMm = 0; !(await isPressed(board, input)); movedMm += SEEK_MM) {
     if (movedMm > maxMm) throw noSwitch(machine, axis, maxMm, input);
     await step(-SEEK_MM);
   }
-  for (let movedMm = 0; await isPressed(carriage, input); movedMm += RELEASE_MM) {
+  for (let movedMm = 0; await isPressed(board, input); movedMm += RELEASE_MM) {
     if (movedMm > MAX_RELEASE_MM) throw stuck(axis, input);
     await step(RELEASE_MM);
   }
 }
 
-async function isPressed(carriage: Carriage, { port, pin, pressed }: SwitchInput): Promise<boolean> {
-  return Number(await carriage.connection.session.query(`PI,${port},${pin}`)) === pressed;
+async function isPressed(board: Board, { port, pin, pressed }: SwitchInput): Promise<boolean> {
+  return Number(await board.connection.session.query(`PI,${port},${pin}`)) === pressed;
 }
 
 const withTravelSpeed = (settings: MachineSettings, speedMmPerS: number): MachineSettings => {

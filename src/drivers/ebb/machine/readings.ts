@@ -49,7 +49,7 @@ export class MotorSupply {
     return hasSupplyFailed(await this.session.query("QG"));
   }
 
-  async state(): Promise<SupplyState> {
+  async read(): Promise<SupplyState> {
     const { hasSupplyLatch } = this.features;
     if (hasSupplyLatch && !(await this.hasFailed())) return "good";
     if (isPowerLow("QC", await this.session.query("QC"))) return "low";
@@ -64,7 +64,7 @@ export class MotorSupply {
   }
 
   private async reported(): Promise<SupplyState> {
-    const state = await this.state();
+    const state = await this.read();
     this.report(state);
     return state;
   }

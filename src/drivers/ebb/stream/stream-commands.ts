@@ -3,7 +3,7 @@ import type { BoardSession } from "./session.js";
 import type { StreamOptions, StreamReport } from "./stream-types.js";
 import { Streamer } from "./streamer.js";
 import type { StreamPlace } from "./timeline.js";
-import type { Cancellation } from "../../transport.js";
+import type { Cancellation } from "../../../prepare/work.js";
 
 /** Progress of a plot. */
 export interface StreamProgress extends StreamPlace {

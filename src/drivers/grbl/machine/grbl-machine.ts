@@ -2,7 +2,6 @@
  * One connected Grbl: the position of its carriage and pen, and the operations that move them. Its work coordinates are
  * mm from home. If the position is unknown, the carriage is assumed to be at home.
  */
-import { strokesOf } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
 import { placeFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -14,10 +13,10 @@ import type {
   MachineRun,
   PenBefore,
   RunRequest,
-  SupplyState,
 } from "../../driver.js";
 import { moveStopped } from "../../faults.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
+import { MoveSignal, moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
 import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, penLines } from "../grbl-job.js";
 import { grblOf } from "../model/grbl-controller.js";
@@ -38,8 +37,8 @@ const BELOW = 0.25;
 const UP = 0.99;
 
 export class GrblMachine implements Machine {
-  readonly name = null;
-  readonly left = null;
+  readonly console = { send: (line: string): Promise<ConsoleAnswer> => this.sendLine(line) };
+  stopSignal = new MoveSignal();
   penUp: boolean | null = null;
   penMoving = false;
   motorsOn: boolean | null = null;
@@ -49,7 +48,6 @@ export class GrblMachine implements Machine {
   /** Only the user may unlock it. */
   private isLocked = false;
   private byHand: LineStream | null = null;
-  stopCount = 0;
 
   constructor(
     readonly session: GrblSession,
@@ -69,13 +67,13 @@ export class GrblMachine implements Machine {
     return this.at && { at: this.at };
   }
 
-  place(profile: MachineProfile): { x: number; y: number } | null {
+  positionMm(profile: MachineProfile): { x: number; y: number } | null {
     const { stepsPerMm } = profile;
     return this.at && placeFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
   }
 
   /** Stops motion that was left, reads the Grbl's settings, and lifts the pen if it may be on the paper. */
-  async takeOver(settings: MachineSettings, before: PenBefore | null): Promise<void> {
+  async readKeptState(settings: MachineSettings, before: PenBefore | null): Promise<void> {
     const { session } = this;
     const { state } = await session.status();
     if (state !== "Idle" && !isLocked(state)) {
@@ -90,7 +88,7 @@ export class GrblMachine implements Machine {
     if (!this.isLocked) await this.liftLeft(status, settings, before);
   }
 
-  async ready(settings: MachineSettings): Promise<MachineState> {
+  async prepareMotors(settings: MachineSettings): Promise<MachineState> {
     const profile = machineOf(settings);
     grblOf(profile);
     // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
@@ -110,7 +108,7 @@ export class GrblMachine implements Machine {
     const pct = heightPct ?? (up ? upPct : downPct);
     const share = Math.min(1, Math.max(0, (pct - downPct) / (upPct - downPct)));
     const zMm = grbl.penDownZMm + share * (grbl.penUpZMm - grbl.penDownZMm);
-    if (this.isAsleep) await this.ready(settings);
+    if (this.isAsleep) await this.prepareMotors(settings);
     await this.mustBeUnlocked();
     const lines = [SYNC, ...penLines(grbl, zMm)];
     this.session.settings.mustReach(lines, this.session.offset);
@@ -141,26 +139,8 @@ export class GrblMachine implements Machine {
     }
   }
 
-  moveServo(): Promise<void> {
-    return Promise.reject(
-      new PlotwrightError(
-        "bad-setting",
-        "This machine lifts its pen with its Z axis: it has no servo to set up.",
-      ),
-    );
-  }
-
-  async moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
-    const machine = machineOf(settings);
-    const { stopCount } = this;
-    await this.ready(settings);
-    if (this.penUp !== true) await this.movePen(true, settings);
-    // A stop before the carriage moves has no stream to stop.
-    if (this.stopCount !== stopCount) throw moveStopped();
-    const { x, y } = this.place(machine)!;
-    const travel = { startXMm: x, startYMm: y, endXMm: xMm, endYMm: yMm };
-    const job = planGrblJob(strokesOf([]), settings, machine, travel);
-    await this.perform({ trajectory: job.trajectory, commands: job.commands() }, settings);
+  moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void> {
+    return moveTo(this, planGrblJob, { xMm, yMm }, settings);
   }
 
   async perform({ commands }: PlannedPlot, settings: MachineSettings): Promise<void> {
@@ -185,28 +165,24 @@ export class GrblMachine implements Machine {
   }
 
   async setHome(settings: MachineSettings): Promise<void> {
-    await this.ready(settings);
+    await this.prepareMotors(settings);
     await this.homeIsHere();
-  }
-
-  findHome(): Promise<boolean> {
-    return Promise.resolve(false);
   }
 
   async motorsOff(): Promise<void> {
     if (!this.isAsleep) await this.session.send("$SLP");
     this.isAsleep = true;
     this.motorsOn = false;
-    await this.forgetPlace();
+    await this.forgetPosition();
   }
 
-  forgetPlace(): Promise<void> {
+  forgetPosition(): Promise<void> {
     this.at = null;
     this.options.events.changed();
     return Promise.resolve();
   }
 
-  async release(settings: MachineSettings): Promise<void> {
+  async liftAndFreeMotors(settings: MachineSettings): Promise<void> {
     await this.movePen(true, settings);
     await this.motorsOff();
   }
@@ -218,21 +194,20 @@ export class GrblMachine implements Machine {
   }
 
   stopAtOnce(): void {
-    this.stopCount++;
+    this.stopSignal.aborted = true;
+    this.stopSignal = new MoveSignal();
     this.byHand?.stop(moveStopped());
   }
 
-  /** Grbl does not report the motors' supply. The query detects a board that does not answer. */
-  async supply(): Promise<SupplyState> {
+  async ping(): Promise<void> {
     await this.session.status();
-    return "good";
   }
 
   emergencyStopMs(): number {
     return STOP_MS;
   }
 
-  async command(line: string): Promise<ConsoleAnswer> {
+  private async sendLine(line: string): Promise<ConsoleAnswer> {
     const why = whyRefused(line);
     if (why) throw new PlotwrightError("bad-setting", `${JSON.stringify(line)} was not sent: ${why}.`);
     const { log } = this.session;
@@ -248,7 +223,7 @@ export class GrblMachine implements Machine {
     if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, refused, note: null };
     await this.session.send(SYNC).catch(() => undefined);
     this.penUp = null;
-    await this.forgetPlace();
+    await this.forgetPosition();
     return {
       replies,
       refused,

@@ -22,7 +22,7 @@ const SNAP_MM = 0.5;
 const LOST_MM = 2;
 
 /** The parts of the machine that a run uses. */
-interface Carriage extends Pick<Machine, "penUp" | "movePen" | "place" | "forgetPlace"> {
+interface Carriage extends Pick<Machine, "penUp" | "movePen" | "positionMm" | "forgetPosition"> {
   /** Throws if the lines cannot be played. */
   stream(commands: GrblCommands): LineStream;
   /** Called after a job has been played to its end. */
@@ -98,7 +98,7 @@ export class GrblRun implements MachineRun {
       if (this.failure || !(error instanceof PlotwrightError)) throw error;
       left = await this.whereStopped(this.current);
       const settings = this.request.settings();
-      const isLost = machine.place(machineOf(settings)) === null;
+      const isLost = machine.positionMm(machineOf(settings)) === null;
       // The Grbl may have failed before the stop was requested.
       if (isLost || error !== this.requested) {
         throw await machine.liftAfter(error === this.requested ? restarted() : error, settings);
@@ -135,13 +135,13 @@ export class GrblRun implements MachineRun {
     const { plot, commands, stream } = current;
     const settings = this.request.settings();
     await machine.recover(stream, settings, isPenUpThroughout(plot.trajectory, stream.boundsS));
-    const at = machine.place(machineOf(settings));
+    const at = machine.positionMm(machineOf(settings));
     const { trajectory } = plot;
     const found = at && stopPlace(trajectory, at, stream.boundsS, stream.planS);
     const cut = stream.shortCutS;
     const isAway = found !== null && found.awayMm > LOST_MM;
     if (!at || (isAway && !(cut && awayFromCut(trajectory, at, cut) <= LOST_MM))) {
-      await machine.forgetPlace();
+      await machine.forgetPosition();
       return certainPlace(current) ?? progress.place;
     }
     const stoppedS = found?.atS ?? stream.planS;

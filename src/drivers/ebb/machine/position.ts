@@ -1,0 +1,165 @@
+/**
+ * The position of one board's carriage, in steps from home. The board's counters start at 0 whenever its motors are
+ * switched on; `origin` is the position at that moment. An AxiDraw has no limit switches: home is where the carriage is
+ * when the motors are switched on after it was moved by hand.
+ */
+import { PlotwrightError } from "../../../errors.js";
+import { placeFromMotors } from "../../../machines/motors.js";
+import type { MachineProfile } from "../../../machines/profile.js";
+import { machineOf } from "../../../machines/profiles.js";
+import type { MachineSettings } from "../../machine-job.js";
+import { delay } from "../../transport.js";
+import type { BoardState } from "../compile/command-stream.js";
+import { setUpCommands } from "../protocol/commands.js";
+import { ebbOf } from "../protocol/ebb-controller.js";
+import { parseSteps } from "../protocol/replies.js";
+import type { Connection } from "./connection.js";
+import { PlaceMark } from "./place-mark.js";
+
+/** How long a newly connected board may keep moving. */
+const REST_S = 2;
+const REST_POLL_S = 0.05;
+
+export class EbbPosition {
+  /** The board's state from which the next stream is compiled; null while the position is unknown. */
+  state: BoardState | null = null;
+  origin: readonly [number, number] = [0, 0];
+  motorsOn: boolean | null = null;
+  /** The pen of a board that was left in the middle of a plot, as found when connecting; null after the first move. */
+  foundMidPlot: { readonly penUp: boolean } | null = null;
+  readonly mark: PlaceMark;
+  /** The motors' microsteps while their position is known. */
+  private microstepMode = 0;
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly changed: () => void,
+  ) {
+    this.mark = new PlaceMark(connection.session, connection.features);
+  }
+
+  /** mm from home; null if unknown. */
+  mm(machine: MachineProfile): { x: number; y: number } | null {
+    return this.state && placeFromMotors(machine, this.state.steps1, this.state.steps2);
+  }
+
+  /** Whether a board that was connected again still counts from home, because it was not restarted. */
+  async isKept(): Promise<boolean> {
+    this.microstepMode = await this.mark.markedMode();
+    return this.microstepMode !== 0;
+  }
+
+  /** Reads the motors' counters after something other than the plan has moved them. `restForS`: board seconds to wait. */
+  async readBack(restForS?: number): Promise<void> {
+    const { session, features } = this.connection;
+    this.foundMidPlot = null;
+    await this.untilAtRest(restForS);
+    if (!features.hasStepQuery) {
+      this.state = null;
+      this.changed();
+      throw positionUnknown();
+    }
+    const [steps1, steps2] = parseSteps(await session.query("QS"), this.origin);
+    if (features.hasClear) {
+      // The accumulators cannot be read. This clears them and adds one tick at the lowest rate, so both are 1.
+      await session.send("LT,1,1,0,1,0,3");
+      this.state = { steps1, steps2, acc1: 1, acc2: 1 };
+    } else {
+      await session.send("CS");
+      this.origin = [steps1, steps2];
+      this.state = { steps1, steps2, acc1: 0, acc2: 0 };
+    }
+    this.changed();
+  }
+
+  /** The same if the position was known and can be read; otherwise forgets it and returns false. */
+  async readBackOrForget(restForS: number): Promise<boolean> {
+    if (this.state && this.connection.features.hasStepQuery && !(await this.mark.isGone())) {
+      await this.readBack(restForS);
+      return true;
+    }
+    // The next move begins where the carriage comes to rest.
+    await this.untilAtRest(restForS);
+    await this.forget();
+    return false;
+  }
+
+  /** Waits until the motors rest: a board that was left during a plot still plays its queue, possibly a long move. */
+  async untilAtRest(limitS: number = REST_S * this.connection.waitSpeed): Promise<void> {
+    const { session, boardClock } = this.connection;
+    const untilS = boardClock.nowS() + limitS;
+    for (;;) {
+      const moving = /[1-9]/.test(await session.query("QM", 1));
+      if (!moving || boardClock.nowS() > untilS) return;
+      await delay(boardClock, REST_POLL_S);
+    }
+  }
+
+  /**
+   * Switches the motors on if they are off, or to another microstep mode, which also zeroes their counters.
+   * Returns the carriage's position.
+   */
+  async switchOn(settings: MachineSettings): Promise<BoardState> {
+    const { state, microstepMode } = this;
+    const { session, features } = this.connection;
+    const machine = machineOf(settings);
+    const wanted = ebbOf(machine).microstepMode;
+    if (state && microstepMode === wanted) return state;
+    for (const line of setUpCommands(machine, settings.pen, features.version)) await session.send(line);
+    // Each mode has half as many steps as the one before.
+    const share = state ? 2 ** (microstepMode - wanted) : 0;
+    const [steps1, steps2] = [
+      Math.round((state?.steps1 ?? 0) * share),
+      Math.round((state?.steps2 ?? 0) * share),
+    ];
+    this.microstepMode = wanted;
+    this.origin = [steps1, steps2];
+    await this.mark.set(wanted, steps1 === 0 && steps2 === 0);
+    this.motorsOn = true;
+    this.state = { steps1, steps2, acc1: 0, acc2: 0 };
+    this.changed();
+    return this.state;
+  }
+
+  /** Makes the current position home. The motors must be on. */
+  async setHome(): Promise<void> {
+    const { session, features } = this.connection;
+    const { steps1, steps2, acc1, acc2 } = this.state!;
+    this.foundMidPlot = null;
+    if (features.hasStepQuery) {
+      await session.send("CS");
+      this.origin = [0, 0];
+      this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
+      await this.mark.set(this.microstepMode, true);
+    } else {
+      this.origin = [this.origin[0] - steps1, this.origin[1] - steps2];
+      this.state = { steps1: 0, steps2: 0, acc1, acc2 };
+    }
+    this.changed();
+  }
+
+  /** Switches the motors off, so that the carriage can be moved by hand. */
+  async motorsOff(): Promise<void> {
+    await this.mark.clear();
+    await this.connection.session.send("EM,0,0");
+    this.motorsOn = false;
+    this.foundMidPlot = null;
+    this.state = null;
+    this.changed();
+  }
+
+  /** Call if the motors were without power or something else moved the carriage: it may be anywhere. */
+  async forget(): Promise<void> {
+    this.state = null;
+    this.foundMidPlot = null;
+    this.motorsOn = null;
+    await this.mark.clear();
+    this.changed();
+  }
+}
+
+const positionUnknown = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "This firmware cannot report the position of its motors. Set home again, then resume from the stroke.",
+  );
