@@ -19,6 +19,7 @@ export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawi
 export { meanScale } from "./geometry/affine.js";
 export { nearestShare } from "./geometry/polyline.js";
 export type { PaperName, PaperSize } from "./drawing/paper.js";
+export { listColor, rampColor } from "./drawing/color-ramp.js";
 export { otherPapers, PX_NOTE, withPxPerInch, type PaperInPx } from "./drawing/px-size.js";
 
 // import

@@ -69,7 +69,8 @@ export default defineConfig({
   build: {
     outDir: "../dist/web",
     emptyOutDir: true,
-    target: "es2022",
+    // The same browsers are named in index.html, and in docs/troubleshooting.md.
+    target: ["chrome105", "edge105", "firefox121", "safari16.4"],
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     rolldownOptions: {

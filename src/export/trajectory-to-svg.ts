@@ -4,6 +4,7 @@
  * Blocks are sampled so finely that a piece neither spans a whole speed band nor deviates from the curve by
  * more than SAGITTA. Consecutive pieces of one band become one path, which keeps the file small.
  */
+import { rampColor } from "../drawing/color-ramp.js";
 import type { PaperSize } from "../drawing/paper.js";
 import { blockState, newMotionState, type Trajectory } from "../plan/trajectory.js";
 import { mmText, svgOpening } from "./svg-text.js";
@@ -147,19 +148,7 @@ function legend(widthMm: number, heightMm: number, top: number): string {
   return parts.join("");
 }
 
-/** From slow to fast, with increasing lightness, so that the order is readable in greyscale too. */
-const RAMP: readonly (readonly [number, number, number])[] = [
-  [0x11, 0x1e, 0x77],
-  [0x55, 0x28, 0xa9],
-  [0xb8, 0x1b, 0x86],
-  [0xec, 0x4d, 0x33],
-  [0xf9, 0x99, 0x1d],
-];
-
 /** "#rrggbb" of a speed band, 0 (slowest) to SPEED_BAND_COUNT − 1. */
 function bandColor(band: number): string {
-  const place = (band / (SPEED_BAND_COUNT - 1)) * (RAMP.length - 1);
-  const k = Math.min(Math.floor(place), RAMP.length - 2);
-  const mixed = RAMP[k].map((low, c) => Math.round(low + (RAMP[k + 1][c] - low) * (place - k)));
-  return `#${mixed.map((v) => v.toString(16).padStart(2, "0")).join("")}`;
+  return rampColor(band / (SPEED_BAND_COUNT - 1));
 }

@@ -1,4 +1,4 @@
-/** The page without a server in a browser that does not let it use a plotter, or stores nothing. */
+/** The page without a server in a browser that is too old, does not let it use a plotter, or stores nothing. */
 import { chromium, type Browser, type Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
 import { browserOptions, launchBrowser, PLAIN } from "../support/browser.js";
@@ -90,6 +90,47 @@ describe("a browser that does not let the page use a plotter", { timeout: 200_00
     } finally {
       await own.close();
     }
+  });
+});
+
+describe("a browser that is too old", { timeout: 200_000 }, () => {
+  const advice = () => page.getByText("it needs Chrome or Edge 105, Firefox 121, Safari 16.4, or later");
+
+  it("to draw outside the page's thread is named, and the page is not blank", async () => {
+    await openOrigin(browser);
+    await page.addInitScript(() => Reflect.deleteProperty(globalThis, "OffscreenCanvas"));
+    await openApp();
+    await advice().waitFor();
+    expect(await page.getByRole("button").count()).toBe(0);
+  });
+
+  it("to read the page's code is named, and the page is not blank", async () => {
+    await openOrigin(browser);
+    const unreadable = { contentType: "text/javascript", body: "const a = 1 |||| 2;" };
+    await page.route(/assets\/index-[^/]*\.js$/, (route) => route.fulfill(unreadable));
+    await openApp();
+    await advice().waitFor();
+  });
+
+  it("or too new gets no such advice", async () => {
+    await openOrigin(browser);
+    await openApp();
+    await page.getByText("Drop a drawing here").waitFor();
+    expect(await advice().count()).toBe(0);
+  });
+});
+
+describe("a browser whose worker can't draw", { timeout: 200_000 }, () => {
+  it("says so in the drawing's place, and plots", async () => {
+    await openOrigin(browser);
+    const failing = { contentType: "text/javascript", body: `throw new Error("no canvas");` };
+    await page.route(/assets\/draw\.worker-[^/]*\.js$/, (route) => route.fulfill(failing));
+    await openApp();
+    await page
+      .getByText(/The drawing can’t be shown here, but it can be plotted/)
+      .first()
+      .waitFor();
+    await plotsOnTheVirtualBoard();
   });
 });
 

@@ -58,7 +58,7 @@ const WHOLE: Frame = {
   width: 270,
   height: 250,
   ratio: 1,
-  colorBy: "speed",
+  colorBy: "value",
   showTravel: false,
   layerColors: ["#c02020", "#1050b0"],
   layerWidthsMm: [0.35, 0.35],
@@ -66,15 +66,15 @@ const WHOLE: Frame = {
 };
 const FRAMES: readonly (readonly [string, Frame])[] = [
   ["coloured by speed", WHOLE],
-  ["half drawn, with the pen-up moves", { ...WHOLE, colorBy: "order", showTravel: true, untilS: totalS / 2 }],
-  ["in pens of different widths", { ...WHOLE, colorBy: "pen", layerWidthsMm: [0.3, 1.2] }],
+  ["half drawn, with the pen-up moves", { ...WHOLE, colorBy: "time", showTravel: true, untilS: totalS / 2 }],
+  ["in pens of different widths", { ...WHOLE, colorBy: "layer", layerWidthsMm: [0.3, 1.2] }],
   ["in lines thin enough for a dense drawing", { ...WHOLE, layerWidthsMm: [0.1, 0.1], lineGapMm: 0.3 }],
   [
     "close up, on a fine screen",
     {
       ...WHOLE,
       ratio: 2,
-      colorBy: "ink",
+      colorBy: "layer",
       width: 130,
       height: 120,
       view: { scale: 24, offsetX: -700, offsetY: -500 },
@@ -132,7 +132,7 @@ describe.each(["gl", "soft"] as const)("the picture by the %s renderer", (name) 
       // The line runs through the middle of the pixels of row 30.
       view: { scale: 3, offsetX: 0, offsetY: 0.5 },
       height: 60,
-      colorBy: "pen",
+      colorBy: "layer",
       untilS,
     };
     const pixels = await pixelsOf(name, frame, 1e9, sent);

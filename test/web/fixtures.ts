@@ -50,7 +50,7 @@ export const makeFrame = (offsetX: number): Frame => ({
   width: 100,
   height: 100,
   ratio: 1,
-  colorBy: "ink",
+  colorBy: "layer",
   showTravel: false,
   layerColors: [],
   layerWidthsMm: [],

@@ -1,6 +1,11 @@
+import { createElement } from "react";
+import { renderToStaticMarkup } from "react-dom/server";
 import { describe, expect, it } from "vitest";
+import { rampColor } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { legendEntries, layerLooks } from "../../web/preview/looks.js";
+import { VIEW_MODES, viewModeOf, type ModeInput, type ViewMode } from "../../web/preview/view-modes.js";
+import { DEFAULT_VIEW } from "../../web/state/persist.js";
+import type { PageState } from "../../web/state/store.js";
 import type { Planned } from "../../web/worker/protocol.js";
 
 const RED = "#e00000";
@@ -26,7 +31,22 @@ const planned = (colors: readonly string[] = [RED, "#0000e0"]): Planned => {
 const fine = { id: "p", name: "Fine", color: "#00a000", widthMm: 0.1, offsetXMm: 0, offsetYMm: 0 };
 const settings = { ...DEFAULT_PLOT_SETTINGS, pens: [fine], layerPens: { l1: "p" } };
 
-describe("the looks", () => {
+const modeOf = (viewMode: string): ViewMode =>
+  viewModeOf({ view: { ...DEFAULT_VIEW, viewMode } } as PageState);
+const layerLooks = (id: string, shown: ModeInput) => modeOf(id).layerLooks(shown);
+
+describe("the view modes", () => {
+  it("each have another id and label", () => {
+    expect(new Set(VIEW_MODES.map(({ id }) => id)).size).toBe(VIEW_MODES.length);
+    expect(new Set(VIEW_MODES.map(({ label }) => label)).size).toBe(VIEW_MODES.length);
+    for (const { id } of VIEW_MODES) expect(modeOf(id).id).toBe(id);
+  });
+
+  it("begin with Speed, which is also shown if this version does not have the remembered one", () => {
+    expect(modeOf(DEFAULT_VIEW.viewMode).label).toBe("Speed");
+    expect(modeOf("temperature").label).toBe("Speed");
+  });
+
   it("Ink has the file's colours, and its widths as large as they are on the paper", () => {
     const [first, second] = layerLooks("ink", { planned: planned(), settings });
     expect([first.color, second.color]).toEqual([RED, "#0000e0"]);
@@ -55,12 +75,27 @@ describe("the looks", () => {
     expect(new Set(colorsOf([RED, RED])).size).toBe(2);
   });
 
-  it("the legend names each only once", () => {
-    const looked = {
+  it("have a legend that names each only once", () => {
+    const shown: ModeInput = {
       planned: planned([RED, RED]),
       settings: { ...settings, layerPens: { l0: "p", l1: "p" } },
     };
-    expect(legendEntries(looked, "pen", () => "Fine")).toEqual([{ color: "#00a000", label: "Fine" }]);
-    expect(legendEntries(looked, "layer", ({ name }) => name)).toHaveLength(2);
+    const namesIn = (id: string): string[] => {
+      const html = renderToStaticMarkup(createElement(modeOf(id).Legend, shown));
+      return [...html.matchAll(/<\/span>([^<]+)<\/li>/g)].map(([, name]) => name);
+    };
+    expect(namesIn("pen")).toEqual(["Fine, 0.1 mm"]);
+    expect(namesIn("layer")).toEqual(["Layer 0", "Layer 1"]);
+    expect(namesIn("ink")).toEqual([`${RED}, 1 mm`, `${RED}, 0.1 mm`]);
+  });
+
+  it("Speed has a legend from rest to the top speed", () => {
+    const shown = { planned: { ...planned(), scene: { topDrawMmPerS: 48 } } as Planned, settings };
+    const html = renderToStaticMarkup(createElement(modeOf("speed").Legend, shown));
+    const stops = /data-stops="([^"]+)"/.exec(html)![1].replaceAll("&quot;", '"');
+    const scale = JSON.parse(stops) as { mmPerS: number; color: string }[];
+    expect(scale.map(({ mmPerS }) => mmPerS)).toEqual(Array.from({ length: 17 }, (_, i) => 3 * i));
+    expect(scale[0].color).toBe(rampColor(0));
+    expect(scale[16].color).toBe(rampColor(1));
   });
 });

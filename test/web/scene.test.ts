@@ -10,7 +10,7 @@ import {
 import { strokeFigures } from "../../web/preview/stroke.js";
 import { hoverAt } from "../../web/scene/hover.js";
 import type { Planned } from "../../web/worker/protocol.js";
-import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "../../web/scene/pieces.js";
+import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "../../web/scene/pieces.js";
 import { buildScene, piecesBefore } from "../../web/scene/scene.js";
 import { penMoveColumns } from "../../src/plan/pen-moves.js";
 
@@ -36,8 +36,8 @@ const pieceAt = (pieces: Pieces, i: number) => {
     y1: f[3],
     t0: f[4],
     t1: f[5],
-    speed0: s[SPEED_SHORT] / 65_535,
-    speed1: s[SPEED_SHORT + 1] / 65_535,
+    speed0: s[VALUE_SHORT] / 65_535,
+    speed1: s[VALUE_SHORT + 1] / 65_535,
     layer: s[LAYER_SHORT],
   };
 };

@@ -2,8 +2,8 @@ import { describe, expect, it } from "vitest";
 import type { Frame, Picture } from "../../web/scene/renderer.js";
 import { PIECE_BYTES } from "../../web/scene/pieces.js";
 import type { Scene } from "../../web/scene/scene.js";
-import { StrokesInWorker, type DrawWorkerLike, type Strokes } from "../../web/preview/strokes.js";
-import type { DrawReply, DrawRequest } from "../../web/worker/draw-protocol.js";
+import { Strokes, type DrawWorkerLike } from "../../web/preview/strokes.js";
+import type { DrawReply, DrawRequest } from "../../web/worker/protocol.js";
 import { makeFrame } from "./fixtures.js";
 
 class WorkerByHand implements DrawWorkerLike {
@@ -47,19 +47,13 @@ const setUp = () => {
   const worker = new WorkerByHand();
   const put: ImageBitmap[] = [];
   const shown: [Frame, boolean][] = [];
-  const onPage: { scenes: (Picture | null)[]; frames: Frame[] } = { scenes: [], frames: [] };
-  const instead: Strokes = {
-    setScene: (given) => onPage.scenes.push(given),
-    show: (asked) => onPage.frames.push(asked),
-    close: () => undefined,
-  };
-  const strokes = new StrokesInWorker(
-    worker,
-    (bitmap) => put.push(bitmap),
-    (of, isDone) => shown.push([of, isDone]),
-    () => instead,
-  );
-  return { worker, put, shown, onPage, strokes };
+  const faults: string[] = [];
+  const strokes = new Strokes(worker, {
+    put: (bitmap) => put.push(bitmap),
+    onShown: (of, isDone) => shown.push([of, isDone]),
+    onFault: () => faults.push("fault"),
+  });
+  return { worker, put, shown, faults, strokes };
 };
 
 describe("strokes drawn by a worker", () => {
@@ -109,17 +103,11 @@ describe("strokes drawn by a worker", () => {
     expect(late.isClosed).toBe(true);
   });
 
-  it("are drawn on the page if the worker does not start", () => {
-    const { worker, onPage, strokes } = setUp();
-    const own = scene();
-    const [first, second] = [makeFrame(1), makeFrame(2)];
-    strokes.setScene(own, picture());
-    strokes.show(first);
+  it("are reported as missing if the worker fails", () => {
+    const { worker, faults, strokes } = setUp();
+    strokes.show(makeFrame(1));
+    expect(faults).toEqual([]);
     worker.onerror?.({} as ErrorEvent);
-    expect(worker.isEnded).toBe(true);
-    expect(onPage).toEqual({ scenes: [own], frames: [first] });
-    strokes.show(second);
-    strokes.setScene(null, null);
-    expect(onPage).toEqual({ scenes: [own, null], frames: [first, second] });
+    expect(faults).toEqual(["fault"]);
   });
 });

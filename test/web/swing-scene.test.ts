@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, planJob } from "../../src/index.js";
 import { penError, swingPen, type PenPoint } from "../../src/internal.js";
-import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT } from "../../web/scene/pieces.js";
+import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT } from "../../web/scene/pieces.js";
 import { piecesBefore } from "../../web/scene/scene.js";
 import { scaleTop, swingPicture } from "../../web/scene/swing-scene.js";
 import { strokeSetOf } from "../support/arbitraries.js";
@@ -46,7 +46,7 @@ describe("the picture of a swinging pen", () => {
     let largest = 0;
     for (let i = 0; i < pieces.count; i++) {
       for (const end of [0, 1])
-        largest = Math.max(largest, shorts[i * PIECE_SHORTS + SPEED_SHORT + end] / 65_535);
+        largest = Math.max(largest, shorts[i * PIECE_SHORTS + VALUE_SHORT + end] / 65_535);
     }
     expect(largest * topMm).toBeGreaterThan(Math.min(topMm, error.maxMm) - 0.011);
     expect(largest).toBeLessThanOrEqual(1);

@@ -10,12 +10,16 @@ import "./index.css";
 
 const root = document.getElementById("root");
 if (!root) throw new Error("index.html has no #root");
-createRoot(root).render(
-  <StrictMode>
-    <ErrorBoundary fallback={(message) => <Crash message={message} />}>
-      <PageContext value={openPage()}>
-        <App />
-      </PageContext>
-    </ErrorBoundary>
-  </StrictMode>,
-);
+// Two youngest features of which the browsers named in index.html are the first to have both: strokes are drawn in a
+// worker, and styles depend on :has(). Without them, index.html's text stays.
+if (typeof OffscreenCanvas !== "undefined" && CSS.supports("selector(:has(a))")) {
+  createRoot(root).render(
+    <StrictMode>
+      <ErrorBoundary fallback={(message) => <Crash message={message} />}>
+        <PageContext value={openPage()}>
+          <App />
+        </PageContext>
+      </ErrorBoundary>
+    </StrictMode>,
+  );
+}

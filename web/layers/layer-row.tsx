@@ -1,6 +1,5 @@
 import type { RefObject } from "react";
-import { parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../../src/internal.js";
-import { layerColor } from "../scene/color-map.js";
+import { listColor, parseLayerName, penOf, shownLayerName, type PreparedLayer } from "../../src/internal.js";
 import { isLayerShown, setLayerPen, showLayer } from "./layer-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { layersText as words } from "./text.js";
@@ -112,7 +111,7 @@ const PenPicker = ({
   const pen = usePageState(({ settings }) => penOf(settings, row));
   const { changeSettings } = useActions();
   const swatch = (
-    <span className="swatch" style={{ backgroundColor: pen?.color ?? row.color ?? layerColor(index) }} />
+    <span className="swatch" style={{ backgroundColor: pen?.color ?? row.color ?? listColor(index) }} />
   );
   if (pens.length === 0) return <span className="layer-pen">{swatch}</span>;
   return (

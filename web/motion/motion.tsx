@@ -79,7 +79,7 @@ const Swing = () => {
       <Button kind={springs === null ? "small" : "link"} onClick={() => openDialog("ringing")}>
         {springs === null ? words.measure : words.measureAgain}
       </Button>
-      <Button kind="link" onClick={() => changeView({ colorBy: "swing" })}>
+      <Button kind="link" onClick={() => changeView({ viewMode: "swing" })}>
         {words.showSwing}
       </Button>
     </div>

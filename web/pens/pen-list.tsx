@@ -1,4 +1,5 @@
 import { PLOT_PEN_TABLE, PEN_STOP_MODES, type PlotPen, isSameJson } from "../../src/internal.js";
+import { convertRgbToHsv, parseHex } from "culori/fn";
 import "../layers/layers.css";
 import "./pens.css";
 import { useState } from "react";
@@ -75,24 +76,22 @@ const FromColors = () => {
 
 /** An approximate name of a colour. */
 const nameOfColor = (hex: string | null): string => {
-  if (hex === null) return words.noColor;
-  const [r, g, b] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16));
-  const max = Math.max(r, g, b);
-  const range = max - Math.min(r, g, b);
-  if (range < 36) return max < 70 ? words.tones.black : max > 215 ? words.tones.white : words.tones.grey;
-  const sixth = max === r ? (g - b) / range : max === g ? 2 + (b - r) / range : 4 + (r - g) / range;
-  const hueDeg = (sixth * 60 + 360) % 360;
-  const tone = words.tones.hues.find(([upToDeg]) => hueDeg < upToDeg)?.[1] ?? hex;
-  return max < 110 ? words.tones.dark(tone) : tone;
+  const rgb = hex === null ? undefined : parseHex(hex);
+  if (!rgb) return words.noColor;
+  const { h: hueDeg = 0, s: saturation, v: value } = convertRgbToHsv(rgb);
+  const { black, white, grey, hues, dark } = words.tones;
+  if (saturation * value < 0.14) return value < 0.28 ? black : value > 0.84 ? white : grey;
+  const tone = hues.find(([upToDeg]) => hueDeg < upToDeg)?.[1] ?? words.noColor;
+  return value < 0.43 ? dark(tone) : tone;
 };
 
 const ShowInPens = () => {
   const hasPens = usePageState(({ settings }) => Object.keys(settings.layerPens).length > 0);
-  const colorBy = usePageState(({ view }) => view.colorBy);
+  const viewMode = usePageState(({ view }) => view.viewMode);
   const { changeView } = useActions();
-  if (!hasPens || colorBy === "pen") return null;
+  if (!hasPens || viewMode === "pen") return null;
   return (
-    <Button kind="link" onClick={() => changeView({ colorBy: "pen" })}>
+    <Button kind="link" onClick={() => changeView({ viewMode: "pen" })}>
       {words.showInPens}
     </Button>
   );

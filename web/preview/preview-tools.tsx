@@ -1,12 +1,36 @@
 import type { RefObject } from "react";
-import { usePageState } from "../state/use-store.js";
+import { useActions, usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
 import { IconButton } from "../ui/button.js";
+import { Segments, Select } from "../ui/choice.js";
 import { PLACE, TRAVEL } from "./preview-actions.js";
 import type { Stage } from "./stage.js";
+import { VIEW_MODES, viewModeOf } from "./view-modes.js";
 
 const ZOOM_STEP = 1.5;
+
+const MODE_OPTIONS = VIEW_MODES.map(({ id, label }) => ({ value: id, label }));
+
+/** The view modes, and the legend of the chosen one. */
+export const ViewModes = () => {
+  const mode = usePageState(viewModeOf);
+  const planned = usePageState((state) => state.planned);
+  const settings = usePageState((state) => state.settings);
+  const { changeView } = useActions();
+  const choose = (viewMode: string): void => changeView({ viewMode });
+  const control = { label: words.colorBy, value: mode.id, options: MODE_OPTIONS, onChange: choose };
+  return (
+    <div className="looks">
+      {planned && planned.scene.draw.count > 0 && <mode.Legend planned={planned} settings={settings} />}
+      {/* Where six names have no room beside each other; the style shows one of the two. */}
+      <div className="looks-menu">
+        <Select {...control} />
+      </div>
+      <Segments {...control} isLabelHidden />
+    </div>
+  );
+};
 
 /** The controls on the desk beside the paper. */
 export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {

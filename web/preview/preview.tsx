@@ -10,20 +10,18 @@ import { hoverAt, type Hover } from "../scene/hover.js";
 import type { Point } from "./gestures.js";
 import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
-import { Looks } from "./legend.js";
-import { isTrueToWidth, layerLooks } from "./looks.js";
 import { plotterMarker } from "./marker.js";
 import type { Marker } from "./overlay.js";
 import { boxAround } from "../scene/placing.js";
-import { PreviewTools } from "./preview-tools.js";
+import { PreviewTools, ViewModes } from "./preview-tools.js";
 import { Sheet, type SheetKind } from "./sheet.js";
 import type { FrameLook, Stage } from "./stage.js";
 import { StrokeCard } from "./stroke-card.js";
 import { selectionPainter } from "./stroke.js";
-import type { Picture } from "../scene/renderer.js";
+import { viewModeOf } from "./view-modes.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
-/** Height of the looks, the legend and the tools under the paper. */
+/** Height of the view modes, the legend and the tools under the paper. */
 const BELOW_PX = 88;
 
 /** The paper with the drawing on it, as it will be plotted. */
@@ -32,7 +30,7 @@ export const Preview = () => (
     {(stage) => (
       <>
         <div className="preview-foot">
-          <Looks />
+          <ViewModes />
           <PreviewTools stage={stage} />
         </div>
         <PaperMessage />
@@ -47,8 +45,8 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
   const show = (state: PageState, before: PageState | null): void => {
     const hasChanged = (...parts: readonly (keyof PageState)[]): boolean =>
       before === null || parts.some((part) => state[part] !== before[part]);
-    const swing = shownSwing(state);
-    if (swing) stage.setScene(swing, null);
+    const picture = viewModeOf(state).picture?.(state);
+    if (picture) stage.setScene(picture, null);
     else stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
     if (hasChanged("settings", "view")) stage.setDesk(deskOfState(state));
     if (
@@ -90,21 +88,17 @@ const hoverUnder = (stage: Stage, planned: Planned, { x, y }: Point): Hover | nu
 
 const deskOfState = ({ settings, view }: PageState) => deskOf(settings, view.lengthUnit);
 
-/** The simulated pen's strokes, if they were computed for the current plan. */
-const shownSwing = ({ view, swing, planned }: PageState): Picture | null =>
-  view.colorBy === "swing" && swing !== null && swing.of === planned ? swing.picture : null;
-
 const lookOf = (state: PageState): FrameLook => {
   const { planned, settings } = state;
-  const { colorBy, showTravel } = state.view;
-  const looks = planned ? layerLooks(colorBy, { planned, settings }) : [];
+  const { showTravel } = state.view;
+  const mode = viewModeOf(state);
+  const looks = planned ? mode.layerLooks({ planned, settings }) : [];
   return {
-    // Until the simulation is complete, the planned strokes are drawn in one colour.
-    colorBy: colorBy === "swing" && shownSwing(state) === null ? "layer" : colorBy,
+    colorBy: mode.picture?.(state) === null ? "layer" : mode.colorBy,
     showTravel,
     layerColors: looks.map(({ color }) => color),
     layerWidthsMm: looks.map(({ widthMm }) => widthMm),
-    lineGapMm: planned && !isTrueToWidth(colorBy) ? planned.lineGapMm : undefined,
+    lineGapMm: planned && !mode.isTrueToWidth ? planned.lineGapMm : undefined,
     // If this drawing is being plotted, the rest of it is shown pale.
     untilS: state.momentS ?? drawnUntilS(state),
   };

@@ -1,4 +1,4 @@
-import { useEffect, useRef, type ReactNode, type RefObject } from "react";
+import { useEffect, useRef, useState, type ReactNode, type RefObject } from "react";
 import type { PageState, PageStore } from "../state/store.js";
 import { useActions, usePageStore } from "../state/use-store.js";
 import type { Actions } from "../state/actions.js";
@@ -34,6 +34,7 @@ export const Sheet = ({ kind, label, pictureLabel, children }: SheetProps) => {
   const strokes = useRef<HTMLCanvasElement>(null);
   const overlay = useRef<HTMLCanvasElement>(null);
   const stage = useRef<Stage | null>(null);
+  const [hasFault, setHasFault] = useState(false);
   const store = usePageStore();
   const actions = useActions();
   useEffect(() => {
@@ -45,7 +46,8 @@ export const Sheet = ({ kind, label, pictureLabel, children }: SheetProps) => {
       overlay: overlay.current,
     };
     const state = store.getState();
-    const made = new Stage(canvases, kind.desk(state), kind.look(state), kind.belowPx);
+    const onFault = (): void => setHasFault(true);
+    const made = new Stage(canvases, kind.desk(state), kind.look(state), kind.belowPx, onFault);
     const stopShowing = kind.show(made, store);
     const stopGestures = listenForGestures(box.current, {
       view: () => made.view,
@@ -72,6 +74,11 @@ export const Sheet = ({ kind, label, pictureLabel, children }: SheetProps) => {
         <canvas ref={strokes} role="img" aria-label={pictureLabel} />
         <canvas ref={overlay} aria-hidden="true" />
       </div>
+      {hasFault && (
+        <p className="paper-message paper-message-error" role="alert">
+          {previewText.cannotShow}
+        </p>
+      )}
       {children(stage)}
     </section>
   );

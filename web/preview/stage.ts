@@ -9,7 +9,7 @@ import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } fro
 import { markMoment } from "../worker/moments.js";
 import { drawMarker, drawRulers, RULER_PX, type Marker } from "./overlay.js";
 import type { Frame, Picture } from "../scene/renderer.js";
-import { openStrokes, type Strokes } from "./strokes.js";
+import { Strokes } from "./strokes.js";
 import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
 
 interface StageCanvases {
@@ -56,13 +56,20 @@ export class Stage {
   #areSheetsStale = true;
   #request = 0;
 
-  constructor(canvases: StageCanvases, desk: Desk, look: FrameLook, belowPx: number) {
+  /** `onFault` is called if the strokes can't be drawn. */
+  constructor(canvases: StageCanvases, desk: Desk, look: FrameLook, belowPx: number, onFault: () => void) {
     this.#canvases = canvases;
     this.#belowPx = belowPx;
     this.#desk = desk;
     this.#look = look;
     this.#colors = deskColors(canvases.box);
-    this.#strokes = openStrokes(canvases.strokes, (frame, isDone) => this.#onShown(frame, isDone));
+    const worker = new Worker(new URL("../worker/draw.worker.ts", import.meta.url), { type: "module" });
+    const shown = canvases.strokes.getContext("bitmaprenderer");
+    this.#strokes = new Strokes(worker, {
+      put: (bitmap) => shown?.transferFromImageBitmap(bitmap),
+      onShown: (frame, isDone) => this.#onShown(frame, isDone),
+      onFault,
+    });
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(canvases.box);
     this.#resize();

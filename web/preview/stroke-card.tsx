@@ -4,7 +4,7 @@ import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Facts } from "../ui/facts.js";
 import { formatCount, formatLength, formatMoment, formatNumber } from "../ui/format.js";
-import { layerLooks } from "./looks.js";
+import { penLooks } from "./view-modes.js";
 import { strokeFigures } from "./stroke.js";
 import { strokeText as words } from "./text.js";
 
@@ -19,7 +19,7 @@ export const StrokeCard = () => {
   );
   if (!selected || !figures) return null;
   const { of: planned, hover } = selected;
-  const { widthMm } = layerLooks("pen", { planned, settings })[hover.layer];
+  const { widthMm } = penLooks({ planned, settings })[hover.layer];
   return (
     <section className="stroke-card" aria-label={words.title}>
       <header>

@@ -3,7 +3,7 @@ import type { Trajectory } from "../../src/index.js";
 import { PIECE_FLOATS } from "../scene/pieces.js";
 import { piecesBefore, type Scene } from "../scene/scene.js";
 import { selectedStroke, type PageState } from "../state/store.js";
-import { layerLooks } from "./looks.js";
+import { penLooks } from "./view-modes.js";
 import type { Paint } from "./stage.js";
 
 interface StrokeFigures {
@@ -67,7 +67,7 @@ export const selectionPainter = (state: PageState): Paint | null => {
   const { of: planned, hover } = selected;
   const stroke = strokeFigures(planned, hover.strokeNumber - 1);
   if (!stroke) return null;
-  const widthMm = layerLooks("pen", { planned, settings: state.settings })[hover.layer]?.widthMm ?? 0;
+  const widthMm = penLooks({ planned, settings: state.settings })[hover.layer]?.widthMm ?? 0;
   return (context, view) => {
     const { points } = stroke;
     const linePx = Math.max(MIN_PX, widthMm * view.scale);

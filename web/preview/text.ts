@@ -9,6 +9,8 @@ export const previewText = {
     "A pen draws lines. Trace the picture to paths in your drawing program, and save it again.",
   emptyFileHint: "The file has no visible lines and no filled shapes.",
   cannotRead: (name: string) => `${name} can’t be drawn`,
+  cannotShow:
+    "The drawing can’t be shown here, but it can be plotted. Reload the page; if that does not help, update the browser.",
   title: "Preview",
   canvas: "Preview",
   zoomIn: "Zoom in",
@@ -19,22 +21,7 @@ export const previewText = {
   needsDrawing: "There is no drawing on the paper.",
   place: "Place the drawing by hand",
   colorBy: "Colour by",
-  looks: { speed: "Speed", ink: "Ink", layer: "Layer", order: "Order", pen: "Pen", swing: "Pen (simulated)" },
-  lookTitles: {
-    ink: "Colours and widths of the file",
-    layer: "Layers, in the order they are drawn",
-    pen: "Colours and widths of your pens",
-  },
-  ofWidth: (name: string, mm: string) => `${name}, ${mm} mm`,
-  noColor: "No colour",
-  noPen: (layer: string) => `No pen for ${layer}`,
   moreEntries: (count: number) => `and ${count} more`,
-  legend: "Speed legend",
-  legendTitle: "Speed with the pen down",
-  legendUnit: "mm/s",
-  orderTitle: (total: string) => `Order, first to last over ${total}`,
-  first: "first",
-  last: "last",
   hint: "Arrow keys move the paper, or a drawing placed by hand; plus and minus zoom, 0 shows the whole paper.",
 };
 

@@ -3,7 +3,7 @@
  * follow each other are joined as long as the result is straight enough. If there are still too many, only every Nth
  * one is kept.
  */
-import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "./pieces.js";
+import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "./pieces.js";
 
 /** Even a computer without a graphics card draws this many quickly. */
 const COARSE_PIECES = 40_000;
@@ -76,8 +76,8 @@ const writeJoined = (source: Columns, first: number, last: number, target: Colum
     at * PIECE_FLOATS,
   );
   const s = at * PIECE_SHORTS;
-  target.shorts[s + SPEED_SHORT] = shorts[first * PIECE_SHORTS + SPEED_SHORT];
-  target.shorts[s + SPEED_SHORT + 1] = shorts[last * PIECE_SHORTS + SPEED_SHORT + 1];
+  target.shorts[s + VALUE_SHORT] = shorts[first * PIECE_SHORTS + VALUE_SHORT];
+  target.shorts[s + VALUE_SHORT + 1] = shorts[last * PIECE_SHORTS + VALUE_SHORT + 1];
   target.shorts[s + LAYER_SHORT] = shorts[first * PIECE_SHORTS + LAYER_SHORT];
 };
 

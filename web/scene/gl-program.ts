@@ -3,17 +3,17 @@
  *
  *   line              mm x0 y0 x1 y1           scale             device px a mm
  *   time              s                        offset, viewport  device px
- *   speed             share of the top speed   radius            device px, of the narrowest line
- *   share             of speed, of time        widthMm           of a full alpha in the palette; 0: all are equally narrow
+ *   value             share of the ramp        radius            device px, of the narrowest line
+ *   share             of value, of time        widthMm           of a full alpha in the palette; 0: all are equally narrow
  *   cutOffS           s: the time that the pen has reached; the piece under it ends there
- *   colorBy           0 speed, 1 order, 2 layer, 3 plain
+ *   colorBy           0 value, 1 time, 2 layer, 3 plain
  */
 
 const VERTEX = `#version 300 es
 precision highp float;
 layout(location = 0) in vec4 line;
 layout(location = 1) in vec2 time;
-layout(location = 2) in vec2 speed;
+layout(location = 2) in vec2 value;
 layout(location = 3) in float layer;
 uniform float scale;
 uniform vec2 offset, viewport;
@@ -43,7 +43,7 @@ void main() {
   vec2 p = a + u * along + vec2(-u.y, u.x) * side;
   local = vec2(along, side);
   float f = (len > 1e-4 ? along / len : 0.5) * part;
-  share = vec2(mix(speed.x, speed.y, f), mix(time.x, time.y, f) / totalS);
+  share = vec2(mix(value.x, value.y, f), mix(time.x, time.y, f) / totalS);
   layerIndex = layer;
   gl_Position = vec4(p.x / viewport.x * 2.0 - 1.0, 1.0 - p.y / viewport.y * 2.0, 0.0, 1.0);
 }`;

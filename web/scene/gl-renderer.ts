@@ -9,12 +9,10 @@
  * The parts of a picture are drawn into an off-screen buffer in order of time, so the result does not depend on the
  * number of parts. A fence shows when the card has finished a part.
  */
-import { RAMP_SIZE, rampBytes } from "./color-map.js";
-import { webGlOf } from "./graphics-card.js";
+import { bytesFromHex, RAMP_SIZE, rampBytes } from "./color-map.js";
 import { linkProgram, makeTexture, UNIFORMS, type Uniforms } from "./gl-program.js";
 import {
   ASKED_COLOR,
-  bytesFromHex,
   GHOST_COLOR,
   lineWidthPx,
   pictureSize,
@@ -25,9 +23,8 @@ import {
   type Frame,
   type Picture,
   type SceneRenderer,
-  type StrokesCanvas,
 } from "./renderer.js";
-import { LAYER_SHORT, PIECE_BYTES, SPEED_SHORT } from "./pieces.js";
+import { LAYER_SHORT, PIECE_BYTES, VALUE_SHORT } from "./pieces.js";
 import {
   cutOffS,
   drawSome,
@@ -40,7 +37,7 @@ import {
   type Task,
 } from "./tasks.js";
 
-const COLOR_CODE = { speed: 0, swing: 0, order: 1, layer: 2, pen: 2, ink: 2 } as const;
+const COLOR_CODE = { value: 0, time: 1, layer: 2 } as const;
 /** The palette's alpha is a pen's width: 255 means this. */
 const WIDEST_MM = 12.75;
 const PLAIN = 3;
@@ -57,14 +54,14 @@ interface Loaded extends Boxed {
   loadedBytes: number;
 }
 
-/** Null if the browser has no WebGL2. */
-export const createGlRenderer = (canvas: StrokesCanvas): SceneRenderer | null => {
-  const gl = webGlOf(canvas);
+/** Null if the browser has no WebGL2, or the card refuses another context. */
+export const createGlRenderer = (canvas: OffscreenCanvas): SceneRenderer | null => {
+  const gl = canvas.getContext("webgl2", { antialias: false, failIfMajorPerformanceCaveat: true });
   return gl && new GlRenderer(canvas, gl);
 };
 
 class GlRenderer implements SceneRenderer {
-  readonly #canvas: StrokesCanvas;
+  readonly #canvas: OffscreenCanvas;
   readonly #gl: WebGL2RenderingContext;
   readonly #uniforms: Uniforms;
   readonly #palette: WebGLTexture;
@@ -80,7 +77,7 @@ class GlRenderer implements SceneRenderer {
   #style: Style | null = null;
   #fence: WebGLSync | null = null;
 
-  constructor(canvas: StrokesCanvas, gl: WebGL2RenderingContext) {
+  constructor(canvas: OffscreenCanvas, gl: WebGL2RenderingContext) {
     this.#canvas = canvas;
     this.#gl = gl;
     const program = linkProgram(gl);
@@ -262,7 +259,7 @@ class GlRenderer implements SceneRenderer {
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.vertexAttribPointer(0, 4, gl.FLOAT, false, PIECE_BYTES, base);
     gl.vertexAttribPointer(1, 2, gl.FLOAT, false, PIECE_BYTES, base + 16);
-    gl.vertexAttribPointer(2, 2, gl.UNSIGNED_SHORT, true, PIECE_BYTES, base + SPEED_SHORT * 2);
+    gl.vertexAttribPointer(2, 2, gl.UNSIGNED_SHORT, true, PIECE_BYTES, base + VALUE_SHORT * 2);
     gl.vertexAttribPointer(3, 1, gl.UNSIGNED_SHORT, false, PIECE_BYTES, base + LAYER_SHORT * 2);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, to - from);
   }

@@ -1,12 +1,15 @@
 /** The line pieces that the preview draws, as bytes that workers transfer and renderers read. */
 import type { Box } from "../../src/internal.js";
 
-/** f32 x0 y0 x1 y1 (mm), f32 t0 t1 (s), u16 speed0 speed1 (of the top speed), u16 layer, u16 spare. */
+/**
+ * f32 x0 y0 x1 y1 (mm), f32 t0 t1 (s), u16 value0 value1, u16 layer, u16 spare. The values at both ends are shares of the
+ * colour ramp: of the top speed, unless the view mode shows something else.
+ */
 export const PIECE_BYTES = 32;
 export const PIECE_FLOATS = 8;
 export const PIECE_SHORTS = 16;
-/** Index of the first u16 in a piece: speed0, speed1, layer, spare. */
-export const SPEED_SHORT = 12;
+/** Index of the first u16 in a piece: value0, value1, layer, spare. */
+export const VALUE_SHORT = 12;
 export const LAYER_SHORT = 14;
 
 export interface Pieces {

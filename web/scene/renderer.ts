@@ -1,5 +1,4 @@
-/** The interface of the stroke renderers: WebGL2 if there is a graphics card, otherwise in software. */
-import type { ColorMode } from "./color-mode.js";
+/** The interface of the stroke renderers, which draw in a worker: WebGL2 if there is a graphics card, otherwise in software. */
 import type { Pieces } from "./pieces.js";
 import type { Scene } from "./scene.js";
 import type { View } from "./view.js";
@@ -11,7 +10,8 @@ export interface Frame {
   readonly height: number;
   /** Device px per CSS px. */
   readonly ratio: number;
-  readonly colorBy: ColorMode;
+  /** What gives a piece its colour: its two values or its time, both on the colour ramp, or its layer. */
+  readonly colorBy: "value" | "time" | "layer";
   readonly showTravel: boolean;
   /** "#rrggbb" by layer index. */
   readonly layerColors: readonly string[];
@@ -53,9 +53,6 @@ export interface SceneRenderer {
   close(): void;
 }
 
-/** A canvas of a worker or of the page. The renderers use only what both have. */
-export type StrokesCanvas = HTMLCanvasElement | OffscreenCanvas;
-
 /** Min. line width, CSS px: thinner lines flicker when zoomed out. */
 export const MIN_LINE_PX = 1.15;
 /** Min. line width in a dense drawing, CSS px: leaves half of the visible paper empty. */
@@ -76,9 +73,4 @@ export const pictureSize = ({ width, height, ratio }: Frame): readonly [number, 
 export const lineWidthPx = ({ view, lineGapMm }: Frame, lineMm: number): number => {
   const halfGapPx = lineGapMm === undefined ? MIN_LINE_PX : (lineGapMm * view.scale) / 2;
   return Math.max(Math.min(MIN_LINE_PX, Math.max(HAIR_LINE_PX, halfGapPx)), lineMm * view.scale);
-};
-
-export const bytesFromHex = (hex: string): [number, number, number] => {
-  const n = Number.parseInt(hex.slice(1), 16);
-  return [(n >> 16) & 255, (n >> 8) & 255, n & 255];
 };

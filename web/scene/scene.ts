@@ -8,7 +8,7 @@
 import type { Trajectory } from "../../src/index.js";
 import type { StrokeLayer } from "../../src/internal.js";
 import { buildPickGrid, type PickGrid } from "./pick.js";
-import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "./pieces.js";
+import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "./pieces.js";
 
 const CHORD_MM = 0.008;
 const SPEED_STEP = 0.05;
@@ -186,8 +186,8 @@ class PieceWriter {
       this.#floats[f + 4] = startS + pt;
       this.#floats[f + 5] = startS + t;
       const s = this.#at * PIECE_SHORTS;
-      this.#shorts[s + SPEED_SHORT] = Math.min(65_535, ps * toShort);
-      this.#shorts[s + SPEED_SHORT + 1] = Math.min(65_535, qs * toShort);
+      this.#shorts[s + VALUE_SHORT] = Math.min(65_535, ps * toShort);
+      this.#shorts[s + VALUE_SHORT + 1] = Math.min(65_535, qs * toShort);
       this.#shorts[s + LAYER_SHORT] = layer;
       this.#at++;
       px = qx;

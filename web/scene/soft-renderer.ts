@@ -8,10 +8,9 @@
  *
  * Pixels are premultiplied RGBA. Pieces are in order of time, so the result does not depend on the number of parts.
  */
-import { RAMP_SIZE, rampBytes } from "./color-map.js";
+import { bytesFromHex, RAMP_SIZE, rampBytes } from "./color-map.js";
 import {
   ASKED_COLOR,
-  bytesFromHex,
   GHOST_COLOR,
   INK_COLOR,
   lineWidthPx,
@@ -23,9 +22,8 @@ import {
   type Frame,
   type Picture,
   type SceneRenderer,
-  type StrokesCanvas,
 } from "./renderer.js";
-import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT } from "./pieces.js";
+import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT } from "./pieces.js";
 import {
   cutOffS,
   drawSome,
@@ -38,20 +36,10 @@ import {
   type Task,
 } from "./tasks.js";
 
-type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
-
-export const createSoftRenderer = (canvas: StrokesCanvas): SceneRenderer | null => {
-  // Both kinds of canvas have this method, but TypeScript declares it with different lists of contexts.
-  const context: Context | null = (canvas as HTMLCanvasElement).getContext("2d", {
-    willReadFrequently: true,
-  });
-  return context && new SoftRenderer(context);
-};
-
 /** Colours and widths of the pieces of one style. */
 interface Look {
   /** What a piece's place on the colour ramp depends on; null: each layer has one colour. */
-  readonly by: "speed" | "time" | null;
+  readonly by: "value" | "time" | null;
   /** RGB by layer; a single entry applies to all layers. */
   readonly colors: readonly (readonly [number, number, number])[];
   readonly alpha: number;
@@ -59,8 +47,14 @@ interface Look {
   readonly reaches: readonly number[];
 }
 
+export const createSoftRenderer = (canvas: OffscreenCanvas): SceneRenderer => {
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  if (!context) throw new Error("This browser can't draw in a worker.");
+  return new SoftRenderer(context);
+};
+
 class SoftRenderer implements SceneRenderer {
-  readonly #context: Context;
+  readonly #context: OffscreenCanvasRenderingContext2D;
   readonly #ramp = rampBytes();
   #image = new ImageData(1, 1);
   #sheets: Record<Detail, Sheet<Boxed>> | null = null;
@@ -68,7 +62,7 @@ class SoftRenderer implements SceneRenderer {
   #frame: Frame | null = null;
   #tasks: Task<Boxed>[] = [];
 
-  constructor(context: Context) {
+  constructor(context: OffscreenCanvasRenderingContext2D) {
     this.#context = context;
   }
 
@@ -136,10 +130,10 @@ class SoftRenderer implements SceneRenderer {
       const part = durationS > 0 ? Math.min(1, (untilS - floats[f + 4]) / durationS) : 1;
       brush.reach = look.reaches[layer] ?? look.reaches[0];
       brush.alpha = look.alpha;
-      if (look.by === "speed") {
-        const speed0 = shorts[s + SPEED_SHORT] / 65_535;
-        const speed1 = shorts[s + SPEED_SHORT + 1] / 65_535;
-        brush.setRamp(this.#ramp, speed0, speed0 + part * (speed1 - speed0));
+      if (look.by === "value") {
+        const value0 = shorts[s + VALUE_SHORT] / 65_535;
+        const value1 = shorts[s + VALUE_SHORT + 1] / 65_535;
+        brush.setRamp(this.#ramp, value0, value0 + part * (value1 - value0));
       } else if (look.by === "time") {
         const beganS = floats[f + 4];
         brush.setRamp(this.#ramp, beganS / this.#totalS, (beganS + part * durationS) / this.#totalS);
@@ -168,18 +162,9 @@ const lookOf = (frame: Frame, style: Style): Look => {
   const widthsMm = frame.layerWidthsMm.length > 0 ? frame.layerWidthsMm : [0];
   const reaches = widthsMm.map((mm) => reachOf(lineWidthPx(frame, mm)));
   if (style === "ghost") return { by: null, colors: [bytesFromHex(GHOST_COLOR)], alpha: 1, reaches };
-  const layers = frame.layerColors.length > 0 ? frame.layerColors : [INK_COLOR];
-  switch (frame.colorBy) {
-    case "speed":
-    case "swing":
-      return { by: "speed", colors: [], alpha: 1, reaches };
-    case "order":
-      return { by: "time", colors: [], alpha: 1, reaches };
-    case "layer":
-    case "pen":
-    case "ink":
-      return { by: null, colors: layers.map(bytesFromHex), alpha: 1, reaches };
-  }
+  if (frame.colorBy !== "layer") return { by: frame.colorBy, colors: [], alpha: 1, reaches };
+  const colors = frame.layerColors.length > 0 ? frame.layerColors : [INK_COLOR];
+  return { by: null, colors: colors.map(bytesFromHex), alpha: 1, reaches };
 };
 
 /**

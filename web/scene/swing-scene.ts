@@ -1,11 +1,11 @@
 /**
  * The line that a swinging pen would draw, as pieces coloured by their distance from the planned line: a piece's two
- * speeds are its errors. Samples are about 1 ms apart. Samples within CHORD_MM of a straight piece are left out, so
+ * values are its errors. Samples are about 1 ms apart. Samples within CHORD_MM of a straight piece are left out, so
  * that a long drawing takes little memory. One pass, linear in samples.
  */
 import type { StrokeSet, Trajectory } from "../../src/index.js";
 import { penError, type PenError, type PenPoint, type Springs } from "../../src/internal.js";
-import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, SPEED_SHORT, type Pieces } from "./pieces.js";
+import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "./pieces.js";
 import { shiftsOf } from "./scene.js";
 
 const CHORD_MM = 0.003;
@@ -140,7 +140,7 @@ class SwingWriter {
     for (let i = 0; i < this.#count; i++) {
       for (const end of [0, 1]) {
         const share = Math.min(1, this.#errors[2 * i + end] / topMm);
-        this.#shorts[i * PIECE_SHORTS + SPEED_SHORT + end] = 65_535 * share;
+        this.#shorts[i * PIECE_SHORTS + VALUE_SHORT + end] = 65_535 * share;
       }
     }
     return { count: this.#count, bytes: this.#bytes.slice(0, this.#count * PIECE_BYTES) };

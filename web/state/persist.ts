@@ -4,7 +4,6 @@
 import { z } from "zod";
 import { findMachine, LENGTH_UNITS, plannable } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
-import { COLOR_MODES } from "../scene/color-mode.js";
 
 export const PAGE_KEY = "plotwright.page.v1";
 
@@ -13,7 +12,8 @@ export type Theme = (typeof THEMES)[number];
 
 const viewSchema = z.object({
   showTravel: z.boolean(),
-  colorBy: z.enum(COLOR_MODES),
+  /** Id of a record of preview/view-modes.tsx. */
+  viewMode: z.string().max(50),
   showGraph: z.boolean(),
   theme: z.enum(THEMES),
   /** The unit of lengths in fields and on rulers. */
@@ -31,7 +31,7 @@ export type ViewSettings = Readonly<z.infer<typeof viewSchema>>;
 
 export const DEFAULT_VIEW: ViewSettings = {
   showTravel: false,
-  colorBy: "speed",
+  viewMode: "speed",
   showGraph: false,
   theme: "auto",
   lengthUnit: "mm",

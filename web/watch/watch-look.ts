@@ -1,30 +1,24 @@
 /** The look of the running plot: the pens' colours and widths, and how far it is drawn. */
-import { penOf, shownLayerName, type StrokeLayer } from "../../src/internal.js";
+import { penOf, shownLayerName } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import { jobUntilS } from "../preview/drawn-until.js";
 import type { FrameLook } from "../preview/stage.js";
-import { layerColor } from "../scene/color-map.js";
+import { penLooks } from "../preview/view-modes.js";
 import { LAYER_SHORT, PIECE_SHORTS } from "../scene/pieces.js";
 import { piecesBefore } from "../scene/scene.js";
 import type { PageState } from "../state/store.js";
 import type { Planned } from "../worker/protocol.js";
 
-const DEFAULT_LINE_MM = 0.35;
-
 export const lookOfJob = (job: Job | null, planned: Planned | null, live: PageState["live"]): FrameLook => {
-  const layers = planned?.drawnLayers ?? [];
+  const looks = job && planned ? penLooks({ planned, settings: job.settings }) : [];
   return {
-    colorBy: "pen",
+    colorBy: "layer",
     showTravel: false,
-    layerColors: layers.map(
-      (layer, index) => penOfJob(job, layer)?.color ?? layer.color ?? layerColor(index),
-    ),
-    layerWidthsMm: layers.map((layer) => penOfJob(job, layer)?.widthMm ?? DEFAULT_LINE_MM),
+    layerColors: looks.map(({ color }) => color),
+    layerWidthsMm: looks.map(({ widthMm }) => widthMm),
     untilS: job && planned ? jobUntilS(job, planned.trajectory, live) : null,
   };
 };
-
-const penOfJob = (job: Job | null, layer: StrokeLayer) => (job ? penOf(job.settings, layer) : null);
 
 interface LayerNow {
   readonly number: number;
@@ -44,7 +38,7 @@ export const layerNow = (job: Job, planned: Planned | null, live: PageState["liv
   const index = new Uint16Array(draw.bytes)[piece * PIECE_SHORTS + LAYER_SHORT];
   const layer = planned.drawnLayers[index];
   if (!layer) return null;
-  const pen = penOfJob(job, layer);
+  const pen = penOf(job.settings, layer);
   return {
     number: index + 1,
     count: planned.drawnLayers.length,

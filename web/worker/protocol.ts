@@ -1,4 +1,4 @@
-/** Messages between the page and its planning worker. Arrays are transferred, never copied. */
+/** Messages between the page and its workers. Arrays and pictures are transferred, never copied. */
 import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type {
   Box,
@@ -9,13 +9,15 @@ import type {
   PenStop,
   Placement,
   PreparedLayer,
+  Springs,
   StrokeLayer,
   TrajectoryStats,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { FrameMm } from "../scene/placing.js";
-import type { Picture } from "../scene/renderer.js";
+import type { Frame, Picture } from "../scene/renderer.js";
 import type { Scene } from "../scene/scene.js";
+import type { SwingPicture } from "../scene/swing-scene.js";
 import type { CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 
@@ -125,3 +127,28 @@ export type WorkerReply =
   | { readonly type: "export-failed"; readonly message: string }
   | { readonly type: "strokes"; readonly id: number; readonly strokes: StrokeSet }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };
+
+/** To the drawing worker. */
+export type DrawRequest =
+  | { readonly type: "scene"; readonly scene: Picture | null }
+  /** Only the newest is drawn. */
+  | { readonly type: "show"; readonly id: number; readonly frame: Frame };
+
+export interface DrawReply {
+  /** The frame's id. */
+  readonly id: number;
+  /** False for a coarse picture. The whole one follows, unless another frame is requested. */
+  readonly isWhole: boolean;
+  readonly bitmap: ImageBitmap;
+}
+
+/** To the worker that simulates the pen. It answers one request, then it is terminated. */
+export interface SwingRequest {
+  readonly strokes: StrokeSet;
+  readonly trajectory: Trajectory;
+  readonly springs: Springs;
+}
+
+export type SwingReply =
+  | { readonly type: "share"; readonly share: number }
+  | { readonly type: "done"; readonly picture: SwingPicture };

@@ -1,6 +1,6 @@
 /** Simulates the pen of a swinging machine, in parallel with the page and the planning. */
 import { swingPicture } from "../scene/swing-scene.js";
-import type { SwingReply, SwingRequest } from "./swing-protocol.js";
+import type { SwingReply, SwingRequest } from "./protocol.js";
 
 interface WorkerScope {
   onmessage: ((event: MessageEvent<SwingRequest>) => void) | null;
