@@ -11,7 +11,7 @@ import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { FastBoard } from "../support/virtual-plots.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf } from "../support/virtual-plotter.js";
 
 /** One on the standard servo output (SP), one with a brushless lift (S2). */
 const MACHINES = ["axidraw-v3", "nextdraw-8511"];

@@ -1,8 +1,9 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { BoardSession, type PlotwrightError } from "../../src/index.js";
+import { BoardSession } from "../../src/index.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { ScriptedLine } from "../support/scripted-line.js";
+import { outcome } from "../support/virtual-plotter.js";
 
 const VERSION_281 = "EBBv13_and_above EB Firmware Version 2.8.1\r\n";
 
@@ -13,9 +14,6 @@ function newSession(answer?: (line: string) => string | null) {
 }
 
 /** The outcome of a promise, as a value. */
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
-
 describe("identifying the board", () => {
   it("reads the firmware from the reply to V", async () => {
     const { session } = newSession(() => VERSION_281);
@@ -280,7 +278,7 @@ describe("a board that fails", () => {
 
   describe.each([0, 0.3, 1.2, 1.45])("is distinguished from a host that is busy from %f s on", (fromS) => {
     it.each([0.05, 0.2, 1, 1.6, 3])(
-      "for %f s: replies that arrived meanwhile are read first",
+      "reads the replies that arrived while the host was busy for %f s before it counts as silent",
       async (forS) => {
         const { clock, line, session } = newSession();
         const move = session.send("SP,1");

@@ -22,7 +22,7 @@ const cases = FIRMWARE.flatMap((one) =>
 
 describe("a shaped plot", () => {
   it.each(cases)(
-    "of $name on firmware $firmware, springs $springs.xHz Hz",
+    "of $name has exact steps and small jumps on firmware $firmware, springs $springs.xHz Hz",
     ({ firmware, jump, springs, strokes }) => {
       const machine = swinging(springs);
       // Pen moves in flight cut commands. Before 3.0 reversals do too, so there the carriage waits for the pen.

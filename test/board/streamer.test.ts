@@ -16,6 +16,7 @@ import { strokeSetOf, type Point } from "../support/arbitraries.js";
 import { makeStream, wavyRows, type StreamRow } from "../support/make-stream.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { StallingHost } from "../support/stalling-host.js";
+import { outcome } from "../support/virtual-plotter.js";
 
 const PEN_UP: StreamRow = { line: "SP,1,200", durationS: 0.2 };
 const PEN_DOWN: StreamRow = { line: "SP,0,200", durationS: 0.2 };
@@ -49,9 +50,6 @@ async function play(rig: Rig, stream: CommandStream, options: Partial<StreamOpti
   const report = await rig.world.run(streamer.play(stream));
   return { streamer, report };
 }
-
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
 
 describe("a stream on a healthy host", () => {
   it.each([
@@ -316,7 +314,7 @@ describe("streamCommands on a board's own clock", () => {
 });
 
 describe("a stream that sends no command", () => {
-  it("because it has none reports its progress and the board's position", async () => {
+  it("reports its progress and the board's position if it has no command", async () => {
     const rig = await newRig();
     const seen: StreamProgress[] = [];
     const onProgress = (progress: StreamProgress): unknown => seen.push(progress);
@@ -325,7 +323,7 @@ describe("a stream that sends no command", () => {
     expect(seen.at(-1)).toMatchObject({ fraction: 1, leftS: 0 });
   });
 
-  it("because it is cancelled before it begins leaves the board alone", async () => {
+  it("leaves the board alone if it is cancelled before it begins", async () => {
     const rig = await newRig();
     const said = rig.session.log.text();
     const cancel = { aborted: true };

@@ -1,18 +1,16 @@
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { SerialPort } from "serialport";
 import { afterEach, describe, expect, it } from "vitest";
 import { openPtyBoard, runBoard, type PtyBoard } from "../../server/cli/board.js";
+import { folderOfTest } from "../support/folders.js";
 
-const folders: string[] = [];
 const boards: PtyBoard[] = [];
 const ports: SerialPort[] = [];
 
 afterEach(async () => {
   for (const port of ports.splice(0)) await new Promise<void>((resolve) => port.close(() => resolve()));
   for (const board of boards.splice(0)) await board.close();
-  for (const folder of folders.splice(0)) rmSync(folder, { recursive: true });
 });
 
 /** Opens the port; `ask` resolves once the expected number of OKs has arrived. */
@@ -56,8 +54,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
   });
 
   it("is found at the path given on the command line, and saves a picture", async () => {
-    const folder = mkdtempSync(join(tmpdir(), "plotwright-board-"));
-    folders.push(folder);
+    const folder = folderOfTest();
     const path = join(folder, "ebb");
     const svg = join(folder, "out.svg");
     let stop = (): void => undefined;
@@ -92,8 +89,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
   });
 
   it("accepts faults typed to it, and comes back after the cable was unplugged", async () => {
-    const folder = mkdtempSync(join(tmpdir(), "plotwright-board-"));
-    folders.push(folder);
+    const folder = folderOfTest();
     const path = join(folder, "ebb");
     let stop = (): void => undefined;
     let type = (_line: string): void => undefined;
@@ -145,8 +141,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
   });
 
   it("does not overwrite a file with its link", async () => {
-    const folder = mkdtempSync(join(tmpdir(), "plotwright-board-"));
-    folders.push(folder);
+    const folder = folderOfTest();
     await expect(
       runBoard(
         { pty: folder },

@@ -1,10 +1,10 @@
 /** `plan` and `plot` for a machine with a Grbl: its profile is a file. */
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { afterEach, beforeEach, expect, it } from "vitest";
+import { beforeEach, expect, it } from "vitest";
 import { GRBL } from "../support/grbl-machine.js";
 import { cli } from "./support.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SAMPLE = join(import.meta.dirname, "../../samples/whirling-triangles.svg");
 const LIMIT_MS = 60_000;
@@ -12,14 +12,13 @@ const LIMIT_MS = 60_000;
 let dir: string;
 let profile: string;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-grbl-"));
+  dir = folderOfTest();
   profile = join(dir, "my-grbl.json");
   writeFileSync(profile, JSON.stringify(GRBL));
 });
-afterEach(() => rmSync(dir, { recursive: true, force: true }));
 
 it(
-  "plan writes G-code for it, with the pen up at both ends",
+  "plan writes G-code for a Grbl, with the pen up at both ends",
   async () => {
     const { code, out } = await cli("plan", SAMPLE, "--machine-file", profile, "--commands", "-");
     expect(code).toBe(0);
@@ -37,7 +36,7 @@ it(
 );
 
 it(
-  "plot draws it on a virtual Grbl",
+  "plot draws on a virtual Grbl",
   async () => {
     const options = [
       "--machine-file",

@@ -1,6 +1,5 @@
 /** Commands to the machine: never to a missing board, and always to the servo of this plotter. */
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { openPtyBoard, type PtyBoard } from "../../server/cli/board.js";
@@ -10,6 +9,7 @@ import { machineById } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { drawingOf, makeJob } from "../server/support/jobs.js";
 import { cli } from "./support.js";
+import { folderOfTest } from "../support/folders.js";
 
 // Ignores any board connected to this computer.
 vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
@@ -18,7 +18,7 @@ const LIMIT_MS = 60_000;
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
 let data: string;
 beforeEach(() => {
-  data = mkdtempSync(join(tmpdir(), "plotwright-cli-hand-"));
+  data = folderOfTest();
   prepareDataDir(data);
   writeFileSync(join(data, "a.svg"), SVG);
   // Without --data, plot would look into the user's own folder.
@@ -26,7 +26,6 @@ beforeEach(() => {
 });
 afterEach(() => {
   vi.unstubAllEnvs();
-  rmSync(data, { recursive: true, force: true });
 });
 
 describe("without a plotter", () => {

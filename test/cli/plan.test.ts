@@ -1,11 +1,11 @@
-import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { beforeEach, describe, expect, it } from "vitest";
 import { VirtualBoard, type Clock } from "../../src/index.js";
 import { IS_FULL } from "../support/full-run.js";
 import { cli, type CliRun } from "./support.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SAMPLES = fileURLToPath(new URL("../../samples/", import.meta.url));
 const samples = readdirSync(SAMPLES).filter((name) => name.endsWith(".svg"));
@@ -30,9 +30,8 @@ const CONTRACT = [
 
 let dir: string;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-plan-"));
+  dir = folderOfTest();
 });
-afterEach(() => rmSync(dir, { recursive: true, force: true }));
 
 const stoppedClock: Clock = { nowS: () => 0, after: () => () => undefined };
 

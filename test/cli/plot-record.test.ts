@@ -1,11 +1,11 @@
 /** Which stored plots count as interrupted, and the faults of the files they are stored in. */
 import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { PlotRecord } from "../../server/cli/plot-record.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { folderOfTest } from "../support/folders.js";
 
 const PLOT = { name: "a.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined };
 const PORT = "/dev/ttyACM0";
@@ -13,7 +13,7 @@ let dir: string;
 let file: string;
 let record: PlotRecord;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-record-"));
+  dir = folderOfTest();
   file = join(dir, "a.svg");
   writeFileSync(file, "<svg/>");
   record = new PlotRecord(dir, PORT);
@@ -22,7 +22,6 @@ beforeEach(() => {
 });
 afterEach(() => {
   vi.restoreAllMocks();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 const stored = (name: string): string => join(dir, "command-line", encodeURIComponent(PORT), name);

@@ -2,8 +2,7 @@
 import { execFileSync, spawn } from "node:child_process";
 import { createServer as createHttpServer } from "node:http";
 import type { AddressInfo } from "node:net";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { openPtyBoard } from "../../server/cli/board.js";
@@ -13,6 +12,7 @@ import { createServer } from "../../server/index.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { CaughtIo, cli, cliWith, type CliRun } from "./support.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
 vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
@@ -21,13 +21,12 @@ const LIMIT_MS = 60_000;
 let dir: string;
 let file: string;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-plot-"));
+  dir = folderOfTest();
   file = join(dir, "a.svg");
   writeFileSync(file, SVG);
 });
 afterEach(() => {
   vi.restoreAllMocks();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 function plot(io: CaughtIo, ...args: string[]): Promise<CliRun> {
@@ -92,7 +91,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "without a keyboard, refuses a plot that would wait for another pen, and draws nothing",
+    "refuses a plot that would wait for another pen without a keyboard, and draws nothing",
     async () => {
       const layers = join(dir, "layers.svg");
       const layer = (label: string): string =>
@@ -233,7 +232,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "with a keyboard, a resumed plot waits for Enter",
+    "waits for Enter before it resumes a plot if there is a keyboard",
     async () => {
       const record = new PlotRecord(dir, "virtual");
       record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
@@ -264,7 +263,7 @@ describe("plotwright plot", () => {
   );
 
   it(
-    "on the virtual board, leaves the record of another process that is plotting there",
+    "leaves the record of another process that is plotting on the virtual board",
     async () => {
       const record = new PlotRecord(dir, "virtual");
       record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });

@@ -69,7 +69,7 @@ describe("control characters and line ends", () => {
     expectPlain(out + err);
   });
 
-  it("of layers and of the file's name, in plot, are not printed", async () => {
+  it("plot prints no control characters or line ends of layers and of the file's name", async () => {
     const io = new CaughtIo();
     const args = ["--device", "virtual", "--virtual-speed", "100", "--data", dir];
     const plotted = cliWith(io, "plot", evil, ...args);
@@ -79,7 +79,7 @@ describe("control characters and line ends", () => {
     expectPlain(io.errText);
   });
 
-  it("of a custom machine are not printed", async () => {
+  it("machines prints no control characters or line ends of a custom machine", async () => {
     const own = { ...machineById("axidraw-v3"), id: "own", name: "Own \u009b2J" };
     mkdirSync(join(dir, "machines"), { recursive: true });
     writeFileSync(join(dir, "machines", "own.json"), JSON.stringify(own));
@@ -116,7 +116,7 @@ describe("printed text", () => {
       expect(printable(plain)).toBe(plain);
   });
 
-  it("of JSON has the same meaning", () => {
+  it("JSON without control characters has the same meaning", () => {
     fc.assert(
       fc.property(fc.jsonValue(), fc.string({ unit: "binary" }), (value, text) => {
         const json = printableJson([value, text, EVIL]);
@@ -126,7 +126,7 @@ describe("printed text", () => {
     );
   });
 
-  it("of an error is one line", () => {
+  it("an error is printed in one line", () => {
     const error = new PlotwrightError("bad-file", EVIL);
     expect(printed`plotwright: ${error.message}\n`.split("\n")).toHaveLength(2);
   });

@@ -1,5 +1,4 @@
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Command } from "commander";
 import { describe, expect, it } from "vitest";
@@ -8,6 +7,7 @@ import { MachineFiles } from "../../server/storage/machine-files.js";
 import { machineById } from "../../src/index.js";
 import { motionOfQuality } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
+import { folderOfTest } from "../support/folders.js";
 
 function settingsOf(...args: string[]): PlotSettings {
   const command = addSettingOptions(new Command())
@@ -33,15 +33,11 @@ describe("the settings' options", () => {
     expect(settingsOf("--quality", "normal").motion).toMatchObject(motionOfQuality("normal", null));
     expect(() => settingsOf("--quality", "fast")).toThrow(/needs the measured swing of the machine/);
     // A machine that was measured on the page is known by its id.
-    const folder = mkdtempSync(join(tmpdir(), "plotwright-"));
-    try {
-      new MachineFiles(folder).save({ ...machineById("axidraw-v3"), id: "mine", springs });
-      const stored = settingsFromOptions({ data: folder, machine: "mine", quality: "fast" });
-      expect(stored.motion).toMatchObject(motionOfQuality("fast", springs));
-      expect(stored.customMachine).toMatchObject({ id: "mine", springs });
-    } finally {
-      rmSync(folder, { recursive: true });
-    }
+    const folder = folderOfTest();
+    new MachineFiles(folder).save({ ...machineById("axidraw-v3"), id: "mine", springs });
+    const stored = settingsFromOptions({ data: folder, machine: "mine", quality: "fast" });
+    expect(stored.motion).toMatchObject(motionOfQuality("fast", springs));
+    expect(stored.customMachine).toMatchObject({ id: "mine", springs });
   });
 
   it("let single numbers and another shaper override a quality", () => {
@@ -135,7 +131,7 @@ describe("the settings' options", () => {
   });
 
   it("apply flags over the file of --config, and the file over the defaults", () => {
-    const dir = mkdtempSync(join(tmpdir(), "plotwright-config-"));
+    const dir = folderOfTest();
     const file = join(dir, "pen.json");
     writeFileSync(file, JSON.stringify({ pen: { upPct: 75 }, motion: { draw: { speedMmPerS: 20 } } }));
     const settings = settingsOf("--config", file, "--speed", "33");
@@ -150,7 +146,6 @@ describe("the settings' options", () => {
       writeFileSync(file, text);
       expect(() => settingsOf("--config", file)).toThrow(fault);
     }
-    rmSync(dir, { recursive: true });
     expect(() => settingsOf("--config", file)).toThrow(/there is no such file or folder/);
   });
 

@@ -114,7 +114,7 @@ describe("a length", () => {
     }
   });
 
-  it("of a sheet has a unit for both sides or for each", () => {
+  it("the size of a sheet has a unit for both sides or for each", () => {
     expect(parseSize("210x297")).toEqual({ widthMm: 210, heightMm: 297 });
     expect(parseSize("20x20cm")).toEqual({ widthMm: 200, heightMm: 200 });
     expect(parseSize("8.5x11in")).toEqual({ widthMm: 215.9, heightMm: 279.4 });

@@ -33,7 +33,8 @@ import {
 } from "../support/in-states.js";
 import { PAGE_STATES } from "../support/page-states.js";
 import type { PageState } from "../support/page-states/page-state.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 import { IS_FULL } from "../support/full-run.js";
 
 const data = temporaryFolder("accessibility");
@@ -127,7 +128,7 @@ const FIRST_LOOKS = IS_FULL ? [DESK, PHONE] : [DESK];
 const FULL_SCHEMES: readonly Scheme[] = IS_FULL ? SCHEMES : ["light"];
 
 describe("axe finds nothing serious, light and dark", () => {
-  it.each(FIRST_LOOKS)("on the first visit, $name", async (look) => {
+  it.each(FIRST_LOOKS)("axe finds nothing serious on the first visit, $name", async (look) => {
     const page = await firstVisit(look);
     for (const colorScheme of FULL_SCHEMES) {
       await page.emulateMedia({ colorScheme });
@@ -138,7 +139,7 @@ describe("axe finds nothing serious, light and dark", () => {
 
   describe.each(FONTS)("in $name", (font) => {
     it.each(FIRST_LOOKS)(
-      "with a sample on the paper and every group of settings open, $name",
+      "axe finds nothing serious with a sample on the paper and every group of settings open, $name",
       async (look) => {
         const page = await openPage(look, font);
         await unfold(page);
@@ -151,7 +152,7 @@ describe("axe finds nothing serious, light and dark", () => {
     );
   });
 
-  it("with a file that cannot be read, a queue, a running plot, and the question before cancelling", async () => {
+  it("axe finds nothing serious with a file that cannot be read, a queue, a running plot, and the question before cancelling", async () => {
     const page = await openPage();
     await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
     await queuePanel(page)

@@ -69,7 +69,7 @@ describe("a browser that does not let the page use a plotter", { timeout: 200_00
     await plotsOnTheVirtualBoard();
   }
 
-  it("because it has no Web Serial says so, and plots on the virtual board", async () => {
+  it("the page says that the browser has no Web Serial, and plots on the virtual board", async () => {
     await openOrigin(browser);
     await page.addInitScript(() =>
       Object.defineProperty(Navigator.prototype, "serial", { value: undefined }),
@@ -78,7 +78,7 @@ describe("a browser that does not let the page use a plotter", { timeout: 200_00
     await expectVirtualBoardOnly(/Open this page in Chrome or Edge on a computer/);
   });
 
-  it("because the page is insecure says so, and plots on the virtual board", async () => {
+  it("the page says that it is insecure, and plots on the virtual board", async () => {
     const { args = [], ...options } = await browserOptions();
     const rule = `--host-resolver-rules=MAP ${INSECURE_HOST} 127.0.0.1`;
     const own = await chromium.launch({ ...options, args: [...args, rule] });
@@ -135,7 +135,7 @@ describe("a browser whose worker can't draw", { timeout: 200_000 }, () => {
 });
 
 describe("a browser's storage", { timeout: 200_000 }, () => {
-  it("that is refused is reported, and the page plots without it", async () => {
+  it("a refused storage is reported, and the page plots without it", async () => {
     const refuse = `IDBFactory.prototype.open = () => { throw new DOMException("blocked", "SecurityError"); };`;
     await openOrigin(browser, { workerScript: refuse });
     await openApp();
@@ -143,7 +143,7 @@ describe("a browser's storage", { timeout: 200_000 }, () => {
     await plotsOnTheVirtualBoard();
   });
 
-  it("that is full stops neither a plot whose drawing is stored, nor opening it", async () => {
+  it("a full storage stops neither a plot whose drawing is stored, nor opening it", async () => {
     const workerScript = `
       const put = IDBObjectStore.prototype.put;
       IDBObjectStore.prototype.put = function (value, key) {
@@ -163,7 +163,7 @@ describe("a browser's storage", { timeout: 200_000 }, () => {
     await page.getByText("other", { exact: true }).first().waitFor({ state: "detached" });
   });
 
-  it("that is full is reported, and nothing is lost until there is room", async () => {
+  it("a full storage is reported, and nothing is lost until there is room", async () => {
     await openOrigin(browser);
     const session = await page.context().newCDPSession(page);
     const origin = String(app?.url);
@@ -194,7 +194,7 @@ describe("a browser's storage", { timeout: 200_000 }, () => {
     await queued("large").waitFor();
   });
 
-  it("that the user clears is filled again, and says that the drawings are gone", async () => {
+  it("a storage that the user clears is filled again, and the page says that the drawings are gone", async () => {
     await openOrigin(browser);
     const session = await page.context().newCDPSession(page);
     await openApp();

@@ -95,7 +95,7 @@ describe("the looks on a phone", () => {
 describe("a stroke", () => {
   const card = () => test.page.getByRole("region", { name: "Selected stroke" });
 
-  it("that is clicked is selected, with its figures", async () => {
+  it("a click on a stroke selects it and shows its figures", async () => {
     const box = (await canvas().boundingBox())!;
     const x = box.x + box.width / 2;
     const tip = test.page.getByRole("tooltip").getByText("2 of 3");

@@ -6,7 +6,8 @@ import { snapshotSchema, type Job } from "../../src/schema/index.js";
 import { launchBrowser } from "../support/browser.js";
 import { combOf, expectPartlyDrawn, SHARP } from "../support/half-drawn.js";
 import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 
 const PATIENCE_MS = 120_000;
 const NAME = "comb";

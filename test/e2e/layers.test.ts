@@ -200,7 +200,7 @@ describe("pens on the page", () => {
     expect(green).toBeGreaterThan(4 * blue);
   });
 
-  it("that are offset are corrected in the job, while the page shows what lands on paper", async () => {
+  it("offsets of pens are corrected in the job, while the page shows what lands on paper", async () => {
     await test.field("Draws too far right by").fill("1.5");
     await test.field("Draws too far down by").fill("-0.5");
     const { xy } = await test.strokesOf(await test.queue());

@@ -16,7 +16,8 @@ import {
   statusCard,
   waitForPlan,
 } from "../support/page-actions.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 
 const data = temporaryFolder("machine");
 let browser: Browser;
@@ -261,7 +262,7 @@ describe("machines as files", () => {
 });
 
 describe("the name of a plotter", () => {
-  it("that was changed elsewhere is shown in its field, which does not change it back", async () => {
+  it("a plotter's name that was changed elsewhere is shown in its field, which does not change it back", async () => {
     await button("Sharing, plotters, camera").click();
     const sheet = page.getByRole("dialog", { name: "Sharing" });
     await sheet.getByRole("radio", { name: "Plotters" }).check();

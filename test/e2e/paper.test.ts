@@ -333,7 +333,7 @@ describe("a length", () => {
 });
 
 describe("a file", () => {
-  it("without filled shapes says so when it is to be filled, and offers its closed outlines", async () => {
+  it("a file without filled shapes says so when it is to be filled, and offers its closed outlines", async () => {
     await test.drop("box", svgOf(60, 40, "M0 0H60V40H0Z"));
     await test.group("Lines");
     await test.group("Fill and shade");
@@ -347,7 +347,7 @@ describe("a file", () => {
     await test.page.getByRole("switch", { name: "Fill areas with lines" }).click();
   });
 
-  it("that can't be read leaves the loaded one", async () => {
+  it("a file that can't be read leaves the loaded one", async () => {
     await dropFile(test.page, "torn.svg", "<svg><path d='M0 0");
     await test.page.getByText(/torn can’t be drawn/).waitFor();
     await test.planned();
@@ -355,7 +355,7 @@ describe("a file", () => {
     expect(await plot().isEnabled()).toBe(true);
   });
 
-  it("that is only a picture is reported as one", async () => {
+  it("a file that is only a picture is reported as one", async () => {
     await test.drop(
       "photo",
       `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"><image href="a.png" width="60mm" height="40mm"/></svg>`,

@@ -20,7 +20,8 @@ import {
   waitForPlan,
   waitForPlotButton,
 } from "../support/page-actions.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 
 const DESKTOP = { width: 1440, height: 900 };
 const PHONE = { width: 390, height: 844 };

@@ -17,7 +17,8 @@ import {
   statusCard,
   waitForPlan,
 } from "../support/page-actions.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 
 const data = temporaryFolder("two-browsers");
 /** Small, because three pages draw it in software. */

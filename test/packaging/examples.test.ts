@@ -176,7 +176,7 @@ describe("the commands of the documents", () => {
   });
   afterAll(() => server.stop());
 
-  it.each(commandBlocks)("of $name work", ({ code }) => {
+  it.each(commandBlocks)("all commands of $name work", ({ code }) => {
     for (const line of code.trim().split("\n")) {
       const [program = "", ...args] = wordsOf(line);
       const { status, stdout, stderr } = program === "curl" ? runCurl(args) : runPlotwright(program, args);

@@ -10,7 +10,8 @@ import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, jobSchema } from "../../src/schema/index.js";
 import { countFor } from "../support/full-run.js";
 import { PtyBoard } from "../support/pty-board.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 
 const ROUNDS = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const IS_SHORT = ROUNDS === 1;

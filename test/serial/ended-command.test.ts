@@ -209,7 +209,7 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
   afterEach(() => desk.close());
 
   it(
-    "during a pause stays there, and is resumed",
+    "plot stays where it is if it is ended during a pause, and is resumed",
     async () => {
       const plotted = desk.plot(SVG);
       await desk.untilDrawn(0);
@@ -225,7 +225,7 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
   );
 
   it(
-    "while it waits for another pen is resumed with that pen",
+    "plot is resumed with the pen for which it waited when it was ended",
     async () => {
       const layer = (name: string, d: string): string =>
         `<g inkscape:groupmode="layer" inkscape:label="${name}"><path d="${d}"/></g>`;
@@ -245,7 +245,7 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
   );
 
   it(
-    "in its second copy is resumed in that copy, and begins no third",
+    "plot is resumed in its second copy if it was ended there, and begins no third",
     async () => {
       const line = strokesOf([10, 10, 100, 10, 100, 20, 10, 20, 10, 30, 100, 30, 100, 40, 10, 40]);
       const plotted = desk.plot(svgOf(line), "--copies", "3", "--paper-s", "0");

@@ -1,4 +1,7 @@
-/** Faults of a board during a plot, over a real pseudo-terminal: each ends in a defined state. */
+/**
+ * Faults of a connection during a plot, over a real pseudo-terminal: each ends in a defined state. Those of the board itself
+ * are tested without real time, in test/server/plotter.test.ts.
+ */
 import { fork } from "node:child_process";
 import { once } from "node:events";
 import { chmodSync } from "node:fs";
@@ -57,12 +60,6 @@ async function drawing(test: TestContext, firmware = "2.8.1"): Promise<Plot> {
   return { board, driver, run, journal, ended };
 }
 
-const state = (driver: PlotterDriver, is: (state: PlotterState) => boolean): Promise<PlotterState> =>
-  new Promise((resolve) => {
-    if (is(driver.state)) resolve(driver.state);
-    driver.onChange((now) => is(now) && resolve(now));
-  });
-
 // They mostly wait for the board, so some run side by side.
 describe.concurrent("in mid-plot", () => {
   it("an unplugged board ends the plot as disconnected, with the position in the journal", async (test) => {
@@ -86,80 +83,11 @@ describe.concurrent("in mid-plot", () => {
     expect(journal[journal.length - 1].place.stroke).toBe(0);
   });
 
-  it("a silent board ends the plot with a time-out, and is used again when it answers", async (test) => {
-    const { board, driver, ended } = await drawing(test);
-    board.tell({ type: "mute", mute: true });
-    const { outcome, afterS } = await ended();
-    expect(outcome).toMatch(/^board-timeout: The board has stopped answering/);
-    expect(afterS).toBeLessThan(WITHIN_S);
-    expect(driver.state.connection).toBe("fault");
-    board.tell({ type: "mute", mute: false });
-    const idle = await state(driver, ({ connection }) => connection === "idle");
-    // It never lost its counters: the plot can resume from its position.
-    expect(idle.xMm).not.toBeNull();
-  });
-
-  it.for(["2.8.1", "3.0.3"])(
-    "a board of firmware %s whose motion never ends is a fault with its own message",
-    async (firmware, test) => {
-      const { board, driver, journal, ended } = await drawing(test, firmware);
-      board.tell({ type: "frozen", frozen: true });
-      const { outcome, afterS } = await ended();
-      expect(outcome).toMatch(
-        /^board-(error|timeout): The board (has stopped answering|answers but does not finish)/,
-      );
-      expect(afterS).toBeLessThan(WITHIN_S);
-      expect(journal[journal.length - 1].place.stroke).toBe(0);
-      board.tell({ type: "frozen", frozen: false });
-      await state(driver, ({ connection }) => connection === "idle");
-    },
-  );
-
-  it("a blocked board can still be cancelled", async (test) => {
-    const { board, driver, run, ended } = await drawing(test);
-    board.tell({ type: "frozen", frozen: true });
-    void run.cancel().catch(() => undefined);
-    const { afterS } = await ended();
-    expect(afterS).toBeLessThan(WITHIN_S);
-    expect(driver.state.connection).not.toBe("busy");
-  });
-
   it("a board that another program switched to its other syntax continues, or is a fault with its own message", async (test) => {
     const { board, run, ended } = await drawing(test, "3.0.3");
     board.tell({ type: "send", line: "CU,10,1\r" });
     await run.change({ speedPct: 200 });
     expect((await ended()).outcome).toBe("done");
-    expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
-  });
-
-  it("a supply too low for the motors, as from USB alone, ends the plot and is named", async (test) => {
-    const { board, driver, ended } = await drawing(test);
-    board.tell({ type: "volts", volts: 5 });
-    const { outcome, afterS } = await ended();
-    expect(outcome).toMatch(/^board-error: The motors have no power, or too little/);
-    expect(afterS).toBeLessThan(WITHIN_S);
-    board.tell({ type: "volts", volts: 9.1 });
-    expect(await state(driver, ({ connection }) => connection === "idle")).toMatchObject({ xMm: null });
-  });
-
-  it("motors without power end the plot with a board error that names the supply", async (test) => {
-    const { board, driver, ended } = await drawing(test);
-    board.tell({ type: "volts", volts: 0 });
-    const { outcome, afterS } = await ended();
-    expect(outcome).toMatch(/^board-error: The motors have no power/);
-    expect(afterS).toBeLessThan(WITHIN_S);
-    expect(driver.state).toMatchObject({ connection: "fault", xMm: null });
-  });
-
-  it("the board's button holds the plot", async (test) => {
-    const { board, run } = await drawing(test, "3.0.3");
-    const held = new Promise<boolean>((resolve) => run.onHeld(resolve));
-    const from = clock.nowS();
-    board.tell({ type: "button" });
-    expect(await held).toBe(true);
-    expect(clock.nowS() - from).toBeLessThan(WITHIN_S);
-    await run.cancel();
-    expect(await run.finished).toEqual({ kind: "cancelled" });
     expect((await board.report()).state).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
@@ -210,29 +138,6 @@ describe.concurrent("when connecting", () => {
     await run.cancel();
   });
 
-  it("a silent board is a fault with advice what to check", async (test) => {
-    const board = closeAfter(test, await PtyBoard.open());
-    board.tell({ type: "mute", mute: true });
-    // Its reply shows that it has received the command.
-    await board.report();
-    expect(await connected(test, board.path)).toMatchObject({
-      connection: "fault",
-      message: expect.stringContaining("Nothing answers on this port"),
-    });
-  });
-
-  it("a board without motor supply is a fault with advice what to check", async (test) => {
-    const board = closeAfter(test, await PtyBoard.open());
-    board.tell({ type: "volts", volts: 5 });
-    await board.report();
-    const driver = closeAfter(test, new PlotterDriver({ device: board.path }));
-    const from = clock.nowS();
-    await driver.start();
-    const { message } = await state(driver, ({ connection }) => connection === "fault");
-    expect(message).toContain("power supply");
-    expect(clock.nowS() - from).toBeLessThan(WITHIN_S);
-  });
-
   it("a port without permission is a fault that names the group and the udev rule", async (test) => {
     const board = closeAfter(test, await PtyBoard.open());
     chmodSync(board.path, 0);
@@ -247,20 +152,5 @@ describe.concurrent("when connecting", () => {
       message: expect.stringMatching(/may not open .*dialout.*udev rule/) as string,
     });
     if (!hasEnded(child)) await once(child, "exit");
-  });
-
-  it("another device that answers is reported as not being a plotter", async (test) => {
-    const board = closeAfter(test, await PtyBoard.open());
-    board.tell({ type: "foreign", answer: "Grbl 1.1h ['$' for help]\r\nok\r\n" });
-    await board.report();
-    expect(await connected(test, board.path)).toMatchObject({
-      connection: "absent",
-      message: expect.stringContaining("it is not an EiBotBoard: choose another device"),
-    });
-  });
-
-  it("a board in its other reply syntax is used normally", async (test) => {
-    const board = closeAfter(test, await PtyBoard.open({ firmware: "3.0.3", futureSyntax: true }));
-    expect(await connected(test, board.path)).toMatchObject({ connection: "idle", firmware: "3.0.3" });
   });
 });

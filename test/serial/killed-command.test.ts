@@ -1,13 +1,13 @@
 /** kill -9 of `plotwright plot` over a real pseudo-terminal, while it draws a line that crosses itself many times. */
 import { fork, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
 import { drawnMm } from "../support/live-plot.js";
 import { PtyBoard } from "../support/pty-board.js";
+import { folderOfTest } from "../support/folders.js";
 
 const LIMIT_MS = 120_000;
 /** Loops of about 25 mm, each overlapping the one before. */
@@ -27,14 +27,13 @@ let dir: string;
 let board: PtyBoard;
 const children: ChildProcess[] = [];
 beforeEach(async () => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-killed-"));
+  dir = folderOfTest();
   writeFileSync(join(dir, "loops.svg"), SVG);
   board = await PtyBoard.open({ wakeful: true });
 });
 afterEach(async () => {
   for (const child of children.splice(0)) child.kill("SIGKILL");
   await board.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 /** `plotwright plot ARGS`, with what it prints. */

@@ -7,7 +7,8 @@ import { afterEach, expect, it } from "vitest";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { EventStream } from "../server/support/event-stream.js";
 import { PtyBoard, type BoardReport } from "../support/pty-board.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 import { countFor } from "../support/full-run.js";
 
 const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 50, 4);
@@ -71,7 +72,7 @@ function rowsOf(report: BoardReport, from: number): { count: number; gapMm: numb
 }
 
 it(
-  "loses no stroke, draws nothing twice, and nothing unless the user asks",
+  "a killed server loses no stroke, draws nothing twice, and nothing unless the user asks",
   { timeout: 60_000 + 20_000 * KILL_COUNT },
   async () => {
     const data = temporaryFolder("killed");

@@ -6,7 +6,8 @@ import { afterEach, expect, it } from "vitest";
 import { jobSchema } from "../../src/schema/index.js";
 import { EventStream } from "../server/support/event-stream.js";
 import { PtyBoard } from "../support/pty-board.js";
-import { startServerProcess, temporaryFolder } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess } from "../support/server-process.js";
 import { IS_FULL } from "../support/full-run.js";
 
 const STREAM_COUNT = 50;

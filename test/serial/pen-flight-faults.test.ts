@@ -110,7 +110,7 @@ describe.concurrent("a pen in flight", () => {
     ["a kill", kill, 0],
     ["an unplugged cable", unplug, 1],
   ] as const)(
-    "%s leaves no gap, no doubled stretch and no mark between strokes",
+    "%s while the pen is in flight leaves no gap, no doubled stretch and no mark between strokes",
     { timeout: 60_000 + 60_000 * COUNT },
     async (name, interrupt, firstCase) => {
       const random = seeded(name.length);

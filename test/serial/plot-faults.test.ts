@@ -1,12 +1,11 @@
 /**
- * A fault in mid-plot, over a real pseudo-terminal: whatever happens to the connection, the whole drawing is
- * on the paper at the end, once. PLOTWRIGHT_FAULTS=20, or the full run: that many random times of each, on
+ * A fault of the connection in mid-plot, over a real pseudo-terminal: whatever happens, the whole drawing is on the paper at
+ * the end, once. PLOTWRIGHT_FAULTS=20, or the full run: that many random times of each, on
  * both firmware versions.
  */
 import { describe, expect, it } from "vitest";
 import { plotWithFault, waitS, type Fault, type FaultyPlotResult } from "../support/faulty-plots.js";
 import { seeded } from "../support/live-plot.js";
-import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { countFor } from "../support/full-run.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
@@ -71,29 +70,6 @@ async function undisturbed(plot: () => Promise<FaultyPlotResult>): Promise<Fault
     if (result.sleptS < MOST_SLEPT_S || tries === MOST_TRIES) return result;
   }
 }
-/**
- * Firmware before 3 draws the commands that it received after the refused one, because its parser is blocked.
- * On a curve these lie beside the stroke, and the stroke is drawn again.
- */
-const REFUSAL: Fault = { name: "a refused command", happen: (board) => board.tell({ type: "refuse" }) };
-const WINDOW_MM = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS * 0.45;
-
-/** These lose the position: home is set again, and the plot resumes from where the board certainly was. */
-const LOST_PLACES: readonly Fault[] = [
-  {
-    name: "the motors' supply off",
-    happen: async (board) => {
-      board.tell({ type: "volts", volts: 0 });
-      await waitS(3);
-      board.tell({ type: "volts", volts: 9.1 });
-    },
-  },
-  { name: "a restart of the board", happen: (board) => board.tell({ type: "restart" }) },
-];
-
-/** mm drawn in the longest time between two readings of the supply, and by the commands that the board holds. */
-const SUPPLY_MM = DEFAULT_PLOT_SETTINGS.motion.draw.speedMmPerS * (0.25 + 0.45 + 0.45);
-
 // They mostly wait, so some run side by side.
 describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
   it.each(FAULTS)(
@@ -114,68 +90,4 @@ describe.concurrent.each(FIRMWARES)("on firmware %s", (firmware) => {
       expect(wrong).toEqual([]);
     },
   );
-
-  it(
-    "a refused command leaves no gap, and draws twice only what cannot be stopped",
-    { timeout: 60_000 + 60_000 * COUNT },
-    async () => {
-      const random = seeded(3_000_017);
-      const mostMm = firmware === "3.0.3" ? MOST_MM : WINDOW_MM;
-      const wrong: unknown[] = [];
-      for (let i = 0; i < COUNT; i++) {
-        const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
-        const { gapMm, overlapMm, awayMm, outcomes } = await plotWithFault(REFUSAL, firmware, afterS, random);
-        const isDone = outcomes[outcomes.length - 1] === "done";
-        if (!isDone || gapMm > MOST_MM || overlapMm > mostMm) {
-          wrong.push({ afterS, gapMm, overlapMm, awayMm, outcomes });
-        }
-      }
-      expect(wrong).toEqual([]);
-    },
-  );
-
-  it.each(LOST_PLACES)(
-    "$name leaves no gap, and draws twice at most what follows the last good reading",
-    { timeout: 60_000 + 60_000 * COUNT },
-    async (fault) => {
-      const random = seeded(2_000_003 * (1 + LOST_PLACES.indexOf(fault)));
-      const wrong: unknown[] = [];
-      for (let i = 0; i < COUNT; i++) {
-        const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
-        const { gapMm, overlapMm, outcomes } = await plotWithFault(fault, firmware, afterS, random);
-        const isDone = outcomes[outcomes.length - 1] === "done";
-        const saysSo = outcomes.slice(0, -1).every((words) => words.includes("may overlap a little"));
-        if (!isDone || !saysSo || gapMm > MOST_MM || overlapMm > SUPPLY_MM) {
-          wrong.push({ afterS, gapMm, overlapMm, outcomes });
-        }
-      }
-      expect(wrong).toEqual([]);
-    },
-  );
 });
-
-it(
-  "a supply that fails for 0.1 to 0.3 s on firmware 3.0.3 is always found, and leaves no gap",
-  { timeout: 60_000 + 60_000 * COUNT },
-  async () => {
-    const random = seeded(4_000_037);
-    const brief: Fault = {
-      name: "the motors' supply off for a moment",
-      happen: async (board) => {
-        board.tell({ type: "volts", volts: 0 });
-        await waitS(0.1 + 0.2 * random());
-        board.tell({ type: "volts", volts: 9.1 });
-      },
-    };
-    const wrong: unknown[] = [];
-    for (let i = 0; i < COUNT; i++) {
-      const afterS = EARLIEST_S + (LATEST_S - EARLIEST_S) * random();
-      const { gapMm, overlapMm, outcomes } = await plotWithFault(brief, "3.0.3", afterS, random);
-      const isFound = /no power, or too little/.test(outcomes[0]) && outcomes[1] === "done";
-      if (!isFound || gapMm > MOST_MM || overlapMm > SUPPLY_MM) {
-        wrong.push({ afterS, gapMm, overlapMm, outcomes });
-      }
-    }
-    expect(wrong).toEqual([]);
-  },
-);

@@ -3,9 +3,7 @@ import { openSerial, openError } from "../../server/serial/serial-transport.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
 import { BoardSession, type PlotwrightError } from "../../src/index.js";
 import { PtyBoard } from "../support/pty-board.js";
-
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+import { outcome } from "../support/virtual-plotter.js";
 
 const open: { close(): Promise<void> }[] = [];
 const keep = <T extends { close(): Promise<void> }>(thing: T): T => {

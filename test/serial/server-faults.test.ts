@@ -7,7 +7,7 @@ import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { jobSchema, snapshotSchema, type Job, type Snapshot } from "../../src/schema/index.js";
 import { EventStream } from "../server/support/event-stream.js";
 import { PtyBoard, type ToBoard } from "../support/pty-board.js";
-import { temporaryFolder } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
 import { wakefulClock } from "../support/wakeful-clock.js";
 
 /** An undetected fault never ends. The limit of 3 s is tested without real time, in test/server/plotter.test.ts. */
@@ -75,9 +75,9 @@ const FAULTS: readonly (readonly [
   ],
 ];
 
-describe("a job whose board", () => {
+describe("a fault of a board", () => {
   it.each(FAULTS)(
-    "%s (%s) is interrupted in time, resumed after the fault is fixed, and cancelled",
+    "a job whose board %s (firmware %s) is interrupted in time, resumed after the fault is fixed, and cancelled",
     async (_, firmware, fault, words, mend) => {
       const { board, events, post, reaches, state } = await drawing(firmware);
       const interrupted = reaches("interrupted");
@@ -103,7 +103,7 @@ describe("a job whose board", () => {
     },
   );
 
-  it("stops moving is cancelled in time, before the fault is detected", async () => {
+  it("a job whose board stops moving is cancelled in time, before the fault is detected", async () => {
     const { board, post, reaches, state } = await drawing("2.8.1");
     board.tell({ type: "frozen", frozen: true });
     const ended = Promise.race([reaches("cancelled"), reaches("interrupted")]);

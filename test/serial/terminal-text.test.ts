@@ -1,11 +1,11 @@
 /** What `plotwright plot` leaves on a terminal, line by line: messages and the progress bar never mix. */
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { spawn } from "@lydell/node-pty";
 import xterm from "@xterm/headless";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
+import { folderOfTest } from "../support/folders.js";
 
 const LIMIT_MS = 60_000;
 const CTRL_C = "\u0003";
@@ -20,12 +20,11 @@ const SVG =
 let dir: string;
 let end: () => void;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-terminal-"));
+  dir = folderOfTest();
   writeFileSync(join(dir, "a.svg"), SVG);
 });
 afterEach(() => {
   end();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 /** A terminal of this size with a plot on it. */
@@ -76,7 +75,7 @@ describe("plotwright plot at a terminal", () => {
     [100, 30],
     [60, 5],
   ])(
-    "of %i columns and %i rows writes whole lines through pauses, a pen stop and a cancel",
+    "plot writes whole lines at %i columns and %i rows through pauses, a pen stop and a cancel",
     async (cols, rows) => {
       const plot = new PlotAtTerminal(cols, rows);
       await plot.shows(/█+░+ +\d+ % +00:00:0\d so far/);

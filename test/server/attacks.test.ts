@@ -6,15 +6,13 @@ import { readFileSync } from "node:fs";
 import { request as httpRequest } from "node:http";
 import { request as httpsRequest } from "node:https";
 import { connect } from "node:net";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { createServer } from "../../server/index.js";
 import { DEFAULT_PLOT_SETTINGS, jobSchema, pairingSchema, type Job } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 import { EventStream } from "./support/event-stream.js";
 import type { LedRun } from "./support/fakes.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
 const TLS = {
@@ -349,12 +347,11 @@ describe("a server with a certificate", () => {
   });
 
   it("explains what is wrong with a certificate that can't be used", async () => {
-    const dataDir = mkdtempSync(join(tmpdir(), "plotwright-tls-"));
+    const dataDir = folderOfTest();
     const options = { port: 0, device: "virtual", dataDir };
     await expect(createServer({ ...options, tls: { cert: "x", key: "y" } })).rejects.toThrow(
       "The certificate or its key can't be used",
     );
-    rmSync(dataDir, { recursive: true, force: true });
   });
 });
 

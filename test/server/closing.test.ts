@@ -9,7 +9,7 @@ import { Closing } from "../../server/composition/closing.js";
 import { createServer } from "../../server/index.js";
 import { jobSchema, snapshotSchema } from "../../src/schema/index.js";
 import { seeded } from "../support/live-plot.js";
-import { temporaryFolder } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
 import { EventStream } from "./support/event-stream.js";
 
 /** Longer than the test plots in total, because it plots slowly. */
@@ -80,7 +80,7 @@ describe("a server that is closed", () => {
     expect(logged.filter((line) => line.startsWith("closing"))).toEqual([]);
   });
 
-  it("at any instant of a plot or a hold leaves no timer, and a plot that can be resumed", async () => {
+  it("a server that is closed at any instant of a plot or a hold leaves no timer, and a plot that can be resumed", async () => {
     const timers = watchTimers();
     undo.push(() => timers.end());
     const { server: first, options, logged } = await start();

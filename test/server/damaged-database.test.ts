@@ -2,18 +2,9 @@
  * A database that is emptied or damaged: no drawing is lost, jobs are restored from the backup, and the user
  * is notified.
  */
-import {
-  copyFileSync,
-  existsSync,
-  mkdtempSync,
-  readFileSync,
-  readdirSync,
-  rmSync,
-  writeFileSync,
-} from "node:fs";
-import { tmpdir } from "node:os";
+import { copyFileSync, existsSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { createServer } from "../../server/index.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
@@ -23,16 +14,16 @@ import { snapshotSchema } from "../../src/schema/index.js";
 import { seeded } from "../support/live-plot.js";
 import { makeJob } from "./support/jobs.js";
 import { countFor } from "../support/full-run.js";
+import { folderOfTest } from "../support/folders.js";
 
 const FLIP_COUNT = countFor("PLOTWRIGHT_FLIPS", 120, 40);
 const JOB_COUNT = 12;
 
 let dir: string;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-damaged-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
 });
-afterEach(() => rmSync(dir, { recursive: true, force: true }));
 
 const inDir = (...names: string[]): string => join(dir, ...names);
 const databasePath = (): string => inDir("plotwright.db");
@@ -171,7 +162,7 @@ describe("an emptied database", () => {
     expect(readdirSync(inDir("drawings"))).toHaveLength(JOB_COUNT);
   });
 
-  it("without a backup sets all drawings aside", async () => {
+  it("an emptied database without a backup sets all drawings aside", async () => {
     await fill();
     writeFileSync(databasePath(), "");
     rmSync(inDir("plotwright.db.backup"));

@@ -6,7 +6,7 @@ import { afterEach, describe, expect, it } from "vitest";
 import { createServer } from "../../server/index.js";
 import { lockDataDir } from "../../server/storage/data-lock.js";
 import { cli } from "../cli/support.js";
-import { temporaryFolder } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
 
 const undo: (() => unknown)[] = [];
 afterEach(() => undo.splice(0).forEach((step) => step()));
@@ -15,7 +15,7 @@ describe("the lock of a data folder", () => {
   it.skipIf(process.platform === "win32").each([
     ["a folder", (path: string) => mkdirSync(path)],
     ["a named pipe", (path: string) => execFileSync("mkfifo", [path])],
-  ])("whose name %s has is refused in words, and nothing is moved", (_, make) => {
+  ])("a data folder is refused in words if %s has the name of its lock, and nothing is moved", (_, make) => {
     const folder = temporaryFolder("lock");
     undo.push(folder.remove);
     const path = join(folder.path, "server.lock");

@@ -1,6 +1,5 @@
 /** A disk that fills up while a plot runs: the pen can still be stopped, and all reports are right. */
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Access } from "../../server/security/access.js";
@@ -12,6 +11,7 @@ import { EventStream } from "./support/event-stream.js";
 import type { LedRun } from "./support/fakes.js";
 import { drawingOf } from "./support/jobs.js";
 import { openQueueIn } from "./support/open-queue.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
 const LIMIT_MS = 60_000;
@@ -191,7 +191,7 @@ describe("while the disk is full", () => {
 
 describe("a queue that continues automatically", () => {
   it("survives a disk that fills up between the end of a plot and the next start", async () => {
-    const dir = mkdtempSync(join(tmpdir(), "plotwright-run-on-"));
+    const dir = folderOfTest();
     prepareDataDir(dir);
     const { queue, store, plotter, logged } = openQueueIn(dir);
     const add = (name: string): Promise<Job> =>
@@ -210,7 +210,6 @@ describe("a queue that continues automatically", () => {
     expect(queue.list().map(({ name, state }) => `${name} ${state}`)).toEqual(["moss queued", "fern done"]);
     await queue.close();
     store.close();
-    rmSync(dir, { recursive: true, force: true });
   });
 });
 

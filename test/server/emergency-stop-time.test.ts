@@ -3,13 +3,11 @@
  * instant.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { seeded } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 const LOOK_MS = 2;
 
@@ -18,9 +16,7 @@ async function stopMs(firmware: string, sendAheadMs: number): Promise<{ mostMs: 
   const random = seeded(123_456_789);
   let [mostMs, saidMs] = [0, 0];
   for (let i = 0; i < 12; i++) {
-    const world = new ManualClock();
-    const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-    await world.run(driver.start());
+    const { world, driver } = await virtualPlotter({ firmware });
     const settings = { ...DEFAULT_PLOT_SETTINGS, sendAheadMs };
     const run = await world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), settings));
     await world.advance(0.6 + 6 * random());

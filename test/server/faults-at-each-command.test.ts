@@ -7,13 +7,12 @@ import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { VirtualBoard } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { StallingHost } from "../support/stalling-host.js";
 import { compareDrawn } from "../support/drawn-truth.js";
 import { IS_FULL } from "../support/full-run.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualPlotter } from "../support/virtual-plotter.js";
 
 const STROKES = strokesOf([5, 5, 30, 5, 30, 12], [34, 12, 36, 5], [36, 8, 20, 14]);
 /** Much longer than the plot with its returns home. */
@@ -48,10 +47,7 @@ function supplyOffFor(offS: number): Fault {
 
 /** Plots until the drawing is done. Returns the number of commands, and how each attempt ended. */
 async function plotWith(fault: Fault, firmware: string, atCommand: number) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-  await world.run(driver.start());
-  const board = virtualBoardOf(driver);
+  const { world, driver, board } = await virtualPlotter({ firmware });
   let commandCount = 0;
   board.onSend(() => {
     if (++commandCount === atCommand) fault(board, world);

@@ -1,18 +1,17 @@
-import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
-import os from "node:os";
+import { mkdirSync, symlinkSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { findBoards, sysfsPorts } from "../../server/serial/find-boards.js";
+import { folderOfTest } from "../support/folders.js";
 
 let root: string;
 
 beforeEach(() => {
-  root = mkdtempSync(path.join(os.tmpdir(), "plotwright-sysfs-"));
+  root = folderOfTest();
 });
 
 afterEach(() => {
   vi.unstubAllEnvs();
-  rmSync(root, { recursive: true });
 });
 
 /** A USB device with one serial port, as Linux lays it out. */
@@ -48,7 +47,7 @@ describe("the serial ports of a Linux without udev", () => {
   });
 });
 
-it.runIf(process.platform === "linux")("finds boards also where udevadm is not installed", async () => {
+it.runIf(process.platform === "linux")("boards are found also where udevadm is not installed", async () => {
   vi.stubEnv("PATH", root);
   expect(Array.isArray(await findBoards())).toBe(true);
 });

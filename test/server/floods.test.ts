@@ -105,14 +105,14 @@ describe("a connection with requests that do not wait for the answers", () => {
 });
 
 describe("a flood of requests", () => {
-  it("to another host name, or from another site, is limited as well", async () => {
+  it("a flood to another host name, or from another site, is limited as well", async () => {
     const foreign = await flood("/", { Host: "evil.example" });
     expect([foreign.filter((status) => status === 403).length, foreign.at(-1)]).toEqual([600, 429]);
     const own = await flood("/api/v1/state", { ...watcher, Origin: "https://evil.example" });
     expect([own.filter((status) => status === 403).length, own.at(-1)]).toEqual([600, 429]);
   });
 
-  it("of unknown clients leaves each device at that address its own requests, and its pairing", async () => {
+  it("a flood of unknown clients leaves each device at that address its own requests, and its pairing", async () => {
     expect((await flood("/x.png", {})).at(-1)).toBe(429);
     expect(await statusOf("/api/v1/state", operator)).toBe(200);
     expect(await statusOf("/api/v1/state", watcher)).toBe(200);
@@ -122,7 +122,7 @@ describe("a flood of requests", () => {
     }
   });
 
-  it("of one device leaves the others their own, and all of them the stops", async () => {
+  it("a flood of one device leaves the others their own requests, and all of them the stops", async () => {
     expect((await flood("/api/v1/state", watcher)).at(-1)).toBe(429);
     expect((await flood("/api/v1/state", operator)).at(-1)).toBe(429);
     const path = `/api/v1/jobs/${job.id}`;

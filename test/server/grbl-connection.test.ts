@@ -239,7 +239,7 @@ describe("a move by hand", { timeout: 60_000 }, () => {
 });
 
 describe("the receive buffer", { timeout: 60_000 }, () => {
-  it.each([128, 127, 120])("of %d characters never overflows", async (rxBytes) => {
+  it.each([128, 127, 120])("a receive buffer of %d characters never overflows", async (rxBytes) => {
     const { board, begin, within } = await newPlotter({ rxBytes });
     const run = await begin();
     expect(await within(run.finished)).toEqual({ kind: "done" });

@@ -34,7 +34,7 @@ const STOPS: readonly [string, (run: LivePlotRun) => Promise<void>][] = [
 ];
 
 describe("a plot ends", { timeout: 60_000 }, () => {
-  it.each(STOPS)("if the cable is unplugged during a %s", async (_, stop) => {
+  it.each(STOPS)("a plot ends if the cable is unplugged during a %s", async (_, stop) => {
     const { world, begin, within, line, mustWork } = await newPlotter();
     const run = await begin();
     await world.advance(2.1);
@@ -45,7 +45,7 @@ describe("a plot ends", { timeout: 60_000 }, () => {
     await mustWork();
   });
 
-  it.each(STOPS)("if the board does not answer a %s", async (_, stop) => {
+  it.each(STOPS)("a plot ends if the board does not answer a %s", async (_, stop) => {
     const { world, begin, within, line, mustWork } = await newPlotter();
     const run = await begin();
     await world.advance(2.1);
@@ -56,7 +56,7 @@ describe("a plot ends", { timeout: 60_000 }, () => {
     await mustWork();
   });
 
-  it("if the plotter is closed during a pause's braking, with the pen up", async () => {
+  it("a plot ends with the pen up if the plotter is closed during a pause's braking", async () => {
     const { world, board, driver, begin, within } = await newPlotter();
     const run = await begin();
     await world.advance(2.1);
@@ -69,7 +69,7 @@ describe("a plot ends", { timeout: 60_000 }, () => {
     expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
   });
 
-  it("if a pause crosses its last reply", async () => {
+  it("a plot ends if a pause crosses its last reply", async () => {
     const lines = strokesOf([10, 10, 20, 10]);
     const whole = await newPlotter();
     whole.line().lateS = 0.02;
@@ -90,7 +90,7 @@ describe("a plot ends", { timeout: 60_000 }, () => {
     }
   });
 
-  it("and a stopped move by hand, if the board does not answer", async () => {
+  it("a stopped move by hand ends if the board does not answer", async () => {
     const { world, machine, line, lost, within } = await newMachine();
     const move = machine.moveTo(100, 50, SETTINGS);
     await world.advance(0.6);
@@ -246,7 +246,7 @@ describe("a restart at rest", { timeout: 60_000 }, () => {
 });
 
 describe("an emergency stop", { timeout: 60_000 }, () => {
-  it("during a pause's braking stops at once, and the plot resumes from there", async () => {
+  it("an emergency stop during a pause's braking stops at once, and the plot resumes from there", async () => {
     const { world, board, driver, begin } = await newPlotter();
     const run = await begin();
     await world.advance(2.1);
@@ -272,7 +272,7 @@ describe("an emergency stop", { timeout: 60_000 }, () => {
       /^board-error: The Grbl has stopped with ALARM:1/,
     ],
     ["a restart", (board: VirtualGrbl) => board.restart(), /^board-error: The Grbl has restarted/],
-  ])("just after %s does not hide that the position is lost", async (_, fault, message) => {
+  ])("an emergency stop just after %s does not hide that the position is lost", async (_, fault, message) => {
     const { world, board, driver, begin, within, line } = await newPlotter();
     const run = await begin();
     await world.advance(2.1);
@@ -285,7 +285,7 @@ describe("an emergency stop", { timeout: 60_000 }, () => {
     expect(driver.state).toMatchObject({ xMm: null, yMm: null });
   });
 
-  it("while the pen lifts for a move by hand cancels the move", async () => {
+  it("an emergency stop while the pen lifts for a move by hand cancels the move", async () => {
     const { world, board, machine, within } = await newMachine();
     const move = machine.moveTo(100, 50, SETTINGS);
     await world.advance(0.05);
@@ -297,7 +297,7 @@ describe("an emergency stop", { timeout: 60_000 }, () => {
     expect(board.state()).toMatchObject({ xMm: 3, yMm: 4 });
   });
 
-  it("while the pen lifts before a plot starts holds the plot", async () => {
+  it("an emergency stop while the pen lifts before a plot starts holds the plot", async () => {
     const { world, board, driver, begin } = await newPlotter();
     const run = await begin();
     await world.advance(0.05);
@@ -321,7 +321,7 @@ describe("a Grbl that does not answer", { timeout: 60_000 }, () => {
     await mustWork();
   });
 
-  it.each(["M0", "$SLP", "$H", "$C"])("is not made so by a typed %s", async (typed) => {
+  it.each(["M0", "$SLP", "$H", "$C"])("a typed %s does not make a Grbl stop answering", async (typed) => {
     const { driver, within, mustWork } = await newPlotter();
     expect(await within(driver.command(typed))).toMatch(
       /^bad-setting: .* was not sent: the Grbl (would|does not)/,

@@ -1,7 +1,7 @@
 /** A plotter whose machine has a Grbl, virtual, on a manual clock. */
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
-import { planJob, type PlotwrightError, type StrokeSet } from "../../src/index.js";
+import { planJob, type StrokeSet } from "../../src/index.js";
 import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
@@ -10,13 +10,10 @@ import { DRAWING, drawnMm, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { ScriptedLine } from "../support/scripted-line.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { outcome, virtualBoardOf } from "../support/virtual-plotter.js";
 
 const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
-
 async function newPlotter() {
   const world = new ManualClock();
   const driver = new PlotterDriver({ device: "virtual", clock: world, settings: SETTINGS });

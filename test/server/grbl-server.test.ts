@@ -1,6 +1,5 @@
 /** A sample through the whole server on a virtual Grbl: its machine is a stored profile. */
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, expect, it } from "vitest";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
@@ -12,6 +11,7 @@ import {
   type Snapshot,
 } from "../../src/schema/index.js";
 import { GRBL } from "../support/grbl-machine.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SAMPLE = readFileSync(join(import.meta.dirname, "../../samples/whirling-triangles.svg"), "utf8");
 const SETTINGS = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id };
@@ -19,12 +19,11 @@ const SETTINGS = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id };
 let dataDir: string;
 let server: PlotwrightServer;
 beforeEach(async () => {
-  dataDir = mkdtempSync(join(tmpdir(), "plotwright-grbl-"));
+  dataDir = folderOfTest();
   server = await createServer({ port: 0, device: "virtual", virtualSpeed: 150, dataDir });
 });
 afterEach(async () => {
   await server.close();
-  rmSync(dataDir, { recursive: true, force: true });
 });
 
 const call = (method: string, path: string, body?: unknown): Promise<Response> =>
@@ -51,29 +50,33 @@ async function add(): Promise<Job> {
   return jobSchema.parse(await response.json());
 }
 
-it("queues, plots, pauses, resumes and cancels on a virtual Grbl", { timeout: 120_000 }, async () => {
-  expect((await call("PUT", `/machines/${GRBL.id}`, GRBL)).status).toBe(200);
-  expect((await call("PATCH", "/plotters/main", { machine: GRBL.id })).status).toBe(200);
-  await expect.poll(plotter).toMatchObject({ connection: "idle", firmware: "Grbl 1.1h" });
+it(
+  "the server queues, plots, pauses, resumes and cancels on a virtual Grbl",
+  { timeout: 120_000 },
+  async () => {
+    expect((await call("PUT", `/machines/${GRBL.id}`, GRBL)).status).toBe(200);
+    expect((await call("PATCH", "/plotters/main", { machine: GRBL.id })).status).toBe(200);
+    await expect.poll(plotter).toMatchObject({ connection: "idle", firmware: "Grbl 1.1h" });
 
-  const { id, stats, warnings } = await add();
-  expect(stats?.durationS).toBeGreaterThan(20);
-  expect(warnings).toEqual([]);
-  expect((await call("POST", `/jobs/${id}/start`)).status).toBe(200);
-  await expect
-    .poll(async () => (await state()).jobs[0]?.progress, { timeout: 30_000, interval: 20 })
-    .toBeGreaterThan(0.1);
-  expect((await call("POST", `/jobs/${id}/pause`)).status).toBe(200);
-  await until(id, "paused");
-  await expect.poll(async () => (await plotter()).penUp).toBe(true);
-  expect((await call("POST", `/jobs/${id}/resume`)).status).toBe(200);
-  await until(id, "done");
-  expect(await plotter()).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
+    const { id, stats, warnings } = await add();
+    expect(stats?.durationS).toBeGreaterThan(20);
+    expect(warnings).toEqual([]);
+    expect((await call("POST", `/jobs/${id}/start`)).status).toBe(200);
+    await expect
+      .poll(async () => (await state()).jobs[0]?.progress, { timeout: 30_000, interval: 20 })
+      .toBeGreaterThan(0.1);
+    expect((await call("POST", `/jobs/${id}/pause`)).status).toBe(200);
+    await until(id, "paused");
+    await expect.poll(async () => (await plotter()).penUp).toBe(true);
+    expect((await call("POST", `/jobs/${id}/resume`)).status).toBe(200);
+    await until(id, "done");
+    expect(await plotter()).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
 
-  const second = await add();
-  expect((await call("POST", `/jobs/${second.id}/start`)).status).toBe(200);
-  await until(second.id, "plotting");
-  expect((await call("POST", `/jobs/${second.id}/cancel`)).status).toBe(200);
-  await until(second.id, "cancelled");
-  await expect.poll(plotter).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
-});
+    const second = await add();
+    expect((await call("POST", `/jobs/${second.id}/start`)).status).toBe(200);
+    await until(second.id, "plotting");
+    expect((await call("POST", `/jobs/${second.id}/cancel`)).status).toBe(200);
+    await until(second.id, "cancelled");
+    await expect.poll(plotter).toMatchObject({ connection: "idle", penUp: true, xMm: 0, yMm: 0 });
+  },
+);

@@ -67,7 +67,7 @@ describe("a Grbl with other settings than its profile", { timeout: 60_000 }, () 
     expect(await within(driver.move({ kind: "move-to", xMm: 5, yMm: 5 }))).toBeUndefined();
   });
 
-  it("that is faster than its profile plots no faster than told", async () => {
+  it("a Grbl that is faster than its profile plots no faster than told", async () => {
     const settings = { 110: 30_000, 111: 30_000, 112: 9_000 };
     const { world, begin, within } = await newPlotter({ settings });
     const fast = { ...SETTINGS.motion.travel, speedMmPerS: 500 };
@@ -82,7 +82,7 @@ describe("a Grbl with other settings than its profile", { timeout: 60_000 }, () 
 });
 
 describe("soft limits ($20=1)", { timeout: 60_000 }, () => {
-  it("that a plot or a move would leave stop it before anything moves, in words", async () => {
+  it("a plot or a move that would leave the soft limits is refused in words before anything moves", async () => {
     const { board, driver, begin, within } = await newPlotter({ settings: { 20: 1, 132: 200 } });
     // Its Z is at the upper limit, so the pen cannot be lifted.
     const words =
@@ -93,7 +93,7 @@ describe("soft limits ($20=1)", { timeout: 60_000 }, () => {
     expect(board.state()).toMatchObject({ state: "Idle", zMm: 0 });
   });
 
-  it("are found for X and Y too", async () => {
+  it("a plot that would leave the soft limits of X or Y is refused too", async () => {
     const low = { ...GRBL, controller: { ...GRBL.controller, penUpZMm: 0, penDownZMm: -5 } };
     const settings = { ...SETTINGS, customMachine: low };
     const { board, driver, begin, within } = await newPlotter({ settings: { 20: 1 } }, low);
@@ -252,14 +252,17 @@ describe("the pen at the first connection", { timeout: 60_000 }, () => {
     // Where it is, is unknown.
     [0, true, 0, null],
     [5, true, 5, null],
-  ])("from Z %d, restarted: %s, is at Z %d, and up: %s", async (zMm, restarts, thenMm, penUp) => {
-    const { board, driver } = await connected(zMm, restarts);
-    expect(board.state().zMm).toBeCloseTo(thenMm, 3);
-    expect(driver.state.penUp).toBe(penUp);
-  });
+  ])(
+    "the pen from Z %d, restarted: %s, is then at Z %d, and up: %s",
+    async (zMm, restarts, thenMm, penUp) => {
+      const { board, driver } = await connected(zMm, restarts);
+      expect(board.state().zMm).toBeCloseTo(thenMm, 3);
+      expect(driver.state.penUp).toBe(penUp);
+    },
+  );
 });
 
-it("stops a motion that was left along its path, so that a Grbl with homing is not locked", async () => {
+it("connecting stops a motion that was left along its path, so that a Grbl with homing is not locked", async () => {
   const world = new ManualClock();
   const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
   await board.transport().write(new TextEncoder().encode("$22=1\nG1X200F3000\n"));

@@ -1,6 +1,5 @@
 /** Moves by hand and custom machines, over HTTP: the whole server on the virtual board. */
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
@@ -16,6 +15,7 @@ import {
   type Job,
   type Plotter,
 } from "../../src/schema/index.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100" stroke="black"><path d="M10 20H90M10 40H90M10 60H90"/></svg>`;
 /** Long enough that it still plots when all requests of a test have been answered. */
@@ -38,12 +38,11 @@ const start = async (): Promise<void> => {
   });
 };
 beforeEach(async () => {
-  dataDir = mkdtempSync(join(tmpdir(), "plotwright-moves-"));
+  dataDir = folderOfTest();
   await start();
 });
 afterEach(async () => {
   await server.close();
-  rmSync(dataDir, { recursive: true, force: true });
 });
 
 const call = (method: string, path: string, body?: unknown): Promise<Response> =>
@@ -242,7 +241,7 @@ describe("custom machines", () => {
     });
   });
 
-  it("in a broken file are named in the log and skipped", async () => {
+  it("custom machines in a broken file are named in the log and skipped", async () => {
     await server.close();
     mkdirSync(join(dataDir, "machines"), { recursive: true });
     writeFileSync(join(dataDir, "machines/broken.json"), "{");

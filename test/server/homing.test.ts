@@ -1,9 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { machineById, type MachineProfile, type PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualPlotter } from "../support/virtual-plotter.js";
 
 /** All inputs of the virtual board are its button: one switch for both axes, pressed beyond these positions. */
 const SWITCH_X_MM = -7.3;
@@ -18,10 +16,7 @@ const MACHINE: MachineProfile = {
 const SETTINGS = { ...DEFAULT_PLOT_SETTINGS, machine: "switched", customMachine: MACHINE };
 
 async function newPlotter(pressed: (x: number, y: number) => boolean) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, settings: SETTINGS });
-  await world.run(driver.start());
-  const board = virtualBoardOf(driver);
+  const { world, driver, board } = await virtualPlotter({ settings: SETTINGS });
   board.onChange(() => {
     const { xMm, yMm } = board.state();
     board.holdButton(pressed(xMm, yMm));

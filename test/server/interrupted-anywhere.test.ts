@@ -6,7 +6,6 @@
 import { describe, expect, it } from "vitest";
 import { JOURNAL_S, PROGRESS_S } from "../../host/plotter/place-left.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { StrokeSet } from "../../src/index.js";
 import { leavesDrawingMm, machineOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
@@ -14,13 +13,12 @@ import { cases, IS_FULL } from "../support/full-run.js";
 import { compareDrawn } from "../support/drawn-truth.js";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { LocalPlanner } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
 import { InterruptiblePlot, type Resumption } from "../support/interruptions.js";
 import { seeded } from "../support/live-plot.js";
 import { RETRACED_DRAWINGS } from "../support/retraced-drawings.js";
 import { sampleStrokes } from "../support/sample-strokes.js";
 import { inQuality, SPRINGS, swinging } from "../support/swinging.js";
+import { virtualPlotter } from "../support/virtual-plotter.js";
 
 const SAMPLES = [
   "flower-meadow",
@@ -86,10 +84,7 @@ function check(found: readonly Resumption[], settings: PlotSettings, unseenMm: n
 
 /** Killed at an instant from the request of a pause until after its lift. */
 async function killedInPause(settings: PlotSettings, firmware: string, random: () => number) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-  await world.run(driver.start());
-  const board = virtualBoardOf(driver);
+  const { world, driver, board } = await virtualPlotter({ firmware });
   const journal: JournalEntry[] = [];
   const record = (entry: JournalEntry): void => void journal.push(entry);
   const run = await world.run(

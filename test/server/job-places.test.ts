@@ -1,7 +1,4 @@
 /** The place from which a plot continues, while it has not drawn anything since it was resumed. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
@@ -11,6 +8,7 @@ import { DEFAULT_PLOT_SETTINGS, type JobPlace } from "../../src/schema/index.js"
 import type { LedPlotter, LedRun } from "./support/fakes.js";
 import { drawingOf } from "./support/jobs.js";
 import { openQueueIn } from "./support/open-queue.js";
+import { folderOfTest } from "../support/folders.js";
 
 const PLACE: JobPlace = { strokeIndex: 1, alongMm: 0 };
 
@@ -20,14 +18,13 @@ let plotter: LedPlotter;
 let queue: JobQueue;
 
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-places-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
   ({ store, plotter, queue } = openQueueIn(dir));
 });
 afterEach(async () => {
   await queue.close();
   store.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));

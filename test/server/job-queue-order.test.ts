@@ -1,25 +1,22 @@
 /** The queue agrees with a simple model of it. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import fc from "fast-check";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { drawingOf } from "./support/jobs.js";
 import { openQueueIn, type OpenQueue } from "./support/open-queue.js";
+import { folderOfTest } from "../support/folders.js";
 
 let dir: string;
 let parts: OpenQueue;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-queue-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
   parts = openQueueIn(dir);
 });
 afterEach(async () => {
   await parts.queue.close();
   parts.store.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 const add = (name: string): Promise<Job> =>

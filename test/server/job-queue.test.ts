@@ -1,6 +1,3 @@
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
@@ -13,6 +10,7 @@ import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/sch
 import { LED_PLANNING, type LedPlotter } from "./support/fakes.js";
 import { drawingOf } from "./support/jobs.js";
 import { openQueueIn } from "./support/open-queue.js";
+import { folderOfTest } from "../support/folders.js";
 
 let dir: string;
 let store: Store;
@@ -22,14 +20,13 @@ let queue: JobQueue;
 let logged: string[];
 
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-queue-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
   openQueue();
 });
 afterEach(async () => {
   await queue.close();
   store.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 function openQueue(planning?: Planning, claims?: Claims): void {

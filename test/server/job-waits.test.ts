@@ -1,7 +1,4 @@
 /** Stops that a plot makes by itself, and the expected duration of plots. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
@@ -11,6 +8,7 @@ import { Store } from "../../server/storage/store.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type PlotWait } from "../../src/schema/index.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
 import { STATS, drawingOf, makeJob } from "./support/jobs.js";
+import { folderOfTest } from "../support/folders.js";
 
 const BLUE: PlotWait = { kind: "pen", layerName: "2 sky", penName: "Blue 0.3", color: "#00f" };
 
@@ -21,7 +19,7 @@ let queue: JobQueue;
 let nowMs: number;
 
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-waits-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
   nowMs = Date.UTC(2026, 0, 1);
   openQueue();
@@ -29,7 +27,6 @@ beforeEach(() => {
 afterEach(async () => {
   await queue.close();
   store.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 function openQueue(): void {

@@ -7,7 +7,8 @@
 import { once } from "node:events";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ENDED_STATES, jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 import { countFor } from "../support/full-run.js";
 
 const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 100, 3);

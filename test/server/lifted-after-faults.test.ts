@@ -20,7 +20,7 @@ async function drawing(firmware: string) {
 }
 
 describe.each(FIRMWARES)("on firmware %s", (firmware) => {
-  it("a cable that was unplugged: the pen is lifted when it is connected again", async () => {
+  it("the pen is lifted when an unplugged cable is connected again", async () => {
     const { world, driver, board, ended } = await drawing(firmware);
     board.unplug();
     expect(await ended).toContain("unplugged");
@@ -29,7 +29,7 @@ describe.each(FIRMWARES)("on firmware %s", (firmware) => {
     expect(board.state()).toMatchObject({ penUp: true, penPct: DEFAULT_PLOT_SETTINGS.pen.upPct });
   });
 
-  it.skipIf(firmware < "2.4.3")("motors that make no step: the pen is lifted with the stop", async () => {
+  it.skipIf(firmware < "2.4.3")("the pen is lifted with the stop of motors that make no step", async () => {
     const { world, board, ended } = await drawing(firmware);
     board.setMotionless(true);
     expect(await world.run(ended, 5)).toContain("does not finish its motion");

@@ -95,7 +95,7 @@ describe("while a stranger holds a thousand connections", () => {
   }
 
   it(
-    "from many addresses, an emergency stop is answered, and a connection of a paired device stays open",
+    "an emergency stop is answered, and a connection of a paired device stays open, while strangers at many addresses hold a thousand connections",
     async () => {
       const watching = httpRequest(`${app.url}/api/v1/events`, { headers: { Cookie: cookie }, agent: false });
       watching.end();
@@ -128,7 +128,7 @@ describe("while a paired watcher holds a thousand connections", () => {
   );
 
   it(
-    "with many keys, the watchers together keep their share, and an emergency stop is answered",
+    "watchers with many keys together keep their share of connections, and an emergency stop is answered",
     async () => {
       for (let i = 0; i < 20; i++) {
         const { secret } = app.access.createKey(`wall ${i}`, "watch");

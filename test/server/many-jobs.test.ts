@@ -2,9 +2,6 @@
  * The queue's work at the end of a plot must not grow with the number of waiting jobs: other plotters are
  * plotting meanwhile.
  */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
@@ -13,6 +10,7 @@ import { Store } from "../../server/storage/store.js";
 import type { ServerEvent } from "../../src/schema/index.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
 import { STATS, drawingOf, makeJob } from "./support/jobs.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SLOWER = 1.25;
 
@@ -22,7 +20,7 @@ const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resol
 
 /** Plots one job with `waitingCount` others behind it: the store calls and events at its end. */
 async function endOfPlot(waitingCount: number): Promise<{ asked: string[]; announced: string[] }> {
-  const dir = mkdtempSync(join(tmpdir(), "plotwright-many-"));
+  const dir = folderOfTest();
   prepareDataDir(dir);
   const store = Store.open(dir);
   store.together(() => {
@@ -57,7 +55,6 @@ async function endOfPlot(waitingCount: number): Promise<{ asked: string[]; annou
   } finally {
     await queue.close();
     store.close();
-    rmSync(dir, { recursive: true, force: true });
   }
 }
 

@@ -267,43 +267,51 @@ describe("a flood on the network", () => {
     ["plotwright.local", "ANY"],
     ["_http._tcp.local", "PTR"],
     ["plotwright._http._tcp.local", "SRV"],
-  ])("of questions for %s %s is answered at most once a second", { timeout: 20_000 }, async (name, type) => {
-    const network = NETWORK();
-    const announcer = new Announcer(new Line(network));
-    const asking = stranger(network);
-    await pass(10);
-    expect(announcer.local.name).toBe("plotwright.local");
-    const times = new Map<string, number>();
-    asking.on("response", ({ answers = [], additionals = [] }: DnsPacket) => {
-      for (const record of [...answers, ...additionals]) {
-        const key = JSON.stringify([record.name, record.type, record.data]);
-        times.set(key, (times.get(key) ?? 0) + 1);
-      }
-    });
-    await pass(4.5, () => asking.query({ questions: [{ name, type }] }));
-    expect(times.size).toBeGreaterThan(0);
-    expect(Math.max(...times.values())).toBe(5);
-    const closing = announcer.local.close();
-    await pass(0.1);
-    await closing;
-    asking.destroy();
-  });
+  ])(
+    "a flood of questions for %s %s is answered at most once a second",
+    { timeout: 20_000 },
+    async (name, type) => {
+      const network = NETWORK();
+      const announcer = new Announcer(new Line(network));
+      const asking = stranger(network);
+      await pass(10);
+      expect(announcer.local.name).toBe("plotwright.local");
+      const times = new Map<string, number>();
+      asking.on("response", ({ answers = [], additionals = [] }: DnsPacket) => {
+        for (const record of [...answers, ...additionals]) {
+          const key = JSON.stringify([record.name, record.type, record.data]);
+          times.set(key, (times.get(key) ?? 0) + 1);
+        }
+      });
+      await pass(4.5, () => asking.query({ questions: [{ name, type }] }));
+      expect(times.size).toBeGreaterThan(0);
+      expect(Math.max(...times.values())).toBe(5);
+      const closing = announcer.local.close();
+      await pass(0.1);
+      await closing;
+      asking.destroy();
+    },
+  );
 
-  it("of questions leaves the name defended against another server", { timeout: 20_000 }, async () => {
-    const network = NETWORK();
-    const first = new Announcer(new Line(network), { probeIntervalMs: 250 });
-    await pass(2);
-    const asking = stranger(network);
-    const second = new Announcer(new Line(network), { port: 9081, probeIntervalMs: 250 });
-    await pass(3, () => asking.query({ questions: [{ name: "plotwright.local", type: "ANY" }] }));
-    expect([first.local.name, second.local.name]).toEqual(["plotwright.local", "plotwright-2.local"]);
-    const closing = Promise.all([first.local.close(), second.local.close()]);
-    await pass(0.1);
-    await closing;
-    asking.destroy();
-  });
+  it(
+    "a flood of questions leaves the name defended against another server",
+    { timeout: 20_000 },
+    async () => {
+      const network = NETWORK();
+      const first = new Announcer(new Line(network), { probeIntervalMs: 250 });
+      await pass(2);
+      const asking = stranger(network);
+      const second = new Announcer(new Line(network), { port: 9081, probeIntervalMs: 250 });
+      await pass(3, () => asking.query({ questions: [{ name: "plotwright.local", type: "ANY" }] }));
+      expect([first.local.name, second.local.name]).toEqual(["plotwright.local", "plotwright-2.local"]);
+      const closing = Promise.all([first.local.close(), second.local.close()]);
+      await pass(0.1);
+      await closing;
+      asking.destroy();
+    },
+  );
 
-  it("of claims for every name is probed against slowly", { timeout: 20_000 }, async () => {
+  it("a flood of claims for every name is probed against slowly", { timeout: 20_000 }, async () => {
     const network = NETWORK();
     const device = stranger(network);
     let probeCount = 0;

@@ -1,6 +1,3 @@
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import type { Planning } from "../../host/planning/planning.js";
@@ -10,6 +7,7 @@ import { JobQueue } from "../../host/queue/job-queue.js";
 import { Store } from "../../server/storage/store.js";
 import { DEFAULT_PLOT_SETTINGS, type Job, type JobPatch } from "../../src/schema/index.js";
 import { LedPlotter } from "./support/fakes.js";
+import { folderOfTest } from "../support/folders.js";
 
 /** Travel across the page on which 1 000 mm/s² saves time. */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200">
@@ -27,7 +25,7 @@ const unknown = new LedPlotter("unknown");
 unknown.firmware = null;
 
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-measured-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
   store = Store.open(dir);
   files = new DrawingFiles(dir, 1_000_000);
@@ -41,7 +39,6 @@ beforeEach(() => {
 afterEach(async () => {
   await queue.close();
   store.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 async function add(plotterId: string): Promise<Job> {

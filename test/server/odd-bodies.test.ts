@@ -57,7 +57,7 @@ describe("a body", () => {
     expect(status).toBe(404);
   });
 
-  it("with endless layers is refused, in a job and in a change", async () => {
+  it("a body with endless layers is refused, in a job and in a change", async () => {
     const many = (count: number, value: unknown): object =>
       Object.fromEntries(Array.from({ length: count }, (_, i) => [`layer ${i}`, value]));
     const settings = { ...DEFAULT_PLOT_SETTINGS, layerPens: many(10_500, "a") };
@@ -119,7 +119,7 @@ describe("a name", () => {
     expect(app.logged.join("")).not.toMatch(/[\n\u001b\u0000\u202e]/);
   });
 
-  it("with half a surrogate pair is answered like any other, and so is its drawing", async () => {
+  it("a name with half a surrogate pair is answered like any other, and so is its drawing", async () => {
     const half = String.fromCharCode(0xd83d);
     for (const name of [`a${half}b`, half, `${"a".repeat(199)}🖊`]) {
       const answer = await send("POST", "/jobs", newJob({ name: name.slice(0, 200) }));

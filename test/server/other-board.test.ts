@@ -76,18 +76,21 @@ describe("a plot that is continued on another board", () => {
     ["a name that the first has not", A, { ...A, name: "right" }],
     ["another serial number", { ...A, serialNumber: "1" }, { ...A, serialNumber: "2" }],
     ["another firmware", A, { ...A, firmware: "2.8.1" }],
-  ])("with %s does not believe its position, and can be pushed to home", async (_, first, second) => {
-    const found = { isKnown: false, motorsOn: false, penUp: true, isFromJournal: true };
-    expect(await continuedOn(first, second)).toEqual(found);
-  });
+  ])(
+    "a plot does not believe the position of a board with %s, and can be pushed to home",
+    async (_, first, second) => {
+      const found = { isKnown: false, motorsOn: false, penUp: true, isFromJournal: true };
+      expect(await continuedOn(first, second)).toEqual(found);
+    },
+  );
 
-  it("which is the same board believes it", async () => {
+  it("a plot believes the position of its own board", async () => {
     const named = { ...A, name: "left", serialNumber: "1" };
     expect(await continuedOn(named, named, true)).toMatchObject({ isKnown: true, motorsOn: true });
     expect(await continuedOn(A, A, true)).toMatchObject({ isKnown: true, motorsOn: true });
   });
 
-  it("believes the position of a board whose serial number can't be read at one of the times", async () => {
+  it("a plot believes the position of a board whose serial number can't be read at one of the times", async () => {
     const found = await continuedOn({ ...A, serialNumber: "1" }, A);
     expect(found).toMatchObject({ isKnown: true });
   });

@@ -47,7 +47,7 @@ describe.each(TRIED)("a pen in flight, %s, on firmware %s", (overlap, firmware, 
     ["a hold", cases(50, 4), WINDOW_S],
     ["an emergency stop", cases(25, 4), 0],
   ] as const)(
-    "%s at any instant leaves no gap, no doubled stretch and no mark between strokes",
+    "%s at any instant of a pen's flight leaves no gap, no doubled stretch and no mark between strokes",
     async (what, count, leadS) => {
       const random = seeded(31 * (1 + CASES.findIndex(([a, b]) => a === overlap && b === firmware)) + leadS);
       const max = { gapMm: 0, overlapMm: 0, awayMm: 0 };
@@ -98,7 +98,7 @@ describe.each(CASES)("an unplugged cable during %s on firmware %s", (overlap, fi
   });
 });
 
-it("lifts the pen with the emergency stop itself, before anything is asked of the board", async () => {
+it("an emergency stop lifts the pen itself, before anything is asked of the board", async () => {
   const world = new ManualClock();
   const { run, machine } = await flyingPlot(world, "fast", "3.0.3", STATED_SERVO);
   await world.advance(3);
@@ -112,7 +112,7 @@ it("lifts the pen with the emergency stop itself, before anything is asked of th
 });
 
 it.each([...SERVOS.map((servo) => ["safe", servo] as const), ["fast", STATED_SERVO] as const])(
-  "never reports a pen as down whose tip is not on the paper, nor as up whose tip is: %s, %o",
+  "a pen is never reported as down while its tip is not on the paper, nor as up while it is: %s, %o",
   async (overlap, servo) => {
     const world = new ManualClock();
     const { board, run, reports } = await flyingPlot(world, overlap, "3.0.3", servo);

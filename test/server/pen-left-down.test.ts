@@ -1,18 +1,14 @@
 /** The pen does not stay on the paper longer than the connection is lost, and the user learns where it was. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 const LINE = strokesOf([10, 10, 200, 10]);
 
 /** A plot in the middle of its only stroke. */
 async function drawing(firmware: string, settings = DEFAULT_PLOT_SETTINGS) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware, settings });
-  await world.run(driver.start());
+  const { world, driver } = await virtualPlotter({ firmware, settings });
   const notes: string[] = [];
   const noted = (message: string): void => void notes.push(message);
   const run = await world.run(driver.plot(new LocalPlanner(LINE), settings, { noted }));

@@ -226,7 +226,7 @@ describe("a change in the middle of a stroke whose layer has its own height", ()
   it.each([
     ["the settings", OWN, "Bold"],
     ["the layer's name", PEN, "+h10 Bold"],
-  ])("of the speed leaves the height set by %s", async (_, pen, name) => {
+  ])("a change of the speed leaves the height set by %s", async (_, pen, name) => {
     expect(await heightsDrawn({ speedPct: 60 }, pen, name)).toEqual({
       10: [30],
       20: [10],
@@ -236,7 +236,7 @@ describe("a change in the middle of a stroke whose layer has its own height", ()
     });
   });
 
-  it("of the height of all layers changes the other layers only", async () => {
+  it("a change of the height of all layers changes only those without their own", async () => {
     expect(await heightsDrawn({ pen: { ...OWN, downPct: 20 } }, OWN, "Bold")).toEqual({
       10: [30],
       20: [10],
@@ -246,7 +246,7 @@ describe("a change in the middle of a stroke whose layer has its own height", ()
     });
   });
 
-  it("of its own height applies at once", async () => {
+  it("a change of the layer's own height applies at once", async () => {
     const pen = { ...OWN, layers: { bold: { downPct: 0 } } };
     expect(await heightsDrawn({ pen }, OWN, "Bold")).toEqual({
       10: [30],

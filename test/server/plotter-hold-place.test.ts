@@ -3,14 +3,12 @@
  * tell the sides apart. The reference is the board's own count of ticks.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { stateAt, type Trajectory } from "../../src/index.js";
 import { MOTION_MODES } from "../../src/internal.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { seeded, settingsOf } from "../support/live-plot.js";
-import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks, RETRACED } from "../support/stop-truth.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 const FIRMWARES = ["2.4.4", "2.5.3", "2.8.1", "3.0.0", "3.0.3"];
 /** At a corner rounded by this much, mm along the line are no more accurate than that. */
@@ -33,9 +31,7 @@ describe.each(MOTION_MODES)("an emergency stop on overlapping lines, in %s mode"
     const withinMm = 0.02 + (mode === "junction" ? 0 : ROUNDED_MM);
     const { hasClear, idleTicksTimed } = firmwareFeatures(firmware);
     for (let i = 0; i < STOP_COUNT; i++) {
-      const world = new ManualClock();
-      const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-      await world.run(driver.start());
+      const { world, driver } = await virtualPlotter({ firmware });
       const planner = new KeepingPlanner(RETRACED);
       const run = await world.run(driver.plot(planner, settingsOf(mode)));
       await world.advance(0.1);

@@ -1,6 +1,5 @@
 /** Hold and emergency stop: what they leave on the paper, and where the motors end. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { PlannedPlot, PlanRequest } from "../../host/planning/planning.js";
 import type { StrokeSet } from "../../src/index.js";
 import { MOTION_MODES, type MotionMode } from "../../src/internal.js";
@@ -17,7 +16,7 @@ import {
 } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 /**
  * From pause to held: the motion in flight (a window and a command), slowing down from 150 mm/s, the lift, a
@@ -192,10 +191,7 @@ describe("an emergency stop while the carriage would go home by itself", () => {
 
 describe("an emergency stop while the pen is lifted before the first move", () => {
   it("holds the plot before anything moves", async () => {
-    const world = new ManualClock();
-    const driver = new PlotterDriver({ device: "virtual", clock: world });
-    await world.run(driver.start());
-    const board = virtualBoardOf(driver);
+    const { world, driver, board } = await virtualPlotter();
     const run = await world.run(driver.plot(new LocalPlanner(DRAWING), settingsOf("junction")));
     // The pen's height is unknown after connecting, so it is lifted first.
     await world.advance(0.05);
@@ -211,9 +207,7 @@ describe("an emergency stop while the pen is lifted before the first move", () =
 
 describe("a change while the rest is being planned", () => {
   it("is part of the plan that is drawn", async () => {
-    const world = new ManualClock();
-    const driver = new PlotterDriver({ device: "virtual", clock: world });
-    await world.run(driver.start());
+    const { world, driver } = await virtualPlotter();
     const planner = new SlowPlanner(DRAWING, world);
     const run = await world.run(driver.plot(planner, settingsOf("junction")));
     await world.advance(1);
@@ -230,9 +224,7 @@ describe("a plot that begins held", () => {
     ["from its beginning", undefined],
     ["in the middle of the drawing", { stroke: 1, alongMm: 2 }],
   ])("tells it to a listener that is added later, and moves only when it is resumed, %s", async (_, from) => {
-    const world = new ManualClock();
-    const driver = new PlotterDriver({ device: "virtual", clock: world });
-    await world.run(driver.start());
+    const { world, driver } = await virtualPlotter();
     const start = { held: true, from };
     const run = await world.run(driver.plot(new LocalPlanner(DRAWING), settingsOf("junction"), start));
     await world.advance(5);

@@ -7,7 +7,6 @@ import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import type { Devices } from "../../host/plotter/connection.js";
 import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
 import { VirtualBoard, type PlotwrightError, type StrokeSet, type Transport } from "../../src/index.js";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { compareDrawn } from "../support/drawn-truth.js";
@@ -17,7 +16,7 @@ import { seeded } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../support/stop-truth.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 const FIRMWARES = ["2.8.1", "3.0.3"];
 const COUNT = 10;
@@ -112,25 +111,29 @@ async function resumeAndCompare({ world, driver, board, strokes, journal }: Inte
 }
 
 describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
-  it("whose motors lose their supply resumes from the last good reading", { timeout: 60_000 }, async () => {
-    const random = seeded(5);
-    for (let i = 0; i < COUNT; i++) {
-      const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
-      expect(plot.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
-      // In steps, so that pending promises settle in between.
-      for (let step = 0; step < 40; step++) await plot.world.advance(0.05);
-      expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
-      plot.board.setMotorVolts(9.1);
-      await plot.world.advance(5);
-      expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
-      const { gapMm, overlapMm } = await resumeAndCompare(plot);
-      expect(gapMm).toBeLessThan(GAP_MM);
-      expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
-    }
-  });
+  it(
+    "a plot whose motors lose their supply resumes from the last good reading",
+    { timeout: 60_000 },
+    async () => {
+      const random = seeded(5);
+      for (let i = 0; i < COUNT; i++) {
+        const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
+        expect(plot.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
+        // In steps, so that pending promises settle in between.
+        for (let step = 0; step < 40; step++) await plot.world.advance(0.05);
+        expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
+        plot.board.setMotorVolts(9.1);
+        await plot.world.advance(5);
+        expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
+        const { gapMm, overlapMm } = await resumeAndCompare(plot);
+        expect(gapMm).toBeLessThan(GAP_MM);
+        expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
+      }
+    },
+  );
 
   it(
-    "whose board restarts is interrupted at once, and resumes from its last certain position",
+    "a plot whose board restarts is interrupted at once, and resumes from its last certain position",
     { timeout: 60_000 },
     async () => {
       const random = seeded(6);
@@ -147,7 +150,7 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
   );
 
   it(
-    "with a refused command keeps its position, and resumes where its line ends",
+    "a plot with a refused command keeps its position, and resumes where its line ends",
     { timeout: 60_000 },
     async () => {
       const random = seeded(7);
@@ -169,7 +172,7 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
     },
   );
 
-  it("with three refused commands in a row leaves nothing out", { timeout: 120_000 }, async () => {
+  it("a plot with three refused commands in a row leaves nothing out", { timeout: 120_000 }, async () => {
     const random = seeded(9);
     for (let i = 0; i < cases(100, COUNT); i++) {
       const [strokes, lateS] = [[STRAIGHT, FAULT_DRAWING][i % 2], [0, 0, 0.05, 0.05, 0.2, 0.2][i % 6]];
@@ -183,7 +186,7 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
     }
   });
 
-  it("with a refused command on a curve leaves nothing out", { timeout: 60_000 }, async () => {
+  it("a plot with a refused command on a curve leaves nothing out", { timeout: 60_000 }, async () => {
     const random = seeded(8);
     for (let i = 0; i < COUNT; i++) {
       const plot = await interrupt(firmware, 0.4 + 6 * random(), (one) => one.refuseNext());
@@ -204,9 +207,7 @@ it(
   async () => {
     const random = seeded(9);
     for (let i = 0; i < 2 * COUNT; i++) {
-      const world = new ManualClock();
-      const driver = new PlotterDriver({ device: "virtual", clock: world, firmware: "3.0.3" });
-      await world.run(driver.start());
+      const { world, driver } = await virtualPlotter({ firmware: "3.0.3" });
       const planner = new KeepingPlanner(ROUND_AND_ROUND);
       const journal: JournalEntry[] = [];
       const record = (entry: JournalEntry): void => void journal.push(entry);

@@ -2,20 +2,13 @@
 import { describe, expect, it } from "vitest";
 import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
-import type { PlotwrightError } from "../../src/index.js";
 import { DRAWING, expectDrawn, plotting, settingsOf } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
-
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
+import { outcome, virtualPlotter } from "../support/virtual-plotter.js";
 
 async function idle() {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world });
-  await world.run(driver.start());
-  return { world, driver, board: virtualBoardOf(driver) };
+  return virtualPlotter();
 }
 
 /** A plot with its journal. */
@@ -30,7 +23,7 @@ async function recorded() {
 
 describe("a plotter that is closed", () => {
   it.each([0.4, 1.9, 3.3, 5.2, 9.7])(
-    "in the middle of a plot (%s s) lifts the pen and leaves no timer",
+    "lifts the pen and leaves no timer if it is closed in the middle of a plot, after %s s",
     async (s) => {
       const { world, driver, board, run } = await plotting("scurve");
       await world.advance(s);
@@ -42,7 +35,7 @@ describe("a plotter that is closed", () => {
     },
   );
 
-  it("in the middle of a move by hand lifts the pen and leaves no timer", async () => {
+  it("lifts the pen and leaves no timer if it is closed in the middle of a move by hand", async () => {
     const { world, driver, board } = await idle();
     const drawn = outcome(driver.drawTestPatch());
     while (board.state().penUp) await world.advance(0.1);
@@ -64,7 +57,7 @@ describe("a plotter that is closed", () => {
     expect(driver.state.connection).toBe("absent");
   });
 
-  it("while it connects does not become idle", async () => {
+  it("does not become idle if it is closed while it connects", async () => {
     const world = new ManualClock();
     const driver = new PlotterDriver({ device: "virtual", clock: world });
     const states: string[] = [];
@@ -93,7 +86,7 @@ describe("a plotter that is closed", () => {
     await Promise.all(requested);
   });
 
-  it("during a hold ends the plot", async () => {
+  it("ends a held plot when it is closed", async () => {
     const { world, driver, run } = await plotting("junction");
     await world.advance(2);
     await world.run(run.pause());
@@ -103,7 +96,7 @@ describe("a plotter that is closed", () => {
     expect(world.timerCount).toBe(0);
   });
 
-  it("after its board was lost stops searching for it", async () => {
+  it("stops searching for a lost board when it is closed", async () => {
     const { world, driver, board } = await idle();
     const moved = outcome(driver.moveTo(100, 100));
     await world.advance(0.5);
@@ -116,7 +109,7 @@ describe("a plotter that is closed", () => {
 
 describe("a plot that is interrupted", () => {
   it.each([0, 0.4, 1.9, 3.3, 5.2, 9.7])(
-    "after %s s lifts its pen, stays there, and is resumed from there",
+    "lifts its pen, stays where it was interrupted after %s s, and is resumed from there",
     async (afterS) => {
       const { world, driver, board, run, journal } = await recorded();
       await world.advance(afterS);
@@ -137,7 +130,7 @@ describe("a plot that is interrupted", () => {
     },
   );
 
-  it("while its next part is planned does not wait for that", async () => {
+  it("does not wait for the plan of its next part when it is interrupted", async () => {
     const { world, driver, board, run, journal } = await recorded();
     await world.advance(3);
     await world.run(run.pause());

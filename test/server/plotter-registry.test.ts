@@ -1,7 +1,4 @@
 /** Several plotters on one server: stored, changed while it runs, each with its queue, side by side. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { createServer } from "../../server/index.js";
 import {
@@ -17,6 +14,7 @@ import {
 } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 import { EventStream } from "./support/event-stream.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SVG =
   '<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="50mm" viewBox="0 0 50 50"><path d="M5 5h30" stroke="black"/></svg>';
@@ -165,7 +163,7 @@ describe("the plotters of a server", () => {
 
 describe("a plotter that is changed to another machine", () => {
   it("stays connected, and home stays", async () => {
-    const dataDir = mkdtempSync(join(tmpdir(), "plotwright-plotters-"));
+    const dataDir = folderOfTest();
     const server = await createServer({ port: 0, device: "virtual", virtualSpeed: 50, dataDir });
     const main = async (): Promise<Plotter> => (await snapshotOf(server.url)).plotters[0];
     try {
@@ -185,14 +183,13 @@ describe("a plotter that is changed to another machine", () => {
       expect((await main()).machine).toBe("axidraw-v3-a3");
     } finally {
       await server.close();
-      rmSync(dataDir, { recursive: true, force: true });
     }
   });
 });
 
 describe("a server with two virtual plotters", () => {
   it("plots on both at once and knows them after a restart", async () => {
-    const dataDir = mkdtempSync(join(tmpdir(), "plotwright-plotters-"));
+    const dataDir = folderOfTest();
     const options = { port: 0, device: "virtual", virtualSpeed: 5, dataDir };
     let server = await createServer(options);
     try {
@@ -225,7 +222,6 @@ describe("a server with two virtual plotters", () => {
       ]);
     } finally {
       await server.close();
-      rmSync(dataDir, { recursive: true, force: true });
     }
   });
 });

@@ -1,7 +1,4 @@
 /** Heights, pens and presets of each plotter: stored by the server, the same for every browser. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { Store } from "../../server/storage/store.js";
@@ -17,6 +14,7 @@ import {
 } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 import { EventStream } from "./support/event-stream.js";
+import { folderOfTest } from "../support/folders.js";
 
 const PEN = { id: "pen-1", name: "Red", color: "#ff0000", widthMm: 0.4, offsetXMm: 0, offsetYMm: 0 };
 const settingsWith = (upPct: number): PlotterSettings => {
@@ -76,7 +74,7 @@ describe("the settings of a plotter", () => {
     expect(app.store.plotterSettings()).toEqual({});
   });
 
-  it("that can't be read count as missing", async () => {
+  it("settings of a plotter that can't be read count as missing", async () => {
     app.store.savePlotterSettings("virtual", { pen: "tall" });
     expect(await stored("virtual")).toBeNull();
     expect((await call("PUT", "/plotters/virtual/settings", settingsWith(61))).status).toBe(200);
@@ -102,7 +100,7 @@ describe("in a drawing's settings", () => {
 
 describe("a plotter's settings in the database", () => {
   it("are there again after a restart", () => {
-    const dir = mkdtempSync(join(tmpdir(), "plotwright-settings-"));
+    const dir = folderOfTest();
     prepareDataDir(dir);
     const store = Store.open(dir);
     store.savePlotter({ id: "main", name: "Desk", device: "auto", machine: "axidraw-se-a3" });
@@ -112,6 +110,5 @@ describe("a plotter's settings in the database", () => {
     const again = Store.open(dir);
     expect(again.plotterSettings()).toEqual({ main: settingsWith(72) });
     again.close();
-    rmSync(dir, { recursive: true, force: true });
   });
 });

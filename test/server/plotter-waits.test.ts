@@ -1,10 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry, PlotProgress, PlotStart } from "../../host/plotter/plotter-port.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings, type PlotWait } from "../../src/schema/index.js";
 import { layeredStrokes, LocalPlanner } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 const LAYERS = [
   { id: "sky", name: "Sky", color: "#0000ff" },
@@ -34,10 +32,7 @@ const BLACK: PlotWait = { kind: "pen", layerName: "Ink", penName: "Black", color
 const BLUE: PlotWait = { kind: "pen", layerName: "Sky", penName: "Blue", color: "#0000ff" };
 
 async function plotting(settings: PlotSettings = SETTINGS, start: PlotStart = {}, strokes = DRAWING) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world });
-  await world.run(driver.start());
-  const board = virtualBoardOf(driver);
+  const { world, driver, board } = await virtualPlotter();
   const journal: JournalEntry[] = [];
   const begin = async (from: PlotStart) => {
     const run = await world.run(
@@ -148,7 +143,7 @@ describe("a plot with a change of pens", () => {
     expect(drawnRows()).toEqual([10, 20, 30, 40, 50]);
   });
 
-  it("resumed before it, is asked for when it is reached", async () => {
+  it("asks for the pen when it is reached if the plot was resumed before it", async () => {
     const { world, run, held, nextHold, drawnRows } = await plotting(SETTINGS, {
       from: { stroke: 2, alongMm: 0 },
     });
@@ -160,7 +155,7 @@ describe("a plot with a change of pens", () => {
     expect(drawnRows()).toEqual([30, 40, 50]);
   });
 
-  it("is asked for again when the user moves back before it", async () => {
+  it("asks for the pen again when the user moves back before its stop", async () => {
     const { world, run, held, nextHold, drawnRows } = await plotting();
     await world.run(nextHold());
     run.moveHoldPlace({ strokes: -1 });
@@ -206,7 +201,7 @@ describe("a plot with a change of pens", () => {
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
-  it("paused on its way home to a stop, waits for the pen; on the final way home, is done", async () => {
+  it("waits for the pen if it is paused on its way home to a stop, and is done if on the final way home", async () => {
     const { world, board, run, held, drawnRows } = await plotting();
     while (drawnRows().length < 3 || !board.state().penUp) await world.advance(0.1);
     await world.run(run.pause());

@@ -1,27 +1,19 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry, PlotProgress } from "../../host/plotter/plotter-port.js";
-import { machineById, type MachineProfile, type PlotwrightError, type StrokeSet } from "../../src/index.js";
+import { machineById, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type HandMove, type PlotSettings } from "../../src/schema/index.js";
 import { cases } from "../support/full-run.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { outcome, virtualPlotter } from "../support/virtual-plotter.js";
 
 const SETTINGS = DEFAULT_PLOT_SETTINGS;
 /** The carriage waits for the pen. */
 const WAITING: PlotSettings = { ...SETTINGS, pen: { ...SETTINGS.pen, overlap: "off" } };
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
-
 async function newPlotter(firmware?: string, virtualSprings?: Springs) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware, virtualSprings });
-  await world.run(driver.start());
-  const board = virtualBoardOf(driver);
+  const { world, driver, board } = await virtualPlotter({ firmware, virtualSprings });
   const begin = async (strokes: StrokeSet = TWO_LINES, settings = SETTINGS) => {
     const planner = new LocalPlanner(strokes);
     const run = await world.run(driver.plot(planner, settings));
@@ -189,7 +181,7 @@ describe("moves by hand from place to place", () => {
     },
   );
 
-  it("need no stop when nothing moves", async () => {
+  it("a stop does nothing when nothing moves", async () => {
     const { world, driver } = await newPlotter();
     await world.run(driver.stopMove());
     await world.run(driver.moveTo(20, 10));
@@ -311,7 +303,7 @@ describe("the board's reports while it plots", () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
   });
 
-  it("do not end a plot for one odd reading of the supply", async () => {
+  it("one odd reading of the supply does not end a plot", async () => {
     const { world, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.4);
@@ -326,7 +318,7 @@ describe("the board's reports while it plots", () => {
     expect(oddCount).toBe(1);
   });
 
-  it("end the plot within 3 s when the motors lose their power, and waits for it to come back", async () => {
+  it("a plot ends within 3 s when the motors lose their power, and the plotter waits for it to come back", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.5);
@@ -340,7 +332,7 @@ describe("the board's reports while it plots", () => {
     expect(driver.state.connection).toBe("idle");
   });
 
-  it("detect a supply that is off before a plot begins", async () => {
+  it("a supply that is off is detected before a plot begins", async () => {
     const { world, driver, board } = await newPlotter();
     board.setMotorVolts(0);
     await world.advance(3);
@@ -363,7 +355,7 @@ describe("a board that fails", () => {
     expect(driver.state.connection).toBe("idle");
   });
 
-  it("that goes silent ends the plot within 3 s", async () => {
+  it("a board that goes silent ends the plot within 3 s", async () => {
     const { world, driver, board, begin } = await newPlotter();
     const { run } = await begin();
     await world.advance(1.5);
@@ -398,7 +390,7 @@ describe("a board that answers but does not move", () => {
     expect(driver.state.connection).not.toBe("busy");
   });
 
-  it("that spends the time of its moves without a step ends it too", async () => {
+  it("a board that spends the time of its moves without a step ends the plot within 3 s", async () => {
     const { world, board, begin } = await newPlotter("3.0.3");
     const { run } = await begin(strokesOf([10, 10, 250, 10]));
     await world.advance(1.5);

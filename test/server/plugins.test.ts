@@ -1,20 +1,18 @@
 /** Plug-ins of a whole server: each is loaded only if an option requests it. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { createServer, type PlotwrightServer, type ServerOptions } from "../../server/index.js";
 import { apiErrorSchema } from "../../src/schema/index.js";
+import { folderOfTest } from "../support/folders.js";
 
 let dataDir: string;
 let server: PlotwrightServer | null = null;
 beforeEach(() => {
-  dataDir = mkdtempSync(join(tmpdir(), "plotwright-plugins-"));
+  dataDir = folderOfTest();
 });
 afterEach(async () => {
   await server?.close();
   server = null;
-  rmSync(dataDir, { recursive: true, force: true });
 });
 
 async function open(options: ServerOptions): Promise<PlotwrightServer> {
@@ -48,7 +46,7 @@ describe("a requested plug-in", () => {
     expect((JSON.parse(text) as { paths: object }).paths).toHaveProperty(["/api/v1/webhooks/{id}"]);
   }, 30_000);
 
-  it("that fails to start prevents the server from starting, and everything else is closed", async () => {
+  it("a plug-in that fails to start prevents the server from starting, and everything else is closed", async () => {
     await expect(open({ watchDir: join(dataDir, "none") })).rejects.toMatchObject({ code: "bad-setting" });
     // The data folder is free again.
     await open({});

@@ -7,7 +7,7 @@ import { afterEach, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { PtyBoard } from "../support/pty-board.js";
-import { temporaryFolder } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
 
 const LIMIT_MS = 120_000;
 const MAIN = join(ROOT, "dist/server/main.js");
@@ -210,7 +210,7 @@ describe("npm start without --", () => {
 
 describe("a data folder that can't be used", () => {
   it(
-    "below /proc is refused at once",
+    "a data folder below /proc is refused at once",
     async () => {
       const server = serve("--data", "/proc/x", "--device", "virtual");
       expect(await server.ended).toEqual({ code: 2, signal: null });
@@ -222,7 +222,7 @@ describe("a data folder that can't be used", () => {
   );
 
   it(
-    "which is read-only is named in the message",
+    "a read-only data folder is named in the message",
     async () => {
       const data = join(folder(), "data");
       mkdirSync(join(data, "drawings"), { recursive: true });
@@ -244,7 +244,7 @@ describe("a data folder that can't be used", () => {
   );
 
   it(
-    "of sources for npm start is reported, without a question about the network",
+    "a data folder of sources for npm start is reported, without a question about the network",
     async () => {
       const copy = join(folder(), "copy");
       mkdirSync(copy);

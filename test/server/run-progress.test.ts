@@ -1,16 +1,13 @@
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { PlotProgress } from "../../host/plotter/plotter-port.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
+import { virtualPlotter } from "../support/virtual-plotter.js";
 
 const COMB = strokesOf(...Array.from({ length: 20 }, (_, i) => [10, 10 + 5 * i, 120, 10 + 5 * i]));
 
 async function begin() {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world });
-  await world.run(driver.start());
+  const { world, driver } = await virtualPlotter();
   const run = await world.run(driver.plot(new LocalPlanner(COMB), DEFAULT_PLOT_SETTINGS));
   const seen: PlotProgress[] = [];
   run.onProgress((progress) => seen.push(progress));

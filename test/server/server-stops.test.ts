@@ -2,9 +2,6 @@
  * A server that stops in each state of a plot: a held plot does not move, any other one lifts its pen and goes home.
  * After the restart the plot resumes exactly where it stopped.
  */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { JobQueue } from "../../host/queue/job-queue.js";
 import type { PlotPlanner } from "../../host/planning/planning.js";
@@ -17,9 +14,10 @@ import { DEFAULT_PLOT_SETTINGS, type Job, type PlotSettings } from "../../src/sc
 import { compareDrawn } from "../support/drawn-truth.js";
 import { layeredStrokes, LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
 import { drawingOf } from "./support/jobs.js";
+import { folderOfTest } from "../support/folders.js";
+import { virtualBoardOf } from "../support/virtual-plotter.js";
 
 /** About ten seconds of drawing. */
 const STROKES = layeredStrokes(
@@ -48,7 +46,7 @@ let queue: JobQueue;
 let openPlanner: (signal: AbortSignal) => Promise<PlotPlanner>;
 
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-stops-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
   world = new ManualClock();
   openPlanner = () => Promise.resolve(new LocalPlanner(STROKES));
@@ -56,7 +54,6 @@ beforeEach(() => {
 afterEach(async () => {
   await world.run(stopServer());
   await driver.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 function openQueue(): void {
@@ -139,7 +136,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
   });
 
   describe("a server that stops while a plot is held", () => {
-    it.each(INSTANTS_S)("by an emergency stop after %s s moves nothing", async (s) => {
+    it.each(INSTANTS_S)("a server that stops after an emergency stop at %s s moves nothing", async (s) => {
       const id = await started();
       await world.advance(s);
       await world.run(queue.plots.emergencyStop(id));
@@ -153,7 +150,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       await resumeAndCompare(id);
     });
 
-    it.each(INSTANTS_S)("by an emergency stop that has not finished after %s s moves nothing", async (s) => {
+    it.each(INSTANTS_S)("a server that stops %s s into an emergency stop moves nothing", async (s) => {
       const id = await started();
       await world.advance(s);
       const stopping = queue.plots.emergencyStop(id);
@@ -167,22 +164,25 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       await resumeAndCompare(id);
     });
 
-    it.each(INSTANTS_S)("by the user after %s s moves nothing, and keeps a moved place", async (s) => {
-      const id = await started();
-      await world.advance(s);
-      queue.plots.pause(id);
-      await until(id, "paused");
-      const stopped = motors();
-      const { place } = queue.plots.movePlace(id, { mm: -BACK_MM });
-      await world.run(stopServer());
-      await world.advance(2);
-      expect(motors()).toEqual(stopped);
-      await startServer();
-      expect(queue.get(id)).toMatchObject({ state: "interrupted", place });
-      await resumeAndCompare(id, BACK_MM);
-    });
+    it.each(INSTANTS_S)(
+      "a server that stops while the user holds a plot at %s s moves nothing, and keeps a moved place",
+      async (s) => {
+        const id = await started();
+        await world.advance(s);
+        queue.plots.pause(id);
+        await until(id, "paused");
+        const stopped = motors();
+        const { place } = queue.plots.movePlace(id, { mm: -BACK_MM });
+        await world.run(stopServer());
+        await world.advance(2);
+        expect(motors()).toEqual(stopped);
+        await startServer();
+        expect(queue.get(id)).toMatchObject({ state: "interrupted", place });
+        await resumeAndCompare(id, BACK_MM);
+      },
+    );
 
-    it("between two strokes keeps a moved place, although the carriage rests on the way to the next", async () => {
+    it("a server that stops between two strokes keeps a moved place, although the carriage rests on the way to the next", async () => {
       const id = await started();
       // Above the first stroke's end, from where it travels to the second.
       while (board.state().xMm < 199.9 || board.state().yMm < 11) await world.advance(0.01);
@@ -198,7 +198,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       await finishAndCompare(id, BACK_MM);
     });
 
-    it("for a pen leaves it at home, and still waits for the pen", async () => {
+    it("a server that stops while a plot waits for a pen leaves it at home, and still waits for the pen", async () => {
       const id = await started({ ...SETTINGS, layerStops: { sky: false, sea: true } });
       await until(id, "paused");
       await world.run(stopServer());
@@ -209,7 +209,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       await resumeAndCompare(id);
     });
 
-    it("with its position lost does not take another one for home", async () => {
+    it("a server that stops with the position lost does not take another one for home", async () => {
       const id = await started();
       await world.advance(6.5);
       await world.run(stopServer());
@@ -226,7 +226,7 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
       await resumeAndCompare(id);
     });
 
-    it("where an earlier server left it, moves nothing and keeps its place", async () => {
+    it("a server that stops where an earlier server left the plot moves nothing and keeps its place", async () => {
       const id = await started();
       await world.advance(6.5);
       await world.run(queue.plots.emergencyStop(id));
@@ -303,18 +303,21 @@ describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
     it.each([
       ["interrupted", stopAndStart],
       ["cancelled", cancelIt],
-    ] as const)("that was %s keeps its place", async (state, end) => {
-      const id = await started();
-      await world.advance(1.5);
-      await end(id);
-      expect(queue.get(id).state).toBe(state);
-      const { place } = queue.get(id);
-      await movedBetweenStarts();
-      queue.plots.recover(id);
-      await world.advance(1);
-      expect(queue.get(id)).toMatchObject({ state: "paused", place });
-      await finishAndCompare(id, 0);
-    });
+    ] as const)(
+      "a plot that was %s keeps its place wherever the carriage is moved between two starts of the server",
+      async (state, end) => {
+        const id = await started();
+        await world.advance(1.5);
+        await end(id);
+        expect(queue.get(id).state).toBe(state);
+        const { place } = queue.get(id);
+        await movedBetweenStarts();
+        queue.plots.recover(id);
+        await world.advance(1);
+        expect(queue.get(id)).toMatchObject({ state: "paused", place });
+        await finishAndCompare(id, 0);
+      },
+    );
 
     it("starts at the place that the user chose", async () => {
       await movedBetweenStarts();

@@ -1,6 +1,5 @@
 /** The whole server, embedded or served: real threads, real disk, the virtual board. */
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { createServer, type PlotwrightServer, type ServerOptions } from "../../server/index.js";
@@ -15,6 +14,7 @@ import {
   type Snapshot,
 } from "../../src/schema/index.js";
 import { EventStream } from "./support/event-stream.js";
+import { folderOfTest } from "../support/folders.js";
 
 const svg = (content: string, attributes = 'width="100mm" height="100mm" viewBox="0 0 100 100"'): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ${attributes} fill="none" stroke="black">${content}</svg>`;
@@ -26,12 +26,11 @@ const LINE = svg('<path d="M10 10h60"/><path d="M10 30h60"/>');
 let dataDir: string;
 let server: PlotwrightServer;
 beforeEach(async () => {
-  dataDir = mkdtempSync(join(tmpdir(), "plotwright-server-"));
+  dataDir = folderOfTest();
   await start();
 });
 afterEach(async () => {
   await server.close();
-  rmSync(dataDir, { recursive: true, force: true });
 });
 
 async function start(options: ServerOptions = {}): Promise<void> {
@@ -208,13 +207,12 @@ describe("a server", () => {
     expect((await state()).jobs.find(({ id }) => id === job.id)?.settings.prepare.outside).toBe("cut");
 
     await server.close();
-    const watchDir = mkdtempSync(join(tmpdir(), "plotwright-watched-"));
+    const watchDir = folderOfTest();
     writeFileSync(join(watchDir, "watched.svg"), wide);
     await start({ watchDir });
     await expect
       .poll(async () => (await state()).serverNotices.map(({ message }) => message).join())
       .toMatch(/watched\.svg.*33 mm over its right edge/);
-    rmSync(watchDir, { recursive: true, force: true });
   });
 
   it("accepts odd drawings that can be plotted", async () => {
@@ -252,7 +250,7 @@ describe("a server", () => {
 
   it("distinguishes a taken port from a taken data folder, and releases both when closed", async () => {
     const port = Number(new URL(server.url).port);
-    const other = mkdtempSync(join(tmpdir(), "plotwright-other-"));
+    const other = folderOfTest();
     await expect(createServer({ port, device: "virtual", dataDir: other })).rejects.toThrow(
       `Port ${port} is taken by another program`,
     );
@@ -262,7 +260,6 @@ describe("a server", () => {
     await server.close();
     await start({ port });
     expect(server.url).toBe(`http://127.0.0.1:${port}`);
-    rmSync(other, { recursive: true });
   });
 
   it("refuses an option that it does not know, before it touches a folder", async () => {

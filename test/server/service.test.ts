@@ -1,9 +1,9 @@
 /** The systemd service and the logs, on a simulated computer that only records its commands. */
-import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { chmodSync, existsSync, readFileSync, statSync } from "node:fs";
 import { createServer, type AddressInfo } from "node:net";
-import { homedir, tmpdir } from "node:os";
+import { homedir } from "node:os";
 import { join } from "node:path";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { beforeEach, describe, expect, it } from "vitest";
 import type { CliIo } from "../../server/cli/io.js";
 import { runCli } from "../../server/cli/program.js";
 import { runLogs } from "../../server/cli/server-commands.js";
@@ -18,6 +18,7 @@ import {
   type ServiceServer,
 } from "../../server/cli/service.js";
 import { LogBook, readLog, withoutSecrets } from "../../server/storage/log-book.js";
+import { folderOfTest } from "../support/folders.js";
 
 let home: string;
 let out: string;
@@ -30,11 +31,10 @@ let answering: (question: number) => boolean;
 let waitedMs: number;
 
 beforeEach(() => {
-  home = mkdtempSync(join(tmpdir(), "plotwright-service-"));
+  home = folderOfTest();
   [out, asked, failing, groups] = ["", [], null, "dialout:x:20:\n"];
   [active, answering, waitedMs] = [(question) => question > 0, (question) => question > 0, 0];
 });
-afterEach(() => rmSync(home, { recursive: true, force: true }));
 
 const io: CliIo = {
   out: (text) => (out += text),

@@ -3,7 +3,6 @@
  * swinging-stops.test.ts tests the marks on the paper.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { Place } from "../../src/index.js";
 import { SpringAxis } from "../../src/plan/spring-pen.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
@@ -13,10 +12,9 @@ import { DEFAULT_PEN, plan, stateAt } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { cases } from "../support/full-run.js";
 import { DRAWING, seamsMm, seeded } from "../support/live-plot.js";
-import { ManualClock } from "../support/manual-clock.js";
 import { drawnUntilMm, KeepingPlanner, mmOf, planSAfter, ranTicks } from "../support/stop-truth.js";
 import { FIGURES, inQuality, SPRINGS, swinging } from "../support/swinging.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 /** A gap, a doubled stretch or a swing that is invisible, mm. */
 const UNSEEN_MM = 0.05;
@@ -34,9 +32,7 @@ const SETTINGS: PlotSettings = {
 };
 
 async function plotting(firmware: string) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-  await world.run(driver.start());
+  const { world, driver } = await virtualPlotter({ firmware });
   const planner = new KeepingPlanner(DRAWING);
   const run = await world.run(driver.plot(planner, SETTINGS));
   return { world, run, planner, board: virtualBoardOf(driver) };

@@ -2,7 +2,7 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { PlotwrightServer } from "../../server/index.js";
 import { CaughtIo, cliWith } from "../cli/support.js";
-import { temporaryFolder } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
 import {
   MACHINE,
   SharedDatabase,

@@ -6,7 +6,8 @@ import { once } from "node:events";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Job, SharedJob, SharedTarget } from "../../src/schema/index.js";
 import { countFor } from "../support/full-run.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 import {
   MACHINE,
   SharedDatabase,

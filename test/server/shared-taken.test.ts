@@ -7,7 +7,7 @@ import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { temporaryFolder } from "../support/server-process.js";
+import { temporaryFolder } from "../support/folders.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
 import { openQueueIn, type OpenQueue } from "./support/open-queue.js";
 import { SharedDatabase, linesSvg } from "./support/shared-servers.js";

@@ -5,7 +5,6 @@
  */
 import { describe, expect, it } from "vitest";
 import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/plotter-port.js";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { SupplyPolls } from "../../src/drivers/ebb/machine/readings.js";
@@ -15,8 +14,7 @@ import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { cases } from "../support/full-run.js";
 import { seeded } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "../support/virtual-plotter.js";
 
 const COUNT = cases(200, 20);
 const FIRST_S = 0.4;
@@ -29,9 +27,7 @@ type End = "found" | "displaced" | "harmless";
 
 /** The effect of a supply that fails for `failureS`, `afterS` after the plot's start. */
 async function endOf(firmware: string, afterS: number, failureS: number): Promise<End> {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-  await world.run(driver.start());
+  const { world, driver } = await virtualPlotter({ firmware });
   const journal: JournalEntry[] = [];
   const plot = (start: PlotStart = {}): Promise<LivePlotRun> =>
     world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), DEFAULT_PLOT_SETTINGS, start));
@@ -93,9 +89,7 @@ describe("a motor supply that fails for 0.1 to 0.3 s", () => {
 
 describe("a failure of 0.1 s while nothing moves, on firmware 3.0.3", () => {
   async function plotter() {
-    const world = new ManualClock();
-    const driver = new PlotterDriver({ device: "virtual", clock: world, firmware: "3.0.3" });
-    await world.run(driver.start());
+    const { world, driver } = await virtualPlotter({ firmware: "3.0.3" });
     await world.run(driver.moveTo(20, 10));
     const board = virtualBoardOf(driver);
     const fail = async (): Promise<void> => {
@@ -115,7 +109,7 @@ describe("a failure of 0.1 s while nothing moves, on firmware 3.0.3", () => {
     expect(driver.state).toMatchObject({ connection: "idle", xMm: null, motorsOn: false });
   });
 
-  it("just before a move stops the move, and not the one after it", async () => {
+  it("a failure just before a move stops the move, and not the one after it", async () => {
     const { world, driver, board, fail } = await plotter();
     await fail();
     const { moveCount } = board.statistics();
@@ -126,7 +120,7 @@ describe("a failure of 0.1 s while nothing moves, on firmware 3.0.3", () => {
     expect(driver.state).toMatchObject({ xMm: 40, yMm: 10 });
   });
 
-  it("while the program is not connected makes the position unknown", async () => {
+  it("a failure while the program is not connected makes the position unknown", async () => {
     const { world, driver, board, fail } = await plotter();
     board.unplug();
     await fail();

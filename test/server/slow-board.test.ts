@@ -3,11 +3,9 @@
  * standstill.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { virtualPlotter } from "../support/virtual-plotter.js";
 
 const { motion } = DEFAULT_PLOT_SETTINGS;
 /** Commands of maximum length: one line of 14 s. */
@@ -19,10 +17,7 @@ const SLOW: PlotSettings = {
 const LINES = strokesOf([10, 10, 290, 10], [290, 60, 250, 100, 290, 150]);
 
 async function slowPlotter(virtualSpeed: number, firmware: string) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware, virtualSpeed });
-  await world.run(driver.start());
-  return { world, driver, board: virtualBoardOf(driver) };
+  return virtualPlotter({ firmware, virtualSpeed });
 }
 
 describe.each([0.5, 0.02])("a virtual board at %d of real time", (virtualSpeed) => {

@@ -1,15 +1,8 @@
 /** Emergency stops at awkward instants: pressed twice, together with a fault, before a move has begun, on old firmware. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry, LivePlotRun, PlotStart } from "../../host/plotter/plotter-port.js";
 import { moveByHand } from "../../host/plotter/hand-moves.js";
-import {
-  machineById,
-  VirtualBoard,
-  type PlotwrightError,
-  type StrokeSet,
-  type VirtualBoardOptions,
-} from "../../src/index.js";
+import { machineById, VirtualBoard, type StrokeSet, type VirtualBoardOptions } from "../../src/index.js";
 import { driverOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type HandMove } from "../../src/schema/index.js";
 import { compareDrawn } from "../support/drawn-truth.js";
@@ -17,12 +10,9 @@ import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { DRAWING, plotting, type LivePlot } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
-import { virtualBoardOf } from "../support/virtual-board-of.js";
+import { outcome, virtualPlotter } from "../support/virtual-plotter.js";
 
 const SETTINGS = DEFAULT_PLOT_SETTINGS;
-const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: PlotwrightError) => `${error.code}: ${error.message}`);
-
 describe("a second emergency stop while the first is handled", () => {
   /** A plot that was stopped twice and then resumed. */
   async function resumed() {
@@ -71,10 +61,7 @@ describe("an emergency stop after the board has restarted", () => {
 });
 
 async function newPlotter(firmware: string) {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-  await world.run(driver.start());
-  return { world, driver, board: virtualBoardOf(driver) };
+  return virtualPlotter({ firmware });
 }
 
 /** A plot on a new plotter. `resumedGapMm` resumes it from its journal, and returns the longest piece missing on the paper. */
@@ -114,7 +101,7 @@ async function newMachine(options: Partial<VirtualBoardOptions> = {}) {
 describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
   "a stop just after a restart, on firmware %s",
   (firmware) => {
-    it.each([0, 0.1])("of a plot leaves no known position, after %s s", async (afterS) => {
+    it.each([0, 0.1])("a stop of a plot %s s after a restart leaves no known position", async (afterS) => {
       const { world, driver, board, run, resumedGapMm } = await newPlot(firmware, FAULT_DRAWING);
       await world.advance(3);
       board.restart();
@@ -127,7 +114,7 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
       expect(await resumedGapMm()).toBeLessThan(0.05);
     });
 
-    it("of a manual move leaves no known position", async () => {
+    it("a stop of a manual move just after a restart leaves no known position", async () => {
       const { clock, board, machine } = await newMachine({ firmware });
       const move = outcome(machine.moveTo(100, 50, SETTINGS));
       while (board.state().steps1 === 0) await clock.advance(0.1);
@@ -137,7 +124,7 @@ describe.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
       expect(machine).toMatchObject({ state: null, motorsOn: false });
     });
 
-    it("by a typed line leaves no known position", async () => {
+    it("a stop by a typed line just after a restart leaves no known position", async () => {
       const { clock, board, machine } = await newMachine({ firmware });
       await clock.run(machine.moveTo(10, 5, SETTINGS));
       board.restart();
@@ -191,7 +178,7 @@ describe.each(["2.8.1", "3.0.3"])("an emergency stop on firmware %s leaves nothi
     return resumedGapMm();
   }
 
-  it("if the supply fails just after it", async () => {
+  it("an emergency stop leaves nothing out if the supply fails just after it", async () => {
     const gapMm = await gapAfter(async ({ world, board, run }) => {
       const stopped = run.emergencyStop();
       board.setMotorVolts(0);
@@ -202,7 +189,7 @@ describe.each(["2.8.1", "3.0.3"])("an emergency stop on firmware %s leaves nothi
     expect(gapMm).toBeLessThan(0.05);
   });
 
-  it("if the board does not answer it any more, and then restarts", async () => {
+  it("an emergency stop leaves nothing out if the board does not answer it any more, and then restarts", async () => {
     const gapMm = await gapAfter(async ({ world, board, run }) => {
       board.setFrozen(true);
       await world.advance(0.3);
@@ -247,7 +234,7 @@ describe.each(["2.8.1", "3.0.3"])("a board on firmware %s that is lost in a plot
     return found;
   }
 
-  it("after an emergency stop, leaves nothing out", async () => {
+  it("a board that is lost after an emergency stop leaves nothing out", async () => {
     const found = await gaps(PASSED_AGAIN, async ({ world, run }, lose) => {
       await world.run(run.emergencyStop());
       await lose();
@@ -255,7 +242,7 @@ describe.each(["2.8.1", "3.0.3"])("a board on firmware %s that is lost in a plot
     expect(found).toEqual([]);
   });
 
-  it("twice, the second time with its pen lifted where it was, leaves nothing out", async () => {
+  it("a board that is lost twice, the second time with its pen lifted where it was, leaves nothing out", async () => {
     const found = await gaps(PASSED_AGAIN, async (_, lose) => {
       await lose();
       await lose();
@@ -266,7 +253,7 @@ describe.each(["2.8.1", "3.0.3"])("a board on firmware %s that is lost in a plot
   it.each([
     ["several strokes", FAULT_DRAWING],
     ["one stroke", ONE_STROKE],
-  ])("and then brought home leaves nothing out: %s", async (_, strokes) => {
+  ])("a board that is lost and then brought home leaves nothing out: %s", async (_, strokes) => {
     const found = await gaps(strokes, async ({ world, driver }, lose) => {
       await lose();
       await world.run(driver.home());
@@ -359,7 +346,7 @@ describe("a manual move that is stopped between two of its steps", () => {
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, motorsOn: true, isBusy: false });
   });
 
-  it("does not go on to the next switch", async () => {
+  it("does not continue to the next switch", async () => {
     const input = { port: "B", pin: 0, pressed: 0 } as const;
     const { clock, board, machine } = await newMachine();
     const plain = machineById("axidraw-v3");

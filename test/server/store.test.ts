@@ -1,10 +1,9 @@
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, utimesSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, readdirSync, utimesSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import sqlite from "node-sqlite3-wasm";
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { Store } from "../../server/storage/store.js";
@@ -12,13 +11,13 @@ import { drawingOf, makeJob } from "./support/jobs.js";
 import { pictureOf } from "./support/store-picture.js";
 import { childScript } from "../support/child-script.js";
 import { cases } from "../support/full-run.js";
+import { folderOfTest } from "../support/folders.js";
 
 let dir: string;
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-store-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
 });
-afterEach(() => rmSync(dir, { recursive: true, force: true }));
 
 const ids = (store: Store): string[] => store.jobs().map((job) => job.id);
 
@@ -150,12 +149,8 @@ describe("a store", () => {
         expect(possible).toContain(found);
       }
     };
-    const second = mkdtempSync(join(tmpdir(), "plotwright-store-"));
-    try {
-      await Promise.all([inOne(dir, 1), inOne(second, 2)]);
-    } finally {
-      rmSync(second, { recursive: true, force: true });
-    }
+    const second = folderOfTest();
+    await Promise.all([inOne(dir, 1), inOne(second, 2)]);
   });
 });
 

@@ -3,8 +3,7 @@
  * have gone.
  */
 import { request as httpRequest } from "node:http";
-import { mkdtempSync, readdirSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../src/index.js";
@@ -12,6 +11,7 @@ import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { lane } from "../../host/planning/lane.js";
 import { apiErrorSchema, DEFAULT_PLOT_SETTINGS, jobSchema } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
+import { folderOfTest } from "../support/folders.js";
 
 const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10" stroke="red"/></svg>';
 const JSON_TYPE = { "Content-Type": "application/json" };
@@ -89,12 +89,11 @@ describe("uploads whose ordering takes an hour", () => {
   let dataDir: string;
   let server: PlotwrightServer;
   beforeEach(async () => {
-    dataDir = mkdtempSync(join(tmpdir(), "plotwright-uploads-"));
+    dataDir = folderOfTest();
     server = await createServer({ port: 0, device: "virtual", dataDir });
   });
   afterEach(async () => {
     await server.close();
-    rmSync(dataDir, { recursive: true, force: true });
   });
 
   it("do not delay ordinary ones, and end with their client", async () => {
@@ -147,13 +146,13 @@ describe("JSON", () => {
   it.each([
     ["large settings", job(`"settings":{"k":${JSON.stringify("y".repeat(9_000_000))}}`)],
     ["a large drawing", JSON.stringify({ name: "a", drawing: `<svg>${" ".repeat(9_000_000)}</svg>` })],
-  ])("with %s is not parsed, and the answer says how to send the drawing", async (_what, body) => {
+  ])("JSON with %s is not parsed, and the answer says how to send the drawing", async (_what, body) => {
     const { status, message } = await post(body);
     expect([status, message]).toEqual([413, expect.stringContaining("POST /api/v1/drawings")]);
     expect(app.drawingsOnDisk()).toEqual([]);
   });
 
-  it("that is broken late is refused with an explanation", async () => {
+  it("JSON that is broken late is refused with an explanation", async () => {
     const { status, message } = await post(job(`"x":${JSON.stringify("y".repeat(900_000))}`).slice(0, -1));
     expect([status, message]).toEqual([400, "The request is not valid JSON."]);
   });
@@ -178,12 +177,11 @@ describe("an uploaded drawing", () => {
     expect((await add(app, id)).status).toBe(404);
     await app.close();
 
-    const dataDir = mkdtempSync(join(tmpdir(), "plotwright-uploads-"));
+    const dataDir = folderOfTest();
     const server = await createServer({ port: 0, device: "virtual", dataDir });
     await fetch(`${server.url}/api/v1/drawings`, { method: "POST", body: SVG });
     await server.close();
     expect(readdirSync(join(dataDir, "drawings"))).toEqual([]);
-    rmSync(dataDir, { recursive: true, force: true });
   }, 30_000);
 
   it("stays for its job, however long that waits", async () => {

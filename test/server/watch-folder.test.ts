@@ -1,7 +1,6 @@
 import { execFileSync } from "node:child_process";
 import {
   mkdirSync,
-  mkdtempSync,
   readFileSync,
   renameSync,
   rmSync,
@@ -10,7 +9,6 @@ import {
   writeFileSync,
 } from "node:fs";
 import { createServer } from "node:net";
-import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
@@ -24,6 +22,7 @@ import { WatchFolder } from "../../server/plugins/watch-folder/watch-folder.js";
 import { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
+import { folderOfTest } from "../support/folders.js";
 
 let dir: string;
 let watched: string;
@@ -35,7 +34,7 @@ let logged: string[];
 let planning: Planning;
 
 beforeEach(() => {
-  dir = mkdtempSync(join(tmpdir(), "plotwright-watch-"));
+  dir = folderOfTest();
   watched = join(dir, "in");
   mkdirSync(watched);
   prepareDataDir(dir);
@@ -44,7 +43,6 @@ beforeEach(() => {
 });
 afterEach(async () => {
   await close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 async function open(stableMs = 100): Promise<void> {

@@ -2,7 +2,8 @@
 import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
 import { PLAIN } from "./browser.js";
-import { startServerProcess, temporaryFolder } from "./server-process.js";
+import { temporaryFolder } from "./folders.js";
+import { startServerProcess } from "./server-process.js";
 import { startStaticApp } from "./static-app.js";
 
 export const BACKENDS = ["server", "browser"] as const;

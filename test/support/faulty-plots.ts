@@ -31,8 +31,6 @@ export interface Fault {
   readonly name: string;
   /** The fault and its repair, with the time between them. */
   happen(board: PtyBoard, random: () => number): void | Promise<void>;
-  /** Called before the plot is resumed: sets home if the fault has lost it. */
-  readonly beforeResume?: (driver: PlotterDriver, board: PtyBoard) => Promise<void>;
 }
 
 export interface FaultyPlotResult extends DrawnTruth {
@@ -50,8 +48,7 @@ export async function plotWithFault(
   fault: Fault,
   firmware: string,
   afterS: number,
-  random: () => number = () => 0.5,
-  strokes: StrokeSet = FAULT_DRAWING,
+  random: () => number,
 ): Promise<FaultyPlotResult> {
   const board = await PtyBoard.open({ firmware, wakeful: true });
   const driver = new PlotterDriver({ device: board.path });
@@ -59,7 +56,7 @@ export async function plotWithFault(
     await driver.start();
     const journal: JournalEntry[] = [];
     const start = (): Promise<LivePlotRun> =>
-      driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, {
+      driver.plot(new LocalPlanner(FAULT_DRAWING), DEFAULT_PLOT_SETTINGS, {
         from: journal.at(-1)?.place,
         received: journal.at(-1)?.received,
         journal: { record: (entry) => journal.push(entry) },
@@ -75,14 +72,13 @@ export async function plotWithFault(
       if (outcome === "done" || outcomes.length > MOST_INTERRUPTIONS) break;
       await happened;
       await untilIdle(driver);
-      await fault.beforeResume?.(driver, board);
       run = await start();
       await run.resume();
     }
     await happened;
     const report = await board.report();
     const sleptS = report.sleptS - sleptBeforeS;
-    return { outcomes, report, sleptS, ...compareDrawn(strokes, report.drawn) };
+    return { outcomes, report, sleptS, ...compareDrawn(FAULT_DRAWING, report.drawn) };
   } finally {
     await driver.close();
     await board.close();

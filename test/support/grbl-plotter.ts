@@ -11,6 +11,7 @@ import { GRBL } from "./grbl-machine.js";
 import { DRAWING } from "./live-plot.js";
 import { LocalPlanner } from "./local-planner.js";
 import { ManualClock } from "./manual-clock.js";
+import { outcome } from "./virtual-plotter.js";
 
 /** Settings for a machine with a Grbl. */
 export const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
@@ -113,9 +114,3 @@ export async function newMachine(options: VirtualGrblOptions = {}) {
   const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
   return { world, board, line, machine, lost, within };
 }
-
-/** The result of a promise, or its error in words. */
-export const outcome = (promise: Promise<unknown>): Promise<unknown> =>
-  promise.catch((error: unknown) =>
-    error instanceof PlotwrightError ? `${error.code}: ${error.message}` : String(error),
-  );

@@ -4,7 +4,8 @@ import { nodeModule } from "../../scripts/setup.mjs";
 import { PLAIN } from "./browser.js";
 import { chooseSample, nextFrames } from "./page-actions.js";
 import type { PageState } from "./page-states/page-state.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
+import { temporaryFolder } from "./folders.js";
+import { startServerProcess, type ServerProcess } from "./server-process.js";
 
 /** The size of a screen. */
 export interface Look {

@@ -9,7 +9,7 @@ import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index
 import { LocalPlanner, strokesOf } from "./local-planner.js";
 import { ManualClock } from "./manual-clock.js";
 import { farthest, SegmentGrid } from "./segment-grid.js";
-import { virtualBoardOf } from "./virtual-board-of.js";
+import { virtualBoardOf, virtualPlotter } from "./virtual-plotter.js";
 
 /** Curves, sharp corners, a reversal, short strokes: about ten seconds of plotting. */
 export const DRAWING: StrokeSet = strokesOf(
@@ -41,9 +41,7 @@ export async function plotting(
   pen = DEFAULT_PLOT_SETTINGS.pen,
   settings: PlotSettings = { ...settingsOf(mode), pen },
 ): Promise<LivePlot> {
-  const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
-  await world.run(driver.start());
+  const { world, driver } = await virtualPlotter({ firmware });
   const run = await world.run(driver.plot(new LocalPlanner(strokes), settings));
   return { world, driver, board: virtualBoardOf(driver), run };
 }

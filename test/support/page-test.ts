@@ -13,7 +13,8 @@ import {
   waitForPicture,
   waitForPlan,
 } from "./page-actions.js";
-import { startServerProcess, temporaryFolder, type ServerProcess } from "./server-process.js";
+import { temporaryFolder } from "./folders.js";
+import { startServerProcess, type ServerProcess } from "./server-process.js";
 
 const DESKTOP: BrowserContextOptions = {
   ...PLAIN,

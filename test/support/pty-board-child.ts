@@ -11,8 +11,6 @@ import { nodeClock } from "../../server/serial/node-clock.js";
 import { wakefulClock } from "./wakeful-clock.js";
 import type { FromBoard, ToBoard } from "./pty-board.js";
 
-const CR = 13;
-
 const { firmware, speed, futureSyntax, wakeful, servo } = JSON.parse(process.argv[2]) as {
   firmware: string;
   speed: number;
@@ -29,11 +27,8 @@ chmodSync(folder, 0o755);
 const link = path.join(folder, "board");
 
 let terminal: IPty | null = null;
-let foreignAnswer: string | null = null;
 /** Bytes from the host that still arrive; after that the connection is deaf and mute. */
 let bytesUntilDeaf = Infinity;
-/** 1: wait for the end of the current line; 2: the next letter is changed. */
-let refusing = 0;
 
 /** A shell holds a terminal open and makes it pass bytes unchanged; its first line is the terminal's name. */
 function plugIn(opened: () => void): void {
@@ -63,23 +58,10 @@ function pullOut(): void {
 }
 
 function fromHost(bytes: Buffer): void {
-  if (foreignAnswer !== null) {
-    toHost(Buffer.from(foreignAnswer));
-    return;
-  }
   const received = bytes.subarray(0, bytesUntilDeaf);
   bytesUntilDeaf -= received.length;
-  board.receive(refusing > 0 ? received.map(changed) : received);
+  board.receive(received);
   if (!board.accepting) terminal?.pause();
-}
-
-function changed(byte: number): number {
-  if (refusing === 2) {
-    refusing = 0;
-    return "#".charCodeAt(0);
-  }
-  if (refusing === 1 && byte === CR) refusing = 2;
-  return byte;
 }
 
 function toHost(bytes: Uint8Array): void {
@@ -104,26 +86,14 @@ process.on("message", (message: ToBoard) => {
     case "deaf":
       bytesUntilDeaf = message.deaf ? (message.afterBytes ?? 0) : Infinity;
       break;
-    case "refuse":
-      refusing = 1;
-      break;
     case "reset":
       board.resetByPower();
-      break;
-    case "restart":
-      board.restart();
-      break;
-    case "foreign":
-      foreignAnswer = message.answer;
       break;
     case "mute":
       board.setMute(message.mute);
       break;
     case "frozen":
       board.setFrozen(message.frozen);
-      break;
-    case "motionless":
-      board.setMotionless(message.motionless);
       break;
     case "garbage":
       board.sendGarbage(Uint8Array.from(message.bytes));
@@ -133,9 +103,6 @@ process.on("message", (message: ToBoard) => {
       break;
     case "volts":
       board.setMotorVolts(message.volts);
-      break;
-    case "button":
-      board.pressButton();
       break;
     case "slow":
       board.setUsbBytesPerS(message.bytesPerS);

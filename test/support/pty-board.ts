@@ -11,20 +11,12 @@ const CLOSED_WITHIN_MS = 10_000;
 
 export type ToBoard =
   /** `replug`: after `unplug` or `reset`, the board is available again at the same path. */
-  | { readonly type: "unplug" | "replug" | "reset" | "button" | "report" }
-  /** It restarts with its counters at 0, but its USB connection stays. */
-  | { readonly type: "restart" }
+  | { readonly type: "unplug" | "replug" | "reset" | "report" }
   /** The line carries nothing in either direction, and sent data is lost. The board itself continues. */
   | { readonly type: "deaf"; readonly deaf: boolean; readonly afterBytes?: number }
-  /** One letter of the next command is changed on its way, so the board refuses it (`!8`). */
-  | { readonly type: "refuse" }
-  /** From now on the device answers every line as some other machine would. */
-  | { readonly type: "foreign"; readonly answer: string }
   | { readonly type: "mute"; readonly mute: boolean }
   /** It answers, but a running command never ends. */
   | { readonly type: "frozen"; readonly frozen: boolean }
-  /** It takes moves and spends their time, but its step counters stand still. */
-  | { readonly type: "motionless"; readonly motionless: boolean }
   | { readonly type: "garbage"; readonly bytes: readonly number[] }
   | { readonly type: "lose"; readonly count: number }
   | { readonly type: "volts"; readonly volts: number }

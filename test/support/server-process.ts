@@ -1,8 +1,6 @@
 /** The built server in its own process, as a user starts it, on a free port with its own data folder. */
 import { spawn, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
 import path from "node:path";
 import { ROOT } from "../../scripts/setup.mjs";
 
@@ -47,10 +45,4 @@ export async function startServerProcess(options: ServerProcessOptions): Promise
     await ended;
   };
   return { url, process: child, output: () => output, stop };
-}
-
-/** A folder for one test's data, and how to remove it. */
-export function temporaryFolder(name: string): { path: string; remove: () => void } {
-  const folder = mkdtempSync(path.join(tmpdir(), `plotwright-${name}-`));
-  return { path: folder, remove: () => rmSync(folder, { recursive: true, force: true }) };
 }

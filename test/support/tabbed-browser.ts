@@ -7,7 +7,7 @@ import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { chromium, type BrowserContext } from "playwright-core";
 import { browserOptions } from "./browser.js";
-import { temporaryFolder } from "./server-process.js";
+import { temporaryFolder } from "./folders.js";
 
 export interface TabbedBrowser {
   /** Its pages are tabs of one window. */

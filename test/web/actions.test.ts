@@ -65,7 +65,7 @@ describe("a file that is dropped", () => {
   it.each([
     ["is a folder, or gone", unreadable as unknown as File],
     ["holds no text", new File(["\x89PNG\0\0"], "photo.png")],
-  ])("and %s is named, with advice; the drawing on the paper stays", async (_what, file) => {
+  ])("a dropped file that %s is named, with advice; the drawing on the paper stays", async (_what, file) => {
     const { store, actions } = makePage();
     actions.openPasted("<svg width='9'/>");
     const { drawing } = store.getState();
@@ -139,7 +139,7 @@ describe("a drawing of the last visit", () => {
     });
   });
 
-  it("that is a job's has the job's settings", () => {
+  it("a drawing of the last visit that belongs to a job has the job's settings", () => {
     const { store, actions } = makePage();
     actions.restoreDrawing(ofJob);
     store.setState({ jobs: [makeJob("a", { settings: jobSettings })] });
@@ -232,7 +232,7 @@ describe("a drawing that is opened", () => {
     expect(store.getState().settings.prepare.hiddenLayers).toEqual(hiddenLayers);
   });
 
-  it("from a file with the name of the one before keeps its layer settings, because it may have been edited", () => {
+  it("a file with the name of the drawing before it keeps its layer settings, because it may have been edited", () => {
     const { store, actions } = makePage();
     actions.openDrawing("hills", "<svg width='9'/>");
     hideLayer1(actions);

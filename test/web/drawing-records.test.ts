@@ -33,7 +33,7 @@ describe("the stored drawings", () => {
     expect(await db.drawingIds()).toEqual([]);
   });
 
-  it("that can't be read are reported in words", async () => {
+  it("stored drawings that can't be read are reported in words", async () => {
     const db = new MemoryRecords();
     db.readDrawing = () => Promise.reject(new DOMException("Internal error.", "UnknownError"));
     await expect(drawingRecords(db).read("a")).rejects.toMatchObject({

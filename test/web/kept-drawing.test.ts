@@ -43,7 +43,7 @@ describe("the last drawing", () => {
     expect(await readKeptDrawing(storage)).toEqual({ ...SHEET, jobId: "job-7" });
   });
 
-  it("which can't be stored is reported, once", async () => {
+  it("a drawing which can't be stored is reported, once", async () => {
     const { store, storage, plan, faults } = makePage();
     storage.write = () => Promise.reject(new Error("full"));
     for (const key of ["drawing-1", "drawing-2"]) {

@@ -35,7 +35,7 @@ const shownIn = (settings: PlotSettings): string[] =>
   rows.filter((row) => isLayerShown(settings, row)).map(({ id }) => id);
 
 describe("switching layers", () => {
-  it("by hand overrides their names", () => {
+  it("switching layers by hand overrides the codes in their names", () => {
     expect(shownIn(DEFAULTS)).toEqual(["sky", "sun"]);
     const all = showAll(showLayer(DEFAULTS, sky, false), rows);
     expect(shownIn(all)).toEqual(["sky", "guides", "sun"]);

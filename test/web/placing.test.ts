@@ -55,7 +55,7 @@ describe("grabbing the drawing", () => {
 });
 
 describe("dragging", () => {
-  it("by a corner keeps the proportions, the opposite corner, and a minimum size", () => {
+  it("dragging a corner keeps the proportions, the opposite corner, and a minimum size", () => {
     fc.assert(
       fc.property(frames, fc.constantFrom(...CORNER_PARTS), offsetMm, offsetMm, (start, part, dx, dy) => {
         const end = draggedFrame(start, part, ORIGIN, dx, dy);
@@ -75,7 +75,7 @@ describe("dragging", () => {
     expect(end).toEqual({ xMm: 20, yMm: 30, widthMm: 180, heightMm: 120, turnDeg: 0 });
   });
 
-  it("by the knob turns about the middle, by the pointer's angle", () => {
+  it("dragging the knob turns the drawing about its middle by the angle of the pointer", () => {
     const end = draggedFrame(frame, "turn", { x: 80, y: 20 }, 50, 50);
     expect(end).toEqual({ ...frame, turnDeg: 90 });
     fc.assert(

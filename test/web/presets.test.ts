@@ -7,7 +7,7 @@ describe("presets", () => {
     expect(withPreset([], " Fineliner ", DEFAULT_PLOT_SETTINGS)[0].name).toBe("Fineliner");
   });
 
-  it("of the same name replace each other", () => {
+  it("presets of the same name replace each other", () => {
     const once = withPreset([], "Brush", DEFAULT_PLOT_SETTINGS);
     const pen = { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 77 };
     const twice = withPreset(once, "Brush", { ...DEFAULT_PLOT_SETTINGS, pen });

@@ -26,7 +26,7 @@ describe("a row of the queue", () => {
     expect(placeAfterMove(ids, "d", 4)).toBeUndefined();
   });
 
-  it("that is dropped between two others lands between them", () => {
+  it("a row that is dropped between two others lands between them", () => {
     expect(placeOfDrop([10, 30, 50], 0)).toBe(0);
     expect(placeOfDrop([10, 30, 50], 40)).toBe(2);
     expect(placeOfDrop([10, 30, 50], 90)).toBe(3);

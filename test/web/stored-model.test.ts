@@ -1,7 +1,4 @@
 /** The browser's model of jobs and plotters behaves like the server's database. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import path from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import type { JobStore, PlotterStore } from "../../host/storage.js";
 import { JobList } from "../../host/queue/job-list.js";
@@ -12,6 +9,7 @@ import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
 import { StoredModel } from "../../web/backend/browser/stored-model.js";
 import { seeded } from "../support/live-plot.js";
+import { folderOfTest } from "../support/folders.js";
 
 /** IndexedDB as maps; values are copied, as IndexedDB does. */
 class Records {
@@ -39,7 +37,7 @@ let records: Records;
 let browser: StoredModel;
 
 beforeEach(() => {
-  dir = mkdtempSync(path.join(tmpdir(), "plotwright-stored-model-"));
+  dir = folderOfTest();
   prepareDataDir(dir);
   server = Store.open(dir);
   records = new Records();
@@ -47,7 +45,6 @@ beforeEach(() => {
 });
 afterEach(() => {
   server.close();
-  rmSync(dir, { recursive: true, force: true });
 });
 
 const SIZE = { widthMm: 60, heightMm: 40, scaleX: 1, scaleY: 1, turnedDeg: 0 };

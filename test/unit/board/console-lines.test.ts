@@ -33,7 +33,7 @@ describe("a line for the board", () => {
         ["SM,120001,1,1", "XM,16777215,0,0", "LT,3000001,9,0,9,0", "T3,4000000,1,0,0,1,0,0", "TD,1500001"],
       ],
     ].flatMap(([what, lines]) => (lines as string[]).map((line) => [what, line] as const)),
-  )("that %s is refused: %j", (_what, line) => {
+  )("a line that %s is refused: %j", (_what, line) => {
     expect(whyRefused(line)).not.toBeNull();
   });
 
@@ -55,7 +55,7 @@ describe("a line for the board", () => {
     "HM,25000,2880000,0",
     "XX,1",
     "constructor",
-  ])("without such a fault is sent: %j", (line) => {
+  ])("a line without such a fault is sent: %j", (line) => {
     expect(whyRefused(line)).toBeNull();
   });
 });
@@ -69,14 +69,17 @@ describe("the filter and the virtual board agree on which command a line is", ()
     )
     .map(([name, rest]) => name + rest);
 
-  it.each(["BL;", "RB0", "bl;QM", "RB.,1"])("which restarts for %s", (text) => {
-    const board = new VirtualBoard({ clock: new ManualClock(), speed: Infinity });
-    let isDropped = false;
-    board.onDrop(() => (isDropped = true));
-    board.receive(Buffer.from(`${text}\r`));
-    expect(isDropped).toBe(true);
-    board.close();
-  });
+  it.each(["BL;", "RB0", "bl;QM", "RB.,1"])(
+    "the filter and the virtual board agree on a line which restarts for %s",
+    (text) => {
+      const board = new VirtualBoard({ clock: new ManualClock(), speed: Infinity });
+      let isDropped = false;
+      board.onDrop(() => (isDropped = true));
+      board.receive(Buffer.from(`${text}\r`));
+      expect(isDropped).toBe(true);
+      board.close();
+    },
+  );
 
   it("so that no line that passes makes it restart, fall silent or answer in another way", () => {
     fc.assert(

@@ -29,7 +29,7 @@ describe("a corner", () => {
     ["135°", [1, 0, 0], [-H, H, 0], 1_000, 2.5903],
     ["90°, slow", [1, 0, 0], [0, 1, 0], 10, 0.5843],
     ["90°, fast", [1, 0, 0], [0, 1, 0], 3_000, 10.1206],
-  ])("of %s is taken at the speed of its junction deviation", (_, before, after, accel, speed) => {
+  ])("a corner of %s is taken at the speed of its junction deviation", (_, before, after, accel, speed) => {
     expect(Math.sqrt(junctionSpeed2(before, after, limitsOf(accel)))).toBeCloseTo(speed, 4);
   });
 
@@ -67,7 +67,7 @@ const CASES: [string, number[], number, number][] = [
 ];
 
 describe("the time of", () => {
-  it.each(CASES)("%s in the preview is that of Grbl", (_, line, speed, seconds) => {
+  it.each(CASES)("the time of %s in the preview is that of Grbl", (_, line, speed, seconds) => {
     const settings = { motion: motionAt(speed), pen: DEFAULT_PEN };
     const { trajectory } = planJob({ strokes: strokesOf(line) }, settings, GRBL);
     const run = trajectory.runs.stroke.indexOf(0);
@@ -76,7 +76,7 @@ describe("the time of", () => {
     expect(sum).toBeCloseTo(seconds, 6);
   });
 
-  it.each(CASES)("%s on the virtual board is that of Grbl", async (_, line, speed, seconds) => {
+  it.each(CASES)("the time of %s on the virtual board is that of Grbl", async (_, line, speed, seconds) => {
     const world = new ManualClock();
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
     const port = board.transport();

@@ -158,8 +158,8 @@ const MISTAKES: readonly (readonly [
   ["no transport", () => new build.BoardSession(), TypeError, ["the transport is missing"]],
 ];
 
-describe("a message for", () => {
-  it.each(MISTAKES)("%s", (_name, mistake, kind, words) => {
+describe("a wrong argument", () => {
+  it.each(MISTAKES)("is named in the message: %s", (_name, mistake, kind, words) => {
     let error: unknown = null;
     try {
       mistake();
