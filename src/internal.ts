@@ -63,7 +63,7 @@ export {
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
-export { isSameJson, withGiven, type DeepPartial } from "./settings/partial.js";
+export { isSameJson, withGiven } from "./settings/partial.js";
 export { isAllowed, rangeInWords, type NumberSetting, type Setting } from "./settings/setting.js";
 export {
   QUALITY_PATH,
@@ -89,7 +89,7 @@ export {
 } from "./prepare/files-page.js";
 export { meanScaleOf, sizeInWords, type DrawnSize, type OutsidePaper } from "./prepare/on-paper.js";
 export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
-export { cutOffLines, type CutOff } from "./prepare/cut-off.js";
+export { cutOffLines } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { parseLayerName, shownLayerName } from "./prepare/layer-codes.js";
 export {

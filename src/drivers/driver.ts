@@ -12,8 +12,7 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
-import type { Controller, ControllerFields } from "../machines/controller.js";
-import type { MachineProfile, Springs } from "../machines/profile.js";
+import type { Controller, ControllerFields, MachineProfile, Springs } from "../machines/profile.js";
 import type { Place } from "../plan/trajectory.js";
 import type { Cancellation } from "../prepare/work.js";
 import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";

@@ -8,6 +8,7 @@ import { rampColor } from "../drawing/color-ramp.js";
 import type { PaperSize } from "../drawing/paper.js";
 import { blockState, newMotionState, type Trajectory } from "../plan/trajectory.js";
 import { mmText, svgOpening } from "./svg-text.js";
+import { clamp } from "../geometry/polyline.js";
 
 const SPEED_BAND_COUNT = 24;
 /** Max gap between a curved block and its line segments, mm. */
@@ -70,7 +71,7 @@ function piecesOf(trajectory: Trajectory, k: number, bandWidth: number): number 
   const forShape = t * Math.sqrt(a / (8 * SAGITTA));
   const forSpeed = (a * t) / bandWidth;
   const isStraight = jerkX === 0 && jerkY === 0 && isAlong(trajectory, k);
-  return Math.min(Math.max(Math.ceil(Math.max(isStraight ? 0 : forShape, 2 * forSpeed)), 1), MAX_PIECES);
+  return clamp(Math.ceil(Math.max(isStraight ? 0 : forShape, 2 * forSpeed)), 1, MAX_PIECES);
 }
 
 /** True if a block's acceleration is along its velocity: it only speeds up or slows down. */

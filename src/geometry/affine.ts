@@ -64,6 +64,19 @@ export const meanScale = (m: Affine): number => Math.sqrt(Math.abs(determinant(m
 export const largestScale = (m: Affine): number =>
   Math.max(Math.hypot(m.a, m.b), Math.hypot(m.c, m.d), 1e-12);
 
+/** The map back. Not finite if there is none. */
+export function inverse(m: Affine): Affine {
+  const det = determinant(m);
+  return {
+    a: m.d / det,
+    b: -m.b / det,
+    c: -m.c / det,
+    d: m.a / det,
+    e: (m.c * m.f - m.d * m.e) / det,
+    f: (m.b * m.e - m.a * m.f) / det,
+  };
+}
+
 /**
  * The inverse without its translation, scaled to preserve areas. Null if the map has no inverse, or if the
  * result would preserve lengths too (no stretching or skew).

@@ -12,9 +12,6 @@ export const EMPTY_BOX: Box = { x0: Infinity, y0: Infinity, x1: -Infinity, y1: -
 
 export const isEmptyBox = (box: Box): boolean => !(box.x0 <= box.x1 && box.y0 <= box.y1);
 
-export const boxContainsPoint = (box: Box, x: number, y: number): boolean =>
-  x >= box.x0 && x <= box.x1 && y >= box.y0 && y <= box.y1;
-
 /** True if `inner` lies inside `outer`, borders included. */
 export const boxContains = (outer: Box, inner: Box): boolean =>
   inner.x0 >= outer.x0 && inner.x1 <= outer.x1 && inner.y0 >= outer.y0 && inner.y1 <= outer.y1;

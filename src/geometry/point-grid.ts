@@ -7,10 +7,11 @@
  *   3 2 2 2 3
  *   3 3 3 3 3
  *
- * A query takes constant time for evenly spread points. In crowded areas it scans more points: 20 000 strokes in a
- * corner of 8 × 6 mm of an A4 sheet take 0.3 s to prepare, spread over the sheet 0.02 s.
+ * A query takes constant time for evenly spread points. In crowded areas it scans more points. Flatbush, the index of
+ * boxes elsewhere, can't remove entries: a search would pass all strokes that are already drawn.
  */
 import { boxOfPoints } from "./box.js";
+import { clamp } from "./polyline.js";
 
 /**
  * Mean number of points in a cell. A larger number would be slower where points are crowded, a smaller one where they
@@ -160,10 +161,10 @@ export class PointGrid {
   }
 
   private columnOf(x: number): number {
-    return Math.max(0, Math.min(Math.floor((x - this.x0) / this.side), this.columns - 1));
+    return clamp(Math.floor((x - this.x0) / this.side), 0, this.columns - 1);
   }
 
   private rowOf(y: number): number {
-    return Math.max(0, Math.min(Math.floor((y - this.y0) / this.side), this.rows - 1));
+    return clamp(Math.floor((y - this.y0) / this.side), 0, this.rows - 1);
   }
 }

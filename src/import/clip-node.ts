@@ -5,8 +5,16 @@
  * rectangle is skipped for every shape inside it, so such files need no clipping later. A region gets an
  * index only when a shape needs it.
  */
-import { VERB_CUBIC, type ClipRegion } from "../drawing/drawing.js";
-import { boxContains, boxOfPoints, grownBox, type Box } from "../geometry/box.js";
+import {
+  RULE_NONZERO,
+  VERB_CLOSE,
+  VERB_CUBIC,
+  VERB_LINE,
+  VERB_MOVE,
+  type ClipRegion,
+} from "../drawing/drawing.js";
+import type { Affine } from "../geometry/affine.js";
+import { boxContains, boxOfPoints, grownBox, mappedCorners, type Box } from "../geometry/box.js";
 import { getOrAdd } from "../get-or-add.js";
 
 export type ClipShapes = Required<Omit<ClipRegion, "parent">>;
@@ -35,6 +43,17 @@ export class ClipNode {
     );
   }
 }
+
+const RECTANGLE_VERBS = Uint8Array.of(VERB_MOVE, VERB_LINE, VERB_LINE, VERB_LINE, VERB_CLOSE);
+
+/** A clip to a box, which `map` takes to page mm. */
+export const rectangleClip = (parent: ClipNode | null, map: Affine, box: Box): ClipNode =>
+  new ClipNode(parent, {
+    verbs: RECTANGLE_VERBS,
+    coords: Float64Array.from(mappedCorners(map, box)),
+    rule: Uint8Array.of(RULE_NONZERO),
+    shape: Uint32Array.of(0),
+  });
 
 /** The clip index for a shape with box `box`; −1 if nothing cuts it. */
 export function clipIndexFor(node: ClipNode | null, box: Box, clips: ClipRegion[]): number {

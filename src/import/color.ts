@@ -1,6 +1,6 @@
 // Ambient declarations apply only where a program includes them, and this project has several programs.
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./culori.d.ts" />
+/// <reference path="../packages.d.ts" />
 /** CSS colours to "#rrggbb" and an opacity. */
 import "culori/css";
 import { clampRgb, converter, formatHex, parse } from "culori/fn";

@@ -2,8 +2,7 @@
 import { checkObject } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
 import { isAllowed, rangeInWords } from "../settings/setting.js";
-import type { ControllerField, ControllerFields } from "./controller.js";
-import type { MachineProfile } from "./profile.js";
+import type { ControllerField, ControllerFields, MachineProfile } from "./profile.js";
 
 interface Rule {
   readonly isValid: (value: unknown) => boolean;

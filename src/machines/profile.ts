@@ -1,4 +1,4 @@
-import type { Controller } from "./controller.js";
+import type { Setting } from "../settings/setting.js";
 
 /** The properties of a plotter, as data. */
 export interface MachineProfile<C extends Controller = Controller> {
@@ -30,3 +30,21 @@ export interface Springs {
   readonly yHz: number;
   readonly damping: number;
 }
+
+/**
+ * The controller of the motors and the pen. `kind` names the driver; the other fields depend on the driver and are
+ * listed in docs/api.md.
+ */
+export interface Controller {
+  readonly kind: string;
+  readonly [field: string]: unknown;
+}
+
+/** The fields of one kind of controller, besides `kind`. They are defined in its driver's folder (src/drivers). */
+export type ControllerFields = Readonly<Record<string, ControllerField>>;
+
+export type ControllerField =
+  | Setting
+  | { readonly kind: "one-of"; readonly values: readonly (string | number)[] }
+  /** An object of fields. With `isOptional` it may be null or left out. */
+  | { readonly kind: "group"; readonly isOptional?: true; readonly fields: ControllerFields };

@@ -8,7 +8,7 @@ import { flattenShapes, gapsOfShapes, cropBox, strokedOnly } from "./shapes.js";
 import { layersOf, visibleLayers } from "./layers.js";
 import { isFarAway, type Placement } from "./place.js";
 
-export interface CutOff {
+interface CutOff {
   /** Lines outside this box are not drawn, mm. */
   readonly limit: Box;
   /** The lines that are outside the limit at least in part. Their parts inside are drawn. */

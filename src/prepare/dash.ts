@@ -2,7 +2,7 @@
 import type { DashPattern } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
 import { insideRange, type Box } from "../geometry/box.js";
-import { compose, determinant, meanScale, scaling, type Affine } from "../geometry/affine.js";
+import { compose, meanScale, scaling, type Affine, inverse } from "../geometry/affine.js";
 import { LineBuilder, SAME_POINT, lineCount, mix, type Lines } from "../geometry/polyline.js";
 
 /** A pattern with a shorter period than this is drawn as a solid line, because no pen resolves it, mm. */
@@ -35,9 +35,7 @@ export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: A
   if (periodOf(pattern) < FINEST_PERIOD) return null;
   if (measure === undefined) return pattern;
   // A vector on the paper is mapped back to the page and measured there.
-  const det = determinant(map);
-  const back = { a: map.d / det, b: -map.b / det, c: -map.c / det, d: map.a / det, e: 0, f: 0 };
-  return { ...pattern, measure: compose(compose(scaling(scale), { ...measure, e: 0, f: 0 }), back) };
+  return { ...pattern, measure: compose(compose(scaling(scale), { ...measure, e: 0, f: 0 }), inverse(map)) };
 }
 
 const periodOf = (pattern: DashPattern): number => pattern.lengths.reduce((sum, length) => sum + length, 0);

@@ -1,6 +1,6 @@
 /**
  * Order "fast": the next line is always the one with the nearest end. A line can start at either end, a closed one at
- * any point. 20 000 strokes take about 0.01 s.
+ * any point.
  */
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 import { isClosedLine, type Lines } from "../geometry/polyline.js";

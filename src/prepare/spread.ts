@@ -46,7 +46,7 @@ function shuffled(first: number, end: number, random: () => number): number[] {
   return order;
 }
 
-export interface InkPortions {
+interface InkPortions {
   readonly lines: Lines;
   /** Index of each line's portion within its tag: 0, 1, 2 … */
   readonly portion: Uint32Array;

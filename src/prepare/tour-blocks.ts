@@ -1,7 +1,6 @@
 /**
  * Searches a long tour block by block: a block of neighbouring strokes is extracted, searched as a separate small tour,
- * and written back. In a ring of 1000 strokes, reversing a section takes microseconds; in one of 20 000 it takes ten
- * times as long.
+ * and written back. Reversing a section takes time in proportion to the ring, so a small ring is searched faster.
  *
  *   ring   h ooo [s s s] oooooo [s s] oo [s] oo      s in the block, o outside, h home
  *   small    A    s s s     B    s s   C  s  D       each run of o is one stroke of the small tour

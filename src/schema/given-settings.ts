@@ -14,26 +14,35 @@ import {
 
 export type GivenSettings = DeepPartial<PlotSettings>;
 
-/** Refuses unknown names at every depth. `isPart`: fields may be left out, and then have no default. */
+/**
+ * Rebuilds a schema so that unknown names are refused, at every depth. With `isPart`, the fields of objects may be left
+ * out, and then have no default: the settings below stay. Entries of lists and of tables by layer are always whole.
+ *
+ *   schema              { upPct: number, by default 60; layers?: { [id]: { dropMs: number, by default 300 } } }
+ *   strict, as a part   { upPct?: number;               layers?: { [id]: { dropMs: number, by default 300 } } }
+ */
 function strict(schema: z.ZodType, isPart: boolean): z.ZodType {
-  const inner = (part: unknown): z.ZodType => strict(part as z.ZodType, isPart);
-  const whole = (part: unknown): z.ZodType => strict(part as z.ZodType, false);
+  const rebuilt = (inner: unknown, isInnerPart = isPart): z.ZodType =>
+    strict(inner as z.ZodType, isInnerPart);
   if (schema instanceof z.ZodObject) {
-    const fields = Object.entries(schema.shape);
-    const shape = fields.map(
-      ([key, field]) => [key, isPart ? inner(field).optional() : inner(field)] as const,
-    );
-    return z.strictObject(Object.fromEntries(shape), { error: unknownName(fields.map(([key]) => key)) });
+    const names = Object.keys(schema.shape);
+    const fieldOf = (name: string): z.ZodType => {
+      const field = rebuilt(schema.shape[name]);
+      return isPart ? field.optional() : field;
+    };
+    const fields = Object.fromEntries(names.map((name) => [name, fieldOf(name)]));
+    return z.strictObject(fields, { error: unknownName(names) });
   }
   if (schema instanceof z.ZodDefault) {
-    return isPart ? inner(schema.unwrap()) : inner(schema.unwrap()).default(schema.def.defaultValue);
+    const value = rebuilt(schema.unwrap());
+    return isPart ? value : value.default(schema.def.defaultValue);
   }
-  if (schema instanceof z.ZodOptional) return inner(schema.unwrap()).optional();
-  if (schema instanceof z.ZodNullable) return inner(schema.unwrap()).nullable();
-  if (schema instanceof z.ZodRecord) {
-    return schema.clone({ ...schema.def, valueType: whole(schema.valueType) });
-  }
-  if (schema instanceof z.ZodArray) return schema.clone({ ...schema.def, element: whole(schema.element) });
+  if (schema instanceof z.ZodOptional) return rebuilt(schema.unwrap()).optional();
+  if (schema instanceof z.ZodNullable) return rebuilt(schema.unwrap()).nullable();
+  if (schema instanceof z.ZodRecord)
+    return schema.clone({ ...schema.def, valueType: rebuilt(schema.valueType, false) });
+  if (schema instanceof z.ZodArray)
+    return schema.clone({ ...schema.def, element: rebuilt(schema.element, false) });
   return schema;
 }
 
@@ -69,7 +78,7 @@ function offsIn(shape: z.ZodRawShape): Record<string, unknown> {
   return Object.fromEntries(offs) as Record<string, unknown>;
 }
 
-/** What to say about a name that an object with these fields does not have. */
+/** What to say about a name that an object with these fields does not have: where else it is, or a similar name. */
 function unknownName(known: readonly string[]): z.core.$ZodErrorMap {
   return (issue) => {
     if (issue.code !== "unrecognized_keys") return undefined;
@@ -79,21 +88,18 @@ function unknownName(known: readonly string[]): z.core.$ZodErrorMap {
   };
 }
 
-let paths: readonly string[] | null = null;
 /** The paths of all settings; `*` is the id of a layer or the number of an entry. */
-export function settingPaths(): readonly string[] {
-  return (paths ??= pathsIn(plotSettingsSchema.omit({ customMachine: true }), ""));
-}
+const settingPaths = (): string[] => pathsIn(plotSettingsSchema.omit({ customMachine: true }), []);
 
-function pathsIn(schema: unknown, at: string): string[] {
+function pathsIn(schema: unknown, at: readonly string[]): string[] {
   if (schema instanceof z.ZodObject) {
     return Object.entries(schema.shape as z.ZodRawShape).flatMap(([key, field]) => {
-      const path = at === "" ? key : `${at}.${key}`;
-      return [path, ...pathsIn(field, path)];
+      const path = [...at, key];
+      return [path.join("."), ...pathsIn(field, path)];
     });
   }
-  if (schema instanceof z.ZodRecord) return pathsIn(schema.valueType, `${at}.*`);
-  if (schema instanceof z.ZodArray) return pathsIn(schema.element, `${at}.*`);
+  if (schema instanceof z.ZodRecord) return pathsIn(schema.valueType, [...at, "*"]);
+  if (schema instanceof z.ZodArray) return pathsIn(schema.element, [...at, "*"]);
   const isWrapped =
     schema instanceof z.ZodDefault || schema instanceof z.ZodOptional || schema instanceof z.ZodNullable;
   return isWrapped ? pathsIn(schema.unwrap(), at) : [];

@@ -6,7 +6,6 @@ export * from "./given-settings.js";
 export * from "./plotter-settings.js";
 export * from "./job.js";
 export * from "./api.js";
-export * from "./access.js";
 export * from "./studio.js";
 export * from "./machine.js";
 export * from "./hand-moves.js";

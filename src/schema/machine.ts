@@ -3,8 +3,7 @@ import { z } from "zod";
 import { nameSchema } from "./name.js";
 import type { ControllerDescription } from "../drivers/driver.js";
 import { CONTROLLERS } from "../drivers/registry.js";
-import type { Controller, ControllerField, ControllerFields } from "../machines/controller.js";
-import type { MachineProfile } from "../machines/profile.js";
+import type { Controller, ControllerField, ControllerFields, MachineProfile } from "../machines/profile.js";
 import { SPRINGS_TABLE } from "../settings/machine.js";
 import { schemaOf, shapeOf } from "./setting.js";
 

@@ -6,7 +6,17 @@
  * To add an operation: its row here, its handler, and the code that calls it.
  */
 import { z, type ZodType } from "zod";
-import { accessEntrySchema, meSchema, newKeySchema } from "./access.js";
+import {
+  accessEntrySchema,
+  meSchema,
+  newKeySchema,
+  deviceSchema,
+  newPlotterSchema,
+  newWebhookSchema,
+  pairingSchema,
+  plotterPatchSchema,
+  webhookSchema,
+} from "./studio.js";
 import {
   historyRequestSchema,
   jobChangeSchema,
@@ -36,14 +46,6 @@ import { machineListSchema, machineProfileSchema } from "./machine.js";
 import { operation, type ClientOf, type HandlersOf } from "./operation.js";
 import { plotterSettingsSchema } from "./plotter-settings.js";
 import { newSharedJobSchema, sharedJobSchema } from "./shared.js";
-import {
-  deviceSchema,
-  newPlotterSchema,
-  newWebhookSchema,
-  pairingSchema,
-  plotterPatchSchema,
-  webhookSchema,
-} from "./studio.js";
 
 /** The answer of operations that return no data. */
 const okSchema = z.object({ ok: z.literal(true) });

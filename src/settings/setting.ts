@@ -19,7 +19,7 @@ interface Described {
 
 /** A default that is decided for each drawing. A row with this default takes it as a value too. */
 export const AUTO = "auto";
-export type Auto = typeof AUTO;
+type Auto = typeof AUTO;
 
 export interface NumberSetting extends Described {
   readonly kind: "number";

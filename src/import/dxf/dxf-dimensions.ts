@@ -15,9 +15,11 @@ import {
   textIn,
   type DxfGroup,
   type DxfPoint,
+  distance,
 } from "./dxf-groups.js";
 import { polyline, type Outline } from "./dxf-shapes.js";
 import { throughPoints } from "./dxf-spline.js";
+import { clamp } from "../../geometry/polyline.js";
 
 /** Width of an arrowhead as a share of its length. */
 const ARROW_WIDTH = 1 / 3;
@@ -25,8 +27,6 @@ const MIDDLE_CENTRE = 5;
 const TOP_LEFT = 1;
 
 const line = (...points: DxfPoint[]): Content => ({ kind: "lines", outline: polyline(points, false) });
-
-const distance = (a: DxfPoint, b: DxfPoint): number => Math.hypot(b.x - a.x, b.y - a.y);
 
 /** The point at this distance from `from` towards `to`. */
 function towards(from: DxfPoint, to: DxfPoint, length: number): DxfPoint {
@@ -106,7 +106,7 @@ function plainDimension(groups: readonly DxfGroup[]): Content | null {
     { textHeight, decimals }: DimensionStyle,
   ): Content[] => {
     const value = measured !== undefined && measured >= 0 ? measured : distance(from, to);
-    const digits = Math.min(8, Math.max(0, Math.trunc(decimals)));
+    const digits = clamp(Math.trunc(decimals), 0, 8);
     const usual = `${sign}${Number(value.toFixed(digits))}`;
     const given = textIn(groups, 1);
     // A single blank is how a file says that there is no text.
@@ -208,7 +208,7 @@ export function readMultiLeader(groups: readonly DxfGroup[]): readonly Content[]
   if (hasFlag(context, 290, 1)) {
     const along = pointIn(context, 13) ?? { x: 1, y: 0 };
     const angleDeg = Math.atan2(along.y, along.x) / RAD_PER_DEG;
-    const align = Math.min(3, Math.max(1, numberIn(context, 171) ?? 1)) - 1;
+    const align = clamp(numberIn(context, 171) ?? 1, 1, 3) - 1;
     contents.push(
       words(
         textIn(context, 304),

@@ -41,6 +41,7 @@ import {
 } from "./dxf-shapes.js";
 import { readSpline } from "./dxf-spline.js";
 import type { DxfWriting } from "./dxf-text.js";
+import { clamp } from "../../geometry/polyline.js";
 
 export interface DxfEntity {
   readonly type: string;
@@ -286,8 +287,7 @@ function readArc(groups: readonly DxfGroup[]): Outline {
 function copyOf(groups: readonly DxfGroup[]): BlockCopy {
   const [xScale, yScale] = [41, 42].map((code) => numberIn(groups, code) ?? 1);
   if (xScale === 0 || yScale === 0) throw new OddValue("its scale is 0");
-  const copies = (code: number): number =>
-    Math.min(1000, Math.max(1, Math.trunc(numberIn(groups, code) ?? 1)));
+  const copies = (code: number): number => clamp(Math.trunc(numberIn(groups, code) ?? 1), 1, 1000);
   return {
     name: nameIn(groups, 2),
     at: pointIn(groups, 10) ?? { x: 0, y: 0 },

@@ -32,13 +32,13 @@ export interface DxfLayer {
 }
 
 /** Lengths in the file's units: positive is drawn, negative is a gap, 0 a dot. Empty: a solid line. */
-export interface DxfLinetype {
+interface DxfLinetype {
   readonly dashes: readonly number[];
   /** Has letters or symbols between its dashes. */
   readonly hasLetters: boolean;
 }
 
-export interface DxfBlock {
+interface DxfBlock {
   readonly base: DxfPoint;
   readonly entities: readonly DxfEntity[];
 }

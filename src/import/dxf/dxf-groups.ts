@@ -23,6 +23,8 @@ export interface DxfPoint {
   readonly bulge?: number;
 }
 
+export const distance = (a: DxfPoint, b: DxfPoint): number => Math.hypot(b.x - a.x, b.y - a.y);
+
 /** A record that has a value that cannot be used. The message says which. Only that record is left out. */
 export class OddValue extends Error {}
 

@@ -14,6 +14,7 @@ import {
   splitAt,
   type DxfGroup,
   type DxfPoint,
+  distance,
 } from "./dxf-groups.js";
 import { arc, polyline, turnBetween, type Outline } from "./dxf-shapes.js";
 import { bSpline } from "./dxf-spline.js";
@@ -134,7 +135,6 @@ const reversed = ({ verbs, points }: Piece): Piece => ({
   points: [...points].reverse(),
 });
 
-const distance = (a: DxfPoint, b: DxfPoint): number => Math.hypot(a.x - b.x, a.y - b.y);
 const first = ({ points }: Piece): DxfPoint => points[0];
 const last = ({ points }: Piece): DxfPoint => points[points.length - 1];
 

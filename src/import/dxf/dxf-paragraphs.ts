@@ -13,6 +13,7 @@ import { readMtext, type MtextFormat, type MtextParagraph, type MtextRun } from 
 import { ShapeBuffer } from "../shape-buffer.js";
 import { CAPITAL_EM, type TextFont, drawLine, layOutLine, type TextLine } from "../text/text-font.js";
 import { RAD_PER_DEG } from "../../units.js";
+import { clamp } from "../../geometry/polyline.js";
 
 /** MTEXT. */
 export interface DxfParagraphs {
@@ -83,7 +84,7 @@ export function drawDxfParagraphs(text: DxfParagraphs, font: TextFont): DrawnPar
   });
   const widest = Math.max(...lines.map((line) => line.width + text.height * indentOf(line)));
   const boxWidth = text.width > 0 ? text.width : widest;
-  const place = Math.min(9, Math.max(1, Math.round(text.attachment))) - 1;
+  const place = clamp(Math.round(text.attachment), 1, 9) - 1;
   const top = (Math.floor(place / 3) / 2) * base;
   const placed = compose(translation(text.at.x, text.at.y), rotation(text.angleDeg * RAD_PER_DEG));
   const shapes = new Map<number | null, ShapeBuffer>();

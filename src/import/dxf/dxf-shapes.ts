@@ -13,6 +13,7 @@ import {
   splitAt,
   type DxfGroup,
   type DxfPoint,
+  distance,
 } from "./dxf-groups.js";
 import { cross, normalOf, vectorIn } from "./dxf-plane.js";
 
@@ -31,7 +32,7 @@ export function polyline(vertices: readonly DxfPoint[], isClosed: boolean): Outl
     shape.moveTo(vertices[0].x, vertices[0].y);
     const to = (from: DxfPoint, next: DxfPoint): void => {
       const bulge = from.bulge ?? 0;
-      const chord = Math.hypot(next.x - from.x, next.y - from.y);
+      const chord = distance(from, next);
       if (Math.abs(bulge) < 1e-9 || chord === 0) {
         shape.lineTo(next.x, next.y);
         return;

@@ -9,8 +9,11 @@ import {
   pointsIn,
   type DxfGroup,
   type DxfPoint,
+  distance,
 } from "./dxf-groups.js";
 import type { Outline } from "./dxf-shapes.js";
+import { cubicAt } from "../../drawing/curve-box.js";
+import { clamp } from "../../geometry/polyline.js";
 
 interface BSpline {
   readonly degree: number;
@@ -57,7 +60,7 @@ export const throughPoints =
 
 /** The usual knots of a curve that begins and ends at its control points, for files without knots. */
 const clampedKnots = (points: number, degree: number): number[] =>
-  Array.from({ length: points + degree + 1 }, (_, i) => Math.min(Math.max(0, i - degree), points - degree));
+  Array.from({ length: points + degree + 1 }, (_, i) => clamp(i - degree, 0, points - degree));
 
 /** Weights that are all equal, whatever their value, mean a spline without weights. Throws OddValue. */
 export function bSpline(
@@ -125,11 +128,10 @@ function drawFitted(
   const [x1, y1] = [a.x + a.dx * third, a.y + a.dy * third];
   const [x2, y2] = [b.x - b.dx * third, b.y - b.dy * third];
   const isClose = MEASURED_AT.every((t) => {
-    const s = 1 - t;
-    const mix = (p0: number, p1: number, p2: number, p3: number): number =>
-      s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
     const exact = curve(u0 + t * (u1 - u0));
-    return Math.hypot(mix(a.x, x1, x2, b.x) - exact.x, mix(a.y, y1, y2, b.y) - exact.y) <= tolerance;
+    const dx = cubicAt(a.x, x1, x2, b.x, t) - exact.x;
+    const dy = cubicAt(a.y, y1, y2, b.y, t) - exact.y;
+    return Math.hypot(dx, dy) <= tolerance;
   });
   if (isClose || halvings === 0) {
     shape.cubicTo(x1, y1, x2, y2, b.x, b.y);
@@ -217,7 +219,7 @@ function drawThrough({ points, isClosed, startTangent, endTangent }: FitPoints, 
         (_, i) => distinct[(i + OVERLAP * (around - 1)) % around],
       )
     : distinct;
-  const chords = run.slice(1).map((point, i) => Math.hypot(point.x - run[i].x, point.y - run[i].y));
+  const chords = run.slice(1).map((point, i) => distance(run[i], point));
   const [start, end] = isRing ? [null, null] : [startTangent, endTangent];
   const dx = slopes(
     run.map(({ x }) => x),

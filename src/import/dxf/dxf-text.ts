@@ -7,7 +7,7 @@
  *   └ baseline ──────────────────────┘
  *     bottom: the lowest point of a "g"
  */
-import type { DxfPoint } from "./dxf-groups.js";
+import { type DxfPoint, distance } from "./dxf-groups.js";
 import { compose, rotation, scaling, translation, type Affine } from "../../geometry/affine.js";
 import { plainText } from "./mtext-codes.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
@@ -57,7 +57,7 @@ function mapOfWriting(text: DxfWriting, line: TextLine): Affine {
   let at = halign === 0 && valign === 0 ? start : (end ?? start);
   let anchor = halign === 1 || halign === 4 ? 0.5 : halign === 2 ? 1 : 0;
   if ((halign === 3 || halign === 5) && end !== null && line.width > 0) {
-    const factor = Math.hypot(end.x - start.x, end.y - start.y) / (line.width * width);
+    const factor = distance(start, end) / (line.width * width);
     angle = Math.atan2(end.y - start.y, end.x - start.x);
     width *= factor;
     if (halign === 3) em *= factor;

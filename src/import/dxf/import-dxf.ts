@@ -32,6 +32,7 @@ import { drawHatch } from "./dxf-hatch.js";
 import { drawDxfParagraphs } from "./dxf-paragraphs.js";
 import { drawPattern } from "./dxf-pattern.js";
 import { drawDxfWriting } from "./dxf-text.js";
+import { mix } from "../../geometry/polyline.js";
 
 /** mm */
 const US_SURVEY_FOOT = 1_200_000 / 3_937;
@@ -338,17 +339,20 @@ class DxfImport {
     for (const { content, ...place } of endless) {
       const { at, along, isBothWays } = content;
       const { map } = place;
-      const [x, y] = [applyX(map, at.x, at.y), applyY(map, at.x, at.y)];
-      const to = [applyX(map, at.x + along.x, at.y + along.y), applyY(map, at.x + along.x, at.y + along.y)];
-      const range = insideRange(x, y, to[0], to[1], box, isBothWays ? -Infinity : 0, Infinity);
+      const [x0, y0] = [applyX(map, at.x, at.y), applyY(map, at.x, at.y)];
+      const [x1, y1] = [
+        applyX(map, at.x + along.x, at.y + along.y),
+        applyY(map, at.x + along.x, at.y + along.y),
+      ];
+      const range = insideRange(x0, y0, x1, y1, box, isBothWays ? -Infinity : 0, Infinity);
       if (range === null || !(range[0] < range[1] && range.every(Number.isFinite))) {
         warnings.add("not-supported", undefined, `${place.entity.type} outside the drawing`);
         continue;
       }
       shape.clear();
-      const [from, until] = range;
-      shape.moveTo(x + from * (to[0] - x), y + from * (to[1] - y));
-      shape.lineTo(x + until * (to[0] - x), y + until * (to[1] - y));
+      const [from, to] = range;
+      shape.moveTo(mix(x0, x1, from), mix(y0, y1, from));
+      shape.lineTo(mix(x0, x1, to), mix(y0, y1, to));
       const paint = { isLine: true, isFilled: false, isDashed: true };
       this.addShape(shape, place.own.color, paint, { ...place, map: IDENTITY });
     }

@@ -7,6 +7,7 @@
  *   \Cn; \cn;    colour, by index or RGB  \Qv;        slant, degrees             \f \F font  \L \O \K lines: not drawn
  */
 import { aciColor } from "./aci-color.js";
+import { clamp } from "../../geometry/polyline.js";
 
 export interface MtextFormat {
   /** Height of capitals, in the file's units. */
@@ -115,12 +116,12 @@ class Reader {
     const factor = /x\s*$/i.test(value);
     const { format } = this;
     if (!Number.isFinite(number)) return;
-    if (code === "A") this.format = { ...format, valign: Math.min(2, Math.max(0, number)) };
+    if (code === "A") this.format = { ...format, valign: clamp(number, 0, 2) };
     else if (code === "C") this.format = { ...format, color: indexColor(number) };
     // Here blue is the highest byte.
     else if (code === "c")
       this.format = { ...format, color: ((number & 255) << 16) | (number & 0xff00) | ((number >> 16) & 255) };
-    else if (code === "Q") this.format = { ...format, slantDeg: Math.min(85, Math.max(-85, number)) };
+    else if (code === "Q") this.format = { ...format, slantDeg: clamp(number, -85, 85) };
     else if (!(number > 0)) return;
     else if (code === "H") this.format = { ...format, height: factor ? format.height * number : number };
     else if (code === "W")

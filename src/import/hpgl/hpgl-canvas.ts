@@ -2,10 +2,9 @@
  * The pen of an HPGL plotter and what it draws, in plotter units on the paper. A line is added to the drawing when it
  * ends, in the layer of its pen.
  */
-import { RULE_NONZERO, VERB_CLOSE, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
-import type { Affine } from "../../geometry/affine.js";
-import { boxesTouch, intersectBoxes, mappedCorners, type Box } from "../../geometry/box.js";
-import { ClipNode } from "../clip-node.js";
+import { scaling } from "../../geometry/affine.js";
+import { boxesTouch, intersectBoxes, type Box } from "../../geometry/box.js";
+import { ClipNode, rectangleClip } from "../clip-node.js";
 import { MAX_COORDINATE_MM, type DrawingBuilder, type Look } from "../drawing-builder.js";
 import { drawPattern, type PatternLine } from "../dxf/dxf-pattern.js";
 import { getOrAdd } from "../../get-or-add.js";
@@ -13,9 +12,10 @@ import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import type { Warnings } from "../warnings.js";
 import { HpglLineTypes } from "./hpgl-line-types.js";
 import { HpglPolygon } from "./hpgl-polygon.js";
+import { clamp } from "../../geometry/polyline.js";
 
 const MM_PER_UNIT = 0.025;
-const PAGE: Affine = { a: MM_PER_UNIT, b: 0, c: 0, d: -MM_PER_UNIT, e: 0, f: 0 };
+const PAGE = scaling(MM_PER_UNIT, -MM_PER_UNIT);
 /** One kilometre, as for all shapes. */
 const FARTHEST = MAX_COORDINATE_MM / MM_PER_UNIT;
 const ANYWHERE: Box = { x0: -FARTHEST, y0: -FARTHEST, x1: FARTHEST, y1: FARTHEST };
@@ -61,7 +61,7 @@ export class HpglCanvas {
 
   selectPen(pen: number): void {
     this.lift();
-    this.pen = Math.min(MAX_PENS, Math.max(0, Math.round(pen)));
+    this.pen = clamp(Math.round(pen), 0, MAX_PENS);
   }
 
   /** PC: a pen, and its red, green and blue. Without these its usual colour; without a pen all usual colours. */
@@ -73,7 +73,7 @@ export class HpglCanvas {
     else {
       const digits = parts.slice(0, 3).map((part, i) => {
         const [black, white] = this.colorRange.slice(2 * i, 2 * i + 2);
-        const share = Math.max(0, Math.min(1, (part - black) / (white - black) || 0));
+        const share = clamp((part - black) / (white - black) || 0, 0, 1);
         const byte = Math.round(share * 255);
         return byte.toString(16).padStart(2, "0");
       });
@@ -197,13 +197,7 @@ export class HpglCanvas {
     if (given === null) this.inputWindow = null;
     else {
       const box = intersectBoxes(given, ANYWHERE);
-      const clip = new ClipNode(null, {
-        verbs: Uint8Array.of(VERB_MOVE, VERB_LINE, VERB_LINE, VERB_LINE, VERB_CLOSE),
-        coords: Float64Array.from(mappedCorners(PAGE, box)),
-        rule: Uint8Array.of(RULE_NONZERO),
-        shape: Uint32Array.of(0),
-      });
-      this.inputWindow = { box, clip };
+      this.inputWindow = { box, clip: rectangleClip(null, PAGE, box) };
     }
   }
 

@@ -21,9 +21,9 @@ type Parameters = "numbers" | "label" | "message" | "character" | "encoded";
  * - reported: not drawn, with a warning
  * - setting: makes no difference to the lines on the paper
  */
-export type Outcome = "drawn" | "alike" | "reported" | "setting";
+type Outcome = "drawn" | "alike" | "reported" | "setting";
 
-export interface CommandGroup {
+interface CommandGroup {
   readonly names: readonly string[];
   readonly outcome: Outcome;
   readonly about: string;

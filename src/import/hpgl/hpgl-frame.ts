@@ -3,7 +3,7 @@
  *
  *   user units ──SC, P1, P2──> plotter units ──RO──> plotter units on the paper: 0.025 mm, y up
  */
-import { applyX, applyY, compose, IDENTITY, type Affine } from "../../geometry/affine.js";
+import { applyX, applyY, compose, IDENTITY, type Affine, inverse, rotation } from "../../geometry/affine.js";
 
 /** P1 and P2 until IP sets them, and the page of IR, in plotter units. */
 const USUAL_CORNERS: readonly number[] = [0, 0, 10_000, 10_000];
@@ -92,9 +92,8 @@ export class HpglFrame {
 
   /** A point of the paper in user units. */
   inUserUnits(x: number, y: number): [x: number, y: number] {
-    const { a, b, c, d, e, f } = this.map;
-    const det = a * d - b * c;
-    return [(d * (x - e) - c * (y - f)) / det, (a * (y - f) - b * (x - e)) / det];
+    const back = inverse(this.map);
+    return [applyX(back, x, y), applyY(back, x, y)];
   }
 
   private update(): boolean {
@@ -102,10 +101,8 @@ export class HpglFrame {
     const isUsable =
       Math.abs(given.a * given.d) > 0 && Number.isFinite(given.a * given.d + given.e + given.f);
     const scaled = isUsable ? given : IDENTITY;
-    const [cos, sin] = [[1, 0, -1, 0][this.turns], [0, 1, 0, -1][this.turns]];
-    const turned: Affine = { a: cos, b: sin, c: -sin, d: cos, e: 0, f: 0 };
     this.scales = [scaled.a, scaled.d];
-    this.map = compose(turned, scaled);
+    this.map = compose(rotation(this.angle), scaled);
     return isUsable;
   }
 

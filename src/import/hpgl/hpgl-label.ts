@@ -20,6 +20,7 @@ import {
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import { CAPITAL_EM, type TextFont, drawLine, layOutLine } from "../text/text-font.js";
 import type { HpglFrame } from "./hpgl-frame.js";
+import { clamp } from "../../geometry/polyline.js";
 
 const UNITS_PER_CM = 400;
 /** cm: the default on A4 plotters. */
@@ -230,7 +231,7 @@ export class HpglLabels {
 
   /** 0 if the pen is at the label's left, 0.5 at its middle, 1 at its right. */
   private get anchor(): number {
-    return Math.min(2, Math.max(0, Math.ceil((this.origin % 10) / 3) - 1)) / 2;
+    return clamp(Math.ceil((this.origin % 10) / 3) - 1, 0, 2) / 2;
   }
 
   /**

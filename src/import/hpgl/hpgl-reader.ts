@@ -4,6 +4,7 @@
  * the printer language PCL around HP-GL/2 are skipped.
  */
 import { GROUP_OF } from "./hpgl-commands.js";
+import { clamp } from "../../geometry/polyline.js";
 
 export interface HpglCommand {
   /** Two capital letters. */
@@ -228,7 +229,7 @@ export function readEncodedPolyline(text: string, target: EncodedTarget): void {
       const value = read();
       if (value === null) return;
       if (flag === ":") target.pen(value);
-      else fractionBits = Math.max(-26, Math.min(26, value));
+      else fractionBits = clamp(value, -26, 26);
       continue;
     } else if (isDigit(code)) {
       const x = read();

@@ -6,6 +6,7 @@ import { drawCentreArc } from "../arc.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
 import { RAD_PER_DEG } from "../../units.js";
 import type { HpglFrame } from "./hpgl-frame.js";
+import { clamp } from "../../geometry/polyline.js";
 
 export const TURN = 2 * Math.PI;
 /** mm on the paper: 0.02 µm. */
@@ -35,7 +36,7 @@ export function chordAngle(chord: number | undefined, radius: number, isDeviatio
 }
 
 /** At most a full turn, rad. */
-export const sweepOf = (deg: number): number => Math.max(-TURN, Math.min(TURN, deg * RAD_PER_DEG));
+export const sweepOf = (deg: number): number => clamp(deg * RAD_PER_DEG, -TURN, TURN);
 
 /** The arc from (x, y) about a centre through `sweepDeg`. */
 export function arcAbout(cx: number, cy: number, x: number, y: number, sweepDeg: number): HpglArc {

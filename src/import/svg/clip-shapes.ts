@@ -7,6 +7,7 @@ import { boxOfPoints } from "../../geometry/box.js";
 import { SCALE, combine, ringOf } from "../../geometry/region.js";
 import type { ClipNode, ClipShapes } from "../clip-node.js";
 import { ShapeBuffer } from "../shape-buffer.js";
+import { clamp } from "../../geometry/polyline.js";
 
 /** Max gap between a curve and its chords, as a share of the shapes' size: the drawing may be enlarged. */
 const FLATNESS = 1e-5;
@@ -64,5 +65,5 @@ export const outlinesOf = (curves: Curves): Outline[] =>
 function flatnessOf({ coords }: Curves): number {
   const { x0, y0, x1, y1 } = boxOfPoints(coords);
   const size = Math.max(x1 - x0, y1 - y0);
-  return Math.min(MAX_FLATNESS_MM, Math.max(MIN_FLATNESS_MM, FLATNESS * size));
+  return clamp(FLATNESS * size, MIN_FLATNESS_MM, MAX_FLATNESS_MM);
 }

@@ -1,6 +1,6 @@
 // Ambient declarations apply only where a program includes them, and this project has several programs.
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./css-tree-parser.d.ts" />
+/// <reference path="../../packages.d.ts" />
 /** Style sheets and `style` attributes to rules and declarations (parsing only; cascade.ts applies them). */
 import { remembered } from "../../get-or-add.js";
 import { IS_PROPERTY } from "./properties.js";

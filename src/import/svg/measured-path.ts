@@ -11,6 +11,7 @@ import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/draw
 import { firstWhere } from "../../geometry/binary-search.js";
 import { cubicAt } from "../../drawing/curve-box.js";
 import type { ShapeBuffer } from "../shape-buffer.js";
+import { clamp } from "../../geometry/polyline.js";
 
 const STEPS = 64;
 
@@ -54,7 +55,7 @@ export class MeasuredPath {
     if (chords.length === 0) return null;
     const at = firstWhere(0, chords.length - 1, (i) => chords[i].end >= along);
     const { end, length, x, y, dx, dy, startAngle, turn } = chords[at];
-    const t = Math.min(1, Math.max(0, 1 - (end - along) / length));
+    const t = clamp(1 - (end - along) / length, 0, 1);
     return { x: x + t * dx, y: y + t * dy, angle: startAngle + t * turn };
   }
 }

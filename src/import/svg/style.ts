@@ -3,6 +3,7 @@ import type { Declared, Property, Paint } from "./properties.js";
 import { parseColor, type Color } from "../color.js";
 import { computeTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
 import { lengthPx, listIn, splitLength, type LengthBasis } from "./length.js";
+import { clamp } from "../../geometry/polyline.js";
 
 /** The inherited properties. */
 export interface Style {
@@ -214,7 +215,7 @@ export function parseOpacity(text: string): number | null {
   const parts = splitLength(text);
   if (parts === null || (parts.unit !== "" && parts.unit !== "%")) return null;
   const value = parts.unit === "%" ? parts.value / 100 : parts.value;
-  return Math.min(1, Math.max(0, value));
+  return clamp(value, 0, 1);
 }
 
 /** An even number of lengths; null for a solid line; undefined if malformed. */

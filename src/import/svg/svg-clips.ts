@@ -4,9 +4,9 @@
  * A region is the union of its children, each with its own clip-rule. A clip-path on the clipPath itself, and
  * those of ancestor elements, are intersected through the chain of ClipNodes.
  */
-import { RULE_EVENODD, RULE_NONZERO, VERB_CLOSE, VERB_LINE, VERB_MOVE } from "../../drawing/drawing.js";
+import { RULE_EVENODD, RULE_NONZERO, VERB_MOVE } from "../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, translation, type Affine } from "../../geometry/affine.js";
-import { EMPTY_BOX, isEmptyBox, mapBox, mappedCorners, uniteBoxes, type Box } from "../../geometry/box.js";
+import { EMPTY_BOX, isEmptyBox, mapBox, uniteBoxes, type Box } from "../../geometry/box.js";
 import { SHAPE_TAGS, type SvgGeometry } from "./basic-shapes.js";
 import { cssClipShape, splitReferenceBox } from "./css-clip-shape.js";
 import { MAX_COORDINATE_MM } from "../drawing-builder.js";
@@ -16,14 +16,14 @@ import { getOrAdd } from "../../get-or-add.js";
 import { elementTransform } from "./transform.js";
 import { lengthPx } from "./length.js";
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
-import { withStyle, type Context } from "./svg-context.js";
+import { withStyle, type Context, placeKey } from "./svg-context.js";
 import type { SvgFile } from "./svg-file.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, childrenOf, HREF, tagOf } from "./svg-tree.js";
 import { computeStyle, declaredValue, parseUrl } from "./style.js";
 import type { Warnings } from "../warnings.js";
+import { clamp } from "../../geometry/polyline.js";
 
-const RECTANGLE_VERBS = Uint8Array.of(VERB_MOVE, VERB_LINE, VERB_LINE, VERB_LINE, VERB_CLOSE);
 /** Max depth of clipPaths that clip clipPaths: deeper is a cycle. */
 const MAX_NESTING = 16;
 /** Max clips on the shapes of clipPaths, in the whole file. */
@@ -95,18 +95,6 @@ export class SvgClips {
     return shapes === null ? "empty" : new ClipNode(context.clip, shapes);
   }
 
-  /** A clip to a rectangle in user units: a viewport's edge. */
-  rectangleClip(context: Context, x: number, y: number, width: number, height: number): ClipNode {
-    const corners = mappedCorners(context.map, { x0: x, y0: y, x1: x + width, y1: y + height });
-    const shapes = {
-      verbs: RECTANGLE_VERBS,
-      coords: Float64Array.from(corners),
-      rule: Uint8Array.of(RULE_NONZERO),
-      shape: Uint32Array.of(0),
-    };
-    return new ClipNode(context.clip, shapes);
-  }
-
   /** Clips `element` to the clipPath `target`; `units` maps the clipPath's units to user units. */
   private clipTo(
     element: number,
@@ -133,9 +121,7 @@ export class SvgClips {
 
   /** The clip to the shapes inside `target`, each filled by its own rule, and to `outside`. */
   private contentClip(target: number, inner: Context, outside: ClipNode | null): ClipNode | "empty" {
-    const { a, b, c, d, e, f } = inner.map;
-    const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
-    const built = getOrAdd(this.built, key, () => this.build(target, inner));
+    const built = getOrAdd(this.built, placeKey(target, inner), () => this.build(target, inner));
     if (built === null) return "empty";
     return getOrAdd(built.nodes, outside, () => new ClipNode(outside, built.shapes));
   }
@@ -299,4 +285,4 @@ class ClipCollector {
 
 /** A larger clip hides the same of the page, and a curve of that size would be flattened into millions of pieces. */
 const withinRange = (mm: number): number =>
-  Number.isNaN(mm) ? 0 : Math.max(-MAX_COORDINATE_MM, Math.min(MAX_COORDINATE_MM, mm));
+  Number.isNaN(mm) ? 0 : clamp(mm, -MAX_COORDINATE_MM, MAX_COORDINATE_MM);

@@ -6,11 +6,11 @@
 import type { Box } from "../../geometry/box.js";
 import { compose, IDENTITY } from "../../geometry/affine.js";
 import { type Drawing, curvesOf, VERB_MOVE } from "../../drawing/drawing.js";
-import { ClipNode, type ClipShapes } from "../clip-node.js";
+import { ClipNode, type ClipShapes, rectangleClip } from "../clip-node.js";
 import { getOrAdd } from "../../get-or-add.js";
 import { basisOfBox, lengthPx, type Side } from "./length.js";
 import { boxUnits, type SvgClips } from "./svg-clips.js";
-import { withStyle, type Context } from "./svg-context.js";
+import { withStyle, type Context, placeKey } from "./svg-context.js";
 import { effectsOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
 import { attribute, tagOf } from "./svg-tree.js";
@@ -70,9 +70,7 @@ export class SvgMasks {
   }
 
   private contentOf(target: number, context: Context, isAlpha: boolean): MaskRegion | null {
-    const { a, b, c, d, e, f } = context.map;
-    const key = `${target} ${a} ${b} ${c} ${d} ${e} ${f}`;
-    return getOrAdd(this.regions, key, () => {
+    return getOrAdd(this.regions, placeKey(target, context), () => {
       this.open.add(target);
       const content = this.drawApart(target, context, this.work);
       this.open.delete(target);
@@ -92,13 +90,9 @@ export class SvgMasks {
     };
     const x = length("x", "width", "-10%") + (isOfPage ? 0 : box.x0);
     const y = length("y", "height", "-10%") + (isOfPage ? 0 : box.y0);
-    return this.clips.rectangleClip(
-      context,
-      x,
-      y,
-      length("width", "width", "120%"),
-      length("height", "height", "120%"),
-    );
+    const x1 = x + length("width", "width", "120%");
+    const y1 = y + length("height", "height", "120%");
+    return rectangleClip(context.clip, context.map, { x0: x, y0: y, x1, y1 });
   }
 }
 

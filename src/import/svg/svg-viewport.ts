@@ -8,10 +8,10 @@
 import { compose, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
 import { lengthPx, type Side } from "./length.js";
 import type { Declared } from "./properties.js";
-import type { SvgClips } from "./svg-clips.js";
 import { withViewport, type Context } from "./svg-context.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 import { declaredValue } from "./style.js";
+import { rectangleClip } from "../clip-node.js";
 
 interface ViewBox {
   readonly x: number;
@@ -66,7 +66,6 @@ export function viewBoxMap(box: ViewBox, width: number, height: number, aspect: 
 /** The context inside `element`, to which `declared` belongs; null if it has no size. */
 export function viewportInside(
   tree: SvgTree,
-  clips: SvgClips,
   element: number,
   declared: Declared,
   context: Context,
@@ -86,7 +85,9 @@ export function viewportInside(
     box === null ? IDENTITY : viewBoxMap(box, width, height, attribute(tree, element, "preserveAspectRatio"));
   const overflow = declaredValue(context.style, declared, "overflow");
   const isCut = overflow !== "visible" && overflow !== "auto";
-  const clip = isCut ? clips.rectangleClip(context, x, y, width, height) : context.clip;
+  const clip = isCut
+    ? rectangleClip(context.clip, context.map, { x0: x, y0: y, x1: x + width, y1: y + height })
+    : context.clip;
   const map = compose(translation(x, y), inner);
   return withViewport({ ...context, clip }, map, box?.width ?? width, box?.height ?? height);
 }

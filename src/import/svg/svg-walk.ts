@@ -24,7 +24,7 @@ import {
 import { effectsOf, isErased, warnOf, type Effects, backgroundOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
 import type { SvgClips } from "./svg-clips.js";
-import { markerPlaces, SvgMarkers } from "./svg-markers.js";
+import { markerPlaces, insideMarker } from "./svg-markers.js";
 import { SvgMasks, type DrawApart } from "./svg-masks.js";
 import { LayerGroups } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
@@ -76,7 +76,6 @@ export class SvgWalk {
   private readonly stack: Frame[] = [];
   private copiedElements = 0;
   private copiedCoords = 0;
-  private readonly markers: SvgMarkers;
   private readonly masks: SvgMasks;
   private readonly layerGroups: LayerGroups;
   private subtreeEnds: Uint32Array | null = null;
@@ -90,7 +89,6 @@ export class SvgWalk {
     private readonly warnings: Warnings,
     masks: SvgMasks | null = null,
   ) {
-    this.markers = new SvgMarkers(file, clips);
     this.layerGroups = new LayerGroups(file.tree, file.layers, builder, warnings);
     const drawApart: DrawApart = (element, context, work) => this.drawApart(element, context, work);
     this.masks = masks ?? new SvgMasks(file, clips, drawApart);
@@ -201,7 +199,7 @@ export class SvgWalk {
 
   /**
    * The context with the style from `declared`. The last one is reused, since most elements declare the same as
-   * the previous one: importing 60 000 alike circles takes 0.64 s of processor time instead of 0.79 s.
+   * the previous one.
    */
   private styled(outer: Context, declared: Declared): Context {
     const { last } = this;
@@ -241,7 +239,7 @@ export class SvgWalk {
         return;
       case "svg":
       case "symbol": {
-        const inner = viewportInside(tree, this.clips, element, declared, context);
+        const inner = viewportInside(tree, element, declared, context);
         if (inner !== null) this.push(inner, tree.firstChildren[element], false, effects);
         return;
       }
@@ -301,7 +299,7 @@ export class SvgWalk {
       if (marker === undefined || tagOf(tree, marker) !== "marker") continue;
       if (isInsideUseOf(context.uses, marker)) continue;
       this.spendCopy(context);
-      const inner = this.markers.insideOf(marker, place, context);
+      const inner = insideMarker(this.file, marker, place, context);
       if (inner !== null) this.push(inner, tree.firstChildren[marker], false, []);
     }
   }

@@ -23,7 +23,7 @@ export interface TextStyle {
 }
 
 /** A line along the text, in the colours of the element that declares it. */
-export interface Decoration {
+interface Decoration {
   readonly kind: DecorationKind;
   readonly fill: Paint;
   readonly stroke: Paint;

@@ -1,6 +1,6 @@
 // Ambient declarations apply only where a program includes them, and this project has several programs.
 // eslint-disable-next-line @typescript-eslint/triple-slash-reference
-/// <reference path="./fontkit.d.ts" />
+/// <reference path="../../packages.d.ts" />
 /** Letters as outlines of a font file: TrueType, OpenType, WOFF, WOFF2, or the first font of a collection. */
 import type { Font } from "fontkit";
 import { PlotwrightError } from "../../errors.js";

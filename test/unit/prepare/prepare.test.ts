@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import type { Drawing } from "../../../src/drawing/drawing.js";
 import { pointCount, strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
@@ -18,12 +19,21 @@ const strokesOf = (set: StrokeSet): number[][] =>
     Array.from(set.xy.subarray(2 * set.offsets[i], 2 * set.offsets[i + 1])),
   );
 
+/** Strokes as text: "0 0 10 0 | 5 5". */
+const rows = (text: string): number[][] => text.split("|").map((row) => row.trim().split(/\s+/).map(Number));
+
 /** Rounded to 0.01 mm, for reading. */
 const rounded = (strokes: number[][]): number[][] =>
   strokes.map((stroke) => stroke.map((v) => Math.round(v * 100) / 100 + 0));
 
-const draw = (drawing: Parameters<typeof prepare>[0], settings: Partial<PrepareSettings> = {}): number[][] =>
+const draw = (drawing: Drawing, settings: Partial<PrepareSettings> = {}): number[][] =>
   rounded(strokesOf(prepare(drawing, { ...TRUE_SIZE, ...settings }).strokes));
+
+const grouped = (...shapes: [group: number, d: string][]): Drawing =>
+  drawingOf(
+    shapes.map(([group, d]) => ({ d, group })),
+    { groups: ["a", "b"] },
+  );
 
 describe("placing", () => {
   it("puts page corner on paper corner at true size", () => {
@@ -45,10 +55,8 @@ describe("placing", () => {
   });
 
   it("lays the long side along x in landscape, however the size was given", () => {
-    for (const paper of [
-      { widthMm: 210, heightMm: 297 },
-      { widthMm: 297, heightMm: 210 },
-    ]) {
+    for (const [widthMm, heightMm] of rows("210 297 | 297 210")) {
+      const paper = { widthMm, heightMm };
       const wide = prepare(drawingOf(["M0 0L1 1"]), { ...TRUE_SIZE, paper, landscape: true });
       const tall = prepare(drawingOf(["M0 0L1 1"]), { ...TRUE_SIZE, paper, landscape: false });
       expect([wide.paperWidthMm, wide.paperHeightMm]).toEqual([297, 210]);
@@ -63,15 +71,7 @@ describe("placing", () => {
   });
 
   it("keeps the scale of the whole drawing when a layer is hidden, so that layers meet", () => {
-    const drawing = drawingOf(
-      [
-        { d: "M0 0L10 10", group: 0 },
-        { d: "M0 0L100 100", group: 1 },
-      ],
-      {
-        groups: ["a", "b"],
-      },
-    );
+    const drawing = grouped([0, "M0 0L10 10"], [1, "M0 0L100 100"]);
     const settings = { fit: true, paper: { widthMm: 200, heightMm: 200 } };
     expect(draw(drawing, { ...settings, hiddenLayers: ["g1"] })).toEqual([[0, 0, 20, 20]]);
   });
@@ -91,18 +91,17 @@ describe("placing", () => {
 });
 
 describe("shaping", () => {
+  const dashed = (d: string, lengths: number[], offset = 0): Drawing =>
+    drawingOf([{ d, dash: 0 }], { dashes: [{ lengths, offset }] });
+
   it("closes a closed subpath exactly and continues from its start", () => {
-    expect(draw(drawingOf(["M10 10L20 10L20 20ZL0 0"]), { joinMm: 0 })).toEqual([
-      [10, 10, 20, 10, 20, 20, 10, 10],
-      [10, 10, 0, 0],
-    ]);
+    expect(draw(drawingOf(["M10 10L20 10L20 20ZL0 0"]), { joinMm: 0 })).toEqual(
+      rows("10 10 20 10 20 20 10 10 | 10 10 0 0"),
+    );
   });
 
   it("draws a subpath of length 0 as a dot, and a lone move not at all", () => {
-    expect(draw(drawingOf(["M10 10L10 10", "M20 20Z", "M30 30"]))).toEqual([
-      [10, 10],
-      [20, 20],
-    ]);
+    expect(draw(drawingOf(["M10 10L10 10", "M20 20Z", "M30 30"]))).toEqual(rows("10 10 | 20 20"));
   });
 
   it("draws a filled shape without stroke as its closed outline in the colour of its fill", () => {
@@ -112,30 +111,20 @@ describe("shaping", () => {
   });
 
   it("cuts dashes at the pattern's lengths after scaling, across corners, from its offset", () => {
-    const drawing = drawingOf([{ d: "M0 0L10 0L10 10", dash: 0 }], {
-      dashes: [{ lengths: [4, 4], offset: 2 }],
-    });
-    expect(draw(drawing, { joinMm: 0 })).toEqual([
-      [0, 0, 2, 0],
-      [6, 0, 10, 0],
-      [10, 4, 10, 8],
-    ]);
+    expect(draw(dashed("M0 0L10 0L10 10", [4, 4], 2), { joinMm: 0 })).toEqual(
+      rows("0 0 2 0 | 6 0 10 0 | 10 4 10 8"),
+    );
   });
 
   it("draws dashes of no length as dots", () => {
-    const drawing = drawingOf([{ d: "M0 0L10 0", dash: 0 }], { dashes: [{ lengths: [0, 4], offset: 0 }] });
-    expect(draw(drawing)).toEqual([
-      [0, 0],
-      [4, 0],
-      [8, 0],
-    ]);
+    expect(draw(dashed("M0 0L10 0", [0, 4]))).toEqual(rows("0 0 | 4 0 | 8 0"));
   });
 
   it("ends a dashed line without a dot, whatever the rounding", () => {
     const scaled = (d: string, lengths: number[], offset: number, scale: number): number[][] => {
       const path = d.replace(/\d+/g, (number) => String(Number(number) * scale));
-      const dashes = [{ lengths: lengths.map((length) => length * scale), offset: offset * scale }];
-      return draw(drawingOf([{ d: path, dash: 0 }], { dashes }), { joinMm: 0 });
+      const scaledLengths = lengths.map((length) => length * scale);
+      return draw(dashed(path, scaledLengths, offset * scale), { joinMm: 0 });
     };
     const counts = (d: string, lengths: number[], offset = 0): Set<number> =>
       new Set(Array.from({ length: 40 }, (_, k) => scaled(d, lengths, offset, 0.3 + k / 70).length));
@@ -148,10 +137,7 @@ describe("shaping", () => {
   });
 
   it("draws a pattern too fine for any pen as a solid line", () => {
-    const drawing = drawingOf([{ d: "M0 0L100 0", dash: 0 }], {
-      dashes: [{ lengths: [1e-9, 1e-9], offset: 0 }],
-    });
-    expect(draw(drawing)).toEqual([[0, 0, 100, 0]]);
+    expect(draw(dashed("M0 0L100 0", [1e-9, 1e-9]))).toEqual([[0, 0, 100, 0]]);
   });
 });
 
@@ -164,7 +150,7 @@ describe("cutting", () => {
 
   it("says how much of a dashed line is lost, gaps included", () => {
     const dashes = [{ lengths: [10, 5], offset: 0 }];
-    const warningsOf = (drawing: Parameters<typeof prepare>[0]): readonly string[] =>
+    const warningsOf = (drawing: Drawing): readonly string[] =>
       prepare(drawing, { ...TRUE_SIZE, marginMm: 10 }).warnings;
     const [warning, ...others] = warningsOf(
       drawingOf([{ d: "M0 50L500 50", dash: 0 }, "M0 60L500 60"], { dashes }),
@@ -270,10 +256,7 @@ describe("cutting", () => {
         (a, b) => a[0] - b[0],
       );
     expect(through(0)).toEqual([[10, 45, 80, 46]]);
-    expect(through(1)).toEqual([
-      [10, 45, 30, 45.29],
-      [60, 45.71, 80, 46],
-    ]);
+    expect(through(1)).toEqual(rows("10 45 30 45.29 | 60 45.71 80 46"));
   });
 
   it("unites the shapes of a clip region, in either direction", () => {
@@ -291,22 +274,13 @@ describe("cutting", () => {
 });
 
 describe("joining and dropping", () => {
-  const drawJoined = (
-    drawing: Parameters<typeof prepare>[0],
-    settings: Partial<PrepareSettings> = {},
-  ): number[][] => draw(drawing, { order: "fast", ...settings });
+  const drawJoined = (drawing: Drawing, settings: Partial<PrepareSettings> = {}): number[][] =>
+    draw(drawing, { order: "fast", ...settings });
 
   it("joins near ends in either direction, only within a layer", () => {
     const lines = ["M0 0L10 0", "M20 0L10.05 0"];
     expect(drawJoined(drawingOf(lines))).toEqual([[0, 0, 10, 0, 10.05, 0, 20, 0]]);
-    const twoLayers = drawingOf(
-      [
-        { d: lines[0], group: 0 },
-        { d: lines[1], group: 1 },
-      ],
-      { groups: ["a", "b"] },
-    );
-    expect(drawJoined(twoLayers)).toHaveLength(2);
+    expect(drawJoined(grouped([0, lines[0]], [1, lines[1]]))).toHaveLength(2);
     expect(drawJoined(drawingOf(lines), { joinMm: 0.04 })).toHaveLength(2);
     expect(drawJoined(drawingOf(lines), { joinMm: 0 })).toHaveLength(2);
   });
@@ -318,10 +292,7 @@ describe("joining and dropping", () => {
 
   it("continues straight where lines cross", () => {
     const cross = drawingOf(["M0 5L5 5", "M5 0L5 5", "M5 5L10 5", "M5 5L5 10"]);
-    expect(drawJoined(cross)).toEqual([
-      [0, 5, 5, 5, 10, 5],
-      [5, 0, 5, 5, 5, 10],
-    ]);
+    expect(drawJoined(cross)).toEqual(rows("0 5 5 5 10 5 | 5 0 5 5 5 10"));
   });
 
   it("takes the end where the pen turns least, also across a gap", () => {
@@ -338,26 +309,16 @@ describe("joining and dropping", () => {
       { d: "M20 0L30 0", stroke: "#0000ff" },
     ];
     for (const order of ["none", "fast", "best"] as const)
-      expect(draw(drawingOf(shapes), { order })).toEqual([
-        [0, 0, 10, 0],
-        [10, 0, 20, 0, 30, 0],
-      ]);
+      expect(draw(drawingOf(shapes), { order })).toEqual(rows("0 0 10 0 | 10 0 20 0 30 0"));
   });
 
   it("keeps the file's order and directions if lines are not ordered", () => {
     const lines = ["M10 10L50 10", "M10 30L50 30", "M90 10L50 10"];
-    expect(draw(drawingOf(lines))).toEqual([
-      [10, 10, 50, 10],
-      [10, 30, 50, 30],
-      [90, 10, 50, 10],
-    ]);
+    expect(draw(drawingOf(lines))).toEqual(rows("10 10 50 10 | 10 30 50 30 | 90 10 50 10"));
     const sorted = ["M0 0L10 0", "M10.05 0L20 0", "M20 0L20 5", "M5 5L20 5", "M30 0L40 0", "M0 20L40 0"];
-    expect(draw(drawingOf(sorted))).toEqual([
-      [0, 0, 10, 0, 10.05, 0, 20, 0, 20, 5],
-      [5, 5, 20, 5],
-      [30, 0, 40, 0],
-      [0, 20, 40, 0],
-    ]);
+    expect(draw(drawingOf(sorted))).toEqual(
+      rows("0 0 10 0 10.05 0 20 0 20 5 | 5 5 20 5 | 30 0 40 0 | 0 20 40 0"),
+    );
     const closed = ["M0 0L5 0L5 5L0 0", "M0 0L9 9", "M9 9L9 9", "M9 9L3 3"];
     expect(draw(drawingOf(closed))).toHaveLength(4);
   });
@@ -422,24 +383,16 @@ describe("layers", () => {
   });
 
   it("are contiguous in the strokes, in the file's order", () => {
-    const mixed = drawingOf(
-      [
-        { d: "M0 0L1 0", group: 1 },
-        { d: "M0 3L1 3", group: 0 },
-        { d: "M0 6L1 6", group: 1 },
-      ],
-      { groups: ["a", "b"] },
-    );
+    const mixed = grouped([1, "M0 0L1 0"], [0, "M0 3L1 3"], [1, "M0 6L1 6"]);
     expect([...prepare(mixed, { ...TRUE_SIZE, order: "fast" }).strokes.layer]).toEqual([0, 1, 1]);
   });
 });
 
 describe("ordering", () => {
   it("goes to the nearest end, reversing strokes", () => {
-    expect(draw(drawingOf(["M90 0L50 0", "M40 0L10 0"]), { order: "fast" })).toEqual([
-      [10, 0, 40, 0],
-      [50, 0, 90, 0],
-    ]);
+    expect(draw(drawingOf(["M90 0L50 0", "M40 0L10 0"]), { order: "fast" })).toEqual(
+      rows("10 0 40 0 | 50 0 90 0"),
+    );
   });
 
   it("begins a closed stroke at its nearest corner", () => {

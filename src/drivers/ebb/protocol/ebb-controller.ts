@@ -1,8 +1,7 @@
 /** The fields of a machine profile for its EiBotBoard. */
 import { PlotwrightError } from "../../../errors.js";
 import { checkController, checkProfile } from "../../../machines/check-profile.js";
-import type { Controller, ControllerFields } from "../../../machines/controller.js";
-import type { MachineProfile } from "../../../machines/profile.js";
+import type { Controller, ControllerFields, MachineProfile } from "../../../machines/profile.js";
 
 /** EiBotBoard, used by AxiDraw, NextDraw, EggBot and others. */
 export interface EbbController extends Controller {

@@ -1,7 +1,6 @@
 /** The fields of a machine profile for its Grbl. */
 import { PlotwrightError } from "../../../errors.js";
-import type { Controller } from "../../../machines/controller.js";
-import type { MachineProfile } from "../../../machines/profile.js";
+import type { Controller, MachineProfile } from "../../../machines/profile.js";
 import type { SettingsTable, ValuesOf } from "../../../settings/setting.js";
 import type { AxisLimits } from "./planner.js";
 
