@@ -104,7 +104,7 @@ export {
 } from "./prepare/pens.js";
 
 // plan
-export { PlaceTimes } from "./plan/place-on-plan.js";
+export { PlaceTimes } from "./position/on-plan.js";
 export type { TrajectoryStats } from "./plan/stats.js";
 export { landingMm } from "./plan/pen-flight.js";
 export { penOfLayer } from "./plan/pen-times.js";
@@ -113,8 +113,8 @@ export { motionForSprings, motionOfQuality, plannable, qualityOf, withQuality } 
 export { penError, type PenError } from "./plan/pen-error.js";
 export { swingPen, type PenPoint } from "./plan/spring-pen.js";
 export { comeToRest } from "./plan/come-to-rest.js";
-export { movedPlace, pointOfPlace } from "./plan/place-on-drawing.js";
-export { leavesDrawingMm, stoppedPlace } from "./plan/stopped-place.js";
+export { movedPlace, pointOfPlace } from "./position/on-drawing.js";
+export { leavesDrawingMm, reportedPosition } from "./position/reported.js";
 
 // machines
 export type { Springs } from "./machines/profile.js";

@@ -1,6 +1,6 @@
 /** Where an interrupted plot stopped: the journal's place, or what the board still knows about the time after it. */
 import type { Place, StrokeSet } from "../../src/index.js";
-import { landingMm, leavesDrawingMm, machineOf, stoppedPlace, type Machine } from "../../src/internal.js";
+import { landingMm, leavesDrawingMm, machineOf, reportedPosition, type Machine } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { JournalEntry } from "./plotter-port.js";
 
@@ -35,5 +35,5 @@ export function placeLeft(
     stops: penStops,
     landingMm: landingMm(pen, travel.accelMmPerS2),
   };
-  return stoppedPlace(strokes, received, { ...at, up: foundMidPlot.penUp }, since) ?? from;
+  return reportedPosition(strokes, received, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

@@ -69,7 +69,7 @@ export class PlotRecord {
    * stored. Throws `bad-file` if the drawing can't be read, `bad-setting` if the data folder can't be written to.
    */
   begin(path: string, plot: StoredPlot): void {
-    this.#isOurs = this.#device !== "virtual" || !this.#isPlottingElsewhere();
+    this.#isOurs = this.#device !== "virtual" || this.#ownerElsewhere() === null;
     if (!this.#isOurs) return;
     const drawing = readDrawing(path);
     makeDataFolder(this.#dataDir, ...this.#names);
@@ -99,25 +99,28 @@ export class PlotRecord {
     const plot = plotSchema.safeParse(this.#read("plot.json"));
     const entry = entrySchema.safeParse(this.#read("journal.json"));
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
-    if (this.#isPlottingElsewhere()) return null;
+    if (this.#ownerElsewhere() !== null) return null;
     const { name, settings, only } = plot.data;
     const { place, received, board, progress } = entry.data;
     return { name, settings, only, from: place, received, board, progress };
   }
 
-  /** Throws `not-found`. */
+  /** Throws `not-found`, or `conflict` if the plot still runs in another process. */
   mustFind(): InterruptedPlot {
     const found = this.find();
     if (found !== null) return found;
+    const pid = this.#ownerElsewhere();
+    if (pid !== null) throw stillRuns(pid, this.#device);
     throw new PlotwrightError(
       "not-found",
       "No plot was interrupted on this device: there is nothing to resume.",
     );
   }
 
-  #isPlottingElsewhere(): boolean {
+  /** The other process that is plotting; null if none is. */
+  #ownerElsewhere(): number | null {
     const { success, data } = ownerSchema.safeParse(this.#read("plot.json"));
-    return success && data.pid !== process.pid && isAlive(data);
+    return success && data.pid !== process.pid && isAlive(data) ? data.pid : null;
   }
 
   #read(name: string): unknown {
@@ -147,6 +150,14 @@ export class PlotRecord {
     renameSync(`${path}.new`, path);
   }
 }
+
+const stillRuns = (pid: number, device: string): PlotwrightError =>
+  new PlotwrightError(
+    "conflict",
+    `The plot${device === "auto" ? "" : ` on ${device}`} still runs in process ${pid}, so there is nothing to resume yet. ` +
+      `Wait until it ends, or press Ctrl-C in its terminal. If that terminal is gone, end the process (kill ${pid}): ` +
+      "the pen lifts, and plotwright plot --resume continues the plot.",
+  );
 
 function readDrawing(path: string): Buffer {
   try {

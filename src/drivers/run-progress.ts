@@ -1,5 +1,5 @@
 /** Progress of a plot: translates the position in the current stream into a position in the whole plot. */
-import { PlaceTimes, nextPlace } from "../plan/place-on-plan.js";
+import { PlaceTimes, nextPlace } from "../position/on-plan.js";
 import {
   newMotionState,
   stateAt,

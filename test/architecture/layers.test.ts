@@ -37,10 +37,22 @@ const MAY_IMPORT: Readonly<Record<string, readonly string[]>> = {
   machines: ["settings", ...BASE],
   prepare: ["drawing", "geometry", "machines", "settings", ...BASE],
   plan: ["prepare", "drawing", "geometry", "machines", "settings", ...BASE],
-  drivers: ["plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
-  job: ["import", "drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  position: ["plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  drivers: ["position", "plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  job: [
+    "import",
+    "drivers",
+    "position",
+    "plan",
+    "prepare",
+    "drawing",
+    "geometry",
+    "machines",
+    "settings",
+    ...BASE,
+  ],
   export: ["plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
-  schema: ["drivers", "plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
+  schema: ["drivers", "position", "plan", "prepare", "drawing", "geometry", "machines", "settings", ...BASE],
 };
 
 /** The folders of server, lowest first: each imports only those before it. The entry files may import all. */

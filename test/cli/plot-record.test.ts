@@ -39,6 +39,26 @@ describe("a stored plot", () => {
     expect(record.find()).toBeNull();
   });
 
+  it("is said to run still if it is to be resumed while another process plots it", () => {
+    beginAs({ pid: process.ppid, began: "" });
+    const elsewhere = (one: PlotRecord): unknown => {
+      try {
+        return one.mustFind();
+      } catch (error) {
+        return error;
+      }
+    };
+    const words = `The plot on ${PORT} still runs in process ${process.ppid}, so there is nothing to resume yet.`;
+    expect(elsewhere(record)).toMatchObject({
+      code: "conflict",
+      message: expect.stringContaining(words) as string,
+    });
+    rmSync(stored("journal.json"));
+    expect(elsewhere(record)).toMatchObject({ code: "conflict" });
+    record.end();
+    expect(elsewhere(record)).toMatchObject({ code: "not-found" });
+  });
+
   it("is not interrupted while a process of another user plots it", () => {
     vi.spyOn(process, "kill").mockImplementation(() => {
       throw Object.assign(new Error("kill EPERM"), { code: "EPERM" });

@@ -7,7 +7,7 @@ import type { Place } from "../../src/index.js";
 import { SpringAxis } from "../../src/plan/spring-pen.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { comeToRest } from "../../src/plan/come-to-rest.js";
-import { swungPlace } from "../../src/plan/swung-place.js";
+import { overshotPosition } from "../../src/position/overshoot.js";
 import { DEFAULT_PEN, plan, stateAt } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { cases } from "../support/full-run.js";
@@ -123,11 +123,11 @@ describe("an emergency stop in shaped motion", () => {
         const ticks = ranTicks(board) - (hasClear ? 1 + idleTicksTimed : 0);
         const planS = planSAfter(plot.commands, ticks);
         const { stroke, alongMm, x, y } = stateAt(plot.trajectory, planS);
-        const stop = { tS: planS, place: { stroke, alongMm }, x, y };
+        const stop = { planS, place: { stroke, alongMm }, x, y };
         const truthMm =
           stroke < 0
             ? drawnUntilMm(DRAWING, plot, planS)
-            : mmOf(DRAWING, swungPlace(DRAWING, plot.trajectory, stop, springs));
+            : mmOf(DRAWING, overshotPosition(DRAWING, plot.trajectory, stop, springs));
         expect(Math.abs(mmOf(DRAWING, run.holdPlace!) - truthMm)).toBeLessThan(UNSEEN_MM);
         await world.run(Promise.all([run.cancel(), run.finished]));
       }

@@ -11,8 +11,8 @@ import { commandLine, VirtualBoard, type Place, type StrokeSet, type Transport }
 import { machineOf, type Machine, type MachineRun } from "../../src/internal.js";
 import { placeFromMotors } from "../../src/machines/motors.js";
 import { isPenUpBefore } from "../../src/plan/pen-moves.js";
-import { strokeLengthMm } from "../../src/plan/place-on-drawing.js";
-import { nextPlace } from "../../src/plan/place-on-plan.js";
+import { strokeLengthMm } from "../../src/position/on-drawing.js";
+import { nextPlace } from "../../src/position/on-plan.js";
 import { stateAt } from "../../src/plan/trajectory.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { ManualClock } from "./manual-clock.js";

@@ -4,7 +4,7 @@
  */
 import { streamOf } from "../../src/drivers/ebb/compile/command-stream.js";
 import type { MachineCommands } from "../../src/drivers/machine-job.js";
-import { strokeLengthMm } from "../../src/plan/place-on-drawing.js";
+import { strokeLengthMm } from "../../src/position/on-drawing.js";
 import type { PlannedPlot, PlanRequest } from "../../host/planning/planning.js";
 import { commandLine, stateAt, type Place, type StrokeSet, type VirtualBoard } from "../../src/index.js";
 import { TICKS_PER_S } from "../../src/units.js";

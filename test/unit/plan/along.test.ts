@@ -5,7 +5,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt } from "../../../src/index.js";
 import { MOTION_MODES } from "../../../src/internal.js";
-import { pointOfPlace } from "../../../src/plan/place-on-drawing.js";
+import { pointOfPlace } from "../../../src/position/on-drawing.js";
 import { strokesOf } from "../../support/local-planner.js";
 import { RETRACED } from "../../support/stop-truth.js";
 

@@ -12,29 +12,34 @@ import { machineOf } from "../../../machines/profiles.js";
 import { comeToRest } from "../../../plan/come-to-rest.js";
 import { isPenUpBefore, penMoveBefore, penMoveColumns } from "../../../plan/pen-moves.js";
 import { reseatWaitS } from "../../../plan/pen-times.js";
-import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
-import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
-import { swungPlace } from "../../../plan/swung-place.js";
-import { drawnAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
+import type { Place, Trajectory } from "../../../plan/trajectory.js";
+import { strokeLengthMm } from "../../../position/on-drawing.js";
+import { passOf } from "../../../position/on-plan.js";
+import { drawnPosition, estimatedPosition, stoppedPosition } from "../../../position/pen-position.js";
 import type { MachineRun, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
-import { RunProgress, type PlotProgress } from "../../run-progress.js";
-import { streamOf, type BoardState } from "../compile/command-stream.js";
+import { RunProgress, type Part, type PlotProgress } from "../../run-progress.js";
+import { streamOf, type BoardState, type CommandStream } from "../compile/command-stream.js";
 import { compile } from "../compile/compile.js";
 import { penCommand } from "../protocol/commands.js";
 import { boardStateBefore, commandAfter, restingStream, withoutDrop } from "../stream/cut-streams.js";
+import type { PollTime } from "../stream/stream-types.js";
 import type { Streamer } from "../stream/streamer.js";
-import type { StreamPlace } from "../stream/timeline.js";
+import type { StreamSpan } from "../stream/timeline.js";
 import { brakingAt } from "./braking.js";
-import type { CertainAt } from "./certain-place.js";
 import type { Carriage } from "./carriage.js";
-import type { EbbPart } from "./ebb-part.js";
-import { placeAfterRefusal } from "./refused-place.js";
 
-/** Tolerance between mm along the plan and mm along the drawing. */
-const SNAP_MM = 0.5;
+/** Max distance of a carriage that follows the plan: rounding to steps, mm. */
+const ON_PLAN_MM = 0.05;
 /** A place nearer than this to the end of a stroke counts as its end. */
 const EDGE_MM = 0.05;
+
+/** A part of a run, in the form that the board receives. */
+interface EbbPart extends Part {
+  readonly commands: CommandStream;
+  /** The board's state before its first command. */
+  readonly start: BoardState;
+}
 
 /** A command and the time it takes in the board's queue, s. */
 type TimedLine = readonly [line: string, durationS: number];
@@ -95,7 +100,7 @@ export class EbbRun implements MachineRun {
     if (!at || !this.progress.knows(at.stream)) return undefined;
     const { trajectory, next } = this.progress.partOf(at.stream);
     const isFirstTravel = at.stream === this.firstPart?.commands && at.planS <= firstStrokeS(trajectory);
-    return isFirstTravel ? undefined : (placeAt(trajectory, at.planS) ?? next ?? undefined);
+    return isFirstTravel ? undefined : (estimatedPosition(trajectory, at.planS) ?? next ?? undefined);
   }
 
   /** Plays a plan to its end, or to a hold, with the pen up at first; `afterS`: time of the plot after this plan. */
@@ -109,8 +114,8 @@ export class EbbRun implements MachineRun {
     const commands = streamOf(plot.commands);
     this.firstPart = { trajectory: whole, commands, start: carriage.position.state!, afterS };
     this.progress.add(this.firstPart);
-    this.certain = placeAt(whole, commands.planS[0]);
-    const streamer = carriage.upkeep.streamer(this.settings, (at) => this.reached(at));
+    this.certain = estimatedPosition(whole, commands.planS[0]);
+    const streamer = carriage.upkeep.streamer(this.settings, (steps, asked) => this.reached(steps, asked));
     // First, because a reply that comes at once may call `fail`.
     this.streamer = streamer;
     const played = carriage.play(streamer, plot, this.settings);
@@ -232,7 +237,7 @@ export class EbbRun implements MachineRun {
   private restAt(part: EbbPart, index: number, lifts: boolean): Rest {
     const { commands, trajectory } = part;
     const fromS = commands.planS[index];
-    const { limits, pen } = this.brakingAt(placeAt(trajectory, fromS));
+    const { limits, pen } = this.brakingAt(estimatedPosition(trajectory, fromS));
     const rest = comeToRest(trajectory, fromS, limits, lifts ? pen : null);
     const { trajectory: restTrajectory, planS } = rest;
     const leftS = Math.max(0, trajectory.totalS - planS) + part.afterS;
@@ -244,26 +249,14 @@ export class EbbRun implements MachineRun {
       start,
     });
     const state = boardStateBefore(restCommands, restCommands.count, start);
-    const next = this.placeIn(part, planS, restTrajectory.endX, restTrajectory.endY);
+    const end = { x: restTrajectory.endX, y: restTrajectory.endY };
+    const next = drawnPosition(this.strokes, trajectory, planS, end) ?? part.next ?? null;
     const path = lifts ? restTrajectory : withPenOf(trajectory, fromS, restTrajectory);
     return {
       part: { commands: restCommands, trajectory: path, start, afterS: leftS, next },
       place: next,
       state,
     };
-  }
-
-  /**
-   * The first place still to be drawn at a time of a part. Within a stroke it is the place nearest to the pen. In a
-   * shaped motion the pen's position differs from the carriage's, `x`, `y`.
-   */
-  private placeIn({ trajectory, next }: EbbPart, planS: number, x: number, y: number): Place | null {
-    const { stroke, alongMm, ...drawn } = drawnAt(trajectory, planS);
-    if (stroke < 0) return nextPlace(trajectory, planS) ?? next ?? null;
-    const pen = trajectory.planned ? drawn : { ...drawn, x, y };
-    return alongMm === 0
-      ? { stroke, alongMm }
-      : snappedPlace(this.strokes, { stroke, alongMm }, pen, SNAP_MM);
   }
 
   /** Moves a pen that is down to another down height. */
@@ -276,54 +269,37 @@ export class EbbRun implements MachineRun {
     return [[penCommand(machineOf(this.settings), move), waitS]];
   }
 
-  /** A position that the board reported during the play. */
-  private reached({ place, steps1, steps2 }: CertainAt): void {
-    if (!this.progress.knows(place.stream)) return;
-    const { x, y } = placeFromMotors(machineOf(this.settings), steps1, steps2);
-    this.certain = this.placeOrEnd(place, x, y);
+  /** Step counters that the board reported during the play. */
+  private reached([steps1, steps2]: readonly [number, number], asked: PollTime): void {
+    const at = placeFromMotors(machineOf(this.settings), steps1, steps2);
+    const pass = this.streamer && passOf(this.partsOf(this.streamer.spansAt(asked)), at);
+    if (!pass || pass.awayMm > ON_PLAN_MM) return;
+    const { part } = pass.span;
+    this.certain = drawnPosition(this.strokes, part.trajectory, pass.planS, at) ?? this.afterPart(part);
   }
 
-  /** The board's queue is cleared: the counters show how far it drew. */
+  /** Parts of streams, with their plans. */
+  private partsOf(spans: readonly StreamSpan[]): (StreamSpan & { part: EbbPart; trajectory: Trajectory })[] {
+    const known = spans.filter(({ stream }) => this.progress.knows(stream));
+    return known.map((span) => {
+      const part = this.progress.partOf(span.stream);
+      return { ...span, part, trajectory: part.trajectory };
+    });
+  }
+
+  /** The user stopped the board at once. */
   private async afterEmergency(streamer: Streamer): Promise<Place | null> {
-    const { carriage } = this;
-    await carriage.position.readBack();
-    const { steps1, steps2 } = carriage.position.state!;
-    const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2) ?? streamer.place();
-    const { x, y } = carriage.position.mm(machineOf(this.settings))!;
-    // The board counts on if the supply fails just before or after the stop.
-    const place = (await carriage.upkeep.supply.wasLow()) ? this.certain : this.afterSwing(at, x, y);
+    const place = await this.positionAfterStop(streamer);
     this.stopped = { place };
-    carriage.pen.isUp = null;
     return place;
   }
 
-  /** The place of a sudden stop of the motors at (x, y). A pen that swings draws on past the stop. */
-  private afterSwing(at: StreamPlace, x: number, y: number): Place | null {
-    const place = this.placeOrEnd(at, x, y);
-    const { springs } = machineOf(this.settings);
-    if (!springs || !place) return place;
-    const { trajectory } = this.progress.partOf(at.stream);
-    return swungPlace(this.strokes, trajectory, { tS: at.planS, place, x, y }, springs);
-  }
-
-  /** The board refused commands. The counters still show how far it drew. */
+  /** The board refused commands, and was stopped at once. */
   private async afterRefusal(streamer: Streamer): Promise<Place | null> {
-    const { carriage, strokes, settings } = this;
+    const { carriage } = this;
     try {
-      await carriage.position.readBack();
-      const { steps1, steps2 } = carriage.position.state!;
-      const at = streamer.placeOfStop(carriage.connection.features, steps1, steps2);
-      const place = placeAfterRefusal(
-        strokes,
-        machineOf(settings),
-        { refused: streamer.refused, at, steps1, steps2 },
-        {
-          partOf: (stream) => this.progress.partOf(stream),
-          placeOf: (found, x, y) => this.placeOrEnd(found, x, y),
-        },
-      );
-      carriage.pen.isUp = null;
-      await carriage.pen.move(true, settings);
+      const place = await this.positionAfterStop(streamer);
+      await carriage.pen.move(true, this.settings);
       return place;
     } catch {
       // The position cannot be read back, so home has to be set again.
@@ -332,10 +308,22 @@ export class EbbRun implements MachineRun {
     }
   }
 
-  /** The first place still to be drawn at a place of a stream, with the carriage at `x`, `y`. */
-  private placeOrEnd({ stream, planS }: StreamPlace, x: number, y: number): Place | null {
-    const part = this.progress.partOf(stream);
-    return this.placeIn(part, planS, x, y) ?? this.endOf(part.trajectory);
+  /** The board's queue is cleared: the counters show how far it drew. */
+  private async positionAfterStop(streamer: Streamer): Promise<Place | null> {
+    const { carriage, strokes } = this;
+    await carriage.position.readBack();
+    carriage.pen.isUp = null;
+    // The board counts on if the supply fails just before or after the stop.
+    if (await carriage.upkeep.supply.wasLow()) return this.certain;
+    const machine = machineOf(this.settings);
+    const spans = this.partsOf(streamer.spansAtStop(carriage.connection.features));
+    const stop = stoppedPosition(strokes, spans, carriage.position.mm(machine)!, machine.springs ?? null);
+    return stop ? (stop.place ?? this.afterPart(stop.pass.span.part)) : this.certain;
+  }
+
+  /** The first place still to be drawn when a part is drawn; at the end of the plot, the end of the last stroke. */
+  private afterPart({ next, trajectory }: EbbPart): Place | null {
+    return next ?? this.endOf(trajectory);
   }
 
   /** The end of the last stroke: for a stop when everything is drawn and only the travel home is left. */

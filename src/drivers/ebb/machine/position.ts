@@ -14,7 +14,7 @@ import { setUpCommands } from "../protocol/commands.js";
 import { ebbOf } from "../protocol/ebb-controller.js";
 import { parseSteps } from "../protocol/replies.js";
 import type { Connection } from "./connection.js";
-import { PlaceMark } from "./place-mark.js";
+import { PositionMarker } from "./position-marker.js";
 
 /** How long a newly connected board may keep moving. */
 const REST_S = 2;
@@ -27,7 +27,7 @@ export class EbbPosition {
   motorsOn: boolean | null = null;
   /** The pen of a board that was left in the middle of a plot, as found when connecting; null after the first move. */
   foundMidPlot: { readonly penUp: boolean } | null = null;
-  readonly mark: PlaceMark;
+  readonly mark: PositionMarker;
   /** The motors' microsteps while their position is known. */
   private microstepMode = 0;
 
@@ -35,7 +35,7 @@ export class EbbPosition {
     private readonly connection: Connection,
     private readonly changed: () => void,
   ) {
-    this.mark = new PlaceMark(connection.session, connection.features);
+    this.mark = new PositionMarker(connection.session, connection.features);
   }
 
   /** mm from home; null if unknown. */

@@ -1,6 +1,7 @@
 /** The queries polled during a stream. Reads the motors' supply and the button from the board's replies. */
 import type { SupplyState } from "../../driver.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
+import { parseSteps } from "../protocol/replies.js";
 import type { BoardSession } from "../stream/session.js";
 
 /**
@@ -95,6 +96,34 @@ export class SupplyPolls {
     const isSure = this.strayCount === session.strayCount;
     this.strayCount = null;
     return isSure ? "failed" : "doubtful";
+  }
+}
+
+/**
+ * The step counters that the motors certainly reached with power. The counters alone do not prove that: a board keeps
+ * counting when the motors' supply fails, and counts from 0 after a restart.
+ *
+ *   one poll:  QS ─── the counters ───> QC ─── the supply is good ───> QL ─── the mark is still set
+ *
+ * The board answers in order, so what QC and QL report was already true at QS.
+ */
+export class CounterPolls {
+  private steps: readonly [number, number] | null = null;
+
+  constructor(
+    private readonly origin: readonly [number, number],
+    /** The poll's last line. */
+    private readonly lastLine: string,
+  ) {}
+
+  /** Call with each reply of a poll, in order. Returns the counters on the last reply if all three were good. */
+  answered(line: string, reply: string): readonly [number, number] | null {
+    if (line === "QS") this.steps = parseSteps(reply, this.origin);
+    else if (isPowerLow(line, reply)) this.steps = null;
+    if (line !== this.lastLine) return null;
+    const { steps } = this;
+    this.steps = null;
+    return steps;
   }
 }
 

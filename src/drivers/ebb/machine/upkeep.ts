@@ -11,12 +11,13 @@ import type { MachineSettings } from "../../machine-job.js";
 import { MAX_TICKS } from "../compile/leg.js";
 import { penCommand, penMoveOf } from "../protocol/commands.js";
 import { queueDepthOf } from "../protocol/firmware.js";
+import type { PollTime } from "../stream/stream-types.js";
 import { maxAheadS, Streamer } from "../stream/streamer.js";
 import { AdvanceWatch } from "./advance-watch.js";
-import { CertainPlace, type CertainAt } from "./certain-place.js";
 import type { Connection } from "./connection.js";
 import type { EbbPosition } from "./position.js";
 import {
+  CounterPolls,
   isButtonPressed,
   isPowerLow,
   MotorSupply,
@@ -74,14 +75,17 @@ export class EbbUpkeep {
     session.log.add("note", `emergency stop: takes up to ${takesMs} ms on firmware ${features.version}`);
   }
 
-  /** `certain` is called with each place that the board certainly reached with its motors powered. */
-  streamer(settings: MachineSettings, certain: (at: CertainAt) => void = () => undefined): Streamer {
+  /** `certain` is called with step counters that the motors certainly reached with power, and when they were asked for. */
+  streamer(
+    settings: MachineSettings,
+    certain: (steps: readonly [number, number], asked: PollTime) => void = () => undefined,
+  ): Streamer {
     const { session, features, boardClock, speed, waitSpeed } = this.connection;
     const { mark, origin } = this.position;
     const watch = new AdvanceWatch(boardClock, waitSpeed);
     const lines = pollLines(features, mark.query);
     const lastLine = lines[lines.length - 1];
-    const places = new CertainPlace(features, origin, lastLine);
+    const counters = new CounterPolls(origin, lastLine);
     const supply = new SupplyPolls(session, features, lastLine);
     const streamer = new Streamer(session, {
       clock: boardClock,
@@ -96,8 +100,8 @@ export class EbbUpkeep {
         const failure = supply.answered(line, reply);
         if (line === mark.query && Number(reply) === 0) void this.checkRestart(streamer);
         else {
-          const at = places.answered(line, reply, asked, streamer);
-          if (at && !failure) certain(at);
+          const steps = counters.answered(line, reply);
+          if (steps && !failure) certain(steps, asked);
         }
         if (failure === "failed") this.events.supplyRead(failure);
         if (isButtonPressed(line, reply)) this.events.buttonPressed();

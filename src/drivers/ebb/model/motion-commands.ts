@@ -16,21 +16,6 @@ export class MotionCommands {
     private readonly isTestMode: () => boolean,
   ) {}
 
-  /** The orders of a command as plotwright writes it; none if the command moves no motor. */
-  planned(name: string, p: Parameters): readonly Order[] {
-    switch (name) {
-      case "SM":
-        return this.slow(p, false);
-      case "LM":
-        return this.stepped(p, false);
-      case "LT":
-      case "T3":
-        return this.timed(p, name === "T3");
-      default:
-        return [];
-    }
-  }
-
   slow(p: Parameters, mixed: boolean): readonly Order[] {
     const ms = p.uint(2 ** 24 - 1);
     const a = p.int();

@@ -88,12 +88,3 @@ export function waitingCount(line: string, reply: string): number | null {
   if (line === "QM") return reply.split(",").length === 4 ? Number(reply.split(",")[3]) : null;
   return null;
 }
-
-/**
- * Remaining steps of each motor in the move that `ES` stopped; null on firmware 3, which
- * does not report them.
- */
-export function stepsLeft(reply: string): readonly [number, number] | null {
-  const [, , , left1, left2] = reply.split(",").map(Number);
-  return left1 === undefined || left2 === undefined ? null : [left1, left2];
-}

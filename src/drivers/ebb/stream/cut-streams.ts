@@ -6,7 +6,7 @@ import { firstWhere } from "../../../geometry/binary-search.js";
 import { TICKS_PER_S } from "../../../units.js";
 
 /** The board's state after command `i`. */
-export const boardStateAfter = ({ steps1, steps2, acc1, acc2 }: CommandStream, i: number): BoardState => ({
+const boardStateAfter = ({ steps1, steps2, acc1, acc2 }: CommandStream, i: number): BoardState => ({
   steps1: steps1[i],
   steps2: steps2[i],
   acc1: acc1[i],

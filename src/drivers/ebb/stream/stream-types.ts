@@ -1,5 +1,5 @@
 /** Inputs and results of a `Streamer`. */
-import type { InFlight, StreamPlace } from "./timeline.js";
+import type { StreamPlace } from "./timeline.js";
 import type { Clock } from "../../transport.js";
 
 /** How commands are sent. Only the clock is required. */
@@ -37,12 +37,6 @@ export interface PollTime {
   readonly clockS: number;
   readonly boardS: number;
   readonly place: StreamPlace;
-}
-
-export interface RefusedCommand {
-  readonly at: StreamPlace;
-  /** Null for a command that takes no time. */
-  readonly command: InFlight | null;
 }
 
 /** How a stream ended. */

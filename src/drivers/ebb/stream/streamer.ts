@@ -17,15 +17,21 @@
 import { commandLine } from "../compile/compile.js";
 import type { CommandStream } from "../compile/command-stream.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import { parseSteps, stepsLeft, waitingCount } from "../protocol/replies.js";
+import { parseSteps, waitingCount } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { stuck } from "../../faults.js";
 import { delay } from "../../transport.js";
 import { endOfLanding } from "./cut-streams.js";
 import type { BoardSession, Outgoing } from "./session.js";
-import { placeOfCounters, placeOfStop, type NumberedPlace, type StopNotes } from "./stop-place.js";
-import type { PollTime, RefusedCommand, StreamOptions, StreamReport } from "./stream-types.js";
-import { BoardTimeline, placeIn, type InFlight, type StreamPlace } from "./timeline.js";
+import type { PollTime, StreamOptions, StreamReport } from "./stream-types.js";
+import {
+  BoardTimeline,
+  placeIn,
+  type RefusedCommand,
+  type StopNotes,
+  type StreamPlace,
+  type StreamSpan,
+} from "./timeline.js";
 
 /** Min time between wake-ups. */
 const MIN_WAKE_S = 0.004;
@@ -170,10 +176,10 @@ export class Streamer {
 
   /**
    * Makes the board stop at once and clear its queue (ES), which it must not draw later; `play` rejects with `error`.
-   * Afterwards `placeOfStop` finds the position of the stop from the step counters.
+   * Afterwards `spansAtStop` tells where that was.
    */
   stopAtOnce(error: PlotwrightError): void {
-    const stop: StopNotes = { boardS: 0, waitingCount: null, stepsLeft: null };
+    const stop: StopNotes = { boardS: 0, waitingCount: null };
     this.stop ??= stop;
     this.writeStop(stop);
     this.abandon(error);
@@ -196,30 +202,26 @@ export class Streamer {
       {
         line: "ES",
         waitS,
-        onReply: (error, reply) => {
-          if (!error) stop.stepsLeft = stepsLeft(reply);
-          else if (!this.session.failure && tries > 1) this.writeStop(stop, tries - 1);
+        onReply: (error) => {
+          if (error && !this.session.failure && tries > 1) this.writeStop(stop, tries - 1);
         },
       },
       ...(liftLine === undefined ? [] : [{ line: liftLine, waitS }]),
     ]);
   }
 
-  /** Where the board was at the emergency stop; null if no command had run. */
-  placeOfStop(features: FirmwareFeatures, steps1: number, steps2: number): NumberedPlace | null {
+  /** Where the board may have been at the emergency stop; if it had refused commands, no further than the first one. */
+  spansAtStop({ stopEndsTimed }: FirmwareFeatures): readonly StreamSpan[] {
     if (!this.stop) throw new TypeError("nothing was stopped");
-    const refused = this.refused.flatMap(({ command }) => command ?? []);
-    return placeOfStop({ ...this.stop, commands: this.timeline.recent(), refused }, features, steps1, steps2);
+    const spans = this.timeline.spansAtStop(this.stop, stopEndsTimed, this.refused);
+    if (spans.length > 0) return spans;
+    const { stream, planS } = this.refused[0]?.at ?? this.endOfWritten();
+    return [{ stream, fromS: planS, toS: planS, estimateS: planS }];
   }
 
-  /** Where the board was when it answered a poll with these step counters; null if no command passes them. */
-  placeOfCounters(
-    features: FirmwareFeatures,
-    steps1: number,
-    steps2: number,
-    asked: PollTime,
-  ): StreamPlace | null {
-    return placeOfCounters(this.timeline.recent(), features, steps1, steps2, asked.boardS);
+  /** Where the board may have been when it answered a poll. */
+  spansAt({ boardS }: PollTime): readonly StreamSpan[] {
+    return this.timeline.spansNear(boardS);
   }
 
   /** Begins the first of these streams; the others follow it. */
@@ -300,11 +302,12 @@ export class Streamer {
     const takesTime = endS !== startS;
     const place = { stream, commandIndex: index, planS: stream.planS[index] };
     const waitS = this.timeline.longestS();
+    const number = this.timeline.writtenCount;
     const dryS = takesTime ? this.timeline.written(stream, index, startS, endS) : 0;
     if (dryS > DRY_S && this.isSameRun(stream, index)) this.underrunCount++;
     this.unanswered++;
     this.lastWritten = place;
-    const onReply: Outgoing["onReply"] = (error) => this.answered(error, place, takesTime);
+    const onReply: Outgoing["onReply"] = (error) => this.answered(error, { at: place, number, takesTime });
     return { line: commandLine(stream, index), waitS, onReply };
   }
 
@@ -317,21 +320,17 @@ export class Streamer {
     return last.stream.run[last.commandIndex] >= 0 && index === 0;
   }
 
-  private answered(error: PlotwrightError | null, at: StreamPlace, takesTime: boolean): void {
+  private answered(error: PlotwrightError | null, command: RefusedCommand): void {
     this.unanswered--;
-    if (error) {
-      if (this.session.failure) this.abandon(error);
-      else this.refusedAt(at, error);
-      return;
-    }
-    if (takesTime) this.timeline.acknowledged();
+    if (error && this.session.failure) return this.abandon(error);
+    if (error) return this.refuse(command, error);
+    if (command.takesTime) this.timeline.acknowledged();
     this.pump();
   }
 
   /** Stops the plot: everything after a refused command would be drawn in the wrong place. */
-  private refusedAt(at: StreamPlace, error: PlotwrightError): void {
-    const isIt = ({ stream, index }: InFlight): boolean => stream === at.stream && index === at.commandIndex;
-    this.refused.push({ at, command: this.timeline.recent().find(isIt) ?? null });
+  private refuse(command: RefusedCommand, error: PlotwrightError): void {
+    this.refused.push(command);
     // More may be refused before the board reads the stop.
     if (!this.failure) this.stopAtOnce(error);
   }

@@ -30,6 +30,31 @@ export interface InFlight {
   readonly index: number;
 }
 
+/** A part of a stream in which the board was, and an estimate of where; seconds of its plan. */
+export interface StreamSpan {
+  readonly stream: CommandStream;
+  readonly fromS: number;
+  readonly toS: number;
+  /** It may be before or after the span. */
+  readonly estimateS: number;
+}
+
+/** A command that the board refused. */
+export interface RefusedCommand {
+  readonly at: StreamPlace;
+  /** The number of the command, or, if it takes no time, of the next one that does. */
+  readonly number: number;
+  readonly takesTime: boolean;
+}
+
+/** Data recorded at an emergency stop (ES). */
+export interface StopNotes {
+  /** Estimated board time when the stop was sent. */
+  boardS: number;
+  /** How many commands waited behind the running one just before the stop; null: not reported. */
+  waitingCount: number | null;
+}
+
 /** The position in its stream of a command at a board time. */
 export function placeIn({ stream, index, startS, endS }: InFlight, boardS: number): StreamPlace {
   const share = Math.min(1, Math.max(0, (boardS - startS) / (endS - startS)));
@@ -44,17 +69,21 @@ const WAITED_S = 0.02;
 /** How far the estimate of the board's time may be ahead of its acknowledgements. Board seconds. */
 const ACK_SLACK_S = 0.05;
 
+/** How far the board may be from the estimate of its time. Board seconds. */
+const NEAR_S = 1;
+
 /** Number of finished commands to keep: more than fit in a board's queue. */
 const FINISHED_COUNT = 64;
 
 export class BoardTimeline {
   /** Board time at which the last written command ends. */
   endS = 0;
+  /** Number of commands written so far: the number of the next one. */
+  writtenCount = 0;
   private readonly pace = new BoardPace();
   private flight: InFlight[] = [];
   /** The commands before those in `flight`. */
   private readonly finished: InFlight[] = [];
-  private writtenCount = 0;
   private ackedCount = 0;
   /** The number of the command that polls report as executing, and since when. */
   private executing = -1;
@@ -155,8 +184,43 @@ export class BoardTimeline {
     if (finished.length > 2 * FINISHED_COUNT) finished.splice(0, finished.length - FINISHED_COUNT);
   }
 
+  /**
+   * Where an emergency stop (ES) may have stopped the board. All written commands are answered by then.
+   *
+   *   [ended] [running] [or this] [waiting] [waiting]      the query just before ES reported 2 waiting commands
+   *
+   * The command before the waiting ones was running at the query. It may have ended before ES; then it was the next one.
+   * Firmware 2.7 and 2.8 does not stop, but plays all received commands.
+   *
+   * Empty if the board certainly was beyond the first refused command. What it drew from there on is offset from the plan.
+   */
+  spansAtStop(
+    { boardS, waitingCount }: StopNotes,
+    stopEndsTimed: boolean,
+    refused: readonly RefusedCommand[],
+  ): StreamSpan[] {
+    const isRefused = (number: number): boolean =>
+      refused.some((one) => one.takesTime && one.number === number);
+    const ran = this.recent().filter(({ number }) => !isRefused(number));
+    let running = ran;
+    if (!stopEndsTimed) running = ran.slice(-1);
+    else if (waitingCount !== null) {
+      const first = Math.max(0, ran.length - 1 - waitingCount);
+      running = ran.slice(first, first + 2);
+    }
+    const onPlan = refused.length > 0 ? running.filter(({ number }) => number < refused[0].number) : running;
+    return spansOf(onPlan, stopEndsTimed ? boardS : this.endS);
+  }
+
+  /** Where the board may have been at about a board time. */
+  spansNear(boardS: number): StreamSpan[] {
+    const isNear = ({ startS, endS }: InFlight): boolean =>
+      endS >= boardS - NEAR_S && startS <= boardS + NEAR_S;
+    return spansOf(this.recent().filter(isNear), boardS);
+  }
+
   /** The last commands written: some finished ones, and those in flight. */
-  recent(): readonly InFlight[] {
+  private recent(): readonly InFlight[] {
     return [...this.finished, ...this.flight];
   }
 
@@ -167,4 +231,19 @@ export class BoardTimeline {
       ? this.finished[this.finished.length - (firstNumber - number)]
       : this.flight[number - firstNumber];
   }
+}
+
+/** Successive commands as parts of their streams. */
+function spansOf(commands: readonly InFlight[], boardS: number): StreamSpan[] {
+  const spans: StreamSpan[] = [];
+  for (let first = 0, end = 0; first < commands.length; first = end) {
+    const { stream, index, startS } = commands[first];
+    while (end < commands.length && commands[end].stream === stream) end++;
+    const last = commands[end - 1];
+    const running = commands.slice(first, end).find((command) => boardS < command.endS) ?? last;
+    const outsideS = Math.min(0, boardS - startS) + Math.max(0, boardS - last.endS);
+    const estimateS = placeIn(running, boardS).planS + outsideS;
+    spans.push({ stream, fromS: stream.planS[index], toS: stream.planS[last.index + 1], estimateS });
+  }
+  return spans;
 }

@@ -4,20 +4,20 @@
  */
 import { strokeCount, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
+import { passesOf } from "../../../geometry/passes.js";
 import { machineOf } from "../../../machines/profiles.js";
-import { snappedPlace, strokeLengthMm } from "../../../plan/place-on-drawing.js";
-import { nextPlace, placeAt } from "../../../plan/place-on-plan.js";
-import { stateAt, type Place } from "../../../plan/trajectory.js";
+import { penMovesOf } from "../../../plan/pen-moves.js";
+import { stateAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
+import { strokeLengthMm } from "../../../position/on-drawing.js";
+import { passOf } from "../../../position/on-plan.js";
+import { drawnPosition, estimatedPosition } from "../../../position/pen-position.js";
 import type { Machine, MachineRun, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { RunProgress, type PlotProgress } from "../../run-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
 import { restarted } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
-import { awayFromCut, isPenUpThroughout, stopPlace } from "./stop-place.js";
 
-/** Tolerance between mm along the plan and mm along the drawing; the plan rounds to whole steps. */
-const SNAP_MM = 0.5;
 /** A stop farther from the plan than this shows that the Grbl counts from another place, because it has restarted. */
 const LOST_MM = 2;
 
@@ -93,7 +93,7 @@ export class GrblRun implements MachineRun {
       this.events.progressed(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
       left = progress.place;
     } catch (error) {
-      left = certainPlace(this.current) ?? progress.place;
+      left = certainPosition(this.current) ?? progress.place;
       // The caller of `fail` takes care of the machine.
       if (this.failure || !(error instanceof PlotwrightError)) throw error;
       left = await this.whereStopped(this.current);
@@ -137,23 +137,20 @@ export class GrblRun implements MachineRun {
     await machine.recover(stream, settings, isPenUpThroughout(plot.trajectory, stream.boundsS));
     const at = machine.positionMm(machineOf(settings));
     const { trajectory } = plot;
-    const found = at && stopPlace(trajectory, at, stream.boundsS, stream.planS);
+    const [fromS, toS] = stream.boundsS;
+    const pass = at && passOf([{ trajectory, fromS, toS, estimateS: stream.planS }], at);
     const cut = stream.shortCutS;
-    const isAway = found !== null && found.awayMm > LOST_MM;
-    if (!at || (isAway && !(cut && awayFromCut(trajectory, at, cut) <= LOST_MM))) {
+    const isAway = pass !== null && pass.awayMm > LOST_MM;
+    if (!pass || (isAway && !(cut && awayFromCut(trajectory, at, cut) <= LOST_MM))) {
       await machine.forgetPosition();
-      return certainPlace(current) ?? progress.place;
+      return certainPosition(current) ?? progress.place;
     }
-    const stoppedS = found?.atS ?? stream.planS;
-    const planS = Math.min(stoppedS, stream.missedS ?? Infinity);
+    const planS = Math.min(pass.planS, stream.missedS ?? Infinity);
     this.events.progressed({ ...progress.update({ stream: commands, planS }), xMm: at.x, yMm: at.y });
-    const state = stateAt(trajectory, planS);
-    if (state.stroke < 0)
-      return nextPlace(trajectory, planS) ?? (this.isEmergency ? this.endOfDrawing() : null);
-    // After missed lines the carriage is not at the place from which to draw.
-    const { x, y } = planS < stoppedS ? state : at;
-    const { stroke, alongMm, vx, vy } = state;
-    return snappedPlace(strokes, { stroke, alongMm }, { x, y, vx, vy }, SNAP_MM);
+    // After missed lines the carriage is not at the position from which to draw.
+    const carriage = planS < pass.planS ? stateAt(trajectory, planS) : at;
+    const position = drawnPosition(strokes, trajectory, planS, carriage);
+    return position ?? (this.isEmergency ? this.endOfDrawing() : null);
   }
 
   /** The end of the last stroke: for an emergency stop when only the travel home is left. */
@@ -169,7 +166,25 @@ export class GrblRun implements MachineRun {
 }
 
 /** Everything before it is certainly drawn. The line may overlap where it resumes. */
-const certainPlace = ({ plot, stream }: Playing): Place | null =>
-  placeAt(plot.trajectory, Math.min(stream.boundsS[0], stream.missedS ?? Infinity));
+const certainPosition = ({ plot, stream }: Playing): Place | null =>
+  estimatedPosition(plot.trajectory, Math.min(stream.boundsS[0], stream.missedS ?? Infinity));
+
+/** How far a point is from the straight line between the points at two times of the plan, mm. */
+function awayFromCut(
+  trajectory: Trajectory,
+  { x, y }: { readonly x: number; readonly y: number },
+  [fromS, toS]: readonly [number, number],
+): number {
+  const [from, to] = [stateAt(trajectory, fromS), stateAt(trajectory, toS)];
+  return passesOf([from.x, from.y, to.x, to.y], x, y)[0].awayMm;
+}
+
+/** Whether the pen is up, and has come to rest, at all times between the two. */
+function isPenUpThroughout(trajectory: Trajectory, [fromS, toS]: readonly [number, number]): boolean {
+  return !penMovesOf(trajectory).some(
+    ({ up, startS, moveS }, i, all) =>
+      startS <= toS && (all[i + 1]?.startS ?? Infinity) >= fromS && (!up || startS + moveS > fromS),
+  );
+}
 
 const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The plot was stopped.");

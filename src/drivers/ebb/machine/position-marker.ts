@@ -6,14 +6,14 @@ import type { FirmwareFeatures } from "../protocol/firmware.js";
 import type { BoardSession } from "../stream/session.js";
 
 /** The mark while the counters count from home is this plus the microstep mode. */
-const PLACE_KNOWN = 112;
+const POSITION_KNOWN = 112;
 /** The mark while they do not count from home. */
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
 /** Time for the motion that may block the board's parser, s. */
 const MOTION_S = 2;
 
-export class PlaceMark {
+export class PositionMarker {
   /** The query that returns the mark. */
   readonly query: string;
 
@@ -33,13 +33,13 @@ export class PlaceMark {
     if (!features.hasClear) return 0;
     // A board that has restarted has its motors off (QE: from 2.8.0).
     if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return 0;
-    const mode = Number(await session.query(this.query)) - PLACE_KNOWN;
+    const mode = Number(await session.query(this.query)) - POSITION_KNOWN;
     return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
   }
 
   /** Call when the motors are on. Only if the counters count from home can the next connection find the position. */
   async set(microstepMode: number, isFromHome: boolean): Promise<void> {
-    await this.write(isFromHome ? PLACE_KNOWN + microstepMode : SWITCHED_ON);
+    await this.write(isFromHome ? POSITION_KNOWN + microstepMode : SWITCHED_ON);
   }
 
   /** Call when the position is lost. */

@@ -1,8 +1,8 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { machineById, type Place, type StrokeSet } from "../../../src/index.js";
-import { pointOfPlace, strokeLengthMm } from "../../../src/plan/place-on-drawing.js";
-import { leavesDrawingMm, stoppedPlace } from "../../../src/plan/stopped-place.js";
+import { pointOfPlace, strokeLengthMm } from "../../../src/position/on-drawing.js";
+import { leavesDrawingMm, reportedPosition } from "../../../src/position/reported.js";
 import { DEFAULT_MOTION } from "../../../src/settings/motion.js";
 import { cases } from "../../support/full-run.js";
 import { strokesOf } from "../../support/local-planner.js";
@@ -67,7 +67,7 @@ describe("the place where a plot was interrupted", () => {
           const receivedMm = mmOf(strokes, received);
           const pen = placeAtMm(strokes, receivedMm + to * (wholeMm - receivedMm));
           const { x, y } = pointOfPlace(strokes, pen);
-          const found = stoppedPlace(strokes, received, { x: x + dx, y: y + dy, up }, FAR);
+          const found = reportedPosition(strokes, received, { x: x + dx, y: y + dy, up }, FAR);
           expect(found).not.toBeNull();
           const foundMm = mmOf(strokes, found!);
           expect(foundMm).toBeLessThan(mmOf(strokes, pen) + 0.1);
@@ -94,7 +94,7 @@ describe("the place where a plot was interrupted", () => {
           y: start.y + way * (end.y - start.y),
           up: true,
         };
-        const found = stoppedPlace(strokes, received, pen, FAR);
+        const found = reportedPosition(strokes, received, pen, FAR);
         expect(found).not.toBeNull();
         expect(mmOf(strokes, found!)).toBeLessThan(mmOf(strokes, { stroke: next, alongMm: 0 }) + 1e-6);
         expect(mmOf(strokes, found!)).toBeGreaterThan(mmOf(strokes, received) - 2.5 * NEAR_MM);
@@ -108,11 +108,11 @@ describe("the place where a plot was interrupted", () => {
   const since = { aheadMm: 500, nearMm: NEAR_MM };
 
   it("is the point of the stroke if the pen is down", () => {
-    expect(stoppedPlace(two, received, { x: 60, y: 0.03, up: false }, since)).toEqual({
+    expect(reportedPosition(two, received, { x: 60, y: 0.03, up: false }, since)).toEqual({
       stroke: 0,
       alongMm: 60,
     });
-    expect(stoppedPlace(two, received, { x: 30, y: 50, up: false }, since)).toEqual({
+    expect(reportedPosition(two, received, { x: 30, y: 50, up: false }, since)).toEqual({
       stroke: 1,
       alongMm: 70,
     });
@@ -121,8 +121,14 @@ describe("the place where a plot was interrupted", () => {
   it("is on the way out of a line there and back, unless the board had received the way back", () => {
     const thereAndBack = strokesOf([3, 5, 53, 5, 3, 5]);
     const pen = { x: 40, y: 5, up: false };
-    expect(stoppedPlace(thereAndBack, { stroke: 0, alongMm: 30 }, pen, since)?.alongMm).toBeCloseTo(37, 6);
-    expect(stoppedPlace(thereAndBack, { stroke: 0, alongMm: 50 }, pen, since)?.alongMm).toBeCloseTo(63, 6);
+    expect(reportedPosition(thereAndBack, { stroke: 0, alongMm: 30 }, pen, since)?.alongMm).toBeCloseTo(
+      37,
+      6,
+    );
+    expect(reportedPosition(thereAndBack, { stroke: 0, alongMm: 50 }, pen, since)?.alongMm).toBeCloseTo(
+      63,
+      6,
+    );
   });
 
   it("is on the earliest pass that was not received, of a circle drawn many times", () => {
@@ -136,28 +142,31 @@ describe("the place where a plot was interrupted", () => {
     for (let pass = 0; pass < 8; pass++) {
       const from = { stroke: 0, alongMm: (pass + 0.3) * onceMm };
       const place = { stroke: 0, alongMm: (pass + 1.2) * onceMm };
-      const found = stoppedPlace(circles, from, { ...pointOfPlace(circles, place), up: false }, since);
+      const found = reportedPosition(circles, from, { ...pointOfPlace(circles, place), up: false }, since);
       expect(found?.alongMm).toBeCloseTo(place.alongMm, 6);
     }
   });
 
   it("is the next stroke if the pen is up on the way to it", () => {
-    expect(stoppedPlace(two, received, { x: 100, y: 20, up: true }, since)).toEqual({
+    expect(reportedPosition(two, received, { x: 100, y: 20, up: true }, since)).toEqual({
       stroke: 1,
       alongMm: 0,
     });
   });
 
   it("is where the pen is up in the middle of a stroke: a pause has lifted it there", () => {
-    expect(stoppedPlace(two, received, { x: 36, y: 0, up: true }, since)).toEqual({ stroke: 0, alongMm: 36 });
+    expect(reportedPosition(two, received, { x: 36, y: 0, up: true }, since)).toEqual({
+      stroke: 0,
+      alongMm: 36,
+    });
     // A later travel crosses the stroke there.
     const crossed = strokesOf([10, 10, 10, 60], [5, 20, 2, 20], [18, 52, 25, 52]);
     const lifted = { x: 10, y: 36, up: true };
-    expect(stoppedPlace(crossed, { stroke: 0, alongMm: 16 }, lifted, since)).toEqual({
+    expect(reportedPosition(crossed, { stroke: 0, alongMm: 16 }, lifted, since)).toEqual({
       stroke: 0,
       alongMm: 26,
     });
-    expect(stoppedPlace(crossed, { stroke: 1, alongMm: 1 }, lifted, since)).toEqual({
+    expect(reportedPosition(crossed, { stroke: 1, alongMm: 1 }, lifted, since)).toEqual({
       stroke: 2,
       alongMm: 0,
     });
@@ -165,9 +174,9 @@ describe("the place where a plot was interrupted", () => {
 
   it("is the next stroke where the pen has begun to come down just before it", () => {
     const landing = { x: 100, y: 49.9, up: false };
-    expect(stoppedPlace(two, received, landing, since)).toEqual({ stroke: 1, alongMm: 0 });
+    expect(reportedPosition(two, received, landing, since)).toEqual({ stroke: 1, alongMm: 0 });
     // On the stroke already: from there on.
-    const begun = stoppedPlace(two, received, { x: 99.9, y: 50, up: false }, since);
+    const begun = reportedPosition(two, received, { x: 99.9, y: 50, up: false }, since);
     expect(begun?.stroke).toBe(1);
     expect(begun?.alongMm).toBeCloseTo(0.1, 6);
   });
@@ -178,14 +187,14 @@ describe("the place where a plot was interrupted", () => {
     const landing = { ...since, landingMm: 1 };
     const before = { stroke: 0, alongMm: 30 };
     const onTravel = { x: 60.094, y: 35.969, up: false };
-    expect(stoppedPlace(leadsBack, before, onTravel, landing)).toEqual({ stroke: 1, alongMm: 0 });
-    const onStroke = stoppedPlace(leadsBack, before, { x: 60.094, y: 36, up: false }, landing);
+    expect(reportedPosition(leadsBack, before, onTravel, landing)).toEqual({ stroke: 1, alongMm: 0 });
+    const onStroke = reportedPosition(leadsBack, before, { x: 60.094, y: 36, up: false }, landing);
     expect(onStroke?.stroke).toBe(1);
     expect(onStroke?.alongMm).toBeCloseTo(0.094, 6);
     // On both: drawn again.
     const exactlyBack = strokesOf([0, 0, 100, 0], [50, 0, 60, 0]);
     const onBoth = { x: 50.1, y: 0, up: false };
-    expect(stoppedPlace(exactlyBack, { stroke: 1, alongMm: 0 }, onBoth, landing)).toEqual({
+    expect(reportedPosition(exactlyBack, { stroke: 1, alongMm: 0 }, onBoth, landing)).toEqual({
       stroke: 1,
       alongMm: 0,
     });
@@ -194,14 +203,17 @@ describe("the place where a plot was interrupted", () => {
   it("is the next stroke where the pen comes down fast, further before it but on the way to it", () => {
     const landing = { x: 100, y: 47, up: false };
     const fast = { ...since, landingMm: 3.5 };
-    expect(stoppedPlace(two, received, landing, fast)).toEqual({ stroke: 1, alongMm: 0 });
-    expect(stoppedPlace(two, received, { ...landing, y: 46 }, fast)).toBeNull();
-    expect(stoppedPlace(two, received, { ...landing, x: 99 }, fast)).toBeNull();
-    expect(stoppedPlace(two, received, landing, since)).toBeNull();
-    expect(stoppedPlace(two, { stroke: 1, alongMm: 0 }, landing, fast)).toEqual({ stroke: 1, alongMm: 0 });
+    expect(reportedPosition(two, received, landing, fast)).toEqual({ stroke: 1, alongMm: 0 });
+    expect(reportedPosition(two, received, { ...landing, y: 46 }, fast)).toBeNull();
+    expect(reportedPosition(two, received, { ...landing, x: 99 }, fast)).toBeNull();
+    expect(reportedPosition(two, received, landing, since)).toBeNull();
+    expect(reportedPosition(two, { stroke: 1, alongMm: 0 }, landing, fast)).toEqual({
+      stroke: 1,
+      alongMm: 0,
+    });
     // A stroke that goes back along the way is drawn again: better than leaving it out.
     const leadsBack = strokesOf([0, 0, 100, 0], [100, 50, 100, 10, 90, 10]);
-    expect(stoppedPlace(leadsBack, received, landing, fast)).toEqual({ stroke: 1, alongMm: 0 });
+    expect(reportedPosition(leadsBack, received, landing, fast)).toEqual({ stroke: 1, alongMm: 0 });
   });
 
   it("is the end if the pen is up on the way home from the last stroke", () => {
@@ -210,14 +222,14 @@ describe("the place where a plot was interrupted", () => {
       [10, 80],
       [5, 40],
     ] as const) {
-      expect(stoppedPlace(two, late, { x, y, up: true }, since)).toEqual({ stroke: 2, alongMm: 10 });
+      expect(reportedPosition(two, late, { x, y, up: true }, since)).toEqual({ stroke: 2, alongMm: 10 });
     }
   });
 
   it("is the stroke after a change of pens if the pen is up on the way home to it", () => {
     const goingHome = { x: 0, y: 25, up: true };
     const nearlyDrawn = { stroke: 1, alongMm: 90 };
-    expect(stoppedPlace(two, nearlyDrawn, goingHome, { ...since, stops: [2] })).toEqual({
+    expect(reportedPosition(two, nearlyDrawn, goingHome, { ...since, stops: [2] })).toEqual({
       stroke: 2,
       alongMm: 0,
     });
@@ -228,21 +240,23 @@ describe("the place where a plot was interrupted", () => {
     const begun = { stroke: 1, alongMm: 0 };
     // The travel to the last stroke passes there too; the closed stroke ends where it begins.
     for (const x of [25, 40])
-      expect(stoppedPlace(strokes, begun, { x, y: 0, up: true }, since)).toEqual(begun);
-    expect(stoppedPlace(strokes, begun, { x: 10, y: 0, up: false }, since)).toEqual(begun);
+      expect(reportedPosition(strokes, begun, { x, y: 0, up: true }, since)).toEqual(begun);
+    expect(reportedPosition(strokes, begun, { x: 10, y: 0, up: false }, since)).toEqual(begun);
     const ended = { x: 40, y: 0, up: true };
-    expect(stoppedPlace(strokes, { stroke: 1, alongMm: 12 }, ended, since)).toEqual({
+    expect(reportedPosition(strokes, { stroke: 1, alongMm: 12 }, ended, since)).toEqual({
       stroke: 2,
       alongMm: 0,
     });
   });
 
   it("is unknown if the pen is somewhere else, or further than it can have come", () => {
-    expect(stoppedPlace(two, received, { x: 60, y: 5, up: false }, since)).toBeNull();
-    expect(stoppedPlace(two, received, { x: 60, y: 0, up: false }, { ...since, aheadMm: 30 })).toBeNull();
-    expect(stoppedPlace(two, received, { x: 5, y: 80, up: false }, { ...since, aheadMm: 100 })).toBeNull();
+    expect(reportedPosition(two, received, { x: 60, y: 5, up: false }, since)).toBeNull();
+    expect(reportedPosition(two, received, { x: 60, y: 0, up: false }, { ...since, aheadMm: 30 })).toBeNull();
+    expect(
+      reportedPosition(two, received, { x: 5, y: 80, up: false }, { ...since, aheadMm: 100 }),
+    ).toBeNull();
     const goingHome = { x: 5, y: 40, up: true };
-    expect(stoppedPlace(two, { stroke: 2, alongMm: 1 }, goingHome, { ...since, aheadMm: 45 })).toBeNull();
+    expect(reportedPosition(two, { stroke: 2, alongMm: 1 }, goingHome, { ...since, aheadMm: 45 })).toBeNull();
   });
 
   it("counts as near what corners, merged commands, steps and shaping move the carriage away", () => {

@@ -5,14 +5,21 @@
  *   drawing  ━━━━━━━━━━━━o━━━━━━━━>┊              o  where the pen was when the motors stopped
  *                        place     result         >  where it turns back, or leaves the line at a corner
  *
- * Resuming from the place would draw that stretch twice. The lift is ignored: a pen turns back after a quarter of a swing,
+ * Resume from there, or the overshoot is drawn twice. The lift is ignored: a pen turns back after a quarter of a swing,
  * 10 to 25 ms, and a servo needs longer to clear the paper.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { Springs } from "../machines/profile.js";
-import { nearestPlace } from "./place-on-drawing.js";
-import { SpringAxis } from "./spring-pen.js";
-import { blockState, drawnAt, newMotionState, stateAt, type Place, type Trajectory } from "./trajectory.js";
+import { SpringAxis } from "../plan/spring-pen.js";
+import {
+  blockState,
+  drawnAt,
+  newMotionState,
+  stateAt,
+  type Place,
+  type Trajectory,
+} from "../plan/trajectory.js";
+import { nearestOnStroke } from "./on-drawing.js";
 
 const STEP_S = 0.0002;
 /** A pen farther from the line than this does not draw it, mm. */
@@ -21,7 +28,7 @@ const NEAR_MM = 0.08;
 /** A sudden stop of the motors. */
 export interface SuddenStop {
   /** When, in time of the trajectory. */
-  readonly tS: number;
+  readonly planS: number;
   /** The place that the pen was drawing. */
   readonly place: Place;
   /** Where the carriage stopped, mm. Whole steps put it beside the trajectory. */
@@ -29,15 +36,15 @@ export interface SuddenStop {
   readonly y: number;
 }
 
-export function swungPlace(
+export function overshotPosition(
   strokes: StrokeSet,
   trajectory: Trajectory,
-  { tS, place, x: stopX, y: stopY }: SuddenStop,
+  { planS, place, x: stopX, y: stopY }: SuddenStop,
   springs: Springs,
 ): Place {
-  const carriage = stateAt(trajectory, tS);
+  const carriage = stateAt(trajectory, planS);
   if (carriage.stroke !== place.stroke) return place;
-  const [axisX, axisY] = swingAt(trajectory, tS, springs);
+  const [axisX, axisY] = swingAt(trajectory, planS, springs);
   axisX.d += carriage.x - stopX;
   axisY.d += carriage.y - stopY;
   axisX.rate += carriage.vx;
@@ -50,8 +57,8 @@ export function swungPlace(
     const pen = { x: stopX + axisX.d, y: stopY + axisY.d };
     // At a corner the nearest place may pass from one side to the next, each up to NEAR_MM away.
     const reachMm = STEP_S * Math.hypot(axisX.rate, axisY.rate) + 2 * NEAR_MM;
-    const nearest = nearestPlace(strokes, now, pen, reachMm);
-    if (nearest.awayMm > NEAR_MM) break;
+    const nearest = nearestOnStroke(strokes, now, pen, reachMm);
+    if (!nearest || nearest.awayMm > NEAR_MM) break;
     now = nearest.place;
     if (now.alongMm > furthest.alongMm) furthest = now;
   }
@@ -61,12 +68,12 @@ export function swungPlace(
 /** The pen's swing about the carriage at an instant of a run. */
 function swingAt(
   trajectory: Trajectory,
-  tS: number,
+  planS: number,
   { xHz, yHz, damping }: Springs,
 ): readonly [SpringAxis, SpringAxis] {
   const { runs, startS, durationS } = trajectory;
   let run = 0;
-  while (run + 1 < runs.count && runs.startS[run + 1] <= tS) run++;
+  while (run + 1 < runs.count && runs.startS[run + 1] <= planS) run++;
   const axisX = new SpringAxis(xHz, damping);
   const axisY = new SpringAxis(yHz, damping);
   const first = runs.firstBlock[run];
@@ -78,8 +85,8 @@ function swingAt(
   axisY.d = pen.y - carriage.y;
   axisX.rate = pen.vx - carriage.vx;
   axisY.rate = pen.vy - carriage.vy;
-  for (let k = first; k < runs.firstBlock[run + 1] && startS[k] < tS; k++) {
-    const s = Math.min(durationS[k], tS - startS[k]);
+  for (let k = first; k < runs.firstBlock[run + 1] && startS[k] < planS; k++) {
+    const s = Math.min(durationS[k], planS - startS[k]);
     axisX.advance(s, trajectory.ax[k]);
     axisY.advance(s, trajectory.ay[k]);
   }
