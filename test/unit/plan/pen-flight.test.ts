@@ -132,7 +132,10 @@ describe("a pen in flight", () => {
           const lifts = penMovesOf(rest.trajectory).map(({ up, heightPct, waitS }) => [up, heightPct, waitS]);
           expect(lifts).toEqual([[true, 60, 0], [true, 60, 0.25]]); // prettier-ignore
           expect(penMovesOf(rest.trajectory)[0].startS).toBe(0);
-          expect(estimatedPosition(t, rest.planS)).toEqual({ stroke: t.runs.stroke[drop.beforeRun], alongMm: 0 });
+          expect(estimatedPosition(t, rest.planS)).toEqual({
+            stroke: t.runs.stroke[drop.beforeRun],
+            alongMm: 0,
+          });
         }
         // Before the drop it stops where it can, and the pen goes up from the hop height.
         const [lift, ...more] = penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory);
