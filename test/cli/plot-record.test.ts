@@ -1,6 +1,6 @@
 /** Which stored plots count as interrupted, and the faults of the files they are stored in. */
 import { spawn } from "node:child_process";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { PlotRecord } from "../../server/cli/plot-record.js";
