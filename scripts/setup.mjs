@@ -184,14 +184,19 @@ export function ensureBuild() {
 }
 
 /** Where tests find the web site, which has the page without a server in app/, and the site's path on a host. */
-export const TEST_SITE = { folder: inRoot("dist", ".test-site"), base: "/plots/" };
+export const TEST_SITE = {
+  folder: inRoot("dist", ".test-site"),
+  base: "/plots/",
+  source: "https://git.example.org/plotwright",
+};
 
 export function ensureTestSite() {
-  const { folder, base } = TEST_SITE;
+  const { folder, base, source } = TEST_SITE;
   buildOnce(folder, SITE_INPUTS, () => {
     console.log("plotwright: building the web site for the tests …");
     const script = [nodeModule("tsx", "dist", "cli.mjs"), inRoot("scripts", "build-site.ts")];
-    if (run(process.execPath, [...script, "--out", folder, "--base", base], forProduction()) === 0) return;
+    const options = ["--out", folder, "--base", base, "--source", source];
+    if (run(process.execPath, [...script, ...options], forProduction()) === 0) return;
     giveUp("the web site could not be built; the message is above.");
   });
 }

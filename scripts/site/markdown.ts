@@ -1,7 +1,17 @@
 /** Markdown of the repository to HTML of the site: ids of headings as on GitHub, links between the files as pages. */
 import path from "node:path";
+import highlight from "highlight.js/lib/core";
+import bash from "highlight.js/lib/languages/bash";
+import javascript from "highlight.js/lib/languages/javascript";
+import json from "highlight.js/lib/languages/json";
+import typescript from "highlight.js/lib/languages/typescript";
 import { Marked, type Tokens } from "marked";
 import { PAGES, type DocPage } from "./pages.js";
+
+highlight.registerLanguage("ts", typescript);
+highlight.registerLanguage("js", javascript);
+highlight.registerLanguage("sh", bash);
+highlight.registerLanguage("json", json);
 
 export interface Heading {
   readonly depth: number;
@@ -60,9 +70,19 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
         const mark = text.length <= 20 ? ' class="whole"' : "";
         return `<code${mark}>${escapeHtml(text).replace(/(?<=\w)\/(?=[\w:])/g, "<wbr>/")}</code>`;
       },
-      code({ text }: Tokens.Code) {
-        // Long lines scroll, so the keyboard must be able to reach them.
-        return `<pre tabindex="0"><code>${escapeHtml(text)}</code></pre>\n`;
+      code({ text, lang = "" }: Tokens.Code) {
+        const [language, file] = lang.split(" ");
+        // A drawing made of characters scrolls, because its lines must not wrap: the keyboard must be able to reach them.
+        if (language === "")
+          return `<div class="code"><pre tabindex="0"><code>${escapeHtml(text)}</code></pre></div>\n`;
+        const { value: colored } = highlight.highlight(text, { language });
+        // A line does not break after the hyphens of an option.
+        const value =
+          language === "sh"
+            ? colored.replace(/(?<![\w-])--?[a-z][\w-]*/gi, '<span class="option">$&</span>')
+            : colored;
+        const name = file === undefined || file === "no-run" ? "" : `<p class="file">${escapeHtml(file)}</p>`;
+        return `<div class="code">${name}<pre class="wraps"><code>${value}</code></pre></div>\n`;
       },
       table({ header, align, rows }: Tokens.Table) {
         const cell = (tag: string) => (one: Tokens.TableCell, column: number) => {
@@ -118,6 +138,37 @@ interface InlineToken {
   readonly text?: string;
   readonly tokens?: readonly InlineToken[];
 }
+
+/** The page's first sentences, for search engines and previews of links. */
+export function descriptionOf(html: string): string {
+  const texts = [...html.matchAll(/<(p|li)>([\s\S]*?)<\/\1>/g)].map((match) => textOf(match[2]));
+  const first = texts.find(({ length }) => length >= MIN_DESCRIPTION) ?? "";
+  return first.length <= MAX_DESCRIPTION
+    ? first
+    : `${first.slice(0, first.lastIndexOf(" ", MAX_DESCRIPTION))} …`;
+}
+const MIN_DESCRIPTION = 40;
+const MAX_DESCRIPTION = 160;
+
+/** The page's text by its headings, for the search. */
+export function sectionsOf({ html, headings }: Rendered): (Heading & { readonly content: string })[] {
+  const starts = headings.map(({ id, depth }) => html.indexOf(`<h${depth} id="${id}"`));
+  return headings.map((heading, i) => {
+    const section = html.slice(starts[i], starts[i + 1]);
+    return { ...heading, content: textOf(section.slice(section.indexOf("</h"))) };
+  });
+}
+
+const CHARACTERS: Readonly<Record<string, string>> = { amp: "&", lt: "<", gt: ">", quot: '"', "#x27": "'" };
+/** HTML without its tags. Words of different cells and paragraphs stay apart. */
+const textOf = (html: string): string =>
+  html
+    .replace(/<\/?(?:p|li|ul|ol|td|th|tr|table|thead|tbody|pre|div|h\d)\b[^>]*>/g, " ")
+    .replace(/<[^>]*>/g, "")
+    .replace(/&(amp|lt|gt|quot|#x27);/g, (_, name: string) => CHARACTERS[name])
+    .replace(/\s+/g, " ")
+    .trim();
+
 const plainText = (tokens: readonly InlineToken[]): string =>
   tokens.map((token) => (token.tokens === undefined ? (token.text ?? "") : plainText(token.tokens))).join("");
 

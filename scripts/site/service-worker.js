@@ -1,4 +1,4 @@
-/** Stores the whole documentation, so that it can be read in a workshop without a network. */
+/** Stores the start page and the whole documentation, so that it can be read in a workshop without a network. */
 const VERSION = "__VERSION__";
 const FILES = "__FILES__";
 const PREFIX = "manual-";

@@ -5,9 +5,9 @@
 import { readFileSync, readdirSync, statSync } from "node:fs";
 import path from "node:path";
 import { gzipSync } from "node:zlib";
-import type { Browser, Page } from "playwright-core";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { TEST_SITE } from "../../scripts/setup.mjs";
+import { ROOT, TEST_SITE } from "../../scripts/setup.mjs";
 import { PAGES } from "../../scripts/site/pages.js";
 import { seriousFindings } from "../support/axe.js";
 import { launchBrowser } from "../support/browser.js";
@@ -15,8 +15,9 @@ import { IS_FULL } from "../support/full-run.js";
 import { chooseSample, waitForPicture } from "../support/page-actions.js";
 import { serveFolder, type StaticSite } from "../support/static-site.js";
 
-const { base: BASE, folder } = TEST_SITE;
+const { base: BASE, folder, source: SOURCE } = TEST_SITE;
 const DOC_FILES = PAGES.map(({ file }) => `docs/${file}`);
+const PAGE_FILES = ["index.html", ...DOC_FILES, "404.html"];
 
 let browser: Browser;
 let site: StaticSite;
@@ -86,15 +87,35 @@ describe("the files of the site", () => {
     expect(withoutWords).toEqual([]);
   });
 
-  it("have titles that differ", () => {
+  it("have titles and descriptions that differ", () => {
     const titles = DOC_FILES.map((file) => /<title>(.*)<\/title>/.exec(read(file))?.[1]);
     expect(new Set(titles).size).toBe(DOC_FILES.length);
+    const descriptions = DOC_FILES.map(
+      (file) => /<meta name="description" content="([^"]*)">/.exec(read(file))?.[1] ?? "",
+    );
+    expect(new Set(descriptions).size).toBe(DOC_FILES.length);
+    const lengths = descriptions.map((text) => text.length);
+    expect(Math.min(...lengths)).toBeGreaterThan(30);
+    expect(Math.max(...lengths)).toBeLessThanOrEqual(200);
+  });
+
+  it("lead to their sources", () => {
+    for (const { file, source } of PAGES) {
+      expect(read(`docs/${file}`)).toContain(`href="${SOURCE}/blob/main/${source}"`);
+    }
+    expect(read("index.html")).toContain(`href="${SOURCE}"`);
+  });
+
+  it("have the licence of each package in the scripts", () => {
+    expect(read("docs/search.js")).toMatch(/minisearch[\s\S]*Permission is hereby granted/);
   });
 
   it("load little: a page of the documentation is at most 60 kB gzipped, with style and script", () => {
     const bytes = (file: string): number => gzipSync(readFileSync(path.join(folder, file))).length;
     const shared = bytes("docs/site.css") + bytes("docs/site.js") + bytes("docs/icon.svg");
-    expect(Math.max(...DOC_FILES.map((file) => shared + bytes(file)))).toBeLessThanOrEqual(60_000);
+    expect(Math.max(...PAGE_FILES.map((file) => shared + bytes(file)))).toBeLessThanOrEqual(60_000);
+    // Loaded when a reader goes to the search field.
+    expect(bytes("docs/search.js") + bytes("docs/search-index.json")).toBeLessThanOrEqual(300_000);
   });
 });
 
@@ -113,13 +134,12 @@ function complaintsOf(page: Page): string[] {
   return complaints;
 }
 
-describe("each page of the documentation", () => {
+describe("each page of the site", () => {
   // axe takes seconds for a long page, and all pages are made of the same parts: the full run checks each.
-  const EXAMPLES = ["docs/index.html", "docs/cli.html", "docs/motion.html", "404.html"];
-  const ALL = [...DOC_FILES, "404.html"];
+  const EXAMPLES = ["index.html", "docs/index.html", "docs/library.html", "docs/motion.html", "404.html"];
   it.each([
-    ["light", ALL],
-    ["dark", IS_FULL ? ALL : EXAMPLES],
+    ["light", PAGE_FILES],
+    ["dark", IS_FULL ? PAGE_FILES : EXAMPLES],
   ] as const)("has no error and no serious finding of axe in %s", async (colorScheme, files) => {
     const viewport = { width: 1440, height: 900 };
     const page = await browser.newPage({ colorScheme, viewport, serviceWorkers: "block" });
@@ -134,30 +154,114 @@ describe("each page of the documentation", () => {
     expect(complaints).toEqual([]);
   });
 
-  it("fits a phone's width", async () => {
+  it("fits a phone's width, and its code too, unless it is drawn with characters", async () => {
     const page = await browser.newPage({ viewport: { width: 390, height: 844 }, serviceWorkers: "block" });
-    for (const file of [...DOC_FILES, "404.html"]) {
+    for (const file of PAGE_FILES) {
       await page.goto(site.url + file);
       const widthPx = await page.evaluate(() => document.documentElement.scrollWidth);
       expect([file, widthPx]).toEqual([file, 390]);
+      const tooWide = await page.evaluate(() =>
+        [...document.querySelectorAll("pre.wraps")]
+          .filter((code) => code.scrollWidth > code.clientWidth)
+          .map((code) => code.textContent),
+      );
+      expect([file, tooWide]).toEqual([file, []]);
     }
     await page.close();
+  });
+
+  it("asks no other server for anything", async () => {
+    const page = await browser.newPage({ serviceWorkers: "block" });
+    const foreign: string[] = [];
+    page.on("request", (request) => {
+      if (!request.url().startsWith(site.url)) foreign.push(request.url());
+    });
+    for (const file of PAGE_FILES) await page.goto(site.url + file);
+    await page.close();
+    expect(foreign).toEqual([]);
   });
 });
 
 describe("a reader", () => {
-  it("opens the menu on a phone, and finds a title", async () => {
-    const page = await browser.newPage({ viewport: { width: 390, height: 844 }, serviceWorkers: "block" });
+  const newReader = (options: BrowserContextOptions = {}): Promise<Page> =>
+    browser.newPage({ serviceWorkers: "block", ...options });
+  const PHONE = { viewport: { width: 390, height: 844 } };
+
+  it("finds the way from the start page to the app and to installing it", async () => {
+    const page = await newReader();
     const complaints = complaintsOf(page);
     await page.goto(site.url);
-    await page.waitForURL(/docs\/index\.html$/);
-    await page.getByRole("button", { name: "Menu" }).click();
-    await page.getByRole("searchbox", { name: "Search titles" }).fill("udev port");
-    await page.getByText("No title has these words.").waitFor();
-    await page.getByRole("searchbox", { name: "Search titles" }).fill("corner costs");
-    await page.getByRole("link", { name: /^What one corner costs/ }).click();
-    await page.waitForURL(/docs\/comparison\.html#what-one-corner-costs$/);
+    await page.getByRole("link", { name: "Install", exact: true }).click();
+    await page.getByRole("heading", { level: 1, name: "Install" }).waitFor();
+    await page.getByRole("link", { name: "plotwright", exact: true }).click();
+    await page.getByRole("link", { name: "Try it in the browser" }).click();
+    await page.getByText("Drop a drawing here").waitFor();
     expect(complaints).toEqual([]);
+    await page.close();
+  });
+
+  it("opens the menu on a phone", async () => {
+    const page = await newReader(PHONE);
+    await page.goto(`${site.url}docs/index.html`);
+    const link = page.getByRole("navigation").getByRole("link", { name: "Brushless servo" });
+    await expect.poll(() => link.isVisible()).toBe(false);
+    await page.getByRole("button", { name: "Menu" }).click();
+    await link.click();
+    await page.waitForURL(/docs\/brushless-servo\.html$/);
+    await page.close();
+  });
+
+  it.each([
+    [
+      "words of a heading",
+      "corner costs",
+      /^What one corner costs/,
+      /comparison\.html#what-one-corner-costs$/,
+    ],
+    ["words of the text", "ModemManager udev", /Raspberry Pi/, /raspberry-pi\.html#3-access-to-the-plotter$/],
+    ["an option of another program", "--pen_pos_down", /AxiDraw/, /from-axidraw\.html#/],
+    ["a word with a typing error", "brushles", /brushless servo/i, /brushless-servo\.html/],
+  ])("finds %s", async (_, words, name, address) => {
+    const page = await newReader(PHONE);
+    const complaints = complaintsOf(page);
+    await page.goto(site.url);
+    await page.keyboard.press("/");
+    await page.getByRole("searchbox", { name: "Search" }).fill("xyzzy");
+    await page.getByText("Nothing found for “xyzzy”.").waitFor();
+    await page.getByRole("searchbox", { name: "Search" }).fill(words);
+    await page.locator("#found mark").first().waitFor();
+    await page.locator("#found").getByRole("link", { name }).first().click();
+    await page.waitForURL(address);
+    expect(complaints).toEqual([]);
+    await page.close();
+  });
+
+  it("gets the highlighted text of an example without its colours by the button", async () => {
+    const page = await newReader({ permissions: ["clipboard-read", "clipboard-write"] });
+    await page.goto(`${site.url}docs/library.html`);
+    const example = page.locator(".code", { hasText: "planSvg" }).first();
+    expect(await example.locator(".hljs-keyword").count()).toBeGreaterThan(2);
+    await example.hover();
+    await example.getByRole("button", { name: "Copy" }).click();
+    await example.getByRole("button", { name: "Copied" }).waitFor();
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    expect(readFileSync(path.join(ROOT, "docs", "library.md"), "utf8")).toContain(copied);
+    expect(copied).toMatch(/^import \{/);
+    await page.close();
+  });
+
+  it("chooses a theme, which the next page keeps", async () => {
+    const page = await newReader({ colorScheme: "light" });
+    const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    await page.goto(site.url);
+    const light = await background();
+    await page.getByRole("combobox", { name: "Theme" }).selectOption("dark");
+    const dark = await background();
+    expect(dark).not.toBe(light);
+    await page.goto(`${site.url}docs/first-plot.html`);
+    expect(await background()).toBe(dark);
+    await page.getByRole("combobox", { name: "Theme" }).selectOption("system");
+    expect(await background()).toBe(light);
     await page.close();
   });
 
@@ -178,7 +282,7 @@ describe("a reader", () => {
     await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
     await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
     await host.close();
-    for (const file of ["docs/first-plot.html", "docs/motion.html", "docs/"]) {
+    for (const file of ["docs/first-plot.html", "docs/motion.html", "docs/", ""]) {
       await page.goto(host.url + file);
       expect(await page.locator("h1").count()).toBe(1);
     }
@@ -188,6 +292,8 @@ describe("a reader", () => {
       .first()
       .evaluate((image) => (image as HTMLImageElement).naturalWidth > 0);
     expect(isDrawn).toBe(true);
+    await page.getByRole("searchbox", { name: "Search" }).fill("emergency");
+    await page.locator("#found mark").first().waitFor();
     await context.close();
   });
 });
