@@ -16,7 +16,7 @@ const LEFT_S = 1.5;
 
 /** `penStops`: the strokes before which the plot goes home and waits. */
 export function placeLeft(
-  machine: Machine,
+  machine: Pick<Machine, "foundMidPlot" | "speed" | "positionMm">,
   strokes: StrokeSet,
   settings: PlotSettings,
   penStops: readonly number[],

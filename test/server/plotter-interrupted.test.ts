@@ -150,7 +150,7 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
   );
 
   it(
-    "a plot with a refused command keeps its position, and resumes where its line ends",
+    "a plot with a refused command keeps its position, and resumes from that command",
     { timeout: 60_000 },
     async () => {
       const random = seeded(7);

@@ -8,7 +8,7 @@ import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { streamOf } from "../../src/drivers/ebb/compile/command-stream.js";
 import { driver as ebbDriver } from "../../src/drivers/ebb/controller.js";
 import { commandLine, VirtualBoard, type Place, type StrokeSet, type Transport } from "../../src/index.js";
-import { machineOf, type Machine, type MachineRun } from "../../src/internal.js";
+import { machineOf, type MachineRun } from "../../src/internal.js";
 import { placeFromMotors } from "../../src/machines/motors.js";
 import { isPenUpBefore } from "../../src/plan/pen-moves.js";
 import { strokeLengthMm } from "../../src/position/on-drawing.js";
@@ -148,11 +148,11 @@ export class InterruptiblePlot {
     const at = placeFromMotors(machineOf(settings), stream.steps1[last], stream.steps2[last]);
     const penUp = isPenUpBefore(trajectory, stream.planS[count]);
     // A carriage at home may have been brought there by hand.
-    const left = penUp && at.x === 0 && at.y === 0 ? null : { penUp };
-    const machine = { left, speed: 1, place: () => at } as unknown as Machine;
+    const foundMidPlot = penUp && at.x === 0 && at.y === 0 ? null : { penUp };
+    const machine = { foundMidPlot, speed: 1, positionMm: () => at };
     const found = placeLeft(machine, strokes, settings, [], { from, received });
     const drawnMm = this.drawnMm(count);
-    const sure: Place = left && received ? received : from;
+    const sure: Place = foundMidPlot && received ? received : from;
     return { missingMm: mmOf(strokes, found) - drawnMm, unsureMm: drawnMm - mmOf(strokes, sure) };
   }
 
