@@ -209,7 +209,7 @@ const cutHatch = (edge: string): string =>
 const nothingToFill = (withOutlines: boolean): string =>
   withOutlines
     ? "There is nothing to fill with lines: no filled shape and no closed line."
-    : "There is nothing to fill with lines: no shape of this drawing is filled. Fill closed outlines too, or give shapes a fill.";
+    : "There is nothing to fill with lines: no shape of this drawing is filled. Fill closed outlines too (--hatch-outlines), or give shapes a fill.";
 
 /** The same work, with its progress mapped to a part of the whole. */
 const within = (work: Work, from: number, to: number): Work => ({

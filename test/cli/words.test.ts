@@ -241,3 +241,32 @@ describe("a file that cannot be used", () => {
     );
   });
 });
+
+describe("a note", () => {
+  const notesOf = async (svg: string, ...args: string[]): Promise<string> => {
+    const file = join(folder, "noted.svg");
+    const page = 'xmlns="http://www.w3.org/2000/svg" width="80mm" height="80mm" viewBox="0 0 80 80"';
+    writeFileSync(file, `<svg ${page}>${svg}</svg>`);
+    return (await cli("plan", file, ...args)).out;
+  };
+  const TEXT = `<text x="5" y="30" font-size="12">ink</text>`;
+  const CLIPPED = `<clipPath id="c">${TEXT}</clipPath><path d="M5 30H70" stroke="black" clip-path="url(#c)"/>`;
+
+  it.each([
+    ["text", TEXT],
+    ["a clip of text", `${CLIPPED}<path d="M1 1H9" stroke="black"/>`],
+  ])("of %s advises what the command line can do, which is not to give a font file", async (_, svg) => {
+    const notes = await notesOf(svg);
+    expect(notes).toMatch(/onvert (?:the )?text to paths/);
+    expect(notes).not.toMatch(/font file/);
+  });
+
+  it("names the option that fills closed lines, and following it fills them", async () => {
+    const closed = `<path d="M5 5H40V40Z" fill="none" stroke="black"/>`;
+    const notes = await notesOf(closed, "--hatch", "1");
+    const named = /--[a-z-]+/.exec(notes)?.[0] ?? "";
+    expect(notes).toMatch(/nothing to fill/);
+    expect(SETTING_OPTIONS.map(({ flags }) => flags)).toContain(named);
+    expect(await notesOf(closed, "--hatch", "1", named)).not.toMatch(/nothing to fill/);
+  });
+});
