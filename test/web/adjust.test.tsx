@@ -7,8 +7,7 @@ import { createActions } from "../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore, type PageStore } from "../../web/state/store.js";
 import { PageContext } from "../../web/state/use-store.js";
-import { Adjust } from "../../web/watch/adjust.js";
-import { changedSettings } from "../../web/watch/changed-settings.js";
+import { Adjust, changedSettings } from "../../web/watch/adjust.js";
 import { makeJob, makePlotter } from "./fixtures.js";
 
 const OFFER = "Apply the current pen and speed settings";

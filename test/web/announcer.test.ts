@@ -1,7 +1,7 @@
 /** The order and number of the events that a browser's host sends. */
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { ServerEvent } from "../../src/schema/index.js";
-import { announcer } from "../../web/backend/browser/announcer.js";
+import { announcer } from "../../web/backend/browser/host.js";
 import { makeJob } from "./fixtures.js";
 
 const progress = (planS: number, plotterId = "a"): ServerEvent => ({

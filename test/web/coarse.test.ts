@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, type StrokeSet } from "../../src/index.js";
 import { coarsePieces } from "../../web/scene/coarse.js";
-import { boxPieces, rangesInSight, type PieceRange } from "../../web/scene/piece-boxes.js";
+import { boxPieces, rangesInSight, type PieceRange } from "../../web/scene/tasks.js";
 import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, type Pieces } from "../../web/scene/pieces.js";
 import { buildScene } from "../../web/scene/scene.js";
 

@@ -1,6 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { lineGapMm } from "../../web/scene/density.js";
-import { buildPickGrid } from "../../web/scene/pick.js";
+import { lineGapMm, buildPickGrid } from "../../web/scene/pick.js";
 import { PIECE_BYTES, PIECE_FLOATS } from "../../web/scene/pieces.js";
 import { lineWidthPx, MIN_LINE_PX, type Frame } from "../../web/scene/renderer.js";
 import { makeFrame } from "./fixtures.js";

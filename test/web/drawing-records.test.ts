@@ -1,7 +1,6 @@
 /** The stored drawings of the page without a server, in a browser whose storage fails. */
 import { describe, expect, it } from "vitest";
-import { drawingRecords } from "../../web/backend/browser/drawing-records.js";
-import { MemoryRecords } from "../../web/backend/browser/memory-records.js";
+import { drawingRecords, MemoryRecords } from "../../web/backend/browser/drawing-records.js";
 
 /** Stores drawings, but reports that the changes since then could not be stored. */
 class FullRecords extends MemoryRecords {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, importSvg, plan, prepare } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { boxOfDrawn } from "../../web/plotter/drawn-box.js";
+import { boxOfDrawn } from "../../web/plotter/plotter-actions.js";
 
 const settings = { ...DEFAULT_PLOT_SETTINGS.prepare, fit: false, joinMm: 0 };
 const svg = (body: string): string =>

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan } from "../../src/index.js";
-import { graphData } from "../../web/preview/graph-data.js";
+import { graphData } from "../../web/preview/graph.js";
 
 const trajectory = plan(
   {

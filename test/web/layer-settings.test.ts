@@ -21,7 +21,7 @@ import {
   stopBefore,
   type LayerRow,
 } from "../../web/layers/layer-settings.js";
-import { forOtherDrawing } from "../../web/state/other-drawing.js";
+import { forOtherDrawing } from "../../web/state/document-actions.js";
 import { fromPreset, withPreset } from "../../web/state/presets.js";
 
 const DEFAULTS: PlotSettings = DEFAULT_PLOT_SETTINGS;

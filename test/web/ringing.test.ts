@@ -4,7 +4,7 @@ import { importSvg, machineById, MACHINES, planJob, prepare } from "../../src/in
 import { boxOfPoints, machineOf, penError, prepareSettingsOf, type Springs } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, newJobSchema, type PlotSettings } from "../../src/schema/index.js";
 import { frequencyOf } from "../../web/ringing/count-axis.js";
-import { measuredMachine } from "../../web/ringing/measured-machine.js";
+import { measuredMachine } from "../../web/ringing/use-store-springs.js";
 import { gainsOf } from "../../web/ringing/ringing-gain.js";
 import { checkJobs, sheetJob, type SheetJob } from "../../web/ringing/ringing-job.js";
 

@@ -6,7 +6,7 @@ import {
   type Plotter,
   type SharedJob,
 } from "../../src/schema/index.js";
-import { isServerGone, leftOut, machineWanted, possibleAction } from "../../web/studio/shared-jobs.js";
+import { isServerGone, leftOut, machineWanted, possibleAction } from "../../web/studio/shared-section.js";
 
 const NOW_MS = Date.parse("2026-11-21T12:00:00Z");
 const ago = (ms: number): string => new Date(NOW_MS - ms).toISOString();

@@ -1,17 +1,14 @@
 import { DrawingPanel } from "../drawing/drawing.js";
 import { DrawnSize } from "../drawing/drawn-size.js";
-import { Dialogs } from "./dialogs.js";
 import { LayersPanel } from "../layers/layers.js";
 import { LinesPanel } from "../drawing/lines.js";
-import { MachinePanel, MachineSetUp } from "../plotter/machine.js";
+import { MachinePanel, MachineSetUp, PresetsPanel } from "../plotter/machine.js";
 import { MotionPanel } from "../motion/motion.js";
 import { Notices } from "../ui/notices.js";
 import { PaperPanel } from "../drawing/paper.js";
-import { PenPanel } from "../pens/pen.js";
-import { PensPanel } from "../pens/pens.js";
+import { PenPanel, PensPanel } from "../pens/pens.js";
 import { PlotBar } from "../queue/plot-bar.js";
 import { HistoryPanel, QueuePanel } from "../queue/queue.js";
-import { PresetsPanel } from "../plotter/presets.js";
 import { Strips } from "./strips.js";
 import { TopBar } from "./top-bar.js";
 import { Preview } from "../preview/preview.js";
@@ -22,6 +19,7 @@ import { drawingText } from "../drawing/text.js";
 import { skipText, tabsText } from "./text.js";
 import { DropZone } from "../ui/drop-zone.js";
 import { lazyPart } from "../ui/lazy-part.js";
+import { PAGE_ACTIONS } from "./page-actions.js";
 
 const EmptyPaper = lazyPart(async () => (await import("../drawing/empty-paper.js")).EmptyPaper);
 const Watch = lazyPart(async () => (await import("../watch/watch.js")).Watch);
@@ -139,4 +137,35 @@ const Tabs = () => {
       ))}
     </nav>
   );
+};
+
+const TakeOver = lazyPart(async () => (await import("./take-over.js")).TakeOver);
+const Search = lazyPart(async () => (await import("../search/search.js")).Search);
+const DIALOGS = {
+  keys: lazyPart(async () => (await import("./help.js")).HelpSheet),
+  about: lazyPart(async () => (await import("./help.js")).AboutDialog),
+  wizard: lazyPart(async () => (await import("../plotter/wizard.js")).Wizard),
+  machines: lazyPart(async () => (await import("../plotter/machines-dialog.js")).MachinesDialog),
+  console: lazyPart(async () => (await import("../plotter/console.js")).Console),
+  ringing: lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog),
+  studio: lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog),
+} as const;
+
+/** The open dialog, if any. The question is shown over it, so that what was typed into the dialog is kept. */
+const Dialogs = () => {
+  const question = usePageState((state) => state.takeOverQuestion);
+  return (
+    <>
+      <OpenDialog />
+      {question && <TakeOver question={question} />}
+    </>
+  );
+};
+
+const OpenDialog = () => {
+  const name = usePageState((state) => state.openDialog);
+  if (name === null) return null;
+  if (name === "search") return <Search actions={PAGE_ACTIONS} />;
+  const Named = DIALOGS[name];
+  return <Named />;
 };

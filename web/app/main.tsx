@@ -2,11 +2,24 @@
 import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { PageContext } from "../state/use-store.js";
-import { ErrorBoundary } from "../ui/error-boundary.js";
+import { ErrorBoundary } from "../ui/lazy-part.js";
 import { App } from "./app.js";
-import { Crash } from "./crash.js";
 import { openPage } from "./open-page.js";
+import { Button } from "../ui/button.js";
+import { errorText } from "../ui/text.js";
 import "./index.css";
+
+/** A message instead of an empty window when rendering the page has failed. */
+const Crash = ({ message }: { message: string }) => (
+  <main className="crash" role="alert">
+    <h1>{errorText.title}</h1>
+    <p>{errorText.unexpected}</p>
+    <p className="note">{message}</p>
+    <Button kind="primary" onClick={() => location.reload()}>
+      {errorText.reload}
+    </Button>
+  </main>
+);
 
 const root = document.getElementById("root");
 if (!root) throw new Error("index.html has no #root");

@@ -5,8 +5,15 @@ import { PLOT_ACTIONS } from "../queue/plot-actions.js";
 import { isForOperator, type PageAction } from "../state/page-action.js";
 import { THEMES, type Theme } from "../state/persist.js";
 import { shownView, type PageState, type PageView } from "../state/store.js";
-import { aboutText } from "./about-text.js";
-import { historyText, searchLabel, shortcutsText, studioLink, themeText, viewText } from "./text.js";
+import {
+  aboutText,
+  historyText,
+  searchLabel,
+  shortcutsText,
+  studioLink,
+  themeText,
+  viewText,
+} from "./text.js";
 
 export const UNDO: PageAction = {
   id: "undo",

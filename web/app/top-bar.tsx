@@ -1,13 +1,15 @@
-import { currentPlotter, mayOperate, shownView } from "../state/store.js";
+import { currentPlotter, mayOperate, shownView, unfinishedJob, type ServerLink } from "../state/store.js";
 import type { Theme } from "../state/persist.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ActionButton } from "../ui/action-button.js";
 import { appName } from "../ui/text.js";
 import { REDO, SEARCH, SHORTCUTS, STUDIO, THEME, UNDO } from "./page-actions.js";
 import { viewText } from "./text.js";
-import { plotterText } from "../plotter/text.js";
+import { plotterText as words } from "../plotter/text.js";
 import type { IconName } from "../ui/icon.js";
-import { MachineState } from "../plotter/machine-state.js";
+import type { Job, Plotter } from "../../src/schema/index.js";
+import { formatPercent } from "../ui/format.js";
+import { lampOf, plotterWords } from "../plotter/machine-words.js";
 
 const THEME_ICON: Record<Theme, IconName> = { auto: "auto", light: "sun", dark: "moon" };
 
@@ -67,7 +69,7 @@ const PlotterSwitch = () => {
   return (
     <select
       className="plotter-switch"
-      aria-label={plotterText.which}
+      aria-label={words.which}
       value={current.id}
       onChange={(event) => choosePlotter(event.target.value)}
     >
@@ -83,4 +85,32 @@ const PlotterSwitch = () => {
 const ThemeButton = () => {
   const theme = usePageState((state) => state.view.theme);
   return <ActionButton action={THEME} kind="tool" icon={THEME_ICON[theme]} />;
+};
+
+/** The plotter's state in one line with a lamp, always visible. */
+const MachineState = () => {
+  const link = usePageState((state) => state.link);
+  const plotter = usePageState(currentPlotter);
+  const job = usePageState(unfinishedJob);
+  const isKnown = link === "connected" && plotter !== null;
+  return (
+    <p
+      className="machine-state"
+      data-lamp={isKnown ? lampOf(plotter, job) : link === "lost" ? "fault" : "connecting"}
+    >
+      <span className="lamp" aria-hidden="true" />
+      <span role="status">{stateWords(link, plotter, job)}</span>
+      {/* Changes several times a second, so screen readers must not announce it. */}
+      {isKnown && job && <span className="machine-share">{formatPercent(job.progress)}</span>}
+    </p>
+  );
+};
+
+const stateWords = (link: ServerLink, plotter: Plotter | null, job: Job | null): string => {
+  if (link === "lost") return words.server.lost;
+  if (link === "connecting" || !plotter) return words.server.connecting;
+  const state = plotterWords(plotter, job);
+  if (job) return words.jobState(state, job.name);
+  if (plotter.kind === "virtual") return words.virtual;
+  return `${plotter.name}: ${state}`;
 };

@@ -2,14 +2,14 @@ import { DRAWING_EXTENSIONS, PX_NOTE } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import type { Planned } from "../worker/protocol.js";
 import { useFilesPage } from "./drawn-size.js";
-import { ExportPanel } from "./export.js";
 import { paperLabel } from "./paper.js";
-import { drawingText as words, reportText } from "./text.js";
+import { drawingText as words, reportText, saveText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { ChooseFile } from "../ui/choose-file.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingsGroup } from "../ui/settings-group.js";
+import { lazyPart } from "../ui/lazy-part.js";
 
 export const DrawingPanel = () => {
   const drawing = usePageState((state) => state.drawing);
@@ -114,4 +114,17 @@ const OtherPapers = ({ planned }: { planned: Planned }) => {
       </Button>
     );
   });
+};
+
+const ExportList = lazyPart(async () => (await import("./export-list.js")).ExportList);
+
+/** Saves what will be plotted as files. */
+const ExportPanel = () => {
+  const canExport = usePageState((state) => (state.planned?.strokeCount ?? 0) > 0);
+  if (!canExport) return null;
+  return (
+    <SettingsGroup id="export" title={saveText.title} isPart isLazy>
+      <ExportList />
+    </SettingsGroup>
+  );
 };

@@ -1,8 +1,8 @@
-import { FillPanel } from "./fill.js";
 import { usePageState } from "../state/use-store.js";
-import { linesText } from "./text.js";
+import { linesText, fillText as words } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
+import { formatNumber } from "../ui/format.js";
 
 const LinesFields = lazyPart(async () => (await import("./lines-fields.js")).LinesFields);
 
@@ -12,6 +12,23 @@ export const LinesPanel = () => {
     <SettingsGroup id="lines" title={linesText.title}>
       {isOpen && <LinesFields />}
       <FillPanel />
+    </SettingsGroup>
+  );
+};
+
+const FillFields = lazyPart(async () => (await import("./fill-fields.js")).FillFields);
+
+const FillPanel = () => {
+  const { spacingMm } = usePageState((state) => state.settings.prepare.hatch);
+  return (
+    <SettingsGroup
+      id="fill"
+      isPart
+      isLazy
+      title={words.title}
+      summary={spacingMm > 0 ? words.on(formatNumber(spacingMm)) : words.off}
+    >
+      <FillFields />
     </SettingsGroup>
   );
 };

@@ -1,7 +1,8 @@
 import { usePageState } from "../state/use-store.js";
-import { pensText } from "./text.js";
+import { pensText, heightsText } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
+import { formatNumber } from "../ui/format.js";
 
 const PenList = lazyPart(async () => (await import("./pen-list.js")).PenList);
 
@@ -18,6 +19,22 @@ export const PensPanel = () => {
       help={pensText.hint}
     >
       <PenList />
+    </SettingsGroup>
+  );
+};
+
+const PenFields = lazyPart(async () => (await import("./pen-fields.js")).PenFields);
+
+export const PenPanel = () => {
+  const { liftMs, dropMs } = usePageState((state) => state.settings.pen);
+  return (
+    <SettingsGroup
+      id="pen"
+      isLazy
+      title={heightsText.title}
+      summary={`${formatNumber(liftMs)} / ${formatNumber(dropMs)} ms`}
+    >
+      <PenFields />
     </SettingsGroup>
   );
 };

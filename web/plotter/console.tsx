@@ -2,8 +2,8 @@ import { useEffect, useRef, useState, type FormEvent, type KeyboardEvent } from 
 import { activeJob, currentPlotter } from "../state/store.js";
 import { useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
-import { Sheet } from "../ui/sheet.js";
-import { consoleText as words } from "./console-text.js";
+import { Sheet } from "../ui/dialog.js";
+import { consoleText as words } from "./machines-text.js";
 import "./console.css";
 
 const MAX_LINES = 500;

@@ -4,7 +4,7 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { movesText as words } from "./hand-text.js";
 import { ActionButton } from "../ui/action-button.js";
 import { Button } from "../ui/button.js";
-import { MmPair } from "../ui/mm-pair.js";
+import { MmPair } from "../ui/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
 import { areMovesOff, CYCLE_PEN, SET_HOME, TEST_PATCH, TRACE_FRAME } from "./plotter-actions.js";

@@ -4,7 +4,7 @@ import { findMachine } from "../../src/internal.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, useBackend, useIsConnected, usePageState } from "../state/use-store.js";
-import { plotterText as words } from "./text.js";
+import { plotterText as words, presetsText } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
 import { Select } from "../ui/choice.js";
 import { Facts } from "../ui/facts.js";
@@ -129,5 +129,16 @@ const ModelSelect = () => {
       options={all.map(({ id, name }) => ({ value: id, label: name }))}
       onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
     />
+  );
+};
+
+const PresetList = lazyPart(async () => (await import("./preset-list.js")).PresetList);
+
+export const PresetsPanel = () => {
+  const count = usePageState((state) => state.presets.length);
+  return (
+    <SettingsGroup id="presets" isLazy title={presetsText.title} summary={count > 0 ? String(count) : ""}>
+      <PresetList />
+    </SettingsGroup>
   );
 };

@@ -3,7 +3,7 @@ import { MACHINES, type MachineProfile } from "../../src/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { ChooseFile } from "../ui/choose-file.js";
-import { Sheet } from "../ui/sheet.js";
+import { Sheet } from "../ui/dialog.js";
 import { machinesText as words } from "./machines-text.js";
 import { saveFile } from "../ui/save-file.js";
 import { copyOf, fileOf, freeId, parseMachineFile, problemsOf } from "./profile.js";

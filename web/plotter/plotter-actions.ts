@@ -1,12 +1,12 @@
 /** Actions on the plotter: moves by hand, and its dialogs. */
-import type { HandMove } from "../../src/schema/index.js";
+import type { HandMove, BoxMm } from "../../src/schema/index.js";
 import { isForOperator, type Page, type PageAction } from "../state/page-action.js";
 import { activeJob, currentPlotter, isReady, type DialogName, type PageState } from "../state/store.js";
 import { stateText } from "../state/text.js";
 import { saveFile } from "../ui/save-file.js";
-import { boxOfDrawn } from "./drawn-box.js";
 import { movesText } from "./hand-text.js";
 import { penText, plotterText, whyNoMoveText as why } from "./text.js";
+import type { Trajectory } from "../../src/index.js";
 
 const whyNoMove = (state: PageState): string => {
   if (state.link !== "connected") return stateText.notConnected;
@@ -146,3 +146,25 @@ export const PLOTTER_ACTIONS: readonly PageAction[] = [
   CONSOLE,
   SAVE_LOG,
 ];
+
+/**
+ * The box around the ends of all blocks with the pen down. Exact for straight lines; for curves within the tolerance of
+ * their flattening. A run ends where the next one begins. Null if there is nothing to draw.
+ */
+export const boxOfDrawn = ({ runs, x, y, blockCount, endX, endY }: Trajectory): BoxMm | null => {
+  let [minX, minY, maxX, maxY] = [Infinity, Infinity, -Infinity, -Infinity];
+  const take = (px: number, py: number): void => {
+    minX = Math.min(minX, px);
+    maxX = Math.max(maxX, px);
+    minY = Math.min(minY, py);
+    maxY = Math.max(maxY, py);
+  };
+  for (let r = 0; r < runs.count; r++) {
+    if (runs.stroke[r] < 0) continue;
+    for (let b = runs.firstBlock[r]; b <= runs.firstBlock[r + 1]; b++) {
+      if (b < blockCount) take(x[b], y[b]);
+      else take(endX, endY);
+    }
+  }
+  return minX > maxX ? null : { xMm: minX, yMm: minY, widthMm: maxX - minX, heightMm: maxY - minY };
+};

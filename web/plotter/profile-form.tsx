@@ -2,8 +2,7 @@ import type { MachineProfile } from "../../src/index.js";
 import type { EbbController } from "../../src/internal.js";
 import { profileText as words } from "./machines-text.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
-import { MmPair } from "../ui/mm-pair.js";
-import { NumberField } from "../ui/number-field.js";
+import { MmPair, NumberField } from "../ui/number-field.js";
 import { TextField } from "../ui/text-field.js";
 import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
 

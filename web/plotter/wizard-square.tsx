@@ -5,7 +5,7 @@ import { useActions } from "../state/use-store.js";
 import { wizardText as words } from "./wizard-text.js";
 import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
-import { MmPair } from "../ui/mm-pair.js";
+import { MmPair } from "../ui/number-field.js";
 import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
 const SQUARE_MM = 100;

@@ -47,7 +47,7 @@ export const PLACE: PageAction = {
   },
 };
 
-export const TURN_PAPER: PageAction = {
+const TURN_PAPER: PageAction = {
   id: "turn-paper",
   label: previewText.turnPaper,
   words: "landscape, portrait, rotate, orientation",

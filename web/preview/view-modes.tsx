@@ -44,7 +44,7 @@ export interface ModeInput {
   readonly settings: PageState["settings"];
 }
 
-export interface LayerLook {
+interface LayerLook {
   /** "#rrggbb" */
   readonly color: string;
   readonly widthMm: number;

@@ -21,3 +21,10 @@ export const lookForUpdate = async (): Promise<void> => {
   const registration = await navigator.serviceWorker?.getRegistration();
   await registration?.update().catch(() => undefined);
 };
+
+/** The licences of all software in the page. Null if there is no such file, as on the development server. */
+export const fetchLicences = async (signal: AbortSignal): Promise<string | null> => {
+  const response = await fetch(`${import.meta.env.BASE_URL}licences.txt`, { signal });
+  const isText = response.headers.get("Content-Type")?.startsWith("text/plain") === true;
+  return response.ok && isText ? response.text() : null;
+};

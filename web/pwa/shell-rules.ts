@@ -1,6 +1,6 @@
 /** Which requests the service worker answers, and how. Separate from it, for tests. */
 
-export interface Asked {
+interface Asked {
   readonly method: string;
   readonly url: string;
   /** "navigate": a page is opened. */

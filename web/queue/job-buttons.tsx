@@ -2,7 +2,7 @@ import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { penWait } from "../state/store.js";
 import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
-import { isMainActionOff, mainActionOf } from "./main-action.js";
+import { isMainActionOff, mainActionOf } from "./plot-actions.js";
 import { jobText as words, queueText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";

@@ -7,8 +7,8 @@ import { previewText } from "../preview/text.js";
 import { isForOperator, type PageAction } from "../state/page-action.js";
 import { activeJob, currentPlotter, mayOperate, type PageState } from "../state/store.js";
 import { stateText } from "../state/text.js";
-import { isMainActionOff, mainActionOf } from "./main-action.js";
 import { jobText, plotText } from "./text.js";
+import type { Job } from "../../src/schema/index.js";
 
 /** A drawing or its settings are being sent. */
 export const isSendingJob = ({ busyAction }: PageState): boolean =>
@@ -59,7 +59,7 @@ const mainAction = (state: PageState) => {
   const action = job && mainActionOf(state, job);
   return job && action ? { job, action } : null;
 };
-export const PAUSE: PageAction = {
+const PAUSE: PageAction = {
   id: "pause",
   label: plotText.pauseOrResume,
   words: "stop, halt, continue, hold",
@@ -93,3 +93,20 @@ const changedJob = ({ drawing, jobs }: PageState) =>
     : null;
 
 export const PLOT_ACTIONS: readonly PageAction[] = [PLOT, QUEUE, SAVE_TO_JOB, PAUSE];
+
+/** What the main button of a job does. */
+type MainAction = "pause" | "resume" | "recover";
+
+const ACTIONS: Readonly<Partial<Record<Job["state"], MainAction>>> = {
+  plotting: "pause",
+  paused: "resume",
+  interrupted: "recover",
+};
+
+/** Null: the job has no such button on this page. Watchers may only stop a plot. */
+export const mainActionOf = (state: PageState, job: Job): MainAction | null =>
+  mayOperate(state) || job.state === "plotting" ? (ACTIONS[job.state] ?? null) : null;
+
+/** Without a connection the server would not receive the request. */
+export const isMainActionOff = ({ link, busyAction }: PageState, job: Job, action: MainAction): boolean =>
+  link !== "connected" || busyAction === `${action} ${job.id}`;

@@ -6,7 +6,6 @@ import { usePageState, usePageStore } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { isEnabled } from "../state/page-action.js";
 import { isSendingJob, PLOT, QUEUE, SAVE_TO_JOB } from "./plot-actions.js";
-import { CutOffNote } from "./cut-off-note.js";
 import { plotText as words } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
 import { Facts } from "../ui/facts.js";
@@ -134,5 +133,20 @@ const RunningJob = () => {
       </p>
       <JobButtons job={job} />
     </div>
+  );
+};
+
+/** How many lines are not drawn, or only in part, and why. */
+const CutOffNote = () => {
+  const cutOff = usePageState((state) => state.planned?.cutOff ?? null);
+  const isAtMargins = usePageState((state) => state.planned?.settings.prepare.clipToMargins ?? false);
+  if (!cutOff) return null;
+  const { outsideCount, partCount } = cutOff;
+  const edge = isAtMargins ? words.margins : words.paper;
+  return (
+    <p className="note cut-off-note">
+      {outsideCount > 0 && words.outside(outsideCount, formatCount(outsideCount), edge)}{" "}
+      {partCount > 0 && words.cutOff(partCount, formatCount(partCount), edge)}
+    </p>
   );
 };

@@ -1,4 +1,4 @@
-import { useRef } from "react";
+import { useRef, useState } from "react";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { rowsOf } from "./copies.js";
 import { queueTime } from "./queue-time.js";
@@ -10,12 +10,12 @@ import {
   usePageState,
   usePlotterJobs,
 } from "../state/use-store.js";
-import { queueText as words } from "./text.js";
+import { queueText as words, notifyText } from "./text.js";
 import { Segments } from "../ui/choice.js";
 import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { useNow } from "../ui/use-now.js";
-import { NotifyButton } from "./notify-button.js";
+import { Button } from "../ui/button.js";
 
 const RunningJob = lazyPart(async () => (await import("./running-job.js")).RunningJob);
 const WaitingJob = lazyPart(async () => (await import("./waiting-job.js")).WaitingJob);
@@ -111,5 +111,23 @@ export const HistoryPanel = () => {
       <h2 className="card-title">{words.history}</h2>
       {isEmpty ? <p className="note">{words.historyEmpty}</p> : <HistoryList jobs={jobs} />}
     </section>
+  );
+};
+
+/** Asks for permission to show notifications. Hidden if the browser does not support notifications. */
+const NotifyButton = () => {
+  const { notify } = useActions();
+  const [permission, setPermission] = useState(() => window.Notification?.permission ?? "denied");
+  if (!window.Notification || !window.isSecureContext) return null;
+  if (permission === "granted") return <p className="note">{notifyText.asked}</p>;
+  const ask = async (): Promise<void> => {
+    const answer = await Notification.requestPermission();
+    setPermission(answer);
+    if (answer === "denied") notify("error", notifyText.denied);
+  };
+  return (
+    <Button kind="link" className="notify-link" onClick={() => void ask()}>
+      {notifyText.ask}
+    </Button>
   );
 };

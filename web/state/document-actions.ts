@@ -1,11 +1,10 @@
 /** The user's actions that put a drawing on the paper. */
 import { isDrawingName, isSameJson } from "../../src/internal.js";
-import type { Job } from "../../src/schema/index.js";
+import { type Job, DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { contentOf, type DrawingText } from "../worker/drawing-text.js";
 import type { PlanFault } from "../worker/protocol.js";
 import type { createUiActions } from "./ui-actions.js";
-import { forOtherDrawing } from "./other-drawing.js";
 import { openedSettings } from "./plotter-sync.js";
 import type { OpenDrawing, PageState, PageStore } from "./store.js";
 import { stateText } from "./text.js";
@@ -149,5 +148,35 @@ export const createDocumentActions = (parts: DocumentParts) => {
       openDrawing(job.name, text, job.id);
       showJobSettings(job);
     },
+  };
+};
+
+/** Layers identified by a colour mean the same in every drawing. */
+const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
+
+/**
+ * The settings for another drawing: without those of single layers, except layers identified by a colour, and without
+ * the answer to what happens outside the paper, and without the resolution of the file.
+ */
+export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
+  const kept = <T>(byLayer: Readonly<Record<string, T>> | undefined): Record<string, T> =>
+    Object.fromEntries(Object.entries(byLayer ?? {}).filter(([id]) => isColorId(id)));
+  const { motion, pen, prepare } = settings;
+  return {
+    ...settings,
+    prepare: {
+      ...prepare,
+      outside: DEFAULT_PLOT_SETTINGS.prepare.outside,
+      pxPerInch: DEFAULT_PLOT_SETTINGS.prepare.pxPerInch,
+      hiddenLayers: [],
+      shownLayers: [],
+      layerOrder: prepare.layerOrder.filter(isColorId),
+      layerRepeats: kept(prepare.layerRepeats),
+      layerHatches: prepare.layerHatches.filter(({ layer }) => isColorId(layer)),
+    },
+    motion: motion.layers ? { ...motion, layers: kept(motion.layers) } : motion,
+    pen: pen.layers ? { ...pen, layers: kept(pen.layers) } : pen,
+    layerPens: kept(settings.layerPens),
+    layerStops: kept(settings.layerStops),
   };
 };

@@ -5,7 +5,7 @@ import { z } from "zod";
 import { findMachine, LENGTH_UNITS, plannable } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 
-export const PAGE_KEY = "plotwright.page.v1";
+const PAGE_KEY = "plotwright.page.v1";
 
 export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];

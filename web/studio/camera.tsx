@@ -1,7 +1,6 @@
 import { useEffect, useState } from "react";
 import { usePageState } from "../state/use-store.js";
 import { studioText as words } from "./text.js";
-import { freshUrl, isCameraUrl } from "./camera-url.js";
 import "./studio.css";
 
 /** The camera's picture: a stream, or a still picture that is fetched repeatedly. */
@@ -28,4 +27,20 @@ export const Camera = () => {
       {hasFailed && <p className="note note-error">{words.cameraFailed}</p>}
     </section>
   );
+};
+
+/** Whether a camera's picture may come from this address. */
+export const isCameraUrl = (url: string): boolean => {
+  try {
+    return ["http:", "https:"].includes(new URL(url).protocol);
+  } catch {
+    return false;
+  }
+};
+
+/** The address with a changing parameter, so that no cache answers with the last picture. */
+const freshUrl = (url: string, turn: number): string => {
+  const fresh = new URL(url);
+  fresh.searchParams.set("plotwright", String(turn));
+  return fresh.href;
 };

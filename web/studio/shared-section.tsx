@@ -6,6 +6,7 @@ import {
   type Plotter,
   type SharedJob,
   type SharedTarget,
+  SERVER_LOST_AFTER_MS,
 } from "../../src/schema/index.js";
 import { BackendFault, type Backend } from "../backend/backend.js";
 import { profileOf } from "../state/plotter-sync.js";
@@ -15,7 +16,6 @@ import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
-import { isServerGone, leftOut, machineWanted, possibleAction } from "./shared-jobs.js";
 import { useFetched, useStudio } from "./use-studio.js";
 
 const POLL_MS = 3_000;
@@ -170,3 +170,23 @@ const ShareForm = ({ onSent }: { onSent(): void }) => {
     </form>
   );
 };
+
+/** The server that took the job has not reported for long. It may be off, or have no connection. */
+export const isServerGone = ({ state, serverSeenAt }: SharedJob, nowMs: number): boolean =>
+  (state === "taken" || state === "stored") &&
+  (serverSeenAt === null || nowMs - Date.parse(serverSeenAt) > SERVER_LOST_AFTER_MS);
+
+export const possibleAction = (job: SharedJob, nowMs: number): "withdraw" | "give-back" | null => {
+  if (job.state === "waiting") return "withdraw";
+  return isServerGone(job, nowMs) && !job.hasBegun ? "give-back" : null;
+};
+
+/** For a job that any plotter of one machine may take: the machine's id. Null for a job of a named plotter. */
+export const machineWanted = ({ target }: SharedJob): string | null =>
+  /^machine (.+)$/.exec(target)?.[1] ?? null;
+
+/** This server's plotters that can't take a waiting job because their model is not set. */
+export const leftOut = (job: SharedJob, plotters: readonly Plotter[]): readonly Plotter[] =>
+  job.state === "waiting" && machineWanted(job) !== null
+    ? plotters.filter(({ machine }) => machine === null)
+    : [];

@@ -2,6 +2,8 @@ import { useEffect, useRef, type ReactNode } from "react";
 import { Button } from "./button.js";
 import { errorText } from "./text.js";
 import { Icon } from "./icon.js";
+import { useActions } from "../state/use-store.js";
+import { Notices } from "./notices.js";
 import "./dialog.css";
 
 interface DialogProps {
@@ -41,5 +43,16 @@ export const Dialog = ({ title, isBare, className = "", onClose, children }: Dia
       )}
       {children}
     </dialog>
+  );
+};
+
+/** One of the page's dialogs. It shows the notices itself, because it covers the page's. */
+export const Sheet = ({ title, children }: { title: string; children: ReactNode }) => {
+  const { closeDialog } = useActions();
+  return (
+    <Dialog title={title} onClose={closeDialog}>
+      <Notices />
+      {children}
+    </Dialog>
   );
 };

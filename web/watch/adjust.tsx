@@ -1,4 +1,4 @@
-import { withOffs, type Job } from "../../src/schema/index.js";
+import { withOffs, type Job, type PlotSettings } from "../../src/schema/index.js";
 import { NudgeJob } from "../plotter/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
 import { activeJob, mayOperate, penOf, penWait } from "../state/store.js";
@@ -6,8 +6,17 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/choice.js";
 import { formatCount, formatNumber } from "../ui/format.js";
-import { changedSettings } from "./changed-settings.js";
 import { watchText } from "./text.js";
+import {
+  AXIS_TABLE,
+  DRAW_TABLE,
+  DROP_RATE,
+  OVERLAP_TABLE,
+  PEN_TABLE,
+  TRAVEL_TABLE,
+  type Setting,
+  isSameJson,
+} from "../../src/internal.js";
 
 const STEP_MM = 10;
 const SPEED_PERCENTS: readonly number[] = [25, 50, 75, 90, 100, 110, 125, 150, 200];
@@ -96,4 +105,39 @@ const ApplyChanges = ({ job }: { job: Job }) => {
       <p className="note">{changes.join(", ")}</p>
     </>
   );
+};
+
+type Settings = Pick<PlotSettings, "pen" | "motion">;
+type Values = Readonly<Record<string, unknown>>;
+type Rows = Readonly<Record<string, Setting>>;
+
+const PEN_ROWS: Rows = { ...PEN_TABLE, ...OVERLAP_TABLE, dropPctPerS: DROP_RATE };
+
+/** The settings of `now` that `before` does not have: "Height down 28 %". Each is named once. */
+export const changedSettings = (before: Settings, now: Settings): readonly string[] => {
+  const { draw: drawBefore, travel: travelBefore, ...motionBefore } = before.motion;
+  const { draw, travel, ...motion } = now.motion;
+  return [
+    ...new Set([
+      ...changed(before.pen, now.pen, PEN_ROWS),
+      ...changed(drawBefore, draw, DRAW_TABLE).map(watchText.penDown),
+      ...changed(travelBefore, travel, TRAVEL_TABLE).map(watchText.penUp),
+      ...changed(motionBefore, motion, AXIS_TABLE),
+    ]),
+  ];
+};
+
+const changed = (before: Values, now: Values, rows: Rows): readonly string[] => {
+  const keys = [...new Set([...Object.keys(before), ...Object.keys(now)])];
+  // A setting that is left out is the same as null.
+  return keys
+    .filter((key) => !isSameJson(before[key] ?? null, now[key] ?? null))
+    .map((key) => inWords(rows[key], now[key]));
+};
+
+const inWords = (row: Setting | undefined, value: unknown): string => {
+  if (row === undefined) return watchText.otherChange;
+  return row.kind === "number" && typeof value === "number"
+    ? `${row.label} ${formatNumber(value, row.digits)} ${row.unit}`
+    : row.label;
 };

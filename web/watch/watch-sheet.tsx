@@ -4,12 +4,12 @@ import { Sheet, type SheetKind } from "../preview/sheet.js";
 import type { Stage } from "../preview/stage.js";
 import { previewText } from "../preview/text.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
-import { usePageState } from "../state/use-store.js";
-import { deskOf } from "../preview/desk.js";
-import { plotterMarker } from "../preview/marker.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
+import { deskOf, plotterMarker } from "../preview/desk.js";
 import { lookOfJob } from "./watch-look.js";
-import { FullScreenButton } from "./full-screen.js";
 import { watchText as words } from "./text.js";
+import { useEffect } from "react";
+import { IconButton } from "../ui/button.js";
 
 /** Height of the tools under the paper. */
 const BELOW_PX = 52;
@@ -92,5 +92,36 @@ const Nothing = () => {
     <div className="paper-message" role="status">
       <p>{previewText.reading(job.name)}</p>
     </div>
+  );
+};
+
+/** For a tablet beside the plotter: shows only the status, the sheet and the camera, and keeps the screen on. */
+const FullScreenButton = () => {
+  const store = usePageStore();
+  const isFull = usePageState((state) => state.isFullScreen);
+  useEffect(() => {
+    if (!isFull) return;
+    // If the browser has no full screen (on a phone), Watch still fills the page.
+    void document.documentElement.requestFullscreen?.().catch(() => undefined);
+    const lock = "wakeLock" in navigator ? navigator.wakeLock.request("screen").catch(() => null) : null;
+    const onChange = (): void => {
+      if (document.fullscreenElement === null) store.setState({ isFullScreen: false });
+    };
+    document.addEventListener("fullscreenchange", onChange);
+    return () => {
+      document.removeEventListener("fullscreenchange", onChange);
+      void lock?.then((held) => held?.release());
+      if (document.fullscreenElement !== null) void document.exitFullscreen().catch(() => undefined);
+    };
+  }, [isFull, store]);
+  const label = isFull ? words.endFullScreen : words.fullScreen;
+  return (
+    <IconButton
+      kind="tool"
+      icon="full"
+      label={label}
+      aria-pressed={isFull}
+      onClick={() => store.setState({ isFullScreen: !isFull })}
+    />
   );
 };

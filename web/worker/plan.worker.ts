@@ -28,7 +28,7 @@ import {
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
-import { lineGapMm } from "../scene/density.js";
+import { lineGapMm } from "../scene/pick.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";

@@ -1,8 +1,7 @@
 /** The drawings of a browser's host, by id. */
 import { PlotwrightError } from "../../../src/index.js";
 import type { DrawingText } from "../../worker/drawing-text.js";
-import type { Records } from "./database.js";
-import { storageReason } from "./storage-reason.js";
+import type { Records, StoreName } from "./database.js";
 import { browserText } from "./text.js";
 
 export const drawingRecords = (db: Pick<Records, "put" | "remove" | "readDrawing" | "written">) => ({
@@ -32,3 +31,44 @@ export const drawingRecords = (db: Pick<Records, "put" | "remove" | "readDrawing
     return Promise.resolve();
   },
 });
+
+/** Why the browser's storage failed, in words for the user. */
+export const storageReason = (error: unknown): string => {
+  if (error instanceof DOMException && error.name === "QuotaExceededError") return browserText.full;
+  if (error instanceof DOMException && error.name === "InvalidStateError") return browserText.closedStorage;
+  return browserText.storageSays(error instanceof Error ? error.message : String(error));
+};
+
+/** The records of a host in a browser that stores nothing. They are lost when the tab is closed. */
+export class MemoryRecords implements Records {
+  readonly #drawings = new Map<string, unknown>();
+
+  /** Always empty: nothing is left from an earlier host, and this host has all records but drawings in memory anyway. */
+  read(): Promise<Map<string, unknown>> {
+    return Promise.resolve(new Map());
+  }
+
+  readDrawing(id: string): Promise<unknown> {
+    return Promise.resolve(this.#drawings.get(id));
+  }
+
+  drawingIds(): Promise<string[]> {
+    return Promise.resolve([...this.#drawings.keys()]);
+  }
+
+  put(store: StoreName, key: string, value: unknown): void {
+    if (store === "drawings") this.#drawings.set(key, value);
+  }
+
+  remove(store: StoreName, key: string): void {
+    if (store === "drawings") this.#drawings.delete(key);
+  }
+
+  written(): Promise<void> {
+    return Promise.resolve();
+  }
+
+  close(): Promise<void> {
+    return Promise.resolve();
+  }
+}

@@ -16,18 +16,16 @@ import { JobQueue } from "../../../host/queue/job-queue.js";
 import { Notices } from "../../../host/queue/notices.js";
 import { UploadedDrawings } from "../../../host/queue/uploaded-drawings.js";
 import { browserClock } from "../../serial/web-serial.js";
-import { announcer } from "./announcer.js";
 import { hasLocks } from "./capabilities.js";
 import { Database, type DatabaseEvents, type Records } from "./database.js";
-import { drawingRecords } from "./drawing-records.js";
+import { drawingRecords, storageReason, MemoryRecords } from "./drawing-records.js";
 import { browserOperations, ownMethods, type OwnMethods } from "./host-api.js";
-import { MemoryRecords } from "./memory-records.js";
 import { DATABASE, type WorkerStart } from "./protocol.js";
 import { serialDevices } from "./serial-devices.js";
-import { storageReason } from "./storage-reason.js";
 import { StoredModel } from "./stored-model.js";
 import { browserText } from "./text.js";
 import { workerPlanning } from "./worker-planning.js";
+import { LimitedProgress } from "../../../host/limited-progress.js";
 
 const STOPPED =
   "The page was closed or reloaded while this was plotting. Check pen and paper, then resume where it stopped.";
@@ -166,4 +164,19 @@ const openRecords = async (events: DatabaseEvents): Promise<Records> => {
 /** Removes drawings whose job was never added because the page was closed first. */
 async function removeUnused(db: Records, store: StoredModel): Promise<void> {
   for (const id of await db.drawingIds()) if (!store.isUsed(id)) db.remove("drawings", id);
+}
+
+/** Announces the changes of a browser's host. Each event is held back until all changes before it are stored. */
+export function announcer(
+  db: Pick<Records, "written">,
+  send: (event: ServerEvent) => void,
+): (event: ServerEvent) => void {
+  let last: Promise<void> = Promise.resolve();
+  const events = new LimitedProgress((event) => {
+    // A change that can't be stored is announced too: the page must always show a running plot. A notice reports the
+    // fault.
+    const stored = db.written().catch(() => undefined);
+    last = last.then(() => stored).then(() => send(event));
+  });
+  return (event) => events.announce(event);
 }
