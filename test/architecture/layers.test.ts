@@ -290,7 +290,6 @@ const EXPORTED_TWICE = [
   "AxisLimits",
   "Connection",
   "EbbMachine",
-  "LayerLook",
   "Notice",
   "Paint",
   "Part",

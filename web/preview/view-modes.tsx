@@ -28,7 +28,7 @@ export interface ViewMode {
   /** Lines are as wide as on paper. Otherwise the mode shows structure, and lines are thinner when zoomed out. */
   readonly isTrueToWidth: boolean;
   /** Colours and line widths of the layers, by index in `drawnLayers`. */
-  readonly layerLooks: (shown: ModeInput) => LayerLook[];
+  readonly layerLooks: (shown: ModeInput) => LineLook[];
   /**
    * The pieces, if their values are not their speeds. Null while they are computed: the planned pieces are shown
    * in the colours of `layerLooks`.
@@ -44,7 +44,7 @@ export interface ModeInput {
   readonly settings: PageState["settings"];
 }
 
-interface LayerLook {
+interface LineLook {
   /** "#rrggbb" */
   readonly color: string;
   readonly widthMm: number;
@@ -58,8 +58,8 @@ const STEP_MM = 0.05;
 /** The looks of all layers; `penMm` is the width of the layer's pen. */
 const looksOf = (
   { planned, settings }: ModeInput,
-  lookOf: (layer: StrokeLayer, index: number, pen: PlotPen | null, penMm: number) => LayerLook,
-): LayerLook[] =>
+  lookOf: (layer: StrokeLayer, index: number, pen: PlotPen | null, penMm: number) => LineLook,
+): LineLook[] =>
   planned.drawnLayers.map((layer, index) => {
     const pen = penOf(settings, layer);
     const { color, widthMm } = lookOf(layer, index, pen, pen?.widthMm ?? DEFAULT_LINE_MM);
@@ -67,7 +67,7 @@ const looksOf = (
   });
 
 /** Shows structure: a line is at most half as wide as the distance to the next one. */
-const structureLooks = (shown: ModeInput): LayerLook[] => {
+const structureLooks = (shown: ModeInput): LineLook[] => {
   const { drawnLayers, lineGapMm } = shown.planned;
   const haveOwnColors = new Set(drawnLayers.map(({ color }) => color)).size === drawnLayers.length;
   return looksOf(shown, ({ color }, index, _pen, penMm) => ({
@@ -120,7 +120,7 @@ const SpeedLegend = ({ topMmPerS }: { topMmPerS: number }) => {
   );
 };
 
-const fileLooks = (shown: ModeInput): LayerLook[] =>
+const fileLooks = (shown: ModeInput): LineLook[] =>
   looksOf(shown, (layer, _index, _pen, penMm) => ({
     color: layer.color ?? INK_COLOR,
     widthMm: fileWidthMm(shown.planned, layer) ?? penMm,
@@ -166,7 +166,7 @@ const ORDER: ViewMode = {
 };
 
 /** The colours and widths of the pens. */
-export const penLooks = (shown: ModeInput): LayerLook[] =>
+export const penLooks = (shown: ModeInput): LineLook[] =>
   looksOf(shown, (layer, _index, pen, penMm) => ({
     color: pen?.color ?? layer.color ?? INK_COLOR,
     widthMm: penMm,
