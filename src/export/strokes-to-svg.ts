@@ -12,10 +12,7 @@ export interface SvgOptions {
   readonly penWidthMm?: number;
   /** By layer index: width and colour from the layer's pen; null if it has no pen. */
   readonly pens?: readonly (LayerLook | null)[];
-  /**
-   * Layer names by layer index, for example with the codes of `formatLayerName`; default:
-   * the names in `strokes`.
-   */
+  /** Layer names by layer index, for example with the codes of `formatLayerName`; default: the names in `strokes`. */
   readonly layerNames?: readonly string[];
 }
 

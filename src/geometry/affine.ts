@@ -20,9 +20,7 @@ export const IDENTITY: Affine = { a: 1, b: 0, c: 0, d: 1, e: 0, f: 0 };
 export const translation = (x: number, y: number): Affine => ({ a: 1, b: 0, c: 0, d: 1, e: x, f: y });
 export const scaling = (x: number, y = x): Affine => ({ a: x, b: 0, c: 0, d: y, e: 0, f: 0 });
 
-/**
- * Rotates +x towards +y: clockwise on a page whose y axis points down. Exact at multiples of a quarter turn.
- */
+/** Rotates +x towards +y: clockwise on a page whose y axis points down. Exact at multiples of a quarter turn. */
 export function rotation(angleRad: number): Affine {
   const quarters = angleRad / (Math.PI / 2);
   const nearest = Math.round(quarters);

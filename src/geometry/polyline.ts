@@ -16,9 +16,7 @@ export interface Lines {
   readonly tag: Uint32Array;
 }
 
-/**
- * Points closer than this, mm, are the same point. Far below any machine's step, far above rounding errors.
- */
+/** Points closer than this, mm, are the same point. Far below any machine's step, far above rounding errors. */
 export const SAME_POINT = 1e-6;
 
 export const lineCount = (lines: Lines): number => lines.tag.length;

@@ -70,10 +70,7 @@ export function drawCentreArc(
   }
 }
 
-/**
- * SVG's A command from the pen's position to (x, y). Radii that are too small are enlarged; zero radii give a
- * line.
- */
+/** SVG's A command from the pen's position to (x, y). Radii that are too small are enlarged; zero radii give a line. */
 export function drawSvgArc(
   shape: ShapeBuffer,
   rx: number,

@@ -22,10 +22,7 @@ export const MAX_COORDINATE_MM = 1e6;
 /** For files without a page, whose coordinates may be those of a map: twice around the earth. */
 const MAX_ANYWHERE_MM = 1e11;
 
-/**
- * 400 MB. Even a file of 200 MB seldom needs more, but a few bytes of blocks and copies can expand to any
- * size.
- */
+/** 400 MB. Even a file of 200 MB seldom needs more, but a few bytes of blocks and copies can expand to any size. */
 const MAX_COORDS = 50_000_000;
 
 /** Min side of a page around the drawing, mm, so that a drawing of one straight line has a page with an area. */
@@ -107,9 +104,7 @@ export class DrawingBuilder {
     return this.groups.length - 1;
   }
 
-  /**
-   * Adds `shape`, mapped to page mm. Returns false, with a warning that names `where`, if it is out of range.
-   */
+  /** Adds `shape`, mapped to page mm. Returns false, with a warning that names `where`, if it is out of range. */
   addShape(
     shape: ShapeBuffer,
     map: Affine,

@@ -21,9 +21,7 @@ interface Format {
   readonly name: string;
   /** File extensions without the dot; the usual one first. */
   readonly extensions: readonly string[];
-  /**
-   * Whether a text is in this format, judged by its first few thousand characters, without leading blanks.
-   */
+  /** Whether a text is in this format, judged by its first few thousand characters, without leading blanks. */
   readonly isBegun: (head: string) => boolean;
 }
 

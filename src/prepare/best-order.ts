@@ -19,9 +19,7 @@ const KICKS_PER_S = 70_000;
 /** Max kicks per stroke: a small drawing reaches its best order long before the time is up. */
 const MAX_KICKS = 1_000;
 const ENDS_PER_CHECK = 4_096;
-/**
- * Longer tours are searched only in blocks: reversing sections of the whole tour would take all the time.
- */
+/** Longer tours are searched only in blocks: reversing sections of the whole tour would take all the time. */
 const MAX_WHOLE_TOUR = 50_000;
 /** Share of the time for searching the whole ring at once. */
 const FIRST_SHARE = 0.3;
@@ -149,10 +147,7 @@ function setEnds(lines: Lines, tour: Tour, i: number, first: number, xy: Float64
   xy.set([lines.xy[2 * a], lines.xy[2 * a + 1], lines.xy[2 * b], lines.xy[2 * b + 1]], 4 * (i - first));
 }
 
-/**
- * Starts each closed line at the corner closest to its neighbours in the ring; returns true if any start has
- * moved.
- */
+/** Starts each closed line at the corner closest to its neighbours in the ring; returns true if any start has moved. */
 function restartClosed(
   lines: Lines,
   tour: Tour,

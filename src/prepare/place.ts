@@ -217,9 +217,7 @@ function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: readonly B
   return { boxes, whole: hasEmpty ? EVERYTHING : whole };
 }
 
-/**
- * Box of everything that the file draws, including hidden layers, so that layers plotted one at a time still align.
- */
+/** Box of everything that the file draws, including hidden layers, so that layers plotted one at a time still align. */
 function contentBox(drawing: Drawing, boxes: readonly Box[], whole: Box, map: Affine, onPage: boolean): Box {
   const page = onPage ? pageBox(drawing, map) : null;
   const clipBoxes = drawing.clips.map((clip) => curveBoxOf(clip, map));

@@ -1,7 +1,4 @@
-/**
- * Reorders and splits strokes for wet ink: neighbours are drawn at different times, with stops to take up
- * ink.
- */
+/** Reorders and splits strokes for wet ink: neighbours are drawn at different times, with stops to take up ink. */
 import {
   LineBuilder,
   distance,

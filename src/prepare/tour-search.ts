@@ -274,9 +274,7 @@ export class TourSearch {
     return (span < 0 ? span + this.ends : span) + 1;
   }
 
-  /**
-   * Removes travel a b and c d (b after a, d after c, in either direction), adds a c and b d: reverses b … c.
-   */
+  /** Removes travel a b and c d (b after a, d after c, in either direction), adds a c and b d: reverses b … c. */
   private turn(a: number, b: number, c: number, d: number): void {
     const { place, ends } = this;
     // If b is an entry (even), the section is b … c in the ring, otherwise c … b.

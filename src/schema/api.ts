@@ -92,9 +92,7 @@ export const plotterSchema = z.object({
   /** Current activity; "held": a plot is waiting with the pen up. */
   activity: z.enum(["none", "plotting", "held", "moving"]).default("none"),
   firmware: z.string().nullable(),
-  /**
-   * Max time that the motors keep running after an emergency stop, with this firmware and the last settings.
-   */
+  /** Max time that the motors keep running after an emergency stop, with this firmware and the last settings. */
   emergencyStopMs: z.number().nullable().default(null),
   /** What is wrong and what to do, or null. */
   message: z.string().nullable(),
@@ -122,10 +120,7 @@ export type QueueSettings = z.infer<typeof queueSettingsSchema>;
 export const operatorSchema = z.object({ id: z.string(), name: z.string() });
 export type Operator = z.infer<typeof operatorSchema>;
 
-/**
- * A problem that was not caused by a request: for example a drawing in the watched folder that cannot be
- * plotted.
- */
+/** A problem that was not caused by a request: for example a drawing in the watched folder that cannot be plotted. */
 export const noticeSchema = z.object({ id: z.string(), at: z.string(), message: z.string() });
 export type Notice = z.infer<typeof noticeSchema>;
 

@@ -2,10 +2,7 @@
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 
-/**
- * "auto": the first EiBotBoard that no other plotter uses, or else the virtual board; "virtual"; or a serial
- * path.
- */
+/** "auto": the first EiBotBoard that no other plotter uses, or else the virtual board; "virtual"; or a serial path. */
 const deviceChoiceSchema = z.string().trim().min(1).max(500);
 
 /** A board connected to the server. */
@@ -59,10 +56,7 @@ export const newWebhookSchema = z.object({
 });
 export type NewWebhook = z.infer<typeof newWebhookSchema>;
 
-/**
- * The body of a webhook request; its header is `Plotwright-Signature: t=SECONDS,v1=HMAC-SHA256 of
- * "SECONDS.BODY"`.
- */
+/** The body of a webhook request; its header is `Plotwright-Signature: t=SECONDS,v1=HMAC-SHA256 of "SECONDS.BODY"`. */
 export const webhookMessageSchema = z.object({
   id: z.string(),
   event: webhookEventSchema,

@@ -252,10 +252,7 @@ export class HpglLabels {
     return this.origin > 10 && this.origin < 20 ? 0.5 : 0;
   }
 
-  /**
-   * The lower left corner, relative to the pen, of a label that is this much longer and higher than one
-   * letter.
-   */
+  /** The lower left corner, relative to the pen, of a label that is this much longer and higher than one letter. */
   private cornerOf(longer: number, higher: number): Place {
     const { anchor, rise, clearance, width, height } = this;
     return {

@@ -37,15 +37,10 @@ function drawBasicShape(
       return drawRect(source, shape, arcTolerance);
     case "circle": {
       const r = source.length("r", "both") ?? 0;
-      if (r < 0) return "negative radius";
-      if (r > 0) ellipse(source, shape, r, r, arcTolerance);
-      return null;
+      return r < 0 ? "negative radius" : drawRound(source, shape, { rx: r, ry: r }, arcTolerance);
     }
-    case "ellipse": {
-      const { rx, ry } = radiiOf(source);
-      if (rx > 0 && ry > 0) ellipse(source, shape, rx, ry, arcTolerance);
-      return null;
-    }
+    case "ellipse":
+      return drawRound(source, shape, radiiOf(source), arcTolerance);
     case "line":
       shape.moveTo(source.attributeLength("x1", "width") ?? 0, source.attributeLength("y1", "height") ?? 0);
       shape.lineTo(source.attributeLength("x2", "width") ?? 0, source.attributeLength("y2", "height") ?? 0);
@@ -55,8 +50,13 @@ function drawBasicShape(
   }
 }
 
+interface Radii {
+  readonly rx: number;
+  readonly ry: number;
+}
+
 /** A negative radius is invalid and counts as absent: the other one then applies to both axes. */
-function radiiOf(source: ShapeSource): { readonly rx: number; readonly ry: number } {
+function radiiOf(source: ShapeSource): Radii {
   const valid = (length: number | null): number | null => (length !== null && length >= 0 ? length : null);
   const rx = valid(source.length("rx", "width"));
   const ry = valid(source.length("ry", "height"));
@@ -72,21 +72,11 @@ function drawPath(source: ShapeSource, shape: ShapeBuffer, arcTolerance: number)
   return `character ${fault + 1}, near "${near}"`;
 }
 
-function ellipse(
-  source: ShapeSource,
-  shape: ShapeBuffer,
-  rx: number,
-  ry: number,
-  arcTolerance: number,
-): void {
-  drawEllipse(
-    shape,
-    source.length("cx", "width") ?? 0,
-    source.length("cy", "height") ?? 0,
-    rx,
-    ry,
-    arcTolerance,
-  );
+function drawRound(source: ShapeSource, shape: ShapeBuffer, { rx, ry }: Radii, arcTolerance: number): null {
+  const cx = source.length("cx", "width") ?? 0;
+  const cy = source.length("cy", "height") ?? 0;
+  if (rx > 0 && ry > 0) drawEllipse(shape, cx, cy, rx, ry, arcTolerance);
+  return null;
 }
 
 function drawRect(source: ShapeSource, shape: ShapeBuffer, arcTolerance: number): string | null {

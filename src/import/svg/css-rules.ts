@@ -97,10 +97,7 @@ function isForScreen(text: string, prelude: CssNode | null): boolean {
   return query === "" || query.split(",").some(holdsOnScreen);
 }
 
-/**
- * Whether an `@supports` condition is true: "not" and "and" are evaluated, and one true part of an "or" is
- * enough.
- */
+/** Whether an `@supports` condition is true: "not" and "and" are evaluated, and one true part of an "or" is enough. */
 function isSupported(condition: string): boolean {
   const parts = [...condition.matchAll(/(not\s*)?\(\s*([\w-]+)\s*:[^()]*(?:\([^()]*\)[^()]*)*\)/g)];
   const holds = parts.map(

@@ -109,9 +109,7 @@ function rootContext(page: SvgPage, root: Declared, pxPerInch: number): Context 
   };
 }
 
-/**
- * The root element's own transform, in mm on the page. Its origin is the page's centre, as for a box in CSS.
- */
+/** The root element's own transform, in mm on the page. Its origin is the page's centre, as for a box in CSS. */
 function rootTransform(
   page: SvgPage,
   root: Declared,

@@ -20,9 +20,7 @@ export const basisOfBox = (basis: LengthBasis, { x0, y0, x1, y1 }: Box): LengthB
   viewportHeight: y1 - y0,
 });
 
-/**
- * The side of the viewport that a percentage refers to; "both" is the diagonal / √2, for radii and widths.
- */
+/** The side of the viewport that a percentage refers to; "both" is the diagonal / √2, for radii and widths. */
 export type Side = "width" | "height" | "both";
 
 const NUMBER_AND_UNIT = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*$/;

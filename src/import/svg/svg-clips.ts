@@ -73,8 +73,8 @@ export class SvgClips {
     }
     let units = IDENTITY;
     if (attribute(tree, target, "clipPathUnits") === "objectBoundingBox") {
-      const box = this.measure(element, context);
-      if (box === null || isEmptyBox(box)) return context.clip;
+      const box = this.boxOf(element, context);
+      if (box === null) return context.clip;
       units = boxUnits(box);
     }
     return this.clipTo(element, target, context, units, nesting);
@@ -199,16 +199,8 @@ export class SvgClips {
     return { target, shift: translation(x, y) };
   }
 
-  /** The box of an element's geometry in its own user units; null if it has none. */
+  /** The box of an element's geometry in its own user units; null if it has none, or if there is too much to measure. */
   boxOf(element: number, context: Context): Box | null {
-    const box = this.measure(element, context);
-    return box === null || isEmptyBox(box) ? null : box;
-  }
-
-  /**
-   * Like `boxOf`, but returns an empty box if there is no geometry, and null if there is too much to measure.
-   */
-  private measure(element: number, context: Context): Box | null {
     const { tree } = this.file;
     let box = EMPTY_BOX;
     const pending: { element: number; map: Affine }[] = [{ element, map: IDENTITY }];
@@ -237,7 +229,7 @@ export class SvgClips {
         for (const child of childrenOf(tree, at)) pending.push({ element: child, map: inner });
       }
     }
-    return box;
+    return isEmptyBox(box) ? null : box;
   }
 }
 

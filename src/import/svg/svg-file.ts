@@ -23,10 +23,7 @@ export class SvgFile {
     this.layers = planLayers(tree);
   }
 
-  /**
-   * Conditional processing: `requiredExtensions` and `systemLanguage`, on `switch` children and all other
-   * elements.
-   */
+  /** Conditional processing: `requiredExtensions` and `systemLanguage`, on `switch` children and all other elements. */
   meetsConditions(element: number): boolean {
     const extensions = attribute(this.tree, element, "requiredExtensions");
     // No extension is supported; an empty list is not met either (SVG 2, §5.8.4).

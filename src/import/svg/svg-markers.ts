@@ -150,19 +150,13 @@ function orientRad(text: string): number {
   return turn === null ? 0 : Math.atan2(turn.b, turn.a);
 }
 
-/**
- * A length, or left/center/right and top/center/bottom of the box. Percentages refer to the enclosing
- * viewport.
- */
+/** A length, or left/center/right and top/center/bottom of the box. Percentages refer to the enclosing viewport. */
 function refPosition(text: string, start: number, length: number, basis: LengthBasis, side: Side): number {
   const share = { left: 0, top: 0, center: 0.5, right: 1, bottom: 1 }[text];
   return share === undefined ? (lengthPx(text, basis, side) ?? 0) : start + share * length;
 }
 
-/**
- * The context for the content of `marker` at `place` on a shape drawn in `context`; null if nothing is
- * visible.
- */
+/** The context for the content of `marker` at `place` on a shape drawn in `context`; null if nothing is visible. */
 export function insideMarker(
   file: SvgFile,
   marker: number,

@@ -42,9 +42,7 @@ export class SvgPaintServers {
     return null;
   }
 
-  /**
-   * Whether its units refer to the shape's box: then it paints nothing on a shape without width or height.
-   */
+  /** Whether its units refer to the shape's box: then it paints nothing on a shape without width or height. */
   isOfBox(id: string): boolean {
     const { tree } = this.file;
     const element = tree.elementById.get(id);

@@ -27,9 +27,7 @@ export class TextPath {
     readonly startOffset: number,
   ) {}
 
-  /**
-   * The position of a letter whose middle is this far along; null if it falls off the path and is not drawn.
-   */
+  /** The position of a letter whose middle is this far along; null if it falls off the path and is not drawn. */
   placeOf(middle: number, anchor: Anchor): PathPlace | null {
     const { length, isClosed } = this.path;
     if (!isClosed) return middle < 0 || middle > length ? null : this.path.placeAt(middle);

@@ -78,9 +78,7 @@ export class XmlNames {
   private readonly scopes: Scope[] = [new Map([["", SVG]])];
   private rootPrefix: string | null = null;
 
-  /**
-   * Call at each start tag: returns the element's name without SVG's prefix, or null for another vocabulary.
-   */
+  /** Call at each start tag: returns the element's name without SVG's prefix, or null for another vocabulary. */
   enter(name: string, attributes: readonly Written[]): string | null {
     let scope = this.scopes[this.scopes.length - 1];
     for (const { name: key, value } of attributes) {
@@ -101,10 +99,7 @@ export class XmlNames {
     this.scopes.pop();
   }
 
-  /**
-   * The name under which an attribute is stored; null for other vocabularies. Any prefix of `href` is
-   * accepted.
-   */
+  /** The name under which an attribute is stored; null for other vocabularies. Any prefix of `href` is accepted. */
   keptName(name: string): string | null {
     const colon = name.indexOf(":");
     if (colon < 0) return name === "xmlns" ? null : name;

@@ -3,10 +3,11 @@ import { FillRule } from "clipper2-ts";
 import fc from "fast-check";
 import { expect, it } from "vitest";
 import { LineBuilder, lineCount, totalLength, type Lines } from "../../../src/geometry/polyline.js";
-import { cutLine } from "../../../src/geometry/cut-line.js";
+import { clipLinesToBox, cutLine } from "../../../src/geometry/cut-line.js";
 import { SCALE, cleanRings, regionOf, type Region } from "../../../src/geometry/region.js";
 import { cases } from "../../support/full-run.js";
 import { distanceToRings, distanceToSegment, isInside, type Ring } from "../../support/shapes-by-sampling.js";
+import { boxContains, boxOfPoints, type Box } from "../../../src/geometry/box.js";
 
 type Point = readonly [number, number];
 
@@ -173,5 +174,48 @@ it("keeps a line on the edge of its own region whole, in one piece, whichever si
       },
     ),
     { numRuns: cases(500) },
+  );
+});
+
+/** The length of a line's part in a box: each segment is divided where it crosses the sides. */
+function lengthInBox(points: readonly Point[], box: Box): number {
+  let total = 0;
+  for (let k = 1; k < points.length; k++) {
+    const [[x0, y0], [x1, y1]] = [points[k - 1], points[k]];
+    const crossings = [(box.x0 - x0) / (x1 - x0), (box.x1 - x0) / (x1 - x0), (box.y0 - y0) / (y1 - y0)];
+    const shares = [0, 1, ...crossings, (box.y1 - y0) / (y1 - y0)].filter((t) => t >= 0 && t <= 1);
+    shares.sort((s, t) => s - t);
+    for (let i = 1; i < shares.length; i++) {
+      const middle = (shares[i - 1] + shares[i]) / 2;
+      const [x, y] = [x0 + middle * (x1 - x0), y0 + middle * (y1 - y0)];
+      const isInBox = x >= box.x0 && x <= box.x1 && y >= box.y0 && y <= box.y1;
+      if (isInBox) total += (shares[i] - shares[i - 1]) * Math.hypot(x1 - x0, y1 - y0);
+    }
+  }
+  return total;
+}
+
+it("cuts lines at a box so that exactly their parts inside are left, and no point is outside", () => {
+  const place = fc.integer({ min: -500, max: 500 }).map((n) => n / 7);
+  const points = fc.array(fc.tuple(place, place), { minLength: 2, maxLength: 9 });
+  const box = fc
+    .tuple(
+      place,
+      place,
+      fc.integer({ min: 1, max: 600 }).map((n) => n / 11),
+    )
+    .map(([x0, y0, side]): Box => ({ x0, y0, x1: x0 + side, y1: y0 + side / 2 }));
+  fc.assert(
+    fc.property(points, fc.boolean(), box, (open, isClosed, inside) => {
+      const line = isClosed ? [...open, open[0]] : open;
+      const builder = new LineBuilder();
+      for (const [x, y] of line) builder.point(x, y);
+      builder.end(7);
+      const cut = clipLinesToBox(builder.finish(), inside);
+      if (cut.xy.length > 0) expect(boxContains(inside, boxOfPoints(cut.xy))).toBe(true);
+      expect(totalLength(cut)).toBeCloseTo(lengthInBox(line, inside), 4);
+      expect(cut.tag.every((tag) => tag === 7)).toBe(true);
+    }),
+    { numRuns: cases(300, 20_000) },
   );
 });
