@@ -146,7 +146,7 @@ describe("the settings' options", () => {
       writeFileSync(file, text);
       expect(() => settingsOf("--config", file)).toThrow(fault);
     }
-    expect(() => settingsOf("--config", file)).toThrow(/there is no such file or folder/);
+    expect(() => settingsOf("--config", join(dir, "none.json"))).toThrow(/there is no such file or folder/);
   });
 
   it("use the last of two opposite ones", () => {
