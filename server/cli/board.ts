@@ -113,7 +113,7 @@ export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBo
 /** Runs until interrupted. */
 export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise<void> {
   const machine = machineById(options.machine ?? "axidraw-v3");
-  checkLinkPlace(options.pty);
+  checkLinkPath(options.pty);
   const ptyBoard = await openPtyBoard({
     machine,
     ...(options.firmware === undefined ? {} : { firmware: options.firmware }),
@@ -179,7 +179,7 @@ function summary(board: VirtualBoard): string {
     ["underruns", `${s.underrunCount}, ${(s.underrunS * 1e3).toFixed(1)} ms in all`],
     ["largest jump", `${s.largestJumpMmPerS.toFixed(2)} mm/s`],
     ["step counters", `${state.steps1}, ${state.steps2}`],
-    ["place", `${state.xMm.toFixed(3)}, ${state.yMm.toFixed(3)} mm`],
+    ["position", `${state.xMm.toFixed(3)}, ${state.yMm.toFixed(3)} mm`],
   ];
   return rows.map(([name, value]) => `${name.padEnd(14)}${value}\n`).join("");
 }
@@ -215,7 +215,7 @@ function pathOf(xy: Float64Array): string {
 }
 
 /** Throws if `path` is anything but a link. */
-function checkLinkPlace(path: string): void {
+function checkLinkPath(path: string): void {
   try {
     if (lstatSync(path).isSymbolicLink()) return;
   } catch {

@@ -12,6 +12,7 @@ interface CliCommand {
 const hand = async (): Promise<typeof import("./hand-commands.js")> => import("./hand-commands.js");
 const server = async (): Promise<typeof import("./server-commands.js")> => import("./server-commands.js");
 const queue = async (): Promise<typeof import("./queue-commands.js")> => import("./queue-commands.js");
+const job = async (): Promise<typeof import("./job-commands.js")> => import("./job-commands.js");
 const list = async (): Promise<typeof import("./list-commands.js")> => import("./list-commands.js");
 
 /** The command that runs if none is given. */
@@ -47,7 +48,11 @@ export const COMMANDS: readonly CliCommand[] = [
   {
     name: "add",
     about: "put drawings into a running server's queue",
-    examples: ["plotwright add drawing.svg --copies 3", "plotwright add - --url http://127.0.0.1:9080"],
+    examples: [
+      "plotwright add drawing.svg --copies 3",
+      "plotwright add drawing.svg --start",
+      "plotwright add - --url http://127.0.0.1:9080",
+    ],
     load: async () => (await queue()).declareAdd,
   },
   {
@@ -55,6 +60,42 @@ export const COMMANDS: readonly CliCommand[] = [
     about: "show a running server's queue",
     examples: ["plotwright queue", "plotwright queue --json"],
     load: async () => (await queue()).declareQueue,
+  },
+  {
+    name: "start",
+    about: "start a job of a running server",
+    examples: ["plotwright start", "plotwright start drawing.svg --json"],
+    load: async () => (await job()).declareStart,
+  },
+  {
+    name: "pause",
+    about: "pause the plot of a running server, with the pen up",
+    examples: ["plotwright pause"],
+    load: async () => (await job()).declarePause,
+  },
+  {
+    name: "resume",
+    about: "resume a paused job of a running server; an interrupted one is paused at first",
+    examples: ["plotwright resume", "plotwright resume drawing.svg"],
+    load: async () => (await job()).declareResume,
+  },
+  {
+    name: "cancel",
+    about: "cancel a job of a running server: the pen lifts and goes home",
+    examples: ["plotwright cancel"],
+    load: async () => (await job()).declareCancel,
+  },
+  {
+    name: "remove",
+    about: "remove a job from a running server",
+    examples: ["plotwright remove drawing.svg"],
+    load: async () => (await job()).declareRemove,
+  },
+  {
+    name: "follow",
+    about: "show the progress of a running server's plot until it ends",
+    examples: ["plotwright follow", "plotwright follow drawing.svg --json"],
+    load: async () => (await job()).declareFollow,
   },
   {
     name: "pen",

@@ -19,6 +19,7 @@ import {
   type DeviceOptions,
 } from "./options.js";
 import { serverHint } from "./server-client.js";
+import { servedPlotter, throughServer, type HandPlotter, type ServedPlotter } from "./served-plotter.js";
 import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
 
 type HandOptions = OptionValues & DeviceOptions;
@@ -64,7 +65,7 @@ export const declareInfo: Declare = (command, { io }) => {
           printed`firmware  ${firmware ?? "not known"}`,
           `pen       ${penUp === null ? "not known" : penUp ? "up" : "down"}`,
           `motors    ${motorsOn === null ? "not known" : motorsOn ? "on" : "off"}`,
-          `place     ${xMm === null || yMm === null ? "not known" : `${xMm.toFixed(2)}, ${yMm.toFixed(2)} mm`}`,
+          `position  ${xMm === null || yMm === null ? "not known" : `${xMm.toFixed(2)}, ${yMm.toFixed(2)} mm`}`,
           ...(advice === null ? [] : [`note      ${advice}`]),
           "",
         ].join("\n"),
@@ -127,10 +128,10 @@ export const declareFrame: Declare = (command, { io }) => {
   addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"])
     .option("--only <layer...>", "around these layers only, by name, id or leading number")
     .action(async (file: string, options: HandOptions & { readonly only?: readonly string[] }) => {
-      const settings = handSettings(options, io);
-      const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, settings, options.only));
-      await withInterrupt(options, settings, io, (plotter) =>
-        plotter.move({ kind: "frame", boxMm }, settings),
+      const found = await findPlotter(options, io);
+      const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, found.settings, options.only));
+      await usePlotter(found, options, io, (plotter) =>
+        plotter.move({ kind: "frame", boxMm }, found.settings),
       );
     });
 };
@@ -156,38 +157,49 @@ function penHeight(text: string): PenHeight {
   return height;
 }
 
-/** The plotter's settings with the options. Says if they name another model than the plotter's. */
-function handSettings(options: HandOptions, io: CliIo): PlotSettings {
-  mustBeDataFolder(typeof options["data"] === "string" ? options["data"] : undefined);
-  const { settings, note } = plotterSettingsFromOptions(options);
-  if (note !== null) io.err(`note: ${note}\n`);
-  return settings;
+interface Found {
+  /** Null: the command opens the plotter itself. */
+  readonly served: ServedPlotter | null;
+  readonly settings: PlotSettings;
 }
 
-function byHand(
+/** The plotter's settings with the options. Says if they name another model than the plotter's. */
+async function findPlotter(options: HandOptions, io: CliIo): Promise<Found> {
+  mustBeDataFolder(typeof options["data"] === "string" ? options["data"] : undefined);
+  const served = await servedPlotter(options);
+  const { settings, note } = served?.settings ?? plotterSettingsFromOptions(options);
+  if (note !== null) io.err(`note: ${note}\n`);
+  return { served, settings };
+}
+
+async function byHand(
   options: HandOptions,
   io: CliIo,
-  use: (plotter: PlotterPort, settings: PlotSettings) => Promise<void> | void,
+  use: (plotter: HandPlotter, settings: PlotSettings) => Promise<void> | void,
 ): Promise<void> {
-  const settings = handSettings(options, io);
-  return withInterrupt(options, settings, io, (plotter) => use(plotter, settings));
+  const found = await findPlotter(options, io);
+  await usePlotter(found, options, io, (plotter) => use(plotter, found.settings));
 }
 
-/** For a single command: an interrupt stops the move, and closing the plotter then lifts the pen. */
-async function withInterrupt(
+/** Through the server that has the plotter, or else directly. An interrupt stops the move, and the pen is lifted. */
+async function usePlotter(
+  { served, settings }: Found,
   options: DeviceOptions,
-  settings: PlotSettings,
   io: CliIo,
-  use: (plotter: PlotterPort) => Promise<void> | void,
+  use: (plotter: HandPlotter) => Promise<void> | void,
 ): Promise<void> {
-  let forget = (): void => undefined;
+  const stop = new AbortController();
+  const interrupted = new Promise<never>((_resolve, reject) => {
+    const end = (): void => reject(new PlotwrightError("cancelled", "The command was stopped."));
+    stop.signal.addEventListener("abort", end);
+  });
+  // It may reject while nothing waits for it: before the plotter is open, or when the move is done.
+  interrupted.catch(() => undefined);
+  const untilInterrupt = (plotter: HandPlotter): Promise<void> => Promise.race([use(plotter), interrupted]);
+  const forget = io.onInterrupt(() => stop.abort());
   try {
-    await withPlotter(options, settings, (plotter) => {
-      const interrupted = new Promise<never>((_resolve, reject) => {
-        forget = io.onInterrupt(() => reject(new PlotwrightError("cancelled", "The command was stopped.")));
-      });
-      return Promise.race([use(plotter), interrupted]);
-    });
+    if (served === null) await withPlotter(options, settings, untilInterrupt);
+    else await untilInterrupt(await throughServer(served, stop.signal));
   } finally {
     // Only after closing: a second Ctrl-C must not end the process before the pen is up.
     forget();

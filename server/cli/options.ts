@@ -15,17 +15,26 @@ export type Declare = (command: Command, context: CommandContext) => void;
 export interface DeviceOptions {
   readonly device?: string;
   readonly virtualSpeed?: number;
+  readonly direct?: boolean;
 }
 
-export const addDevice = (command: Command): Command =>
+/** For the server. */
+export const addPort = (command: Command, names = "serial port of the board, or virtual"): Command =>
   command
-    .option("--device <path>", "serial port of the board, or virtual (default: the first board found)")
+    .option("--device <path>", `${names} (default: the first board found)`)
     .addOption(
       new Option(
         "--virtual-speed <factor>",
         "speed of the virtual board; 1 is real time (default: 1)",
       ).argParser(positive),
     );
+
+/** For a command that works through a running server if that has the plotter. */
+export const addDevice = (command: Command): Command =>
+  addPort(command, "serial port of the board, name of the running server's plotter, or virtual").option(
+    "--direct",
+    "use the port itself, although a server runs",
+  );
 
 export const addData = (command: Command): Command =>
   command.option("--data <folder>", "folder for jobs and settings (default: ~/.local/share/plotwright)");

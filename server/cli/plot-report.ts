@@ -5,9 +5,12 @@ import type { PlotWait } from "../../src/schema/index.js";
 import { printed, type CliIo } from "./io.js";
 import { minutes } from "./plan.js";
 
+/** How far a plot is. */
+export type PlotAmounts = Pick<PlotProgress, "progress" | "elapsedS" | "remainingS">;
+
 export interface PlotReport {
-  begins(verb: "Plotting" | "Resuming"): void;
-  progress(progress: PlotProgress): void;
+  begins(verb: "Plotting" | "Resuming" | "Following"): void;
+  progress(progress: PlotAmounts): void;
   /** `wait`: the pen that the plot waits for, if it stopped by itself. */
   held(held: boolean, wait: PlotWait | null): void;
   ends(how: "done" | "cancelled" | "interrupted"): void;
@@ -25,7 +28,7 @@ export function plotReport(
 /** How progress is shown. */
 interface Meter {
   readonly isSilent?: boolean;
-  show(progress: PlotProgress): void;
+  show(progress: PlotAmounts): void;
   hide(): void;
 }
 
@@ -48,7 +51,7 @@ const progressLines = (io: CliIo): Meter => ({
   hide: () => undefined,
 });
 
-const inWords = ({ progress, elapsedS, remainingS }: PlotProgress): string =>
+const inWords = ({ progress, elapsedS, remainingS }: PlotAmounts): string =>
   `${Math.floor(100 * progress)} %  ${minutes(elapsedS)} so far, ${minutes(remainingS)} left`;
 
 function textReport(name: string, meter: Meter, io: CliIo): PlotReport {
@@ -74,14 +77,16 @@ function textReport(name: string, meter: Meter, io: CliIo): PlotReport {
   };
 }
 
+const EVENTS = { Plotting: "started", Resuming: "resumed", Following: "followed" } as const;
+
 /** One line of JSON on standard output for each event. */
 function jsonReport(name: string, io: CliIo): PlotReport {
-  let last: PlotProgress | null = null;
+  let last: PlotAmounts | null = null;
   const print = (event: string, more: object = {}): void => io.out(`${printableJson({ event, ...more })}\n`);
   const amounts = (): object => (last === null ? {} : amountsOf(last));
   const shown = everyFewSeconds((progress) => print("progress", amountsOf(progress)));
   return {
-    begins: (verb) => print(verb === "Plotting" ? "started" : "resumed", { name }),
+    begins: (verb) => print(EVENTS[verb], { name }),
     progress: (progress) => {
       last = progress;
       shown(progress);
@@ -92,7 +97,7 @@ function jsonReport(name: string, io: CliIo): PlotReport {
   };
 }
 
-const amountsOf = ({ progress, elapsedS, remainingS }: PlotProgress): object => ({
+const amountsOf = ({ progress, elapsedS, remainingS }: PlotAmounts): object => ({
   progress: rounded(progress, 1e4),
   elapsedS: rounded(elapsedS, 10),
   remainingS: rounded(remainingS, 10),
@@ -104,7 +109,7 @@ const LEAST_MS = 1_000;
 const PART = 0.05;
 
 /** Passes on progress every 10 s, or after 5 % of the plot if that is sooner, but at most once a second. */
-function everyFewSeconds(show: (progress: PlotProgress) => void): (progress: PlotProgress) => void {
+function everyFewSeconds(show: (progress: PlotAmounts) => void): (progress: PlotAmounts) => void {
   let lastMs = performance.now();
   let lastPart = 0;
   return (progress) => {

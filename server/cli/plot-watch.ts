@@ -3,7 +3,12 @@ import { OTHER_BOARD } from "../../host/plotter/board-id.js";
 import type { PlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotWait } from "../../src/schema/index.js";
 import { printed, type CliIo } from "./io.js";
-import type { PlotReport } from "./plot-report.js";
+import type { PlotAmounts, PlotReport } from "./plot-report.js";
+
+/** A plot of this process, or a job of a server. */
+export interface WatchedRun extends Omit<PlotRun, "onProgress"> {
+  onProgress(listener: (progress: PlotAmounts) => void): void;
+}
 
 interface Watched {
   readonly report: PlotReport;
@@ -11,17 +16,19 @@ interface Watched {
   readonly resumed: { readonly position: keyof typeof POSITIONS } | null;
   /** Aborted when the process must end: the plot is then interrupted. */
   readonly end: AbortSignal;
+  /** What happens to the plot when the process must end. */
+  readonly endWords: string;
 }
 
 /** Runs until the plot ends. */
 export async function watch(
-  run: PlotRun,
-  { report, resumed, end }: Watched,
+  run: WatchedRun,
+  { report, resumed, end, endWords }: Watched,
   io: CliIo,
 ): Promise<"done" | "cancelled" | "interrupted"> {
   const isHeld = resumed !== null && io.hasKeyboard;
   const control = new Control(run, io, isHeld);
-  const mustEnd = (): void => control.mustEnd();
+  const mustEnd = (): void => control.mustEnd(endWords);
   end.addEventListener("abort", mustEnd);
   if (end.aborted) mustEnd();
   const forget = [
@@ -83,14 +90,17 @@ export async function waitForPaper(
   }
 }
 
+/** Exit code of a plot that was cancelled or interrupted. */
+export const CANCELLED = 5;
+
 export function cancelled(io: CliIo): number {
   io.err("plotwright: the plot was cancelled.\n");
-  return 5;
+  return CANCELLED;
 }
 
 /** The meaning of the user's keys, which depends on the state. */
 class Control {
-  readonly #run: PlotRun;
+  readonly #run: WatchedRun;
   readonly #io: CliIo;
   #held: boolean;
   #cancelling = false;
@@ -99,7 +109,7 @@ class Control {
   readonly failed: Promise<never>;
   #fail: (error: unknown) => void = () => undefined;
 
-  constructor(run: PlotRun, io: CliIo, isHeld: boolean) {
+  constructor(run: WatchedRun, io: CliIo, isHeld: boolean) {
     this.#run = run;
     this.#io = io;
     this.#held = isHeld;
@@ -120,10 +130,10 @@ class Control {
     }
   }
 
-  mustEnd(): void {
+  mustEnd(words: string): void {
     if (this.#isEnding) return;
     this.isInterrupted = true;
-    this.#io.err("Interrupted: the pen lifts.\n");
+    this.#io.err(printed`${words}\n`);
     this.#run.interrupt().catch(this.#fail);
   }
 
@@ -143,7 +153,7 @@ class Control {
     if (this.#isEnding) return;
     this.#held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
-    this.#io.err(printed`Put in ${what}. Enter resumes, Ctrl-C cancels.\n`);
+    this.#io.err(printed`Put in ${what}. ${this.#io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
   }
 
   resume(): void {

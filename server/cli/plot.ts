@@ -1,5 +1,5 @@
 /**
- * `plotwright plot FILE…`: plots without a server. The first Ctrl-C pauses (Enter resumes), a second one
+ * `plotwright plot FILE…`: plots on the server that has the plotter (plot-on-server.ts), or else without one. The first Ctrl-C pauses (Enter resumes), a second one
  * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
  * When the process must end (SIGTERM, or its terminal is closed), the pen lifts, and the plot can be resumed.
  */
@@ -30,9 +30,11 @@ import {
   type Declare,
 } from "./options.js";
 import { PlotRecord, type InterruptedPlot } from "./plot-record.js";
+import { plotOnServer } from "./plot-on-server.js";
 import { plotReport } from "./plot-report.js";
-import { cancelled, waitForPaper, watch } from "./plot-watch.js";
+import { CANCELLED, cancelled, waitForPaper, watch } from "./plot-watch.js";
 import type { Command, Option } from "commander";
+import { servedPlotter } from "./served-plotter.js";
 import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
@@ -68,12 +70,12 @@ interface Course {
   readonly end: AbortSignal;
 }
 
-/** Returns the exit code: 0, or 5 when it was cancelled or interrupted. Failures are thrown. */
-export async function runPlot(
+/** Plots the drawings one after the other. Returns the exit code: that of the first plot which does not end normally. */
+async function plotInTurn(
   files: readonly string[],
-  settings: PlotSettings,
   options: PlotCommandOptions,
   io: CliIo,
+  plot: (file: string, end: AbortSignal) => Promise<number>,
 ): Promise<number> {
   const jobs = files.flatMap((file) => Array<string>(options.copies).fill(file));
   if (jobs.length === 0)
@@ -84,32 +86,44 @@ export async function runPlot(
       "Between two plots it waits for Enter, so that the paper can be changed. Without a keyboard, use --paper-s SECONDS to set the wait.",
     );
   }
-  const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
-  mustHaveEnded(record, options);
   mustBeReadable(files);
   return untilEnd(io, async (end) => {
     for (const [index, file] of jobs.entries()) {
       if (index > 0 && (end.aborted || !(await waitForPaper(nameOf(file), options, io))))
         return cancelled(io);
-      const code = await withDrawingFile(file, (path) => {
-        const { only, pen } = options;
-        const plot: Plot = {
-          name: basename(nameOf(file)),
-          path,
-          settings:
-            pen === undefined ? settings : withLayerPens(importDrawing("", readDrawing(path)), settings, pen),
-          only,
-          from: null,
-          received: undefined,
-          board: undefined,
-          progress: 0,
-        };
-        return plotOne(plot, { begin: () => record.begin(path, plot), record, end }, options, io);
-      });
+      const code = await plot(file, end);
       if (code !== 0) return code;
     }
     return 0;
   });
+}
+
+/** Without a server. Returns the exit code: 0, or 5 when it was cancelled or interrupted. Failures are thrown. */
+export async function runPlot(
+  files: readonly string[],
+  settings: PlotSettings,
+  options: PlotCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
+  mustHaveEnded(record, options);
+  return plotInTurn(files, options, io, (file, end) =>
+    withDrawingFile(file, (path) => {
+      const { only, pen } = options;
+      const plot: Plot = {
+        name: basename(nameOf(file)),
+        path,
+        settings:
+          pen === undefined ? settings : withLayerPens(importDrawing("", readDrawing(path)), settings, pen),
+        only,
+        from: null,
+        received: undefined,
+        board: undefined,
+        progress: 0,
+      };
+      return plotOne(plot, { begin: () => record.begin(path, plot), record, end }, options, io);
+    }),
+  );
 }
 
 /**
@@ -229,7 +243,7 @@ async function onPlotter(
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : ({ position } as const);
   const report = plotReport(name, options, io);
-  const ended = await watch(run, { report, resumed, end }, io);
+  const ended = await watch(run, { report, resumed, end, endWords: "Interrupted: the pen lifts." }, io);
   // The motors stay on, so that the carriage stays where the plot is to be resumed.
   if (ended === "interrupted") return interrupted(record, io);
   try {
@@ -245,7 +259,7 @@ function interrupted(record: PlotRecord, io: CliIo): number {
   const found = record.find();
   if (found === null) return cancelled(io);
   io.err(printed`plotwright: ${wasInterrupted(found)} Use plotwright plot --resume to resume it.\n`);
-  return 5;
+  return CANCELLED;
 }
 
 const wasInterrupted = ({ name, progress }: InterruptedPlot): string =>
@@ -293,9 +307,14 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
         setExitCode(await resumePlot(files, options, io));
         return;
       }
-      const { settings, note } = plotterSettingsFromOptions(options);
+      const served = await servedPlotter(options);
+      const { settings, note } = served?.settings ?? plotterSettingsFromOptions(options);
       if (note !== null && options.quiet !== true) io.err(printed`note: ${note}\n`);
-      setExitCode(await runPlot(files, settings, options, io));
+      setExitCode(
+        served === null
+          ? await runPlot(files, settings, options, io)
+          : await plotInTurn(files, options, io, (file, end) => plotOnServer(file, served, end, options, io)),
+      );
     });
 };
 

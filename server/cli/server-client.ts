@@ -1,6 +1,9 @@
 /** A client of a running server, made from the table of operations. */
+import { InvalidArgumentError, Option, type Command } from "commander";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
+import { defaultDataDir } from "../storage/data-dir.js";
+import { addressOfServer } from "../storage/data-lock.js";
 import {
   apiErrorSchema,
   clientOf,
@@ -10,6 +13,7 @@ import {
   OPERATIONS,
   plotterSettingsSchema,
   requestOf,
+  type ClientOf,
   type Job,
   type NewJob,
   type Operation,
@@ -17,6 +21,28 @@ import {
 } from "../../src/schema/index.js";
 
 export const DEFAULT_URL = "http://127.0.0.1:9080";
+
+export const addServer = (command: Command): Command =>
+  command
+    .option(
+      "--url <url>",
+      `address of the server (default: the one on this computer, ${DEFAULT_URL})`,
+      serverUrl,
+    )
+    .addOption(new Option("--key <key>", "access key of a server on another computer").env("PLOTWRIGHT_KEY"));
+
+function serverUrl(text: string): string {
+  if (!/^https?:\/\//.test(text) || !URL.canParse(text)) {
+    throw new InvalidArgumentError(`It must be an address such as ${DEFAULT_URL}.`);
+  }
+  return text;
+}
+
+/** Without an address: the server that uses the data folder, on whatever port. */
+export function accessOf(options: Partial<ServerAccess> & { readonly data?: string }): ServerAccess {
+  const { url = addressOfServer(options.data ?? defaultDataDir()) ?? DEFAULT_URL, key } = options;
+  return { url, ...(key === undefined ? {} : { key }) };
+}
 
 export interface ServerAccess {
   readonly url: string;
@@ -26,12 +52,24 @@ export interface ServerAccess {
 
 /** Only the fields used here, so that servers of other versions work too. */
 const stateSchema = z.object({
-  plotters: z.array(z.object({ id: z.string(), name: z.string(), machine: z.string().nullable() })),
+  plotters: z.array(
+    z.object({
+      id: z.string(),
+      name: z.string(),
+      machine: z.string().nullable(),
+      device: z.string().nullable().catch(null),
+    }),
+  ),
   jobs: z.array(jobSchema),
   plotterSettings: z.record(z.string(), plotterSettingsSchema).catch({}),
   machines: z.array(listedMachineSchema).catch([]),
 });
 export type ServerState = z.infer<typeof stateSchema>;
+export type ServerPlotter = ServerState["plotters"][number];
+export type ServerClient = ClientOf<typeof OPERATIONS>;
+
+export const serverClient = (access: ServerAccess): ServerClient =>
+  clientOf(OPERATIONS, (one, input) => send(access, one, input));
 
 export async function serverState(options: ServerAccess): Promise<ServerState> {
   return (await send(options, { ...OPERATIONS.state.get, answer: stateSchema }, {})) as ServerState;
@@ -43,7 +81,7 @@ export async function addJob(
   job: Omit<NewJob, "drawing" | "drawingId">,
   drawing: Buffer<ArrayBuffer>,
 ): Promise<Job> {
-  const { drawings, jobs } = clientOf(OPERATIONS, (one, input) => send(options, one, input));
+  const { drawings, jobs } = serverClient(options);
   const { id: drawingId } = await drawings.upload(new Uint8Array(drawing).buffer);
   return jobs.add({ ...job, drawingId });
 }

@@ -1,7 +1,7 @@
 /** The server on this computer: serve, service, logs. */
 import { Command, Option } from "commander";
 import { PlotwrightError } from "../../src/index.js";
-import { addData, addDevice, hostNames, port, positive, springs, type Declare } from "./options.js";
+import { addData, addPort, hostNames, port, positive, springs, type Declare } from "./options.js";
 import type { ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
 import { OPERATIONS, requestOf } from "../../src/schema/index.js";
@@ -53,7 +53,7 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
 };
 
 function addServe(command: Command): Command {
-  return addData(addDevice(command))
+  return addData(addPort(command))
     .option("--port <number>", "port to listen on; 0 takes any free one", port, 9080)
     .option("--host <address>", "address to listen on (default: 127.0.0.1; all with --lan)")
     .option("--lan", "listen on the network; other devices have to be paired")

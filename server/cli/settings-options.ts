@@ -56,7 +56,7 @@ export function addSettingOptions(command: Command, parts?: readonly string[]): 
 }
 
 /** Settings of a command, and what to tell its user about the machine; null: nothing. */
-interface FoundSettings {
+export interface FoundSettings {
   readonly settings: PlotSettings;
   readonly note: string | null;
 }

@@ -42,7 +42,7 @@ describe("moves by hand from the command line", () => {
     expect(await onBoard("set-home")).toEqual(done);
     expect(await onBoard("move-to", "10", "0")).toEqual(done);
     expect(await onBoard("home")).toEqual(done);
-    expect((await onBoard("info")).out).toMatch(/place {5}0\.00, 0\.00 mm/);
+    expect((await onBoard("info")).out).toMatch(/position {2}0\.00, 0\.00 mm/);
     expect(await onBoard("align")).toEqual(done);
     expect(await place()).toMatchObject({ motorsOn: false });
   });

@@ -9,17 +9,20 @@ import { COMMANDS } from "../../server/cli/commands.js";
 import { buildProgram } from "../../server/cli/program.js";
 import { SETTING_OPTIONS } from "../../server/cli/setting-table.js";
 import { addSettingOptions, settingsFromOptions } from "../../server/cli/settings-options.js";
+import { serverClient } from "../../server/cli/server-client.js";
 import { PlotRecord } from "../../server/cli/plot-record.js";
 import type { PlanOutput } from "../../server/cli/plan.js";
 import type { PlanThreadInput } from "../../server/cli/plan-thread.js";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { MACHINES, machineById } from "../../src/index.js";
-import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type JobState } from "../../src/schema/index.js";
 import { cliReference } from "../../scripts/cli-reference.js";
 import { send, stateOf } from "../server/support/shared-servers.js";
 import { CaughtIo, cliWith, type CliRun } from "./support.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
+/** It takes minutes to plot. */
+const LONG_SVG = SVG.replace("M1 2h9", "M1 2h18v16h-18z".repeat(100));
 vi.mock("../../server/cli/stdin.js", () => ({ readStdin: () => Buffer.from(SVG) }));
 // Ignores any board connected to this computer.
 vi.mock("../../server/serial/find-boards.js", () => ({ findBoards: () => Promise.resolve([]) }));
@@ -88,6 +91,12 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
       return args.includes("--resume") ? board : ["--paper-s", "0", ...board];
     case "add":
     case "queue":
+    case "start":
+    case "pause":
+    case "resume":
+    case "cancel":
+    case "remove":
+    case "follow":
       return ["--url", server.url];
     case "board":
       return ["--pty", join(folder, "plotter")];
@@ -97,7 +106,22 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
 }
 
 /** Commands that run until the user ends them. */
-const READY: Readonly<Record<string, RegExp>> = { serve: /plotwright is at/, board: /plotter/ };
+const READY: Readonly<Record<string, RegExp>> = {
+  serve: /plotwright is at/,
+  board: /plotter/,
+  follow: /[Ff]ollow/,
+};
+
+/** The state in which these commands find their job. */
+const JOB_BEFORE: Readonly<Record<string, JobState>> = {
+  start: "queued",
+  pause: "plotting",
+  resume: "paused",
+  cancel: "plotting",
+  remove: "queued",
+  follow: "plotting",
+};
+const JOB_ARGUMENTS = ["--url", "--key"];
 /** As systemctl reports that a service does not run. */
 const CODES: Readonly<Record<string, number>> = { "plotwright service status": 3 };
 
@@ -179,6 +203,7 @@ const ARGUMENTS: Readonly<Record<string, readonly string[]>> = {
   jog: ["1", "2"],
   "move-to": ["1", "2"],
   raw: ["QM"],
+  remove: ["drawing.svg"],
 };
 
 /** What the other options do, with what shows it. */
@@ -228,6 +253,8 @@ async function optionCases(): Promise<OptionCase[]> {
   const { commands } = await buildProgram(names, context);
   const isTried = ([name, flag]: readonly [string, string]): boolean =>
     !(`${name} ${flag}` in NOT_RUN) &&
+    // Every line of these commands has the address, and the key has the tests of queue.
+    !(name in JOB_BEFORE && JOB_ARGUMENTS.includes(flag)) &&
     !(TAKE_DRAWINGS.includes(name) && SETTING_OPTIONS.some(({ flags }) => flags.split(" ")[0] === flag));
   return commands.flatMap((command) =>
     command.options.flatMap(({ long, required, defaultValue, argChoices }) => {
@@ -383,6 +410,9 @@ describe("docs/cli.md", () => {
 
 /** Without a keyboard. A command that runs until it is ended is ended as soon as it is ready. */
 async function runLine(name: string, args: readonly string[]): Promise<CliRun> {
+  if (name === "add") await clearQueue();
+  const before = JOB_BEFORE[name];
+  if (before !== undefined) await leaveJob(before);
   const io = new CaughtIo();
   io.hasKeyboard = false;
   const running = cliWith(io, ...args);
@@ -392,6 +422,25 @@ async function runLine(name: string, args: readonly string[]): Promise<CliRun> {
     io.interrupt();
   }
   return running;
+}
+
+/** Leaves one job in the server's queue, in that state. */
+async function leaveJob(state: JobState): Promise<void> {
+  await clearQueue();
+  const { jobs } = serverClient(server);
+  const { id } = await jobs.add({ name: "drawing.svg", drawing: LONG_SVG });
+  if (state !== "queued") await jobs.start(id);
+  if (state === "paused") await jobs.pause(id);
+  await expect.poll(async () => (await jobs.get(id)).state).toBe(state);
+}
+
+async function clearQueue(): Promise<void> {
+  const { jobs, state } = serverClient(server);
+  for (const { id, state: before } of (await state.get()).jobs) {
+    if (before === "plotting" || before === "paused") await jobs.cancel(id);
+    // Not before the pen is up and home.
+    await expect.poll(() => jobs.remove(id).then(() => true, () => false)).toBe(true); // prettier-ignore
+  }
 }
 
 function leaveInterruptedPlot(): void {
