@@ -1,4 +1,7 @@
 /** Requests from the network: none is trusted because of its origin. */
+import { once } from "node:events";
+import { createServer, request as requestTo } from "node:http";
+import type { AddressInfo } from "node:net";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { Access } from "../../server/security/access.js";
 import { DEFAULT_PLOT_SETTINGS, accessEntrySchema, jobSchema, type Job } from "../../src/schema/index.js";
@@ -239,6 +242,32 @@ describe("a server on the network", () => {
     }
     expect(run.asked).toEqual([]);
     expect(app.queue.get(job.id).state).toBe("plotting");
+  });
+
+  it("accepts a page through a development server that adds a key and keeps the browser's Host, and no other", async () => {
+    const { secret } = app.access.createKey("sketch", "operate");
+    const { hostname, port } = new URL(app.url);
+    let keepsHost = true;
+    const forwarder = createServer((request, response) => {
+      const headers = { ...request.headers, authorization: `Bearer ${secret}` };
+      if (!keepsHost) headers.host = `${hostname}:${port}`;
+      const { url: path, method } = request;
+      const onward = requestTo({ hostname, port, path, method, headers }, (answer) => {
+        response.writeHead(answer.statusCode ?? 500);
+        answer.pipe(response);
+      });
+      request.pipe(onward);
+    }).listen(0, "127.0.0.1");
+    await once(forwarder, "listening");
+    const page = `http://127.0.0.1:${(forwarder.address() as AddressInfo).port}`;
+    const send = (origin: string): Promise<Response> =>
+      fetch(`${page}/api/v1/jobs?name=a`, { method: "POST", body: SVG, headers: { Origin: origin } });
+    expect((await send(page)).status).toBe(201);
+    expect((await send("https://editor.example")).status).toBe(403);
+    keepsHost = false;
+    expect((await send(page)).status).toBe(403);
+    forwarder.closeAllConnections();
+    forwarder.close();
   });
 
   it("returns names and drawings as data only, whatever they contain", async () => {
