@@ -15,7 +15,7 @@ const NOISES: readonly (readonly [string, Noise])[] = [
 const COUNT = 12;
 
 describe.each(["2.8.1", "3.0.3"])("a plot on firmware %s", (firmware) => {
-  it.each(NOISES)("is not disturbed by %s", { timeout: 60_000 }, async (_, noise) => {
+  it.each(NOISES)("is not disturbed by %s", async (_, noise) => {
     const random = seeded(987_654_321);
     for (let i = 0; i < COUNT; i++) {
       const { world, board, driver, run } = await plotting("blend", FAULT_DRAWING, firmware);

@@ -30,7 +30,7 @@ const largestError = (lines: readonly { xy: Float64Array }[]): number => {
 };
 
 describe.each(["2.8.1", "3.0.3"])("a virtual board with springs, firmware %s", (firmware) => {
-  it("draws what the simulated pen of the plan draws, with exact steps", { timeout: 60_000 }, () => {
+  it("draws what the simulated pen of the plan draws, with exact steps", () => {
     const { trajectory, firstWrong, lines, board } = played(DEFAULT_MOTION, firmware, true);
     const exact = played(DEFAULT_MOTION, firmware, false);
     expect(firstWrong).toBeNull();
@@ -54,7 +54,7 @@ describe.each(["2.8.1", "3.0.3"])("a virtual board with springs, firmware %s", (
     expect(furthest).toBeLessThan(0.03);
   });
 
-  it("rings unshaped, less in Fine, and not at all without springs", { timeout: 60_000 }, () => {
+  it("rings unshaped, less in Fine, and not at all without springs", () => {
     const unshaped = largestError(played(DEFAULT_MOTION, firmware, true).lines);
     const fine = largestError(played(inQuality("fine", springs), firmware, true).lines);
     const exact = largestError(played(DEFAULT_MOTION, firmware, false).lines);

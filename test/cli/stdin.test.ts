@@ -14,7 +14,7 @@ vi.mock("node:fs", async (importOriginal) => {
 afterEach(() => vi.resetModules());
 
 describe("stdin", () => {
-  it("is the drawing, or the settings, and not both", { timeout: 60_000 }, async () => {
+  it("is the drawing, or the settings, and not both", async () => {
     stdin = SVG;
     expect((await cli("plan", "-", "--json")).code).toBe(0);
     const both = await cli("plan", "-", "--config", "-");

@@ -167,20 +167,16 @@ describe("a file that cannot be used", () => {
     [["logs", "--data", "no-folder"], /--data no-folder: there is no such folder/],
     [["logs", "--data", "in"], /--data .*: there is no such folder/],
     [["serve", "--port", "0", "--host", "192.0.2.1"], /this computer does not have that address/],
-  ] as const)(
-    "stops %j with a message, without the system's codes",
-    { timeout: 60_000 },
-    async (args, message) => {
-      const drawing = join(folder, "in");
-      writeFileSync(drawing, '<svg xmlns="http://www.w3.org/2000/svg"><path d="M1 2h9" stroke="red"/></svg>');
-      const board = args[0] === "plot" ? ["--device", "virtual", "--virtual-speed", "100"] : [];
-      const paths = args.map((arg) => (arg === "." ? folder : arg.replace(/^in(?=$|\/)/, drawing)));
-      const { code, err } = await cli(...paths, ...board);
-      expect([code, err]).toEqual([expect.any(Number), expect.stringMatching(message)]);
-      expect(code).toBeGreaterThan(0);
-      expect(err).not.toMatch(/ENO|EACC|EIS/);
-    },
-  );
+  ] as const)("stops %j with a message, without the system's codes", async (args, message) => {
+    const drawing = join(folder, "in");
+    writeFileSync(drawing, '<svg xmlns="http://www.w3.org/2000/svg"><path d="M1 2h9" stroke="red"/></svg>');
+    const board = args[0] === "plot" ? ["--device", "virtual", "--virtual-speed", "100"] : [];
+    const paths = args.map((arg) => (arg === "." ? folder : arg.replace(/^in(?=$|\/)/, drawing)));
+    const { code, err } = await cli(...paths, ...board);
+    expect([code, err]).toEqual([expect.any(Number), expect.stringMatching(message)]);
+    expect(code).toBeGreaterThan(0);
+    expect(err).not.toMatch(/ENO|EACC|EIS/);
+  });
   const file = (name: string, text: string): string => {
     const path = join(folder, name);
     writeFileSync(path, text);

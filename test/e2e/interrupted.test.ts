@@ -47,29 +47,25 @@ afterAll(async () => {
 });
 
 describe("a plot whose server was killed", () => {
-  it(
-    "is shown at its position at once, on a page that is opened then",
-    { timeout: PATIENCE_MS },
-    async () => {
-      await dropFile(page, `${NAME}.svg`, COMB);
-      await page.getByText(NAME, { exact: true }).first().waitFor();
-      await waitForPlan(page);
-      await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
-      await queuePanel(page)
-        .getByRole("button", { name: /^Start / })
-        .click();
-      await expect.poll(async () => (await theJob()).progress, { interval: 50 }).toBeGreaterThan(0.3);
-      const ended = once(server.process, "exit");
-      server.process.kill("SIGKILL");
-      await ended;
-      await page.context().close();
-      server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
-      await openPage();
-      await expectAt("Interrupted");
-    },
-  );
+  it("is shown at its position at once, on a page that is opened then", async () => {
+    await dropFile(page, `${NAME}.svg`, COMB);
+    await page.getByText(NAME, { exact: true }).first().waitFor();
+    await waitForPlan(page);
+    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    await queuePanel(page)
+      .getByRole("button", { name: /^Start / })
+      .click();
+    await expect.poll(async () => (await theJob()).progress, { interval: 50 }).toBeGreaterThan(0.3);
+    const ended = once(server.process, "exit");
+    server.process.kill("SIGKILL");
+    await ended;
+    await page.context().close();
+    server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
+    await openPage();
+    await expectAt("Interrupted");
+  });
 
-  it("is shown there when it is resumed and held, after a reload too", { timeout: PATIENCE_MS }, async () => {
+  it("is shown there when it is resumed and held, after a reload too", async () => {
     const { id } = await theJob();
     await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
     await expect.poll(async () => (await theJob()).state).toBe("paused");

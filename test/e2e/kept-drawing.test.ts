@@ -3,8 +3,6 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { dropFile, plotBar, waitForPlotButton } from "../support/page-actions.js";
 import { PageTest } from "../support/page-test.js";
 
-const LIMIT_MS = 120_000;
-
 /** The second layer has 44 blue strokes and one purple one. */
 const MIXED = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
   width="200mm" height="150mm" viewBox="0 0 200 150" fill="none">
@@ -27,118 +25,93 @@ const nameOnPaper = () => test.page.locator(".drawing-name strong").innerText();
 const copies = () => plotBar(test.page).getByLabel("Copies", { exact: true });
 
 describe("a layer of two colours", () => {
-  it(
-    "is reported, and gets the pen of its most frequent colour, with a stop before it",
-    async () => {
-      const { page } = test;
-      await test.drop("mixed", MIXED);
-      const row = page.locator(".layer-list li", { hasText: "2-blue" });
-      await row.getByText("2 colours", { exact: true }).waitFor();
-      expect(await page.locator(".layer-mixed").count()).toBe(1);
-      await test.group("Pens");
-      await page.getByRole("button", { name: "A pen for each colour" }).click();
-      await row.getByText("Stop: put in Blue").waitFor();
-      const job = await test.queue();
-      const penOf = (layer: string) =>
-        job.settings.pens.find(({ id }) => id === job.settings.layerPens[layer]);
-      expect([penOf("black")?.color, penOf("blue")?.color]).toEqual(["#000000", "#0000e0"]);
-    },
-    LIMIT_MS,
-  );
+  it("is reported, and gets the pen of its most frequent colour, with a stop before it", async () => {
+    const { page } = test;
+    await test.drop("mixed", MIXED);
+    const row = page.locator(".layer-list li", { hasText: "2-blue" });
+    await row.getByText("2 colours", { exact: true }).waitFor();
+    expect(await page.locator(".layer-mixed").count()).toBe(1);
+    await test.group("Pens");
+    await page.getByRole("button", { name: "A pen for each colour" }).click();
+    await row.getByText("Stop: put in Blue").waitFor();
+    const job = await test.queue();
+    const penOf = (layer: string) => job.settings.pens.find(({ id }) => id === job.settings.layerPens[layer]);
+    expect([penOf("black")?.color, penOf("blue")?.color]).toEqual(["#000000", "#0000e0"]);
+  });
 });
 
 describe("after a reload", () => {
-  it(
-    "the drawing is on the paper again, with the settings of its layers",
-    async () => {
-      const { page } = test;
-      await page.getByRole("checkbox", { name: "Draw 1-black" }).uncheck();
-      await test.planned();
-      // Settings are stored shortly after the last change.
-      await page.waitForFunction(() =>
-        localStorage.getItem("plotwright.page.v1")?.includes('"hiddenLayers":["black"]'),
-      );
-      await page.reload();
-      await test.planned();
-      expect(await nameOnPaper()).toBe("mixed");
-      expect(await page.getByRole("checkbox", { name: "Draw 1-black" }).isChecked()).toBe(false);
-      expect((await test.jobs()).length).toBe(1);
-      const { settings, id } = await test.queue();
-      expect(settings.prepare.hiddenLayers).toEqual(["black"]);
-      expect(Object.keys(settings.layerPens).sort()).toEqual(["black", "blue"]);
-      const drawn = await (await fetch(`${test.server.url}/api/v1/jobs/${id}/drawing`)).text();
-      expect(drawn).toBe(MIXED);
-    },
-    LIMIT_MS,
-  );
+  it("the drawing is on the paper again, with the settings of its layers", async () => {
+    const { page } = test;
+    await page.getByRole("checkbox", { name: "Draw 1-black" }).uncheck();
+    await test.planned();
+    // Settings are stored shortly after the last change.
+    await page.waitForFunction(() =>
+      localStorage.getItem("plotwright.page.v1")?.includes('"hiddenLayers":["black"]'),
+    );
+    await page.reload();
+    await test.planned();
+    expect(await nameOnPaper()).toBe("mixed");
+    expect(await page.getByRole("checkbox", { name: "Draw 1-black" }).isChecked()).toBe(false);
+    expect((await test.jobs()).length).toBe(1);
+    const { settings, id } = await test.queue();
+    expect(settings.prepare.hiddenLayers).toEqual(["black"]);
+    expect(Object.keys(settings.layerPens).sort()).toEqual(["black", "blue"]);
+    const drawn = await (await fetch(`${test.server.url}/api/v1/jobs/${id}/drawing`)).text();
+    expect(drawn).toBe(MIXED);
+  });
 
-  it(
-    "a large drawing is on the paper again, too",
-    async () => {
-      const { page } = test;
-      await test.drop("large", LARGE);
-      await page.reload();
-      await test.planned();
-      expect(await nameOnPaper()).toBe("large");
-    },
-    LIMIT_MS,
-  );
+  it("a large drawing is on the paper again, too", async () => {
+    const { page } = test;
+    await test.drop("large", LARGE);
+    await page.reload();
+    await test.planned();
+    expect(await nameOnPaper()).toBe("large");
+  });
 
-  it(
-    "a file that cannot be read is replaced by the drawing before it",
-    async () => {
-      const { page } = test;
-      await dropFile(page, "torn.svg", MIXED.slice(0, 300));
-      await page.getByText("torn can’t be drawn").waitFor();
-      await page.reload();
-      await test.planned();
-      expect(await nameOnPaper()).toBe("large");
-    },
-    LIMIT_MS,
-  );
+  it("a file that cannot be read is replaced by the drawing before it", async () => {
+    const { page } = test;
+    await dropFile(page, "torn.svg", MIXED.slice(0, 300));
+    await page.getByText("torn can’t be drawn").waitFor();
+    await page.reload();
+    await test.planned();
+    expect(await nameOnPaper()).toBe("large");
+  });
 });
 
 describe("while the page is still connecting", () => {
-  it(
-    "the drawing is there, and a note at Plot says why it is off",
-    async () => {
-      const { page } = test;
-      let answer = (): void => undefined;
-      const mayAnswer = new Promise<void>((resolve) => (answer = resolve));
-      await page.route("**/api/v1/events", async (route) => {
-        await mayAnswer;
-        await route.continue();
-      });
-      await page.reload();
-      await test.planned();
-      const note = plotBar(page).getByText("Connecting to plotwright…");
-      await note.waitFor();
-      await page.setViewportSize({ width: 390, height: 844 });
-      await note.waitFor();
-      await page.setViewportSize({ width: 1440, height: 900 });
-      expect(await plotBar(page).getByRole("button", { name: "Plot", exact: true }).isDisabled()).toBe(true);
-      answer();
-      await waitForPlotButton(page);
-      await note.waitFor({ state: "detached" });
-      await page.unroute("**/api/v1/events");
-    },
-    LIMIT_MS,
-  );
+  it("the drawing is there, and a note at Plot says why it is off", async () => {
+    const { page } = test;
+    let answer = (): void => undefined;
+    const mayAnswer = new Promise<void>((resolve) => (answer = resolve));
+    await page.route("**/api/v1/events", async (route) => {
+      await mayAnswer;
+      await route.continue();
+    });
+    await page.reload();
+    await test.planned();
+    const note = plotBar(page).getByText("Connecting to plotwright…");
+    await note.waitFor();
+    await page.setViewportSize({ width: 390, height: 844 });
+    await note.waitFor();
+    await page.setViewportSize({ width: 1440, height: 900 });
+    expect(await plotBar(page).getByRole("button", { name: "Plot", exact: true }).isDisabled()).toBe(true);
+    answer();
+    await waitForPlotButton(page);
+    await note.waitFor({ state: "detached" });
+    await page.unroute("**/api/v1/events");
+  });
 });
 
 describe("another drawing", () => {
-  it(
-    "starts with one copy",
-    async () => {
-      await copies().fill("3");
-      await copies().press("Enter");
-      await plotBar(test.page).getByRole("button", { name: "Add 3 to queue" }).waitFor();
-      await test.drop("mixed", MIXED);
-      expect(await copies().inputValue()).toBe("1");
-      await plotBar(test.page).getByRole("button", { name: "Add to queue", exact: true }).waitFor();
-    },
-    LIMIT_MS,
-  );
+  it("starts with one copy", async () => {
+    await copies().fill("3");
+    await copies().press("Enter");
+    await plotBar(test.page).getByRole("button", { name: "Add 3 to queue" }).waitFor();
+    await test.drop("mixed", MIXED);
+    expect(await copies().inputValue()).toBe("1");
+    await plotBar(test.page).getByRole("button", { name: "Add to queue", exact: true }).waitFor();
+  });
 
   it("logs no error in the browser's console", () => {
     expect(test.complaints).toEqual([]);

@@ -20,7 +20,7 @@ afterAll(async () => test.close());
 const theJob = async (): Promise<Job> => (await test.jobs()).find(({ name }) => name === NAME)!;
 const history = () => historyPanel(test.page);
 
-describe("a plot that waits for a pen", { timeout: LIMIT_MS }, () => {
+describe("a plot that waits for a pen", () => {
   it("is shown at its position, and on a page that is opened then", async () => {
     await test.drop(NAME, combOf("Blue", "!Red"));
     await plotBar(test.page).getByRole("button", { name: "Plot", exact: true }).click();
@@ -31,7 +31,7 @@ describe("a plot that waits for a pen", { timeout: LIMIT_MS }, () => {
   });
 });
 
-describe("a plot that was cancelled half way", { timeout: LIMIT_MS }, () => {
+describe("a plot that was cancelled half way", () => {
   it("is shown at its position as soon as it is recovered, and waits for the pen again", async () => {
     const { id } = await theJob();
     await test.page.request.post(`${test.server.url}/api/v1/jobs/${id}/cancel`);

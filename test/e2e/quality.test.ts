@@ -29,7 +29,7 @@ const limitsOf = ({ shaper, draw, travel }: Awaited<ReturnType<typeof motionOfJo
   travel,
 });
 
-describe("the section of the speeds", { timeout: PATIENCE_MS }, () => {
+describe("the section of the speeds", () => {
   it("has the default limits as Normal for a plotter that was not measured, and leads to the ringing sheet", async () => {
     expect(await step("Normal").isChecked()).toBe(true);
     expect(await step("Fine").isDisabled()).toBe(true);

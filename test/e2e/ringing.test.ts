@@ -35,7 +35,7 @@ const noteButtonWords = (): Promise<void> =>
 const notedButtonWords = (): Promise<string[]> =>
   test.page.evaluate(() => (window as unknown as { buttonWords: string[] }).buttonWords);
 
-describe("the ringing sheet", { timeout: PATIENCE_MS }, () => {
+describe("the ringing sheet", () => {
   it("is plotted as one small job, and leaves the drawing on the paper", async () => {
     const { page } = test;
     await page
@@ -88,7 +88,7 @@ describe("the ringing sheet", { timeout: PATIENCE_MS }, () => {
   });
 });
 
-describe("the second sheet", { timeout: PATIENCE_MS }, () => {
+describe("the second sheet", () => {
   it("plots six lines one after the other, each shaped for another frequency", async () => {
     await dialog().getByRole("radio", { name: "Pick by eye" }).check();
     await noteButtonWords();

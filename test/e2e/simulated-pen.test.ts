@@ -30,7 +30,7 @@ const colors = async (): Promise<Map<number, number>> => {
 };
 const ASKED = Number.parseInt(ASKED_COLOR.slice(1), 16);
 
-describe("the view of the simulated pen", { timeout: PATIENCE_MS }, () => {
+describe("the view of the simulated pen", () => {
   it("has the same maximum as the command line, on assumed springs where none were measured", async () => {
     await test.look("Pen (simulated)");
     await result().waitFor();

@@ -40,7 +40,7 @@ afterAll(async () => test.close());
 const wordsOf = async (locator: ReturnType<typeof queuePanel>): Promise<string> =>
   (await locator.innerText()).replace(/[\u202f\u00a0]/g, " ");
 
-describe("a queue of many hours", { timeout: PATIENCE_MS }, () => {
+describe("a queue of many hours", () => {
   it("says how long it takes, in words, and no time of day while nothing is plotted", async () => {
     const { page } = test;
     await queuePanel(page).getByText("×2").waitFor();

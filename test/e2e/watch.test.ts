@@ -39,7 +39,7 @@ async function penPixels(): Promise<number> {
   return counts.get(PEN_COLOR) ?? 0;
 }
 
-describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
+describe("a plot that starts", () => {
   it("opens Watch, with the time left, the progress and the time of the end", async () => {
     const { page } = test;
     await test.drop(LINES, ruledSheet());
@@ -102,7 +102,7 @@ describe("a plot that starts", { timeout: PATIENCE_MS }, () => {
   });
 });
 
-describe("a plot that was cancelled", { timeout: PATIENCE_MS }, () => {
+describe("a plot that was cancelled", () => {
   it("resumes where it was cancelled", async () => {
     const { page } = test;
     await expect.poll(async () => (await theJob()).progress).toBeGreaterThan(0.03);
@@ -121,7 +121,7 @@ describe("a plot that was cancelled", { timeout: PATIENCE_MS }, () => {
   });
 });
 
-describe("the queue", { timeout: PATIENCE_MS }, () => {
+describe("the queue", () => {
   it("has one line for copies, with its number, its picture and a menu", async () => {
     const { page } = test;
     await openView(page, "Prepare");

@@ -88,5 +88,5 @@ describe.each(SIZES)("a window of $width × $height", (size) => {
     const plot = (await plotBar(page).boundingBox())!;
     expect(plot.y).toBeGreaterThanOrEqual(0);
     expect(plot.y + plot.height).toBeLessThanOrEqual(size.height);
-  }, 120_000);
+  });
 });

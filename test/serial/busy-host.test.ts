@@ -18,27 +18,23 @@ function beBusyFor(s: number): void {
 }
 
 // The board's patience ends during the first.
-it.each([1.6, 4])(
-  "a busy host does not take a board for silent after %f s of work",
-  { timeout: 120_000 },
-  async (s) => {
-    const board = await PtyBoard.open();
-    const session = new BoardSession(await openSerial(board.path), { clock: nodeClock });
-    try {
-      await session.identify();
-      // Until the session's timer has run out, so that the next one starts with the query.
-      await waitS(1);
-      const answer = session.query("QM");
-      beBusyFor(s);
-      expect(await answer).toMatch(/^0,0,0/);
-    } finally {
-      await session.close();
-      await board.close();
-    }
-  },
-);
+it.each([1.6, 4])("a busy host does not take a board for silent after %f s of work", async (s) => {
+  const board = await PtyBoard.open();
+  const session = new BoardSession(await openSerial(board.path), { clock: nodeClock });
+  try {
+    await session.identify();
+    // Until the session's timer has run out, so that the next one starts with the query.
+    await waitS(1);
+    const answer = session.query("QM");
+    beBusyFor(s);
+    expect(await answer).toMatch(/^0,0,0/);
+  } finally {
+    await session.close();
+    await board.close();
+  }
+});
 
-it("a busy host finishes a plot although it works for seconds in between", { timeout: 120_000 }, async () => {
+it("a busy host finishes a plot although it works for seconds in between", async () => {
   const board = await PtyBoard.open();
   const driver = new PlotterDriver({ device: board.path });
   try {

@@ -208,74 +208,58 @@ describe.each(Object.entries(ENDS).slice(0, COUNT))("plotwright plot that is end
   });
   afterEach(() => desk.close());
 
-  it(
-    "plot stays where it is if it is ended during a pause, and is resumed",
-    async () => {
-      const plotted = desk.plot(SVG);
-      await desk.untilDrawn(0);
-      plotted.type("\u0003");
-      await plotted.saying(/Paused/);
-      end(plotted);
-      await plotted.endsWith(5);
-      await desk.expectHeld();
-      await desk.resume();
-      await desk.expectDrawn(1);
-    },
-    LIMIT_MS,
-  );
+  it("plot stays where it is if it is ended during a pause, and is resumed", async () => {
+    const plotted = desk.plot(SVG);
+    await desk.untilDrawn(0);
+    plotted.type("\u0003");
+    await plotted.saying(/Paused/);
+    end(plotted);
+    await plotted.endsWith(5);
+    await desk.expectHeld();
+    await desk.resume();
+    await desk.expectDrawn(1);
+  });
 
-  it(
-    "plot is resumed with the pen for which it waited when it was ended",
-    async () => {
-      const layer = (name: string, d: string): string =>
-        `<g inkscape:groupmode="layer" inkscape:label="${name}"><path d="${d}"/></g>`;
-      const plotted = desk.plot(
-        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" ' +
-          'width="60mm" height="60mm" viewBox="0 0 60 60" stroke="black">' +
-          `${layer("1", "M10 10h20")}${layer("!2", "M10 20h20")}</svg>`,
-      );
-      await plotted.saying(/Put in the pen for "2"/);
-      end(plotted);
-      await plotted.endsWith(5);
-      await desk.expectDrawn(1, strokesOf([10, 10, 30, 10]));
-      await desk.resume();
-      await desk.expectDrawn(1, strokesOf([10, 10, 30, 10], [10, 20, 30, 20]));
-    },
-    LIMIT_MS,
-  );
+  it("plot is resumed with the pen for which it waited when it was ended", async () => {
+    const layer = (name: string, d: string): string =>
+      `<g inkscape:groupmode="layer" inkscape:label="${name}"><path d="${d}"/></g>`;
+    const plotted = desk.plot(
+      '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" ' +
+        'width="60mm" height="60mm" viewBox="0 0 60 60" stroke="black">' +
+        `${layer("1", "M10 10h20")}${layer("!2", "M10 20h20")}</svg>`,
+    );
+    await plotted.saying(/Put in the pen for "2"/);
+    end(plotted);
+    await plotted.endsWith(5);
+    await desk.expectDrawn(1, strokesOf([10, 10, 30, 10]));
+    await desk.resume();
+    await desk.expectDrawn(1, strokesOf([10, 10, 30, 10], [10, 20, 30, 20]));
+  });
 
-  it(
-    "plot is resumed in its second copy if it was ended there, and begins no third",
-    async () => {
-      const line = strokesOf([10, 10, 100, 10, 100, 20, 10, 20, 10, 30, 100, 30, 100, 40, 10, 40]);
-      const plotted = desk.plot(svgOf(line), "--copies", "3", "--paper-s", "0");
-      await desk.untilDrawn(lengthOf(line) + 5);
-      end(plotted);
-      await plotted.endsWith(5);
-      await desk.expectHeld();
-      await desk.resume();
-      await desk.expectDrawn(2, line);
-    },
-    LIMIT_MS,
-  );
+  it("plot is resumed in its second copy if it was ended there, and begins no third", async () => {
+    const line = strokesOf([10, 10, 100, 10, 100, 20, 10, 20, 10, 30, 100, 30, 100, 40, 10, 40]);
+    const plotted = desk.plot(svgOf(line), "--copies", "3", "--paper-s", "0");
+    await desk.untilDrawn(lengthOf(line) + 5);
+    end(plotted);
+    await plotted.endsWith(5);
+    await desk.expectHeld();
+    await desk.resume();
+    await desk.expectDrawn(2, line);
+  });
 
-  it(
-    "is not ended in the middle of a stroke by more signals",
-    async () => {
-      const plotted = desk.plot(SVG);
-      await desk.untilDrawn(0);
-      end(plotted);
-      for (const name of ["SIGHUP", "SIGTERM", "SIGTERM"] as const) {
-        await waitS(0.03);
-        plotted.signal(name);
-      }
-      await plotted.endsWith(5);
-      await desk.expectHeld();
-      await desk.resume();
-      await desk.expectDrawn(1);
-    },
-    LIMIT_MS,
-  );
+  it("is not ended in the middle of a stroke by more signals", async () => {
+    const plotted = desk.plot(SVG);
+    await desk.untilDrawn(0);
+    end(plotted);
+    for (const name of ["SIGHUP", "SIGTERM", "SIGTERM"] as const) {
+      await waitS(0.03);
+      plotted.signal(name);
+    }
+    await plotted.endsWith(5);
+    await desk.expectHeld();
+    await desk.resume();
+    await desk.expectDrawn(1);
+  });
 });
 
 describe("at a terminal that disappears", () => {
@@ -295,17 +279,12 @@ describe("at a terminal that disappears", () => {
       await command.endsWith(5);
       await desk.expectLifted();
     },
-    LIMIT_MS,
   );
 
-  it(
-    "serve ends without a crash",
-    async () => {
-      const server = desk.run("serve", "--port", "0");
-      await server.saying(/plotwright is at/);
-      server.drop();
-      await server.endsWith(0);
-    },
-    LIMIT_MS,
-  );
+  it("serve ends without a crash", async () => {
+    const server = desk.run("serve", "--port", "0");
+    await server.saying(/plotwright is at/);
+    server.drop();
+    await server.endsWith(0);
+  });
 });

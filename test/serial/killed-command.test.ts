@@ -56,27 +56,23 @@ async function penDownMm(): Promise<number> {
 }
 
 describe("plotwright plot that is killed in the middle of a line", () => {
-  it(
-    "is resumed where the board stopped, by plot --resume",
-    async () => {
-      const whole = plotLoops();
-      expect([await whole.ended, whole.err()]).toEqual([0, expect.stringMatching(/Done: loops\.svg/)]);
-      const wholeMm = await penDownMm();
+  it("is resumed where the board stopped, by plot --resume", async () => {
+    const whole = plotLoops();
+    expect([await whole.ended, whole.err()]).toEqual([0, expect.stringMatching(/Done: loops\.svg/)]);
+    const wholeMm = await penDownMm();
 
-      const killed = plotLoops();
-      await expect.poll(penDownMm, { timeout: LIMIT_MS }).toBeGreaterThan(wholeMm + KILLED_AT_MM);
-      killed.child.kill("SIGKILL");
-      await killed.ended;
+    const killed = plotLoops();
+    await expect.poll(penDownMm, { timeout: LIMIT_MS }).toBeGreaterThan(wholeMm + KILLED_AT_MM);
+    killed.child.kill("SIGKILL");
+    await killed.ended;
 
-      const again = plotLoops();
-      expect(await again.ended).toBe(5);
-      expect(again.err()).toMatch(/loops\.svg was interrupted at \d+ %\. .*--resume .*--restart/);
+    const again = plotLoops();
+    expect(await again.ended).toBe(5);
+    expect(again.err()).toMatch(/loops\.svg was interrupted at \d+ %\. .*--resume .*--restart/);
 
-      const resumed = plot("--resume");
-      expect([await resumed.ended, resumed.err()]).toEqual([0, expect.stringMatching(/Resuming loops\.svg/)]);
-      expect(Math.abs((await penDownMm()) - 2 * wholeMm)).toBeLessThan(TOLERANCE_MM);
-      expect(readdirSync(join(dir, "command-line"))).toEqual([]);
-    },
-    LIMIT_MS,
-  );
+    const resumed = plot("--resume");
+    expect([await resumed.ended, resumed.err()]).toEqual([0, expect.stringMatching(/Resuming loops\.svg/)]);
+    expect(Math.abs((await penDownMm()) - 2 * wholeMm)).toBeLessThan(TOLERANCE_MM);
+    expect(readdirSync(join(dir, "command-line"))).toEqual([]);
+  });
 });

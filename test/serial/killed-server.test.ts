@@ -3,11 +3,11 @@
  * and the job resumes from there.
  */
 import { once } from "node:events";
-import { afterEach, expect, it } from "vitest";
+import { expect, it, onTestFinished } from "vitest";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
 import { EventStream } from "../server/support/event-stream.js";
 import { PtyBoard, type BoardReport } from "../support/pty-board.js";
-import { temporaryFolder } from "../support/folders.js";
+import { folderOfTest } from "../support/folders.js";
 import { startServerProcess, type ServerProcess } from "../support/server-process.js";
 import { countFor } from "../support/full-run.js";
 
@@ -24,11 +24,6 @@ const SVG =
   `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100" fill="none" stroke="black">` +
   Array.from({ length: ROWS }, (_, i) => `<path d="M10 ${5 + 3 * i}H90"/>`).join("") +
   "</svg>";
-
-const undo: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const step of undo.splice(0).reverse()) await step();
-});
 
 /** The same times in every run: a linear congruential generator. */
 let random = 7;
@@ -75,14 +70,13 @@ it(
   "a killed server loses no stroke, draws nothing twice, and nothing unless the user asks",
   { timeout: 60_000 + 20_000 * KILL_COUNT },
   async () => {
-    const data = temporaryFolder("killed");
-    undo.push(data.remove);
+    const data = folderOfTest();
     const board = await PtyBoard.open({ speed: SPEED });
-    undo.push(() => board.close());
+    onTestFinished(() => board.close());
     const start = async (): Promise<ServerProcess> => {
       const args = ["--device", board.path];
-      const server = await startServerProcess({ dataDir: data.path, virtualSpeed: SPEED, args });
-      undo.push(() => server.stop());
+      const server = await startServerProcess({ dataDir: data, virtualSpeed: SPEED, args });
+      onTestFinished(() => server.stop());
       return server;
     };
     let server = await start();

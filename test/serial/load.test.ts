@@ -2,11 +2,11 @@
  * Many browsers and scripts at once while the plotter draws at real speed: 50 event streams and 20 requests
  * per second do not slow the pen.
  */
-import { afterEach, expect, it } from "vitest";
+import { expect, it, onTestFinished } from "vitest";
 import { jobSchema } from "../../src/schema/index.js";
 import { EventStream } from "../server/support/event-stream.js";
 import { PtyBoard } from "../support/pty-board.js";
-import { temporaryFolder } from "../support/folders.js";
+import { folderOfTest } from "../support/folders.js";
 import { startServerProcess } from "../support/server-process.js";
 import { IS_FULL } from "../support/full-run.js";
 
@@ -25,11 +25,6 @@ const CURVE = Array.from({ length: SHARE * CHORD_COUNT + 1 }, (_, i) => {
 }).join("L");
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="260mm" height="200mm" viewBox="0 0 260 200" stroke="black" fill="none"><path d="M${CURVE}"/></svg>`;
 
-const undo: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const step of undo.splice(0).reverse()) await step();
-});
-
 /** Reads an event stream as bytes, because most of a browser's work with them is not ours. */
 async function countBytes(url: string, signal: AbortSignal): Promise<{ bytes: number }> {
   const counted = { bytes: 0 };
@@ -42,27 +37,26 @@ async function countBytes(url: string, signal: AbortSignal): Promise<{ bytes: nu
 }
 
 it("50 browsers and 20 requests a second never starve the board", { timeout: 240_000 }, async () => {
-  const data = temporaryFolder("load");
-  undo.push(data.remove);
+  const data = folderOfTest();
   const board = await PtyBoard.open({ wakeful: true });
-  undo.push(() => board.close());
+  onTestFinished(() => board.close());
   const server = await startServerProcess({
-    dataDir: data.path,
+    dataDir: data,
     virtualSpeed: 1,
     args: ["--device", board.path],
   });
-  undo.push(() => server.stop());
+  onTestFinished(() => server.stop());
   const added = await fetch(`${server.url}/api/v1/jobs?name=curve.svg`, { method: "POST", body: SVG });
   const { id, stats } = jobSchema.parse(await added.json());
   expect(stats!.durationS).toBeGreaterThan(LEAST_PLOT_S);
 
   const stop = new AbortController();
-  undo.push(() => stop.abort());
+  onTestFinished(() => stop.abort());
   const streams = await Promise.all(
     Array.from({ length: STREAM_COUNT }, () => countBytes(server.url, stop.signal)),
   );
   const events = await EventStream.open(server.url);
-  undo.push(() => events.close());
+  onTestFinished(() => events.close());
   const started = await fetch(`${server.url}/api/v1/jobs/${id}/start`, { method: "POST" });
   expect(started.status).toBe(200);
   await events.find("progress", (event) => !event.penUp);
@@ -82,7 +76,7 @@ it("50 browsers and 20 requests a second never starve the board", { timeout: 240
       answers.push(ask(paths[answers.length % paths.length]));
     }
   }, 1_000 / REQUESTS_PER_S);
-  undo.push(() => clearInterval(asking));
+  onTestFinished(() => clearInterval(asking));
   const { job } = await events.find(
     "job",
     (event) => event.job.state === "done" || event.job.state === "failed",

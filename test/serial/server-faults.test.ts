@@ -2,12 +2,12 @@
  * The board's faults as the user sees them: the server survives, the job is interrupted with advice,
  * resumes from its position when the fault is fixed, and can be cancelled at any time.
  */
-import { afterEach, describe, expect, it } from "vitest";
+import { describe, expect, it, onTestFinished } from "vitest";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { jobSchema, snapshotSchema, type Job, type Snapshot } from "../../src/schema/index.js";
 import { EventStream } from "../server/support/event-stream.js";
 import { PtyBoard, type ToBoard } from "../support/pty-board.js";
-import { temporaryFolder } from "../support/folders.js";
+import { folderOfTest } from "../support/folders.js";
 import { wakefulClock } from "../support/wakeful-clock.js";
 
 /** An undetected fault never ends. The limit of 3 s is tested without real time, in test/server/plotter.test.ts. */
@@ -17,21 +17,15 @@ const SVG =
   '<svg xmlns="http://www.w3.org/2000/svg" width="260mm" height="100mm" viewBox="0 0 260 100" stroke="black">' +
   '<path d="M10 20H250M250 40H10"/></svg>';
 
-const undo: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const step of undo.splice(0).reverse()) await step();
-});
-
 /** A server whose job is drawing on a board at real speed. */
 async function drawing(firmware: string) {
-  const data = temporaryFolder("faults");
-  undo.push(data.remove);
+  const data = folderOfTest();
   const board = await PtyBoard.open({ firmware });
-  undo.push(() => board.close());
-  const server: PlotwrightServer = await createServer({ port: 0, device: board.path, dataDir: data.path });
-  undo.push(() => server.close());
+  onTestFinished(() => board.close());
+  const server: PlotwrightServer = await createServer({ port: 0, device: board.path, dataDir: data });
+  onTestFinished(() => server.close());
   const events = await EventStream.open(server.url);
-  undo.push(() => events.close());
+  onTestFinished(() => events.close());
   const added = await fetch(`${server.url}/api/v1/jobs?name=lines.svg`, { method: "POST", body: SVG });
   const { id } = jobSchema.parse(await added.json());
   const post = async (action: string): Promise<void> => {

@@ -4,23 +4,18 @@
  */
 import { once } from "node:events";
 import { connect } from "node:net";
-import { afterEach, describe, expect, it } from "vitest";
+import { describe, expect, it, onTestFinished } from "vitest";
 import { Closing } from "../../server/composition/closing.js";
 import { createServer } from "../../server/index.js";
 import { jobSchema, snapshotSchema } from "../../src/schema/index.js";
 import { seeded } from "../support/live-plot.js";
-import { temporaryFolder } from "../support/folders.js";
+import { folderOfTest } from "../support/folders.js";
 import { EventStream } from "./support/event-stream.js";
 
 /** Longer than the test plots in total, because it plots slowly. */
 const SVG =
   '<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="60mm" viewBox="0 0 90 60" stroke="black">' +
   `${Array.from({ length: 500 }, (_, i) => `<path d="M5 ${5 + i / 10}h80"/>`).join("")}</svg>`;
-
-const undo: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const step of undo.splice(0).reverse()) await step();
-});
 
 describe("closing", () => {
   it("begins with the running plot, then closes the parts from the latest to the first", async () => {
@@ -51,12 +46,11 @@ describe("closing", () => {
 
 describe("a server that is closed", () => {
   async function start() {
-    const data = temporaryFolder("closing");
-    undo.push(data.remove);
+    const data = folderOfTest();
     const logged: string[] = [];
-    const options = { port: 0, device: "virtual", virtualSpeed: 30, dataDir: data.path };
+    const options = { port: 0, device: "virtual", virtualSpeed: 30, dataDir: data };
     const server = await createServer({ ...options, log: (line) => logged.push(line) });
-    undo.push(() => server.close());
+    onTestFinished(() => server.close());
     return { server, options, logged };
   }
 
@@ -71,7 +65,7 @@ describe("a server that is closed", () => {
         host: "127.0.0.1",
         allowHalfOpen: true,
       });
-      undo.push(() => socket.destroy());
+      onTestFinished(() => void socket.destroy());
       socket.on("error", () => undefined);
       socket.write(text);
       await once(socket, "data");
@@ -82,7 +76,7 @@ describe("a server that is closed", () => {
 
   it("a server that is closed at any instant of a plot or a hold leaves no timer, and a plot that can be resumed", async () => {
     const timers = watchTimers();
-    undo.push(() => timers.end());
+    onTestFinished(() => timers.end());
     const { server: first, options, logged } = await start();
     let server = first;
     const random = seeded(7);
@@ -106,7 +100,7 @@ describe("a server that is closed", () => {
       await server.close();
       expect(timers.left()).toEqual([]);
       server = await createServer({ ...options, log: (line) => logged.push(line) });
-      undo.push(() => server.close());
+      onTestFinished(() => server.close());
       const snapshot: unknown = await (await fetch(`${server.url}/api/v1/state`)).json();
       expect(snapshotSchema.parse(snapshot).jobs[0]).toMatchObject({ state: "interrupted" });
       expect((await post("recover")).status).toBe(200);

@@ -2,25 +2,21 @@
 import { execFileSync } from "node:child_process";
 import { lstatSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { afterEach, describe, expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 import { createServer } from "../../server/index.js";
 import { lockDataDir } from "../../server/storage/data-lock.js";
 import { cli } from "../cli/support.js";
-import { temporaryFolder } from "../support/folders.js";
-
-const undo: (() => unknown)[] = [];
-afterEach(() => undo.splice(0).forEach((step) => step()));
+import { folderOfTest } from "../support/folders.js";
 
 describe("the lock of a data folder", () => {
   it.skipIf(process.platform === "win32").each([
     ["a folder", (path: string) => mkdirSync(path)],
     ["a named pipe", (path: string) => execFileSync("mkfifo", [path])],
   ])("a data folder is refused in words if %s has the name of its lock, and nothing is moved", (_, make) => {
-    const folder = temporaryFolder("lock");
-    undo.push(folder.remove);
-    const path = join(folder.path, "server.lock");
+    const folder = folderOfTest();
+    const path = join(folder, "server.lock");
     make(path);
-    expect(() => lockDataDir(folder.path)).toThrow(
+    expect(() => lockDataDir(folder)).toThrow(
       expect.objectContaining({
         code: "bad-setting",
         message: expect.stringMatching(/server\.lock is not a file, .* Rename or remove it/) as string,
@@ -30,10 +26,9 @@ describe("the lock of a data folder", () => {
   });
 
   it("tells a second server where the first one is", async () => {
-    const folder = temporaryFolder("lock");
-    undo.push(folder.remove);
-    const server = await createServer({ port: 0, device: "virtual", dataDir: folder.path });
-    const second = () => cli("serve", "--device", "virtual", "--data", folder.path, "--port", "0");
+    const folder = folderOfTest();
+    const server = await createServer({ port: 0, device: "virtual", dataDir: folder });
+    const second = () => cli("serve", "--device", "virtual", "--data", folder, "--port", "0");
     expect(await second()).toEqual({
       code: 0,
       out: `plotwright is already running: open ${server.url}\n`,

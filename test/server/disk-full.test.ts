@@ -14,7 +14,6 @@ import { openQueueIn } from "./support/open-queue.js";
 import { folderOfTest } from "../support/folders.js";
 
 const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
-const LIMIT_MS = 60_000;
 let app: TestApp;
 let run: LedRun;
 let id: string;
@@ -57,27 +56,23 @@ describe("while the disk is full", () => {
     ["pause", "paused"],
     ["emergency-stop", "paused"],
     ["cancel", "cancelled"],
-  ])(
-    "%s is answered, and the job's real state is shown",
-    async (action, state) => {
-      const events = await EventStream.open(app.url);
-      fillDisk();
-      const answer = await post(action);
-      expect(answer.status).toBe(200);
-      const { job: shown } = await events.find("job", (event) => event.job.state === state);
-      expect(shown.message).toContain(DISK_FULL);
-      expect((await job()).state).toBe(state);
-      expect(stored().state).toBe("plotting");
-      vi.restoreAllMocks();
-      await events.find(
-        "job",
-        (event) => event.job.state === state && event.job.message?.includes(DISK_FULL) !== true,
-      );
-      expect(stored()).toEqual(await job());
-      events.close();
-    },
-    LIMIT_MS,
-  );
+  ])("%s is answered, and the job's real state is shown", async (action, state) => {
+    const events = await EventStream.open(app.url);
+    fillDisk();
+    const answer = await post(action);
+    expect(answer.status).toBe(200);
+    const { job: shown } = await events.find("job", (event) => event.job.state === state);
+    expect(shown.message).toContain(DISK_FULL);
+    expect((await job()).state).toBe(state);
+    expect(stored().state).toBe("plotting");
+    vi.restoreAllMocks();
+    await events.find(
+      "job",
+      (event) => event.job.state === state && event.job.message?.includes(DISK_FULL) !== true,
+    );
+    expect(stored()).toEqual(await job());
+    events.close();
+  });
 
   it("a paused plot resumes at the first try, with or without space", async () => {
     fillDisk();

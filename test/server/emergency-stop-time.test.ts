@@ -36,7 +36,7 @@ async function stopMs(firmware: string, sendAheadMs: number): Promise<{ mostMs: 
   return { mostMs, saidMs };
 }
 
-describe("an emergency stop", { timeout: 60_000 }, () => {
+describe("an emergency stop", () => {
   it("takes as long as the motion sent ahead on firmware 2.8.1, so less if less is sent ahead", async () => {
     const usual = await stopMs("2.8.1", 300);
     expect(usual.saidMs).toBe(420);

@@ -207,7 +207,7 @@ describe("a plot", { timeout: 120_000 }, () => {
   });
 });
 
-describe("a move by hand", { timeout: 60_000 }, () => {
+describe("a move by hand", () => {
   it.each(["reply-lost", "reply-damaged", "line-end-lost"] as const)(
     "never waits forever: %s",
     async (fault) => {
@@ -238,7 +238,7 @@ describe("a move by hand", { timeout: 60_000 }, () => {
   });
 });
 
-describe("the receive buffer", { timeout: 60_000 }, () => {
+describe("the receive buffer", () => {
   it.each([128, 127, 120])("a receive buffer of %d characters never overflows", async (rxBytes) => {
     const { board, begin, within } = await newPlotter({ rxBytes });
     const run = await begin();
@@ -248,7 +248,7 @@ describe("the receive buffer", { timeout: 60_000 }, () => {
   });
 });
 
-describe("connecting", { timeout: 60_000 }, () => {
+describe("connecting", () => {
   it("does not execute the beginning of a line that was left unfinished", async () => {
     const world = new ManualClock();
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });

@@ -33,7 +33,7 @@ const STOPS: readonly [string, (run: LivePlotRun) => Promise<void>][] = [
   ["emergency stop", (run) => run.emergencyStop()],
 ];
 
-describe("a plot ends", { timeout: 60_000 }, () => {
+describe("a plot ends", () => {
   it.each(STOPS)("a plot ends if the cable is unplugged during a %s", async (_, stop) => {
     const { world, begin, within, line, mustWork } = await newPlotter();
     const run = await begin();
@@ -101,7 +101,7 @@ describe("a plot ends", { timeout: 60_000 }, () => {
   });
 });
 
-describe("after an error", { timeout: 60_000 }, () => {
+describe("after an error", () => {
   it("a refused line leaves the pen up, the position known and the plotter free", async () => {
     const { board, driver, begin, within, mustWork } = await newPlotter();
     const places: Place[] = [];
@@ -183,7 +183,7 @@ describe("after an error", { timeout: 60_000 }, () => {
   });
 });
 
-describe("a restart of a board whose boot loader waits before the Grbl starts", { timeout: 60_000 }, () => {
+describe("a restart of a board whose boot loader waits before the Grbl starts", () => {
   const BOOT_S = 1.5;
   const CIRCLE_MM = 30;
 
@@ -222,7 +222,7 @@ describe("a restart of a board whose boot loader waits before the Grbl starts", 
   });
 });
 
-describe("a restart at rest", { timeout: 60_000 }, () => {
+describe("a restart at rest", () => {
   it("is reported, and the old position no longer counts", async () => {
     const { world, board, driver, within } = await newPlotter();
     expect(await within(driver.move({ kind: "move-to", xMm: 100, yMm: 50 }))).toBeUndefined();
@@ -245,7 +245,7 @@ describe("a restart at rest", { timeout: 60_000 }, () => {
   });
 });
 
-describe("an emergency stop", { timeout: 60_000 }, () => {
+describe("an emergency stop", () => {
   it("an emergency stop during a pause's braking stops at once, and the plot resumes from there", async () => {
     const { world, board, driver, begin } = await newPlotter();
     const run = await begin();
@@ -311,7 +311,7 @@ describe("an emergency stop", { timeout: 60_000 }, () => {
   });
 });
 
-describe("a Grbl that does not answer", { timeout: 60_000 }, () => {
+describe("a Grbl that does not answer", () => {
   it("is noticed at rest", async () => {
     const { world, driver, line, mustWork } = await newPlotter();
     line().isMute = true;

@@ -90,7 +90,7 @@ class LargeQueue implements Transport {
   }
 }
 
-it("an emergency stop on a board with a large queue leaves no gap", { timeout: 60_000 }, async () => {
+it("an emergency stop on a board with a large queue leaves no gap", async () => {
   for (let afterS = 0.5; afterS < 8; afterS += 0.7) {
     const world = new ManualClock();
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });

@@ -41,7 +41,7 @@ const lengthMm = ({ xy, offsets }: StrokeSet): number => {
   return sum;
 };
 
-describe("a plotter with a Grbl", { timeout: 60_000 }, () => {
+describe("a plotter with a Grbl", () => {
   it("identifies itself, plots to the end, and is idle at home again", async () => {
     const { world, driver, board, begin } = await newPlotter();
     expect(driver.state).toMatchObject({ kind: "virtual", connection: "idle", firmware: "Grbl 1.1h" });

@@ -16,7 +16,7 @@ const LOWER_IS_LARGER = {
   controller: { ...GRBL.controller, penUpZMm: 0.5, penDownZMm: 5 },
 };
 
-describe("a Grbl that reports in inches ($13=1)", { timeout: 60_000 }, () => {
+describe("a Grbl that reports in inches ($13=1)", () => {
   it("is paused, stopped at once and resumed, and draws everything", async () => {
     const { world, board, driver, begin, within } = await newPlotter({ settings: { 13: 1 } });
     const run = await begin();
@@ -43,7 +43,7 @@ describe("a Grbl that reports in inches ($13=1)", { timeout: 60_000 }, () => {
   });
 });
 
-describe("a Grbl with other settings than its profile", { timeout: 60_000 }, () => {
+describe("a Grbl with other settings than its profile", () => {
   it.each([
     [{ 110: 3_000 }, "Highest speed is at most 50 mm/s ($110)"],
     [{ 111: 3_000 }, "Highest speed is at most 50 mm/s ($111)"],
@@ -81,7 +81,7 @@ describe("a Grbl with other settings than its profile", { timeout: 60_000 }, () 
   });
 });
 
-describe("soft limits ($20=1)", { timeout: 60_000 }, () => {
+describe("soft limits ($20=1)", () => {
   it("a plot or a move that would leave the soft limits is refused in words before anything moves", async () => {
     const { board, driver, begin, within } = await newPlotter({ settings: { 20: 1, 132: 200 } });
     // Its Z is at the upper limit, so the pen cannot be lifted.
@@ -104,7 +104,7 @@ describe("soft limits ($20=1)", { timeout: 60_000 }, () => {
   });
 });
 
-describe("a Grbl that is locked until it is homed ($22=1)", { timeout: 60_000 }, () => {
+describe("a Grbl that is locked until it is homed ($22=1)", () => {
   it("is not unlocked at connecting; the message says what to do, and does it", async () => {
     const { board, driver, begin, within } = await newPlotter({ settings: { 22: 1 } });
     expect(driver.state.connection).toBe("idle");
@@ -154,7 +154,7 @@ describe("a Grbl that is locked until it is homed ($22=1)", { timeout: 60_000 },
 describe.each([
   ["up is higher", GRBL],
   ["down is larger", LOWER_IS_LARGER],
-])("the pen after a reconnection (%s)", { timeout: 60_000 }, (_, machine) => {
+])("the pen after a reconnection (%s)", (_, machine) => {
   const { penUpZMm: upMm, penDownZMm: downMm } = machine.controller;
 
   /** A plotter with this machine. */
@@ -225,7 +225,7 @@ describe.each([
   });
 });
 
-describe("the pen at the first connection", { timeout: 60_000 }, () => {
+describe("the pen at the first connection", () => {
   async function connected(zMm: number, restarts: boolean) {
     const world = new ManualClock();
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });

@@ -111,66 +111,54 @@ async function resumeAndCompare({ world, driver, board, strokes, journal }: Inte
 }
 
 describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
-  it(
-    "a plot whose motors lose their supply resumes from the last good reading",
-    { timeout: 60_000 },
-    async () => {
-      const random = seeded(5);
-      for (let i = 0; i < COUNT; i++) {
-        const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
-        expect(plot.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
-        // In steps, so that pending promises settle in between.
-        for (let step = 0; step < 40; step++) await plot.world.advance(0.05);
-        expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
-        plot.board.setMotorVolts(9.1);
-        await plot.world.advance(5);
-        expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
-        const { gapMm, overlapMm } = await resumeAndCompare(plot);
-        expect(gapMm).toBeLessThan(GAP_MM);
-        expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
-      }
-    },
-  );
+  it("a plot whose motors lose their supply resumes from the last good reading", async () => {
+    const random = seeded(5);
+    for (let i = 0; i < COUNT; i++) {
+      const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.setMotorVolts(0));
+      expect(plot.message).toMatch(/^board-error: The motors have no power.*overlap a little/);
+      // In steps, so that pending promises settle in between.
+      for (let step = 0; step < 40; step++) await plot.world.advance(0.05);
+      expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
+      plot.board.setMotorVolts(9.1);
+      await plot.world.advance(5);
+      expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
+      const { gapMm, overlapMm } = await resumeAndCompare(plot);
+      expect(gapMm).toBeLessThan(GAP_MM);
+      expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
+    }
+  });
 
-  it(
-    "a plot whose board restarts is interrupted at once, and resumes from its last certain position",
-    { timeout: 60_000 },
-    async () => {
-      const random = seeded(6);
-      for (let i = 0; i < COUNT; i++) {
-        const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.restart());
-        expect(plot.message).toMatch(/^board-error: The board restarted.*overlap a little/);
-        expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
-        expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
-        const { gapMm, overlapMm } = await resumeAndCompare(plot);
-        expect(gapMm).toBeLessThan(GAP_MM);
-        expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
-      }
-    },
-  );
+  it("a plot whose board restarts is interrupted at once, and resumes from its last certain position", async () => {
+    const random = seeded(6);
+    for (let i = 0; i < COUNT; i++) {
+      const plot = await interrupt(firmware, 0.4 + (PLOT_S - 1) * random(), (one) => one.restart());
+      expect(plot.message).toMatch(/^board-error: The board restarted.*overlap a little/);
+      expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: false });
+      expect(plot.driver.state).toMatchObject({ connection: "idle", xMm: null });
+      const { gapMm, overlapMm } = await resumeAndCompare(plot);
+      expect(gapMm).toBeLessThan(GAP_MM);
+      expect(overlapMm).toBeLessThan(MAX_OVERLAP_MM);
+    }
+  });
 
-  it(
-    "a plot with a refused command keeps its position, and resumes from that command",
-    { timeout: 60_000 },
-    async () => {
-      const random = seeded(7);
-      let refused = 0;
-      for (let i = 0; i < 2 * COUNT; i++) {
-        const plot = await interrupt(firmware, 0.4 + 9 * random(), (one) => one.refuseNext(), STRAIGHT);
-        // It may have been a query: those are repeated.
-        if (plot.message === "done") continue;
-        refused++;
-        expect(plot.message).toMatch(/^board-error: The board refused /);
-        expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: true });
-        expect(plot.driver.state.xMm).not.toBeNull();
-        const { gapMm, overlapMm, awayMm } = await resumeAndCompare(plot);
-        expect(gapMm).toBeLessThan(GAP_MM);
-        expect(overlapMm).toBeLessThan(GAP_MM);
-        expect(awayMm).toBeLessThan(GAP_MM);
-      }
-      expect(refused).toBeGreaterThan(COUNT / 2);
-    },
-  );
+  it("a plot with a refused command keeps its position, and resumes from that command", async () => {
+    const random = seeded(7);
+    let refused = 0;
+    for (let i = 0; i < 2 * COUNT; i++) {
+      const plot = await interrupt(firmware, 0.4 + 9 * random(), (one) => one.refuseNext(), STRAIGHT);
+      // It may have been a query: those are repeated.
+      if (plot.message === "done") continue;
+      refused++;
+      expect(plot.message).toMatch(/^board-error: The board refused /);
+      expect(plot.board.state()).toMatchObject({ penUp: true, motorsOn: true });
+      expect(plot.driver.state.xMm).not.toBeNull();
+      const { gapMm, overlapMm, awayMm } = await resumeAndCompare(plot);
+      expect(gapMm).toBeLessThan(GAP_MM);
+      expect(overlapMm).toBeLessThan(GAP_MM);
+      expect(awayMm).toBeLessThan(GAP_MM);
+    }
+    expect(refused).toBeGreaterThan(COUNT / 2);
+  });
 
   it("a plot with three refused commands in a row leaves nothing out", { timeout: 120_000 }, async () => {
     const random = seeded(9);
@@ -186,7 +174,7 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
     }
   });
 
-  it("a plot with a refused command on a curve leaves nothing out", { timeout: 60_000 }, async () => {
+  it("a plot with a refused command on a curve leaves nothing out", async () => {
     const random = seeded(8);
     for (let i = 0; i < COUNT; i++) {
       const plot = await interrupt(firmware, 0.4 + 6 * random(), (one) => one.refuseNext());
@@ -201,33 +189,29 @@ describe.each(FIRMWARES)("a plot on firmware %s", (firmware) => {
 
 // On 2.8.1 the commands sent ahead wait in the system's buffers, which the virtual connection loses when it
 // is unplugged.
-it(
-  "a plot whose server is killed on a line that retraces itself resumes from the place that fits what the board had received",
-  { timeout: 60_000 },
-  async () => {
-    const random = seeded(9);
-    for (let i = 0; i < 2 * COUNT; i++) {
-      const { world, driver } = await virtualPlotter({ firmware: "3.0.3" });
-      const planner = new KeepingPlanner(ROUND_AND_ROUND);
-      const journal: JournalEntry[] = [];
-      const record = (entry: JournalEntry): void => void journal.push(entry);
-      const run = await world.run(driver.plot(planner, DEFAULT_PLOT_SETTINGS, { journal: { record } }));
-      await underWay(world, journal);
-      await world.advance(1.5 + 4 * random());
-      // A killed server writes nothing at its end; the board plays what it has.
-      const { place: from, received } = journal[journal.length - 1];
-      virtualBoardOf(driver).unplug();
-      await world.run(run.finished.catch(() => undefined));
-      await world.advance(5);
-      const { idleTicksTimed } = firmwareFeatures("3.0.3");
-      const ticks = ranTicks(virtualBoardOf(driver)) - (1 + idleTicksTimed);
-      const [plot] = planner.plots;
-      const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot, planSAfter(plot.commands, ticks));
-      const again = await world.run(
-        driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, { from, received }),
-      );
-      expect(Math.abs(mmOf(ROUND_AND_ROUND, again.holdPlace!) - truthMm)).toBeLessThan(2 * GAP_MM);
-      await world.run(Promise.all([again.cancel(), again.finished]));
-    }
-  },
-);
+it("a plot whose server is killed on a line that retraces itself resumes from the place that fits what the board had received", async () => {
+  const random = seeded(9);
+  for (let i = 0; i < 2 * COUNT; i++) {
+    const { world, driver } = await virtualPlotter({ firmware: "3.0.3" });
+    const planner = new KeepingPlanner(ROUND_AND_ROUND);
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    const run = await world.run(driver.plot(planner, DEFAULT_PLOT_SETTINGS, { journal: { record } }));
+    await underWay(world, journal);
+    await world.advance(1.5 + 4 * random());
+    // A killed server writes nothing at its end; the board plays what it has.
+    const { place: from, received } = journal[journal.length - 1];
+    virtualBoardOf(driver).unplug();
+    await world.run(run.finished.catch(() => undefined));
+    await world.advance(5);
+    const { idleTicksTimed } = firmwareFeatures("3.0.3");
+    const ticks = ranTicks(virtualBoardOf(driver)) - (1 + idleTicksTimed);
+    const [plot] = planner.plots;
+    const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot, planSAfter(plot.commands, ticks));
+    const again = await world.run(
+      driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, { from, received }),
+    );
+    expect(Math.abs(mmOf(ROUND_AND_ROUND, again.holdPlace!) - truthMm)).toBeLessThan(2 * GAP_MM);
+    await world.run(Promise.all([again.cancel(), again.finished]));
+  }
+});

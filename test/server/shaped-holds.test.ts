@@ -76,7 +76,7 @@ describe("a hold in shaped motion", () => {
       }
     }
     expect(stops).toBeGreaterThan(150);
-  }, 60_000);
+  });
 
   it.each(["2.8.1", "3.0.3"])(
     "leaves no gap and no doubled stretch, and ends exactly, on firmware %s",

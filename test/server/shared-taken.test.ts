@@ -1,5 +1,5 @@
 /** Jobs that a server has taken from the shared queue: what it does with one that it can't add, and after a restart. */
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { beforeEach, describe, expect, it, onTestFinished } from "vitest";
 import type { Planning } from "../../host/planning/planning.js";
 import { SharedQueue } from "../../server/plugins/shared-queue/shared-queue.js";
 import { SharedStore } from "../../server/plugins/shared-queue/shared-store.js";
@@ -7,7 +7,7 @@ import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { temporaryFolder } from "../support/folders.js";
+import { folderOfTest } from "../support/folders.js";
 import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
 import { openQueueIn, type OpenQueue } from "./support/open-queue.js";
 import { SharedDatabase, linesSvg } from "./support/shared-servers.js";
@@ -21,20 +21,14 @@ interface Server extends OpenQueue {
 }
 
 let database: SharedDatabase;
-const undo: (() => unknown)[] = [];
 beforeEach(async () => {
   database = await SharedDatabase.open();
-  undo.push(() => database.close());
+  onTestFinished(() => database.close());
 });
-afterEach(async () => {
-  for (const step of undo.splice(0).reverse()) await step();
-});
-
 function newFolder(): string {
-  const folder = temporaryFolder("shared-taken");
-  undo.push(folder.remove);
-  prepareDataDir(folder.path);
-  return folder.path;
+  const folder = folderOfTest();
+  prepareDataDir(folder);
+  return folder;
 }
 
 async function open(
@@ -65,7 +59,7 @@ async function open(
     await queue.close();
     store.close();
   };
-  undo.push(close);
+  onTestFinished(close);
   const jobs = (): string[] => queue.list().map(({ name, state }) => `${name} ${state}`);
   return { ...opened, shared, notices, jobs, close };
 }

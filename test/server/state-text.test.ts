@@ -80,7 +80,7 @@ const CHANGES: Record<string, (ids: readonly string[]) => unknown> = {
 };
 
 describe("the state", () => {
-  it("is the current one after any change", { timeout: 60_000 }, async () => {
+  it("is the current one after any change", async () => {
     const names = fc.array(fc.constantFrom(...Object.keys(CHANGES)), { minLength: 1, maxLength: 12 });
     const plain = (value: unknown): unknown => JSON.parse(JSON.stringify(value));
     await fc.assert(

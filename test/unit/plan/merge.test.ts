@@ -129,7 +129,7 @@ describe("a merged plan", () => {
     expect(counts[1]).toBeGreaterThan(counts[2]);
   });
 
-  it("draws a dense line of 100 000 points with at most 15 000 commands", { timeout: 60_000 }, () => {
+  it("draws a dense line of 100 000 points with at most 15 000 commands", () => {
     const trajectory = planned(LOOPS, "blend", DEFAULT_FIT);
     for (const firmware of ["2.8.1", "3.0.3"]) {
       const machine = machineById("axidraw-v3");
