@@ -1,7 +1,8 @@
 /** Where an interrupted plot stopped: the journal's place, or what the board still knows about the time after it. */
+import { z } from "zod";
 import type { Place, StrokeSet } from "../../src/index.js";
 import { landingMm, leavesDrawingMm, machineOf, reportedPosition, type Machine } from "../../src/internal.js";
-import type { PlotSettings } from "../../src/schema/index.js";
+import { boardIdSchema, type PlotSettings } from "../../src/schema/index.js";
 import type { JournalEntry } from "./plotter-port.js";
 
 /** Max time between two journal entries, in real seconds. */
@@ -13,6 +14,15 @@ export const PROGRESS_S = 0.06;
  * motion that is always sent ahead. In real seconds, also for a host that is busy for a while.
  */
 const LEFT_S = 1.5;
+
+const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
+
+/** What is stored of a journal entry. It may have been written by another version of this program. */
+export const journalSchema = z.object({
+  place: placeSchema,
+  received: placeSchema.optional(),
+  board: boardIdSchema.optional(),
+});
 
 /** `penStops`: the strokes before which the plot goes home and waits. */
 export function placeLeft(

@@ -24,6 +24,7 @@ import {
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { JOURNAL_S, placeLeft, PROGRESS_S } from "./place-left.js";
 import { PenStops } from "./pen-stops.js";
+import { restedWhileStalled } from "./plotter-state.js";
 import { RunSettings } from "./run-settings.js";
 import type { PlannedPlot, PlotPlanner } from "../planning/planning.js";
 import type {
@@ -286,10 +287,8 @@ export class MachinePlot implements LivePlotRun {
   /** Plans from a place to the next pen change. */
   async #plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
     const until = this.#stops.nextAfter(from);
-    if (until !== null || this.#start.from) {
-      const times = await this.#timesOfWhole();
-      this.#afterPartS = until === null ? 0 : times.leftFrom({ stroke: until, alongMm: 0 });
-    } else this.#afterPartS = 0;
+    const times = until === null && !this.#start.from ? null : await this.#timesOfWhole();
+    this.#afterPartS = until === null ? 0 : times!.leftFrom({ stroke: until, alongMm: 0 });
     const clock = this.#machine.clock;
     const startS = clock.nowS();
     const plot = await this.#planner.plan({
@@ -446,8 +445,5 @@ export class MachinePlot implements LivePlotRun {
     return { xMm: x, yMm: y, penUp: this.#machine.penUp ?? true, elapsedS: 0 };
   }
 }
-
-const restedWhileStalled = ({ xMm, yMm }: PlotProgress, stalledS: number): string =>
-  `This computer stood still for ${Math.round(stalledS)} s, and the pen rested on the paper meanwhile, at x ${xMm.toFixed(1)} mm, y ${yMm.toFixed(1)} mm from home. Look for a blot there.`;
 
 const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was cancelled.");

@@ -3,6 +3,7 @@ import { PlotwrightError, type Clock } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";
 import type { Devices } from "./connection.js";
+import type { PlotProgress } from "./plotter-port.js";
 
 export interface PlotterOptions {
   /**
@@ -65,6 +66,10 @@ export function penRested({ xMm, yMm }: PlotterState, restedS: number | null): s
       : `The pen rested on the paper for ${Math.round(restedS)} s${where}, while the board was not connected`;
   return `${rested}. It is lifted now: look for a blot there before you resume.`;
 }
+
+/** The note of a plot whose computer stood still while the pen was down. */
+export const restedWhileStalled = ({ xMm, yMm }: PlotProgress, stalledS: number): string =>
+  `This computer stood still for ${Math.round(stalledS)} s, and the pen rested on the paper meanwhile, at x ${xMm.toFixed(1)} mm, y ${yMm.toFixed(1)} mm from home. Look for a blot there.`;
 
 /** The message of a new connection; null for a real board. `device` is as in the options. */
 export function welcome(kind: PlotterState["kind"], device: string): string | null {

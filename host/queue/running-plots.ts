@@ -5,7 +5,6 @@
 import { z } from "zod";
 import { PlotwrightError, type Place } from "../../src/index.js";
 import {
-  boardIdSchema,
   ENDED_STATES,
   type Job,
   type JobChange,
@@ -14,6 +13,7 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
+import { journalSchema } from "../plotter/place-left.js";
 import type {
   JournalEntry,
   LivePlotRun,
@@ -438,13 +438,6 @@ function penWords({ penName, layerName }: PlotWait): string {
 
 const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: stroke, alongMm });
 
-/** What Store.journal returns. It may have been written by another version of this program. */
-const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
-const journalSchema = z.object({
-  place: placeSchema,
-  received: placeSchema.optional(),
-  board: boardIdSchema.optional(),
-});
 const journalProgressSchema = z.object({
   progress: z.number().min(0).max(1),
   elapsedS: z.number().min(0),

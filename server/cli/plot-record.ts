@@ -6,7 +6,8 @@ import { existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "nod
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../src/index.js";
-import { boardIdSchema, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
+import { plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
+import { journalSchema } from "../../host/plotter/place-left.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { makeDataFolder } from "../storage/data-dir.js";
 import { fileFault } from "../storage/file-fault.js";
@@ -19,13 +20,7 @@ const plotSchema = ownerSchema.extend({
   settings: plotSettingsSchema,
   only: z.array(z.string()).optional(),
 });
-const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
-const entrySchema = z.object({
-  place: placeSchema,
-  received: placeSchema.optional(),
-  board: boardIdSchema.optional(),
-  progress: z.number(),
-});
+const entrySchema = journalSchema.extend({ progress: z.number() });
 
 /** What is stored of a plot when it begins, beside its drawing. */
 interface StoredPlot {

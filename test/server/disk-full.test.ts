@@ -3,13 +3,11 @@ import { mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Access } from "../../server/security/access.js";
-import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DISK_FULL, isDiskFault } from "../../host/disk-fault.js";
 import { DEFAULT_PLOT_SETTINGS, apiErrorSchema, jobSchema, type Job } from "../../src/schema/index.js";
 import { startApp, type TestApp } from "./support/app.js";
 import { EventStream } from "./support/event-stream.js";
 import type { LedRun } from "./support/fakes.js";
-import { drawingOf } from "./support/jobs.js";
 import { openQueueIn } from "./support/open-queue.js";
 import { folderOfTest } from "../support/folders.js";
 
@@ -186,11 +184,7 @@ describe("while the disk is full", () => {
 
 describe("a queue that continues automatically", () => {
   it("survives a disk that fills up between the end of a plot and the next start", async () => {
-    const dir = folderOfTest();
-    prepareDataDir(dir);
-    const { queue, store, plotter, logged } = openQueueIn(dir);
-    const add = (name: string): Promise<Job> =>
-      queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name) });
+    const { queue, store, plotter, logged, add, close } = openQueueIn(folderOfTest());
     const [first] = [await add("fern"), await add("moss")];
     queue.saveSettings({ runOn: true });
     await queue.start(first.id);
@@ -203,8 +197,7 @@ describe("a queue that continues automatically", () => {
     plot.end({ kind: "done" });
     await expect.poll(() => logged).toEqual(["the next job can't be started: database or disk is full"]);
     expect(queue.list().map(({ name, state }) => `${name} ${state}`)).toEqual(["moss queued", "fern done"]);
-    await queue.close();
-    store.close();
+    await close();
   });
 });
 

@@ -8,7 +8,7 @@ import type { LineFault } from "../../src/drivers/grbl/virtual/virtual-settings.
 import "../support/fixed-seed.js";
 import { cases } from "../support/full-run.js";
 import { GRBL } from "../support/grbl-machine.js";
-import { newMachine, newPlotter, SETTINGS } from "../support/grbl-plotter.js";
+import { newMachine, newPlotter, SETTINGS, RefusedPlanner } from "../support/grbl-plotter.js";
 import { DRAWING, drawnMm } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
@@ -75,20 +75,6 @@ async function plotDisturbed(
     expect(await within(rest.finished)).toEqual({ kind: "done" });
   }
   return { first, board, driver, atEnd, mustWork };
-}
-
-/** Its plans have one line that the Grbl refuses. */
-class RefusedPlanner extends LocalPlanner {
-  constructor(private readonly refused: string) {
-    super(DRAWING);
-  }
-
-  override async plan(request: Parameters<LocalPlanner["plan"]>[0]) {
-    const plot = await super.plan(request);
-    const { lines } = plot.commands as unknown as { lines: string[] };
-    lines[lines.indexOf(this.refused)] = "G5X1";
-    return plot;
-  }
 }
 
 describe("a plot", { timeout: 120_000 }, () => {
@@ -171,7 +157,7 @@ describe("a plot", { timeout: 120_000 }, () => {
     const { first, atEnd, board } = await plotDisturbed(
       0.1,
       () => undefined,
-      new RefusedPlanner("G1X25Y45.5"),
+      new RefusedPlanner(DRAWING, "G1X25Y45.5"),
     );
     expect(first).toMatch(/^board-error: The Grbl refused G5X1 with error:20/);
     expect(atEnd).toEqual({ penUp: true, isHomeKnown: true });

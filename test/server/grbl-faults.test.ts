@@ -2,30 +2,13 @@
 import { describe, expect, it } from "vitest";
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
-import type { Place, StrokeSet } from "../../src/index.js";
+import type { Place } from "../../src/index.js";
 import { pointOfPlace } from "../../src/internal.js";
-import { LIMIT_S, newMachine, newPlotter, SETTINGS } from "../support/grbl-plotter.js";
+import { LIMIT_S, newMachine, newPlotter, SETTINGS, RefusedPlanner } from "../support/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
-
-/** Its plans have one line that the Grbl refuses. */
-class RefusedPlanner extends LocalPlanner {
-  constructor(
-    strokes: StrokeSet,
-    private readonly index: number,
-  ) {
-    super(strokes);
-  }
-
-  override async plan(request: Parameters<LocalPlanner["plan"]>[0]) {
-    const plot = await super.plan(request);
-    const { lines } = plot.commands as unknown as { lines: string[] };
-    lines[this.index] = "G5X1";
-    return plot;
-  }
-}
 
 const STOPS: readonly [string, (run: LivePlotRun) => Promise<void>][] = [
   ["pause", (run) => run.pause()],

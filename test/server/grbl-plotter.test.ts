@@ -8,6 +8,7 @@ import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index
 import { GRBL } from "../support/grbl-machine.js";
 import { DRAWING, drawnMm, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { NO_EVENTS } from "../support/machine.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { ScriptedLine } from "../support/scripted-line.js";
 import { outcome, virtualBoardOf } from "../support/virtual-plotter.js";
@@ -176,23 +177,6 @@ describe("a plotter with a Grbl", () => {
     expect(driver.state).toMatchObject({ motorsOn: true, xMm: 1, yMm: 2 });
   });
 
-  it("stops a plot whose line the Grbl refuses, and names it", async () => {
-    const { world, driver, board } = await newPlotter();
-    const planner = new LocalPlanner(TWO_LINES);
-    const plan = planner.plan.bind(planner);
-    planner.plan = async (request) => {
-      const plot = await plan(request);
-      const { lines } = plot.commands as unknown as { lines: string[] };
-      lines[lines.length - 3] = "G5X1";
-      return plot;
-    };
-    const run = await world.run(driver.plot(planner, SETTINGS));
-    expect(await outcome(world.run(run.finished))).toMatch(
-      /^board-error: The Grbl refused G5X1 with error:20/,
-    );
-    expect(board.state().state).not.toBe("Run");
-  });
-
   it.each(["asleep", "held", "moving"])("is found again when it was left %s", async (how) => {
     const world = new ManualClock();
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
@@ -200,13 +184,7 @@ describe("a plotter with a Grbl", () => {
     const left = { asleep: "$SLP\n", held: "G1X50F600\n!", moving: "G1X50F600\n" }[how] ?? "";
     await line.write(new TextEncoder().encode(left));
     await world.advance(1);
-    const events = {
-      changed: () => undefined,
-      buttonPressed: () => undefined,
-      supplyRead: () => undefined,
-      lost: () => undefined,
-    };
-    const options = { clock: world, machineClock: world, speed: 1, events };
+    const options = { clock: world, machineClock: world, speed: 1, events: NO_EVENTS };
     const machine = await world.run(grblDriver.identify(board.transport(), options));
     await world.run(machine.readKeptState(SETTINGS, null));
     expect(machine.firmware).toBe("Grbl 1.1h");
@@ -229,13 +207,7 @@ describe("a plotter with a Grbl", () => {
     const world = new ManualClock();
     let left = answers;
     const line = new ScriptedLine(() => (left-- > 0 ? "echo:wait\n" : null), "\n");
-    const events = {
-      changed: () => undefined,
-      buttonPressed: () => undefined,
-      supplyRead: () => undefined,
-      lost: () => undefined,
-    };
-    const options = { clock: world, machineClock: world, speed: 1, events };
+    const options = { clock: world, machineClock: world, speed: 1, events: NO_EVENTS };
     expect(await outcome(world.run(grblDriver.identify(line, options)))).toMatch(message);
     expect(line.closed).toBe(true);
   });

@@ -8,6 +8,7 @@ import { GRBL } from "../support/grbl-machine.js";
 import { LIMIT_S, newPlotter, SETTINGS } from "../support/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
+import { NO_EVENTS } from "../support/machine.js";
 import { ManualClock } from "../support/manual-clock.js";
 
 /** A machine like the DrawCore: with the pen down its Z is larger. */
@@ -271,12 +272,7 @@ it("connecting stops a motion that was left along its path, so that a Grbl with 
     clock: world,
     machineClock: world,
     speed: 1,
-    events: {
-      changed: () => undefined,
-      buttonPressed: () => undefined,
-      supplyRead: () => undefined,
-      lost: () => undefined,
-    },
+    events: NO_EVENTS,
   };
   const machine = await world.run(grblDriver.identify(board.transport(), options));
   await world.run(machine.readKeptState(SETTINGS, null));

@@ -1,51 +1,29 @@
 /** The place from which a plot continues, while it has not drawn anything since it was resumed. */
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import type { JobQueue } from "../../host/queue/job-queue.js";
-import { prepareDataDir } from "../../server/storage/data-dir.js";
-import type { Store } from "../../server/storage/store.js";
 import { PlotwrightError } from "../../src/index.js";
-import { DEFAULT_PLOT_SETTINGS, type JobPlace } from "../../src/schema/index.js";
-import type { LedPlotter, LedRun } from "./support/fakes.js";
-import { drawingOf } from "./support/jobs.js";
-import { openQueueIn } from "./support/open-queue.js";
+import type { JobPlace } from "../../src/schema/index.js";
 import { folderOfTest } from "../support/folders.js";
+import type { LedRun } from "./support/fakes.js";
+import { openQueueIn, settled, type OpenQueue } from "./support/open-queue.js";
 
 const PLACE: JobPlace = { strokeIndex: 1, alongMm: 0 };
 
 let dir: string;
-let store: Store;
-let plotter: LedPlotter;
-let queue: JobQueue;
-
+let opened: OpenQueue;
 beforeEach(() => {
   dir = folderOfTest();
-  prepareDataDir(dir);
-  ({ store, plotter, queue } = openQueueIn(dir));
+  openQueue();
 });
-afterEach(async () => {
-  await queue.close();
-  store.close();
-});
+afterEach(() => opened.close());
 
-const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+let { store, queue, nextRun, plotting } = {} as OpenQueue;
+function openQueue(): void {
+  opened = openQueueIn(dir);
+  ({ store, queue, nextRun, plotting } = opened);
+}
 
 /** Starts a job at PLACE; nothing is drawn yet. */
-async function started(): Promise<{ id: string; run: LedRun }> {
-  const { id } = await queue.add({
-    name: "fern",
-    settings: DEFAULT_PLOT_SETTINGS,
-    drawing: drawingOf("fern"),
-    from: PLACE,
-  });
-  await queue.start(id);
-  return { id, run: await nextRun() };
-}
-
-async function nextRun(): Promise<LedRun> {
-  const run = await plotter.nextRun();
-  await settled();
-  return run;
-}
+const started = () => plotting({ from: PLACE });
 
 async function cancelled(id: string, run: LedRun): Promise<void> {
   queue.plots.cancel(id);
@@ -73,7 +51,7 @@ describe("the place of a job that was resumed, and has not drawn since", () => {
     await nextRun();
     queue.plots.resume(id);
     store.close();
-    ({ store, plotter, queue } = openQueueIn(dir));
+    openQueue();
     expect(queue.get(id)).toMatchObject({ state: "interrupted", place: PLACE });
   });
 

@@ -1,27 +1,16 @@
 /** The queue agrees with a simple model of it. */
 import fc from "fast-check";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { prepareDataDir } from "../../server/storage/data-dir.js";
-import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { drawingOf } from "./support/jobs.js";
-import { openQueueIn, type OpenQueue } from "./support/open-queue.js";
 import { folderOfTest } from "../support/folders.js";
+import { openQueueIn, settled, type OpenQueue } from "./support/open-queue.js";
 
 let dir: string;
 let parts: OpenQueue;
 beforeEach(() => {
   dir = folderOfTest();
-  prepareDataDir(dir);
   parts = openQueueIn(dir);
 });
-afterEach(async () => {
-  await parts.queue.close();
-  parts.store.close();
-});
-
-const add = (name: string): Promise<Job> =>
-  parts.queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name) });
-const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+afterEach(() => parts.close());
 
 describe("the queue", () => {
   it("agrees with a simple list on the queued jobs and their order, after any requests", async () => {
@@ -43,7 +32,7 @@ describe("the queue", () => {
         for (const { ask, at, to } of steps) {
           const waiting = open.filter((id) => id !== plotting);
           const one = waiting[at % (waiting.length || 1)];
-          if (ask === "add") open.push((await add(`job ${open.length}`)).id);
+          if (ask === "add") open.push((await parts.add(`job ${open.length}`)).id);
           if (ask === "move" && one !== undefined) {
             const rest = open.filter((id) => id !== one);
             const index = to % (rest.length + 1);
@@ -60,8 +49,7 @@ describe("the queue", () => {
             plotting = one;
           }
           if ((ask === "end" || ask === "fail") && plotting !== null) {
-            const run = await parts.plotter.nextRun();
-            await settled();
+            const run = await parts.nextRun();
             if (ask === "end") run.end({ kind: "done" });
             else run.fail(new Error("broken"));
             await settled();

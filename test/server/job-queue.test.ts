@@ -1,41 +1,25 @@
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { prepareDataDir } from "../../server/storage/data-dir.js";
-import type { JobQueue } from "../../host/queue/job-queue.js";
 import { SERVER_STOPPED } from "../../host/queue/running-plots.js";
-import type { Planning } from "../../host/planning/planning.js";
-import type { Claims } from "../../host/queue/queue-parts.js";
-import type { Store } from "../../server/storage/store.js";
 import { PlotwrightError } from "../../src/index.js";
-import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../src/schema/index.js";
-import { LED_PLANNING, type LedPlotter } from "./support/fakes.js";
-import { drawingOf } from "./support/jobs.js";
-import { openQueueIn } from "./support/open-queue.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { folderOfTest } from "../support/folders.js";
+import { LED_PLANNING } from "./support/fakes.js";
+import { openQueueIn, settled, type OpenQueue } from "./support/open-queue.js";
 
 let dir: string;
-let store: Store;
-let plotter: LedPlotter;
-let events: ServerEvent[];
-let queue: JobQueue;
-let logged: string[];
-
+let opened: OpenQueue;
 beforeEach(() => {
   dir = folderOfTest();
-  prepareDataDir(dir);
   openQueue();
 });
-afterEach(async () => {
-  await queue.close();
-  store.close();
-});
+afterEach(() => opened.close());
 
-function openQueue(planning?: Planning, claims?: Claims): void {
-  ({ store, plotter, events, logged, queue } = openQueueIn(dir, planning, claims));
+let { store, plotter, events, logged, queue, add, nextRun, plotting } = {} as OpenQueue;
+function openQueue(options?: Parameters<typeof openQueueIn>[1]): void {
+  opened = openQueueIn(dir, options);
+  ({ store, plotter, events, logged, queue, add, nextRun, plotting } = opened);
 }
 
-const add = (name: string): Promise<Job> =>
-  queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name) });
-const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 const names = (): string[] => queue.list().map((job) => `${job.name} ${job.state}`);
 
 describe("the queue", () => {
@@ -45,10 +29,7 @@ describe("the queue", () => {
     ["interrupted", new PlotwrightError("disconnected", "The cable came off.")],
     ["failed", new PlotwrightError("bad-file", "Nothing to draw.")],
   ] as const)("keeps what may be seen on the paper with a job that is %s", async (state, error) => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     run.start.noted?.("The pen rested at A.");
     expect(queue.get(id).message).toBe("The pen rested at A.");
     queue.plots.pause(id);
@@ -66,10 +47,7 @@ describe("the queue", () => {
   });
 
   it("plots a job through progress and hold to its end, announcing each step", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     run.progress({
       progress: 0.5,
       elapsedS: 6,
@@ -100,8 +78,7 @@ describe("the queue", () => {
     const first = await add("fern");
     await add("moss");
     await queue.start(first.id);
-    const run = await plotter.nextRun();
-    await settled();
+    const run = await nextRun();
     run.fail(new PlotwrightError("out-of-bounds", "It is larger than the machine."));
     await settled();
     expect(names()).toEqual(["moss queued", "fern failed"]);
@@ -124,15 +101,16 @@ describe("the queue", () => {
 
   it("releases its claim on a shared job if the board disappears before it begins", async () => {
     const asked: string[] = [];
-    await queue.close();
-    store.close();
-    openQueue(LED_PLANNING, {
-      claim: (id) => {
-        asked.push(`claim ${id}`);
-        plotter.connection = "absent";
-        return Promise.resolve(null);
+    await opened.close();
+    openQueue({
+      claims: {
+        claim: (id) => {
+          asked.push(`claim ${id}`);
+          plotter.connection = "absent";
+          return Promise.resolve(null);
+        },
+        release: (id) => Promise.resolve(void asked.push(`release ${id}`)),
       },
-      release: (id) => Promise.resolve(void asked.push(`release ${id}`)),
     });
     const { id } = await add("fern");
     await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
@@ -151,14 +129,15 @@ describe("the queue", () => {
   });
 
   it("cancels a job that is still being planned", async () => {
-    await queue.close();
-    store.close();
+    await opened.close();
     openQueue({
-      ...LED_PLANNING,
-      open: (_drawing, _settings, signal) =>
-        new Promise((_resolve, reject) => {
-          signal.addEventListener("abort", () => reject(new PlotwrightError("cancelled", "stop")));
-        }),
+      planning: {
+        ...LED_PLANNING,
+        open: (_drawing, _settings, signal) =>
+          new Promise((_resolve, reject) => {
+            signal.addEventListener("abort", () => reject(new PlotwrightError("cancelled", "stop")));
+          }),
+      },
     });
     const { id } = await add("fern");
     await queue.start(id);
@@ -169,12 +148,9 @@ describe("the queue", () => {
   });
 
   it("does not add a job whose drawing can't be planned", async () => {
-    await queue.close();
-    store.close();
-    openQueue({
-      ...LED_PLANNING,
-      measure: () => Promise.reject(new PlotwrightError("bad-file", "This is not an SVG.")),
-    });
+    await opened.close();
+    const measure = () => Promise.reject(new PlotwrightError("bad-file", "This is not an SVG."));
+    openQueue({ planning: { ...LED_PLANNING, measure } });
     await expect(add("fern")).rejects.toThrow("This is not an SVG.");
     expect(queue.list()).toEqual([]);
     expect(events).toEqual([]);
@@ -192,10 +168,7 @@ describe("the queue", () => {
   });
 
   it("resumes an interrupted job at the journal's place, held, and the place can be moved", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const broken = await plotter.nextRun();
-    await settled();
+    const { id, run: broken } = await plotting();
     broken.record({ place: { stroke: 3, alongMm: 4.5 } });
     broken.record({ place: { stroke: 7, alongMm: 1.25 } });
     broken.fail(new PlotwrightError("disconnected", "The board was unplugged."));
@@ -206,8 +179,7 @@ describe("the queue", () => {
       place: { strokeIndex: 7, alongMm: 1.25 },
     });
     expect(queue.plots.recover(id).state).toBe("paused");
-    const run = await plotter.nextRun();
-    await settled();
+    const run = await nextRun();
     expect(run.asked).toEqual(["begin held"]);
     expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
     expect(queue.plots.movePlace(id, { strokes: -2, mm: 3 }).place).toEqual({
@@ -224,13 +196,11 @@ describe("the queue", () => {
 
   it("starts at the requested place, paused there until it is resumed", async () => {
     const from = { strokeIndex: 1, alongMm: 0 };
-    const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern"), from };
-    const { id, place } = await queue.add(wanted);
+    const { id, place } = await add("fern", { from });
     expect(place).toEqual(from);
     expect(queue.duplicate(id).place).toBe(null);
     await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const run = await nextRun();
     expect([run.asked, run.holdPlace]).toEqual([["begin held"], { stroke: 1, alongMm: 0 }]);
     expect(queue.get(id)).toMatchObject({ state: "paused", place: from });
     queue.plots.resume(id);
@@ -241,22 +211,18 @@ describe("the queue", () => {
   });
 
   it("keeps the layout in which its first stroke was chosen, and begins with that stroke", async () => {
-    const wanted = { name: "fern", settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf("fern") };
-    const { id } = await queue.add({ ...wanted, from: { strokeIndex: 1, alongMm: 0 } });
+    const { id } = await add("fern", { from: { strokeIndex: 1, alongMm: 0 } });
     const { prepare, pen } = DEFAULT_PLOT_SETTINGS;
     const moved = { ...DEFAULT_PLOT_SETTINGS, prepare: { ...prepare, marginMm: 40 } };
     await expect(queue.patch(id, { settings: moved })).rejects.toThrow("starts at stroke 2");
     const lower = { ...DEFAULT_PLOT_SETTINGS, pen: { ...pen, downPct: 20 } };
     expect((await queue.patch(id, { settings: lower })).place).toEqual({ strokeIndex: 1, alongMm: 0 });
-    const beyond = { ...wanted, drawing: drawingOf("moss"), from: { strokeIndex: 1e6, alongMm: 0 } };
-    await expect(queue.add(beyond)).rejects.toThrow("strokes, so it can't start at number");
+    const beyond = add("moss", { from: { strokeIndex: 1e6, alongMm: 0 } });
+    await expect(beyond).rejects.toThrow("strokes, so it can't start at number");
   });
 
   it("recovers a cancelled job where it was cancelled, paused", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const first = await plotter.nextRun();
-    await settled();
+    const { id, run: first } = await plotting();
     first.record({ place: { stroke: 7, alongMm: 1.25 } });
     queue.plots.cancel(id);
     first.end({ kind: "cancelled" });
@@ -265,8 +231,7 @@ describe("the queue", () => {
     expect(cancelled).toMatchObject({ state: "cancelled", place: { strokeIndex: 7, alongMm: 1.25 } });
     expect(cancelled.endedAt).not.toBeNull();
     expect(queue.plots.recover(id)).toMatchObject({ state: "paused", endedAt: null });
-    const run = await plotter.nextRun();
-    await settled();
+    const run = await nextRun();
     expect(run.asked).toEqual(["begin held"]);
     expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
   });
@@ -278,26 +243,19 @@ describe("the queue", () => {
   });
 
   it("continues when it is resumed before the plotter has recovered it", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const broken = await plotter.nextRun();
-    await settled();
+    const { id, run: broken } = await plotting();
     broken.record({ place: { stroke: 7, alongMm: 1.25 } });
     broken.fail(new PlotwrightError("disconnected", "The board was unplugged."));
     await settled();
     queue.plots.recover(id);
     expect(queue.plots.resume(id).state).toBe("paused");
-    const run = await plotter.nextRun();
-    await settled();
+    const run = await nextRun();
     expect(run.asked).toEqual(["resume"]);
     expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
   });
 
   it("offers to continue a plot whose board failed before anything was drawn, paused at its beginning", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const broken = await plotter.nextRun();
-    await settled();
+    const { id, run: broken } = await plotting();
     broken.fail(new PlotwrightError("board-timeout", "The board has stopped answering."));
     await settled();
     expect(queue.get(id)).toMatchObject({
@@ -305,18 +263,14 @@ describe("the queue", () => {
       message: "The board has stopped answering.",
     });
     queue.plots.recover(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const run = await nextRun();
     expect(run.asked).toEqual(["begin held"]);
     expect(run.holdPlace).toEqual({ stroke: 0, alongMm: 0 });
     expect(queue.get(id).state).toBe("paused");
   });
 
   it("offers to continue a plot that has begun to draw, however it ended", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const broken = await plotter.nextRun();
-    await settled();
+    const { id, run: broken } = await plotting();
     broken.record({ place: { stroke: 3, alongMm: 4.5 } });
     broken.fail(new Error("A programming error."));
     await settled();
@@ -324,9 +278,8 @@ describe("the queue", () => {
   });
 
   it("begins at the beginning when it is plotted again, if it is interrupted before it draws", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
+    const { id, run } = await plotting();
+    run.record({ place: { stroke: 12, alongMm: 8 } });
     store.close();
     openQueue();
     queue.requeue(id);
@@ -338,10 +291,7 @@ describe("the queue", () => {
   });
 
   it("continues plotting with a full disk, and reports once that it can't write", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     const { saveJournal } = store;
     store.saveJournal = () => {
       throw new Error("database or disk is full");
@@ -357,9 +307,8 @@ describe("the queue", () => {
   });
 
   it("knows after a kill how far a job had come, and nothing moves until the user asks", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    (await plotter.nextRun()).record({ place: { stroke: 12, alongMm: 8 } });
+    const { id, run } = await plotting();
+    run.record({ place: { stroke: 12, alongMm: 8 } });
     store.close();
     openQueue();
     await settled();
@@ -370,10 +319,7 @@ describe("the queue", () => {
   });
 
   it("stores heights and speeds that were changed while plotting", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    await plotter.nextRun();
-    await settled();
+    const { id } = await plotting();
     const pen = { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 21 };
     await queue.change(id, { pen, speedPct: 60 });
     expect(store.jobs()[0]).toMatchObject({ speedPct: 60, settings: { pen } });
@@ -385,8 +331,7 @@ describe("the queue", () => {
     const { id } = await add("fern");
     await queue.start(id);
     await queue.plots.emergencyStop(id);
-    await plotter.nextRun();
-    await settled();
+    await nextRun();
     expect(queue.get(id).state).toBe("paused");
   });
 
@@ -433,10 +378,9 @@ describe("the queue", () => {
   });
 
   it("keeps a job until its plot has ended", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
+    const { id, run } = await plotting();
     await expect(queue.remove(id)).rejects.toMatchObject({ code: "conflict" });
-    (await plotter.nextRun()).end({ kind: "done" });
+    run.end({ kind: "done" });
     await settled();
     await queue.remove(id);
     expect(queue.list()).toEqual([]);

@@ -1,59 +1,37 @@
 /** Stops that a plot makes by itself, and the expected duration of plots. */
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { prepareDataDir } from "../../server/storage/data-dir.js";
-import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { timeRatio } from "../../host/queue/expected-time.js";
-import { JobQueue } from "../../host/queue/job-queue.js";
-import { Store } from "../../server/storage/store.js";
-import { DEFAULT_PLOT_SETTINGS, type Job, type PlotWait } from "../../src/schema/index.js";
-import { LED_PLANNING, LedPlotter } from "./support/fakes.js";
-import { STATS, drawingOf, makeJob } from "./support/jobs.js";
+import type { Job, PlotWait } from "../../src/schema/index.js";
 import { folderOfTest } from "../support/folders.js";
+import { STATS, makeJob } from "./support/jobs.js";
+import { openQueueIn, settled, type OpenQueue } from "./support/open-queue.js";
 
 const BLUE: PlotWait = { kind: "pen", layerName: "2 sky", penName: "Blue 0.3", color: "#00f" };
 
 let dir: string;
-let store: Store;
-let plotter: LedPlotter;
-let queue: JobQueue;
 let nowMs: number;
-
+let opened: OpenQueue;
 beforeEach(() => {
   dir = folderOfTest();
-  prepareDataDir(dir);
   nowMs = Date.UTC(2026, 0, 1);
   openQueue();
 });
-afterEach(async () => {
-  await queue.close();
-  store.close();
-});
+afterEach(() => opened.close());
 
+let { store, queue, add, nextRun, plotting } = {} as OpenQueue;
 function openQueue(): void {
-  store = Store.open(dir);
-  plotter = new LedPlotter();
-  queue = new JobQueue({
-    store,
-    files: new DrawingFiles(dir, 1_000_000),
-    planning: LED_PLANNING,
-    plotters: new Map([[plotter.id, plotter]]),
-    announce: () => undefined,
-    nowIso: () => new Date(nowMs).toISOString(),
-  });
+  opened = openQueueIn(dir, { nowIso: () => new Date(nowMs).toISOString() });
+  ({ store, queue, add, nextRun, plotting } = opened);
 }
 /** As after a kill: nothing is closed properly. */
 function crash(): void {
   store.close();
   openQueue();
 }
-const add = (name: string): Promise<Job> =>
-  queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name) });
-const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 
 async function plot(id: string, tookS: number): Promise<void> {
   await queue.start(id);
-  const run = await plotter.nextRun();
-  await settled();
+  const run = await nextRun();
   nowMs += tookS * 1000;
   run.end({ kind: "done" });
   await settled();
@@ -61,10 +39,7 @@ async function plot(id: string, tookS: number): Promise<void> {
 
 describe("a stop for a pen", () => {
   it("stores the waiting job with its pen, on disk too, until the user resumes it", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     run.holdPlace = { stroke: 2, alongMm: 0 };
     run.held(true, BLUE);
     const held = { state: "paused", wait: BLUE, message: 'Put in "Blue 0.3" for "2 sky".' };
@@ -77,10 +52,7 @@ describe("a stop for a pen", () => {
   });
 
   it("tells the user that another board is connected than the one that began the plot", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     const board = { boardName: "left", boardSerialNumber: null, firmware: "2.8.1" };
     run.record({ place: { stroke: 2, alongMm: 0 }, board });
     crash();
@@ -91,17 +63,13 @@ describe("a stop for a pen", () => {
   });
 
   it("is asked for again after a crash, but not after it was answered", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     run.record({ place: { stroke: 2, alongMm: 0 } });
     run.held(true, BLUE);
     crash();
     expect(queue.get(id)).toMatchObject({ state: "interrupted", wait: BLUE });
     queue.plots.recover(id);
-    const again = await plotter.nextRun();
-    await settled();
+    const again = await nextRun();
     expect(queue.get(id)).toMatchObject({
       state: "paused",
       wait: BLUE,
@@ -116,16 +84,12 @@ describe("a stop for a pen", () => {
   });
 
   it("is due again after the plot was cancelled there and recovered, any number of times", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const first = await plotter.nextRun();
-    await settled();
+    const { id, run: first } = await plotting();
     const place = { stroke: 7, alongMm: 0 };
     first.holdPlace = place;
     first.held(true, BLUE);
     first.record({ place });
-    for (let run = first; ; run = await plotter.nextRun()) {
-      await settled();
+    for (let run = first; ; run = await nextRun()) {
       queue.plots.cancel(id);
       // A plotter releases a held plot to send it home.
       run.held(false);
@@ -139,10 +103,7 @@ describe("a stop for a pen", () => {
   });
 
   it("is over when the job is done", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     run.held(true, BLUE);
     run.end({ kind: "done" });
     await settled();
@@ -150,10 +111,7 @@ describe("a stop for a pen", () => {
   });
 
   it("is not counted in the time that the plot took", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     nowMs += 5_000;
     run.held(true, BLUE);
     nowMs += 3_600_000;
@@ -169,10 +127,7 @@ describe("the progress of a plot", () => {
   const part = { progress: 0.25, elapsedS: 3, remainingS: 9 };
 
   it("equals that at its place, after a kill too, and stays when the job is resumed", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
-    const run = await plotter.nextRun();
-    await settled();
+    const { id, run } = await plotting();
     run.progress({ ...part, planS: 3, xMm: 0, yMm: 0, penUp: false, penMoving: false });
     run.record({ place: { stroke: 1, alongMm: 7 }, elapsedS: 3 });
     crash();
@@ -183,8 +138,7 @@ describe("the progress of a plot", () => {
     });
     expect(store.jobs()[0]).toMatchObject(part);
     queue.plots.recover(id);
-    await plotter.nextRun();
-    await settled();
+    await nextRun();
     crash();
     expect(queue.get(id)).toMatchObject({
       ...part,
@@ -194,8 +148,7 @@ describe("the progress of a plot", () => {
   });
 
   it("stays unchanged if the journal of an older version does not have it", async () => {
-    const { id } = await add("fern");
-    await queue.start(id);
+    const { id } = await plotting();
     store.saveJournal(id, { place: { stroke: 1, alongMm: 7 } });
     crash();
     expect(queue.get(id)).toMatchObject({ state: "interrupted", progress: 0, remainingS: STATS.durationS });

@@ -3,7 +3,6 @@ import { beforeEach, describe, expect, it, onTestFinished } from "vitest";
 import type { Planning } from "../../host/planning/planning.js";
 import { SharedQueue } from "../../server/plugins/shared-queue/shared-queue.js";
 import { SharedStore } from "../../server/plugins/shared-queue/shared-store.js";
-import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { PlotwrightError, type ErrorCode } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -25,17 +24,11 @@ beforeEach(async () => {
   database = await SharedDatabase.open();
   onTestFinished(() => database.close());
 });
-function newFolder(): string {
-  const folder = folderOfTest();
-  prepareDataDir(folder);
-  return folder;
-}
-
 async function open(
   dir: string,
   { planning, before }: { planning?: Planning; before?: (server: OpenQueue) => void } = {},
 ): Promise<Server> {
-  const opened = openQueueIn(dir, planning);
+  const opened = openQueueIn(dir, planning && { planning });
   const { queue, store, plotter, logged } = opened;
   before?.(opened);
   const notices: string[] = [];
@@ -82,7 +75,7 @@ describe("a taken job that the server can't add to its queue", () => {
     "is put back after %s: this server continues with the next one, and another server gets it",
     async (code) => {
       const { planning, measured } = failingOnce(code);
-      const small = await open(newFolder(), { planning });
+      const small = await open(folderOfTest(), { planning });
       await send(small, "fern");
       await expect
         .poll(() => small.notices)
@@ -96,13 +89,13 @@ describe("a taken job that the server can't add to its queue", () => {
       ]);
       // The pause has passed.
       await database.query("UPDATE pgboss.job SET start_after = now() WHERE state = 'created'");
-      const large = await open(newFolder());
+      const large = await open(folderOfTest());
       await expect.poll(() => large.jobs()).toEqual(["fern queued"]);
     },
   );
 
   it("is refused for good if the drawing is at fault", async () => {
-    const server = await open(newFolder(), failingOnce("bad-file"));
+    const server = await open(folderOfTest(), failingOnce("bad-file"));
     await send(server, "fern");
     await expect
       .poll(() => server.shared.list())
@@ -117,7 +110,7 @@ describe("rows of the shared queue that no server can understand", () => {
   const HANDED_OUT = ["'{}'", "'null'", "'7'", `'{"id": 7}'`, `'{"id": "gone"}'`];
 
   it("are refused or passed over, and the job behind them is taken", { timeout: 180_000 }, async () => {
-    const server = await open(newFolder());
+    const server = await open(folderOfTest());
     server.plotter.connection = "absent";
     for (const [i, data] of HANDED_OUT.entries()) {
       await send(server, `handed ${i}`);
@@ -141,7 +134,7 @@ describe("rows of the shared queue that no server can understand", () => {
     "taken before a restart do not stop the jobs behind them, nor the list",
     { timeout: 180_000 },
     async () => {
-      const dir = newFolder();
+      const dir = folderOfTest();
       const first = await open(dir);
       first.plotter.connection = "absent";
       for (const name of ["fern", "moss", "dreaming", "endless"]) await send(first, name);
@@ -166,7 +159,7 @@ describe("rows of the shared queue that no server can understand", () => {
 
 describe("a taken job that has not started when the server restarts", () => {
   it("starts as soon as the board is there, if the queue runs automatically", async () => {
-    const dir = newFolder();
+    const dir = folderOfTest();
     const first = await open(dir);
     await send(first, "fern");
     await expect.poll(() => first.jobs()).toEqual(["fern queued"]);

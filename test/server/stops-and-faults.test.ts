@@ -9,6 +9,7 @@ import { compareDrawn } from "../support/drawn-truth.js";
 import { FAULT_DRAWING } from "../support/faulty-plots.js";
 import { DRAWING, plotting, type LivePlot } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
+import { NO_EVENTS } from "../support/machine.js";
 import { ManualClock } from "../support/manual-clock.js";
 import { outcome, virtualPlotter } from "../support/virtual-plotter.js";
 
@@ -84,15 +85,9 @@ async function newPlot(firmware: string, strokes: StrokeSet) {
 async function newMachine(options: Partial<VirtualBoardOptions> = {}) {
   const clock = new ManualClock();
   const board = new VirtualBoard({ clock, ...options });
-  const events = {
-    changed: () => undefined,
-    buttonPressed: () => undefined,
-    supplyRead: () => undefined,
-    lost: () => undefined,
-  };
   const driver = driverOf(machineById("axidraw-v3"));
   const machine = await clock.run(
-    driver.identify(board.transport(), { clock, machineClock: clock, speed: 1, events }),
+    driver.identify(board.transport(), { clock, machineClock: clock, speed: 1, events: NO_EVENTS }),
   );
   await clock.run(machine.readKeptState(DEFAULT_PLOT_SETTINGS, null));
   return { clock, board, machine };

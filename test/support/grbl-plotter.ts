@@ -5,11 +5,19 @@ import type { PlotStart } from "../../host/plotter/plotter-port.js";
 import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { VirtualGrblOptions } from "../../src/drivers/grbl/virtual/virtual-settings.js";
-import { PlotwrightError, type Clock, type MachineProfile, type Transport } from "../../src/index.js";
+import type { PlannedPlot, PlanRequest } from "../../host/planning/planning.js";
+import {
+  PlotwrightError,
+  type Clock,
+  type MachineProfile,
+  type StrokeSet,
+  type Transport,
+} from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { GRBL } from "./grbl-machine.js";
 import { DRAWING } from "./live-plot.js";
 import { LocalPlanner } from "./local-planner.js";
+import { NO_EVENTS } from "./machine.js";
 import { ManualClock } from "./manual-clock.js";
 import { outcome } from "./virtual-plotter.js";
 
@@ -101,16 +109,28 @@ export async function newMachine(options: VirtualGrblOptions = {}) {
   const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL }, options);
   const line = new WeakLine(board.transport(), world);
   const lost: string[] = [];
-  const events = {
-    changed: () => undefined,
-    buttonPressed: () => undefined,
-    supplyRead: () => undefined,
-    lost: ({ code }: PlotwrightError) => void lost.push(code),
-  };
+  const events = { ...NO_EVENTS, lost: ({ code }: PlotwrightError) => void lost.push(code) };
   const machine = await world.run(
     grblDriver.identify(line, { clock: world, machineClock: world, speed: 1, events }),
   );
   await world.run(machine.readKeptState(SETTINGS, null));
   const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
   return { world, board, line, machine, lost, within };
+}
+
+/** Its plans have one line that the Grbl refuses, by its index or its text. */
+export class RefusedPlanner extends LocalPlanner {
+  constructor(
+    strokes: StrokeSet,
+    private readonly refused: number | string,
+  ) {
+    super(strokes);
+  }
+
+  override async plan(request: PlanRequest): Promise<PlannedPlot> {
+    const plot = await super.plan(request);
+    const { lines } = plot.commands as unknown as { lines: string[] };
+    lines[typeof this.refused === "number" ? this.refused : lines.indexOf(this.refused)] = "G5X1";
+    return plot;
+  }
 }

@@ -1,4 +1,5 @@
 import type { MachineProfile } from "../../src/index.js";
+import type { MachineEvents } from "../../src/internal.js";
 
 /** A mixed-axes machine of 80 microsteps a millimetre. */
 export const AXIDRAW_LIKE: MachineProfile = {
@@ -15,4 +16,12 @@ export const AXIDRAW_LIKE: MachineProfile = {
     servoPosAt100Pct: 27831,
     servoPin: 4,
   },
+};
+
+/** Events that a test does not look at. */
+export const NO_EVENTS: MachineEvents = {
+  changed: () => undefined,
+  buttonPressed: () => undefined,
+  supplyRead: () => undefined,
+  lost: () => undefined,
 };

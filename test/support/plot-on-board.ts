@@ -5,6 +5,7 @@ import { driver as ebbDriver } from "../../src/drivers/ebb/controller.js";
 import type { StrokeSet, Trajectory, VirtualBoard } from "../../src/index.js";
 import type { Machine } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { NO_EVENTS } from "./machine.js";
 import type { ManualClock } from "./manual-clock.js";
 import { KeepingPlanner } from "./stop-truth.js";
 
@@ -23,13 +24,12 @@ export async function plotOnBoard(
   strokes: StrokeSet,
   settings: PlotSettings,
 ): Promise<PlotOnBoard> {
-  const ignore = (): void => undefined;
   const machine = await world.run(
     ebbDriver.identify(board.transport(), {
       clock: world,
       machineClock: world,
       speed: 1,
-      events: { changed: ignore, buttonPressed: ignore, supplyRead: ignore, lost: ignore },
+      events: NO_EVENTS,
     }),
   );
   await world.run(machine.readKeptState(settings, null));

@@ -12,7 +12,7 @@ import type { Planning } from "../../../host/planning/planning.js";
 import type { PlotPlanner } from "../../../host/planning/planning.js";
 import type { Place } from "../../../src/index.js";
 import type { CommandAnswer, HandMove, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
-import { STATS } from "./jobs.js";
+import { makePlotter, STATS } from "./jobs.js";
 
 export class LedRun implements LivePlotRun {
   readonly finished: Promise<PlotOutcome>;
@@ -118,25 +118,8 @@ export class LedPlotter implements ManagedPlotter {
   }
 
   snapshot(): Plotter {
-    return {
-      id: this.id,
-      name: this.#name,
-      boardName: null,
-      boardSerialNumber: null,
-      emergencyStopMs: null,
-      machine: null,
-      kind: "virtual",
-      device: null,
-      connection: this.connection,
-      firmware: this.firmware,
-      message: null,
-      penUp: true,
-      penMoving: false,
-      activity: "none",
-      motorsOn: false,
-      xMm: 0,
-      yMm: 0,
-    };
+    const { connection, firmware } = this;
+    return makePlotter(this.id, { name: this.#name, connection, firmware });
   }
 
   settled(): Promise<void> {

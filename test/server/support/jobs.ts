@@ -1,6 +1,6 @@
 import { createHash } from "node:crypto";
 import type { StoredDrawing } from "../../../server/storage/drawing-files.js";
-import { DEFAULT_PLOT_SETTINGS, type Job, type JobStats } from "../../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, type Job, type JobStats, type Plotter } from "../../../src/schema/index.js";
 
 export const STATS: JobStats = {
   size: { widthMm: 60, heightMm: 40, scaleX: 1, scaleY: 1, turnedDeg: 0 },
@@ -40,4 +40,25 @@ export function makeJob(id: string, overrides: Partial<Job> = {}): Job {
 export const drawingOf = (text: string): StoredDrawing => ({
   id: createHash("md5").update(text).digest("hex"),
   bytes: text.length,
+});
+
+export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter => ({
+  id,
+  name: "Virtual plotter",
+  boardName: null,
+  boardSerialNumber: null,
+  emergencyStopMs: null,
+  machine: null,
+  kind: "virtual",
+  device: null,
+  connection: "idle",
+  firmware: "3.0.3",
+  message: null,
+  penUp: true,
+  penMoving: false,
+  activity: "none",
+  motorsOn: false,
+  xMm: 0,
+  yMm: 0,
+  ...more,
 });

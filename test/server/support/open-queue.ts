@@ -1,13 +1,15 @@
 /** A queue on a data folder, with one plotter that the test controls. */
 import { expect } from "vitest";
 import { DISK_FULL } from "../../../host/disk-fault.js";
+import type { Planning } from "../../../host/planning/planning.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
-import type { Claims } from "../../../host/queue/queue-parts.js";
+import type { Claims, NewQueueJob } from "../../../host/queue/queue-parts.js";
+import { prepareDataDir } from "../../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
 import { Store } from "../../../server/storage/store.js";
-import type { Planning } from "../../../host/planning/planning.js";
-import type { ServerEvent } from "../../../src/schema/index.js";
-import { LED_PLANNING, LedPlotter } from "./fakes.js";
+import { DEFAULT_PLOT_SETTINGS, type Job, type ServerEvent } from "../../../src/schema/index.js";
+import { LED_PLANNING, LedPlotter, type LedRun } from "./fakes.js";
+import { drawingOf } from "./jobs.js";
 
 export interface OpenQueue {
   readonly store: Store;
@@ -15,9 +17,22 @@ export interface OpenQueue {
   readonly events: ServerEvent[];
   readonly logged: string[];
   readonly queue: JobQueue;
+  add(name: string, more?: Partial<NewQueueJob>): Promise<Job>;
+  /** The run of the job that was started last, once its planner is open. */
+  nextRun(): Promise<LedRun>;
+  /** Adds a job and starts it. */
+  plotting(more?: Partial<NewQueueJob>): Promise<{ readonly id: string; readonly run: LedRun }>;
+  close(): Promise<void>;
 }
 
-export function openQueueIn(dir: string, planning: Planning = LED_PLANNING, claims?: Claims): OpenQueue {
+/** Until what the queue has begun is done. */
+export const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
+
+export function openQueueIn(
+  dir: string,
+  options: { readonly planning?: Planning; readonly claims?: Claims; readonly nowIso?: () => string } = {},
+): OpenQueue {
+  prepareDataDir(dir);
   const store = Store.open(dir);
   const plotter = new LedPlotter();
   const events: ServerEvent[] = [];
@@ -25,7 +40,7 @@ export function openQueueIn(dir: string, planning: Planning = LED_PLANNING, clai
   const queue = new JobQueue({
     store,
     files: new DrawingFiles(dir, 1_000_000),
-    planning,
+    planning: options.planning ?? LED_PLANNING,
     plotters: new Map([[plotter.id, plotter]]),
     // What is announced is already on disk, unless the disk is reported as full.
     announce: (event) => {
@@ -33,9 +48,25 @@ export function openQueueIn(dir: string, planning: Planning = LED_PLANNING, clai
       if (event.type === "job" && !isUnsaved) expect(store.jobs()).toContainEqual(event.job);
       events.push(event);
     },
-    nowIso: () => new Date().toISOString(),
+    nowIso: options.nowIso ?? (() => new Date().toISOString()),
     log: (line) => logged.push(line),
-    claims,
+    claims: options.claims,
   });
-  return { store, plotter, events, logged, queue };
+  const add = (name: string, more: Partial<NewQueueJob> = {}): Promise<Job> =>
+    queue.add({ name, settings: DEFAULT_PLOT_SETTINGS, drawing: drawingOf(name), ...more });
+  const nextRun = async (): Promise<LedRun> => {
+    const run = await plotter.nextRun();
+    await settled();
+    return run;
+  };
+  const plotting = async (more: Partial<NewQueueJob> = {}) => {
+    const { id } = await add("fern", more);
+    await queue.start(id);
+    return { id, run: await nextRun() };
+  };
+  const close = async (): Promise<void> => {
+    await queue.close();
+    store.close();
+  };
+  return { store, plotter, events, logged, queue, add, nextRun, plotting, close };
 }
