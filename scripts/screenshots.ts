@@ -11,7 +11,7 @@ import { launchBrowser } from "../test/support/browser.js";
 import { dropFile, waitForPlan } from "../test/support/page-actions.js";
 import { inStates, LOOKS, type Look } from "../test/support/in-states.js";
 import { PAGE_STATES } from "../test/support/page-states.js";
-import { sampleText } from "../test/support/page-states/steps.js";
+import { sampleText } from "../test/support/page-states/page-state.js";
 import { temporaryFolder } from "../test/support/folders.js";
 import { startServerProcess } from "../test/support/server-process.js";
 import { ROOT, ensureBuild } from "./setup.mjs";

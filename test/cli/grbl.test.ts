@@ -2,7 +2,7 @@
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { beforeEach, expect, it } from "vitest";
-import { GRBL } from "../support/grbl-machine.js";
+import { GRBL } from "../support/machine.js";
 import { cli } from "./support.js";
 import { folderOfTest } from "../support/folders.js";
 

@@ -10,9 +10,8 @@ import { PlotterDriver, type PlotterState } from "../../server/plotter/node-plot
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { childScript } from "../support/child-script.js";
+import { childScript, hasEnded, nextMessage } from "../support/child-script.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { hasEnded, nextMessage } from "../support/next-message.js";
 import { PtyBoard } from "../support/pty-board.js";
 import { wakefulClock } from "../support/wakeful-clock.js";
 

@@ -9,7 +9,7 @@ import { PlotterDriver } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { machineById, planJob } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";
-import { childScript } from "../support/child-script.js";
+import { childScript, nextMessage } from "../support/child-script.js";
 import { untilIdle, untilUnderWay, waitS } from "../support/faulty-plots.js";
 import {
   HOPS,
@@ -24,7 +24,6 @@ import {
 import { countFor } from "../support/full-run.js";
 import { seeded } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
-import { nextMessage } from "../support/next-message.js";
 import { PtyBoard } from "../support/pty-board.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);

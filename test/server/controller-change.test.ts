@@ -4,7 +4,7 @@ import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { PlotwrightError, type Transport } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
-import { GRBL } from "../support/grbl-machine.js";
+import { GRBL } from "../support/machine.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";
 

@@ -7,7 +7,7 @@ import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { LineFault } from "../../src/drivers/grbl/virtual/virtual-settings.js";
 import "../support/fixed-seed.js";
 import { cases } from "../support/full-run.js";
-import { GRBL } from "../support/grbl-machine.js";
+import { GRBL } from "../support/machine.js";
 import { newMachine, newPlotter, SETTINGS, RefusedPlanner } from "../support/grbl-plotter.js";
 import { DRAWING, drawnMm } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";

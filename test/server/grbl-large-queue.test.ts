@@ -5,7 +5,7 @@ import { asciiBytes, LineSplitter } from "../../src/drivers/line-splitter.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { Transport } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
-import { GRBL } from "../support/grbl-machine.js";
+import { GRBL } from "../support/machine.js";
 import { DRAWING, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
 import { ManualClock } from "../support/manual-clock.js";

@@ -10,7 +10,7 @@ import {
   type Job,
   type Snapshot,
 } from "../../src/schema/index.js";
-import { GRBL } from "../support/grbl-machine.js";
+import { GRBL } from "../support/machine.js";
 import { folderOfTest } from "../support/folders.js";
 
 const SAMPLE = readFileSync(join(import.meta.dirname, "../../samples/whirling-triangles.svg"), "utf8");

@@ -4,11 +4,10 @@ import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
 import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { planJob } from "../../src/index.js";
-import { GRBL } from "../support/grbl-machine.js";
+import { GRBL, NO_EVENTS } from "../support/machine.js";
 import { LIMIT_S, newPlotter, SETTINGS } from "../support/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
-import { NO_EVENTS } from "../support/machine.js";
 import { ManualClock } from "../support/manual-clock.js";
 
 /** A machine like the DrawCore: with the pen down its Z is larger. */

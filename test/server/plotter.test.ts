@@ -1,6 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import type { JournalEntry, PlotProgress } from "../../host/plotter/plotter-port.js";
+import type { PlotProgress } from "../../host/plotter/plotter-port.js";
 import { machineById, type MachineProfile, type StrokeSet } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type HandMove, type PlotSettings } from "../../src/schema/index.js";
@@ -235,34 +235,6 @@ describe("moves by hand from place to place", () => {
 });
 
 describe("an interrupted plot", () => {
-  it("resumes where the board stopped, paused until the user continues, and draws nothing twice", async () => {
-    const { world, driver, board } = await newPlotter();
-    const journal: JournalEntry[] = [];
-    const planner = new LocalPlanner(TWO_LINES);
-    const first = await world.run(
-      driver.plot(planner, SETTINGS, { journal: { record: (entry) => journal.push(entry) } }),
-    );
-    await world.advance(1.9);
-    board.unplug();
-    await outcome(world.run(first.finished));
-    await world.advance(5);
-    expect(driver.state.connection).toBe("idle");
-    expect(driver.state.xMm).not.toBeNull();
-    const { place, received } = journal[journal.length - 1];
-    const run = await world.run(driver.plot(planner, SETTINGS, { from: place, received }));
-    await world.advance(2);
-    const linesBefore = drawn(board).length;
-    await world.advance(2);
-    expect(drawn(board).length).toBe(linesBefore);
-    // The journal is a little behind: the board played what it had received.
-    expect(run.holdPlace!.stroke).toBe(place.stroke);
-    expect(run.holdPlace!.alongMm).toBeGreaterThan(place.alongMm);
-    await world.run(run.resume());
-    expect(await world.run(run.finished)).toEqual({ kind: "done" });
-    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
-    expect(drawn(board)[drawn(board).length - 1]).toEqual([20, 50, 80, 50]);
-  });
-
   it("is written to the journal at least every half second", async () => {
     const { world, driver } = await newPlotter();
     const times: number[] = [];

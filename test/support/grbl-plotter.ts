@@ -14,10 +14,9 @@ import {
   type Transport,
 } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
-import { GRBL } from "./grbl-machine.js";
+import { GRBL, NO_EVENTS } from "./machine.js";
 import { DRAWING } from "./live-plot.js";
 import { LocalPlanner } from "./local-planner.js";
-import { NO_EVENTS } from "./machine.js";
 import { ManualClock } from "./manual-clock.js";
 import { outcome } from "./virtual-plotter.js";
 

@@ -3,8 +3,7 @@ import { fork, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
 import type { VirtualServo } from "../../src/drivers/ebb/virtual/virtual-board.js";
 import type { BoardStatistics, VirtualBoardState } from "../../src/internal.js";
-import { childScript } from "./child-script.js";
-import { hasEnded, nextMessage } from "./next-message.js";
+import { childScript, hasEnded, nextMessage } from "./child-script.js";
 
 /** After this time a board's process that has not ended is killed. */
 const CLOSED_WITHIN_MS = 10_000;

@@ -2,8 +2,7 @@
 import type { Page } from "playwright-core";
 import { ruledSheet } from "../drawings.js";
 import { dropFile, openTab, plotBar, waitForSamples } from "../page-actions.js";
-import type { PageState } from "./page-state.js";
-import { lay, sampleText } from "./steps.js";
+import { type PageState, lay, sampleText } from "./page-state.js";
 
 const WITH_WARNINGS = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="120mm" viewBox="0 0 200 120">
   <image href="photo.png" x="100" y="20" width="60" height="60"/>

@@ -1,8 +1,7 @@
 /** The queue, a plot under way, and plots that ended. */
 import { ruledSheet } from "../drawings.js";
 import { historyPanel, openTab, openView, plotBar, queuePanel, statusCard } from "../page-actions.js";
-import type { PageState } from "./page-state.js";
-import { button, lay, sampleText, start, TWO_PENS } from "./steps.js";
+import { type PageState, button, lay, sampleText, start, TWO_PENS } from "./page-state.js";
 
 export const PLOT_STATES: readonly PageState[] = [
   {

@@ -2,8 +2,7 @@
 import { ruledSheet } from "../drawings.js";
 import { openTab, plotBar, queuePanel } from "../page-actions.js";
 import type { ServerProcess } from "../server-process.js";
-import type { PageState, Stand } from "./page-state.js";
-import { lay, sampleText, start, TWO_PENS } from "./steps.js";
+import { type PageState, type Stand, lay, sampleText, start, TWO_PENS } from "./page-state.js";
 
 /** The links that the server printed: for an operator, and for a watcher. */
 async function pairingPaths(server: ServerProcess): Promise<readonly string[]> {

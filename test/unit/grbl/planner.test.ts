@@ -10,7 +10,7 @@ import {
   type Move,
 } from "../../../src/drivers/grbl/model/planner.js";
 import { VirtualGrbl } from "../../../src/drivers/grbl/virtual/virtual-grbl.js";
-import { GRBL } from "../../support/grbl-machine.js";
+import { GRBL } from "../../support/machine.js";
 import { strokesOf } from "../../support/local-planner.js";
 import { ManualClock } from "../../support/manual-clock.js";
 

@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, machineById, planSvg, type SvgSettings } from "../../../src/index.js";
 import { unusedSettings } from "../../../src/internal.js";
-import { GRBL } from "../../support/grbl-machine.js";
+import { GRBL } from "../../support/machine.js";
 
 const SVG =
   '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="80mm" viewBox="0 0 100 80"><path d="M20 20H80V60" stroke="#000" fill="none"/></svg>';

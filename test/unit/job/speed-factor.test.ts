@@ -18,7 +18,7 @@ import {
 } from "../../../src/index.js";
 import { toJson } from "../../../src/internal.js";
 import { codedLayerNames } from "../../../src/export/coded-names.js";
-import { GRBL } from "../../support/grbl-machine.js";
+import { GRBL } from "../../support/machine.js";
 import { NO_PENS } from "../../../src/prepare/pens.js";
 
 const svg = (content: string): string =>

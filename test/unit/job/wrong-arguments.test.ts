@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import * as plotwright from "../../../src/index.js";
 import { PlotwrightError } from "../../../src/index.js";
-import { GRBL } from "../../support/grbl-machine.js";
+import { GRBL } from "../../support/machine.js";
 
 /** The library as JavaScript sees it. */
 type AnyFunction = (...args: readonly unknown[]) => unknown;
