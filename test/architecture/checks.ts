@@ -35,7 +35,7 @@ const parsed = (file: string, text: string): ts.SourceFile =>
   );
 
 /** The imports at the top of the files, without `import("…")`. */
-export const staticImportsOf = (sources: Sources): Import[] =>
+const staticImportsOf = (sources: Sources): Import[] =>
   Object.entries(sources).flatMap(([from, text]) =>
     parsed(from, text).statements.flatMap((statement) => {
       const isImport = ts.isImportDeclaration(statement) || ts.isExportDeclaration(statement);
@@ -57,7 +57,7 @@ export function literalsOf(file: string, text: string): string[] {
 }
 
 /** The literals that match, outside the exempt paths, with their files. */
-export const literalsLike = (sources: Sources, pattern: RegExp, exempt: readonly string[]): string[] =>
+const literalsLike = (sources: Sources, pattern: RegExp, exempt: readonly string[]): string[] =>
   Object.entries(sources)
     .filter(([file]) => !exempt.some((start) => file.startsWith(start)))
     .flatMap(([file, text]) =>

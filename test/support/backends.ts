@@ -7,7 +7,7 @@ import { startServerProcess } from "./server-process.js";
 import { startStaticApp } from "./static-app.js";
 
 export const BACKENDS = ["server", "browser"] as const;
-export type BackendName = (typeof BACKENDS)[number];
+type BackendName = (typeof BACKENDS)[number];
 
 export interface StartedPage {
   page: Page;

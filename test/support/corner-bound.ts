@@ -20,7 +20,7 @@
  * shortest path through the disc of velocities from V u to the x axis with weight ℓ/A. It is computed on a
  * polar grid, for the best of many μ.
  */
-export interface CornerCase {
+interface CornerCase {
   /** V mm/s, A mm/s², δ mm, φ rad. */
   readonly speed: number;
   readonly accel: number;

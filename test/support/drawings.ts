@@ -23,7 +23,7 @@ export interface TestShape {
   readonly fillRule?: number;
 }
 
-export interface TestDrawing {
+interface TestDrawing {
   readonly widthMm?: number;
   readonly heightMm?: number;
   readonly groups?: readonly string[];
@@ -38,7 +38,7 @@ const VERB_OF_LETTER: Readonly<Record<string, number>> = {
   Z: VERB_CLOSE,
 };
 
-export function verbsOf(d: string): { verbs: number[]; coords: number[] } {
+function verbsOf(d: string): { verbs: number[]; coords: number[] } {
   const verbs: number[] = [];
   const coords: number[] = [];
   for (const [, letter, numbers] of d.matchAll(/([MLCZ])([^MLCZ]*)/g)) {

@@ -55,7 +55,7 @@ export const penSettings = (overlap: PenSettings["overlap"]): PlotSettings => ({
   pen: { ...DEFAULT_PEN, overlap },
 });
 
-export interface FlyingPlot extends PlotOnBoard {
+interface FlyingPlot extends PlotOnBoard {
   readonly board: VirtualBoard;
 }
 

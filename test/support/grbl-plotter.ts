@@ -26,7 +26,7 @@ export const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.
 export const LIMIT_S = 60;
 
 /** A connection that a test can cut, or keep from being heard. */
-export class WeakLine implements Transport {
+class WeakLine implements Transport {
   isMute = false;
   /** Nothing reaches the board. */
   isDeaf = false;

@@ -14,8 +14,8 @@ export interface Look {
   readonly height: number;
 }
 export const DESK: Look = { name: "desk", width: 1440, height: 900 };
-export const WIDE: Look = { name: "wide", width: 1920, height: 1080 };
-export const TABLET: Look = { name: "tablet", width: 1024, height: 768 };
+const WIDE: Look = { name: "wide", width: 1920, height: 1080 };
+const TABLET: Look = { name: "tablet", width: 1024, height: 768 };
 export const PHONE: Look = { name: "phone", width: 390, height: 844 };
 export const LOOKS: readonly Look[] = [DESK, WIDE, TABLET, PHONE];
 

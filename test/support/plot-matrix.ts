@@ -19,7 +19,7 @@ export const SAMPLES = [
 export const FIRMWARE = ["2.4.4", "2.5.3", "2.6.5", "2.7.0", "2.8.1", "3.0.3"] as const;
 export const MODES = ["junction", "blend", "scurve"] as const;
 export type Sample = (typeof SAMPLES)[number];
-export type Firmware = (typeof FIRMWARE)[number];
+type Firmware = (typeof FIRMWARE)[number];
 
 const MICROSTEP_MM = 0.0125;
 /** δ + ε + one microstep. */

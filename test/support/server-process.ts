@@ -13,7 +13,7 @@ export interface ServerProcess {
   stop(): Promise<void>;
 }
 
-export interface ServerProcessOptions {
+interface ServerProcessOptions {
   readonly dataDir: string;
   /** Board seconds per second on the virtual board. */
   readonly virtualSpeed?: number;

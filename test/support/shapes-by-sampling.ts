@@ -3,7 +3,7 @@ import type { StrokeSet } from "../../src/drawing/stroke-set.js";
 
 export type Ring = readonly (readonly [number, number])[];
 
-export function windingOf(rings: readonly Ring[], x: number, y: number): number {
+function windingOf(rings: readonly Ring[], x: number, y: number): number {
   let winding = 0;
   for (const ring of rings) {
     ring.forEach(([x1, y1], k) => {
@@ -42,7 +42,7 @@ export const distanceToRings = (rings: readonly Ring[], x: number, y: number): n
     ),
   );
 
-export type Segment = readonly [readonly [number, number], readonly [number, number]];
+type Segment = readonly [readonly [number, number], readonly [number, number]];
 
 /** A dot is a segment of length 0. */
 export function segmentsOf(strokes: StrokeSet): Segment[] {

@@ -6,7 +6,7 @@ import type { StrokeSet, Trajectory } from "../../src/index.js";
 import type { MotionLimits } from "../../src/internal.js";
 import { penMovesOf } from "../../src/plan/pen-moves.js";
 
-export interface Worst {
+interface Worst {
   /** Max |v| / V and |a| / A (0 if there is no motion). */
   speed: number;
   accel: number;

@@ -3,7 +3,7 @@ import { PlotterDriver, type PlotterOptions } from "../../server/plotter/node-pl
 import { PlotwrightError, VirtualBoard } from "../../src/index.js";
 import { ManualClock } from "./manual-clock.js";
 
-export interface VirtualPlotter {
+interface VirtualPlotter {
   readonly world: ManualClock;
   readonly driver: PlotterDriver;
   readonly board: VirtualBoard;

@@ -13,7 +13,7 @@ const BEAT_S = 0.004;
 /** A smaller delay is the timer's own jitter. */
 const LATE_S = 0.01;
 
-export interface WakefulClock extends Clock {
+interface WakefulClock extends Clock {
   /** Total seconds that it was stopped. */
   readonly sleptS: () => number;
 }

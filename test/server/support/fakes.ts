@@ -183,7 +183,7 @@ export class LedPlotter implements ManagedPlotter {
   }
 }
 
-export const NO_PLANNER: PlotPlanner = {
+const NO_PLANNER: PlotPlanner = {
   strokes: { xy: new Float64Array(), offsets: new Uint32Array(1), layer: new Uint16Array(), layers: [] },
   plan: () => Promise.reject(new Error("the led plotter plans nothing")),
   close: () => Promise.resolve(),

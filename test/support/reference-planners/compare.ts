@@ -36,7 +36,7 @@ export function comparePlanners(strokes: StrokeSet, limits: Limits): ComparisonR
 }
 
 /** The strokes as lists of points, without repeated points and dots. */
-export function linesOf(strokes: StrokeSet): Point[][] {
+function linesOf(strokes: StrokeSet): Point[][] {
   const lines: Point[][] = [];
   for (let s = 0; s + 1 < strokes.offsets.length; s++) {
     const line: Point[] = [];

@@ -32,7 +32,7 @@ export interface ReferencePlanner {
   plan(points: readonly Point[], limits: Limits): ReferencePlan;
 }
 
-export interface ReferencePlan {
+interface ReferencePlan {
   readonly timeS: number;
   /** Speed at every point, mm/s. */
   readonly speeds: readonly number[];

@@ -67,7 +67,7 @@ const KLIPPER: ReferencePlanner = {
  *
  *   δ:    v² = 2 A δ / sin²(φ/2)         length: v² = A L / sin(φ/2)
  */
-export const OQUAM: ReferencePlanner = {
+const OQUAM: ReferencePlanner = {
   name: "Oquam",
   cornerRule: "parabolic blend at one speed",
   profile: "trapezoid between blends",
