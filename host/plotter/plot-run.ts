@@ -102,18 +102,12 @@ export class MachinePlot implements LivePlotRun {
     this.holdPlace =
       from && placeLeft(machine, this.#strokes, settings, this.#stops.strokes, { from, received });
     if (start.held ?? this.holdPlace !== null) this.#requested = "hold";
-    this.finished = this.#run().then(
-      (outcome) => {
-        this.#waiters.end(true);
-        return outcome;
-      },
-      (error: unknown) => {
-        this.#waiters.end(error instanceof Error ? error : new Error(String(error)));
-        throw error;
-      },
+    this.finished = this.#run();
+    // Callers await `finished`. If none does, its rejection must not end the process, so it is handled here.
+    void this.finished.then(
+      () => this.#waiters.end(true),
+      (error: unknown) => this.#waiters.end(error instanceof Error ? error : new Error(String(error))),
     );
-    // Callers await `finished`. If none does, its rejection must not end the process.
-    this.finished.catch(() => undefined);
   }
 
   get isHeld(): boolean {
@@ -251,7 +245,7 @@ export class MachinePlot implements LivePlotRun {
       await this.#stream.play(plot, this.#afterPartS, () => this.#streamBegun());
       const next = this.#stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
       if (next) this.holdPlace = next;
-      else if (this.#stream.stopped) return this.#endedOnItsWayHome();
+      else if (this.#stream.stopped) return this.#finishStoppedReturn();
       else return { kind: "done" };
     }
   }
@@ -364,7 +358,7 @@ export class MachinePlot implements LivePlotRun {
   }
 
   /** Handles a stop after everything was drawn, on the way home. */
-  async #endedOnItsWayHome(): Promise<PlotOutcome> {
+  async #finishStoppedReturn(): Promise<PlotOutcome> {
     const { kind } = await this.#goHome();
     return { kind: this.#requested === "cancel" ? kind : "done" };
   }
@@ -414,7 +408,8 @@ export class MachinePlot implements LivePlotRun {
       const stalledS = (clock.nowS() - lastS) / speed;
       lastS = clock.nowS();
       if (now) {
-        if (!now.penUp && stalledS >= STALL_S) this.#start.noted?.(restedWhileStalled(now, stalledS));
+        // The replies that came meanwhile are read first: they tell how far the board has drawn.
+        if (!now.penUp && stalledS >= STALL_S) clock.after(0, () => this.#noteStall(stalledS));
         this.#report(now);
         if (clock.nowS() >= this.#journalDueS) {
           this.#writeJournal(this.#stream.progress.place, this.#stream.receivedPlace);
@@ -424,6 +419,11 @@ export class MachinePlot implements LivePlotRun {
     };
     next();
     return () => cancel();
+  }
+
+  #noteStall(stalledS: number): void {
+    const now = this.#stream.now();
+    if (now && !now.penUp) this.#start.noted?.(restedWhileStalled(now, stalledS));
   }
 
   #report(progress: PlotProgress): void {

@@ -76,7 +76,7 @@ describe("identifying the board", () => {
     ["OK", "OK\r\n", /It sent: "OK"/],
     ["its own error", "!4\r\n", /It sent: .*"!4"/],
     ["the command itself", "V\r\nERROR\r\n", /It sent: .*"V", "ERROR"/],
-    ["bytes without an end", "\x81\x7e", /choose another device\.$/],
+    ["bytes without an end", "\x81\x7e", /choose another device, or another machine\.$/],
   ])("does not take a device that answers %s, as a modem may, for a plotter", async (_, reply, words) => {
     const { clock, session } = newSession(() => reply);
     const said = await outcome(clock.run(session.identify(), 3));

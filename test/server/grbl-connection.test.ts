@@ -239,7 +239,7 @@ describe("connecting", () => {
     const world = new ManualClock();
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
     await board.transport().write(new TextEncoder().encode("G1X10F600"));
-    const session = new GrblSession(board.transport(), world, () => undefined);
+    const session = new GrblSession(board.transport(), world);
     expect(await world.run(session.identify())).toBe("Grbl 1.1h");
     await world.advance(3);
     expect(board.state().xMm).toBe(0);

@@ -23,9 +23,11 @@ export { planGrblJob as planJob } from "./grbl-job.js";
 
 export const driver: Driver = {
   identify: async (transport, options) => {
-    const session = new GrblSession(transport, options.clock, (error) => options.events.lost(error));
+    const session = new GrblSession(transport, options.clock);
     try {
-      return new GrblMachine(session, await session.identify(), options);
+      const version = await session.identify();
+      session.onFault((error) => options.events.lost(error));
+      return new GrblMachine(session, version, options);
     } catch (error) {
       await session.close();
       throw error;

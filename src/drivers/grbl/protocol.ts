@@ -48,8 +48,10 @@ export const isLocked = (state: string): boolean => state.startsWith("Alarm");
 /** A status report that arrived whole. */
 const REPORT = /^<([^|<>]+)\|[^<>]*>$/;
 
+export const isReport = (line: string): boolean => REPORT.test(line);
+
 /** Work offset of a report, in the board's units; not every report has one. */
-export const offsetOf = (line: string): Axes | null => (REPORT.test(line) ? axesOf(line, "WCO", 1) : null);
+export const offsetOf = (line: string): Axes | null => (isReport(line) ? axesOf(line, "WCO", 1) : null);
 
 /** A status report; null for another line, or a damaged one. `offset`: the last reported work offset, mm. */
 export function statusOf(line: string, offset: Axes, mmPerUnit: number): Status | null {

@@ -1,6 +1,5 @@
 /**
- * One EiBotBoard over one transport: sends commands in order, matches replies to commands, detects a silent
- * board, and logs the communication. Knows nothing about motion.
+ * The protocol of one EiBotBoard: sends commands in order and matches replies to commands. Knows nothing about motion.
  *
  * The board parses one command at a time and answers it when it is queued or done. A motion command that has to wait for
  * a slot in the queue is answered late. So the time-out applies only to the first unanswered command, from the time it
@@ -8,13 +7,12 @@
  */
 import { checkObject } from "../../../check-arguments.js";
 import { firmwareFeatures, firmwareFromReply } from "../protocol/firmware.js";
-import { lineClosed, lineLost, silent } from "../../faults.js";
-import { asciiBytes, LineSplitter } from "../../line-splitter.js";
+import { silent } from "../../faults.js";
+import { LineSession, type LineProtocol } from "../../line-session.js";
 import { commandName, isQuery, replyShape } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { AnswerQueue, LostAnswer, type AwaitedAnswer } from "./answer-queue.js";
-import { SessionLog } from "../../session-log.js";
-import { SilenceWatch } from "../../silence-watch.js";
+import type { SessionLog } from "../../session-log.js";
 import type { Clock, Transport } from "../../transport.js";
 
 /** Time-outs and log of a `BoardSession`. */
@@ -60,33 +58,20 @@ const IDENTIFY_PATIENCE_S = 0.7;
 const QUERY_TRIES = 3;
 /** An earlier program may have made the board refuse commands without a checksum. The last number is this one's. */
 const NO_CHECKSUMS = "CU,54,0,119";
-/** Log lines to search for the message about a device that is not an EiBotBoard. */
-const HEARD_LINES = 6;
 
 /**
  * One EiBotBoard over one transport: sends commands in order, matches replies to commands, and detects a silent board.
  * Call `identify` first.
  */
 export class BoardSession {
-  /** What was sent and received. */
-  readonly log: SessionLog;
   /** Set by `identify`. */
   identity: BoardIdentity | null = null;
 
+  private readonly lines: LineSession;
   private readonly patienceS: number;
-  private readonly silence: SilenceWatch;
   private readonly answers: AnswerQueue<SentCommand>;
-  private readonly faultListeners: ((error: PlotwrightError) => void)[] = [];
-  private readonly lines = new LineSplitter();
-  private fault: PlotwrightError | null = null;
-  private closed = false;
-  /** Something was received since the last attempt to identify the board. */
-  private hasHeard = false;
 
-  constructor(
-    private readonly transport: Transport,
-    options: SessionOptions,
-  ) {
+  constructor(transport: Transport, options: SessionOptions) {
     checkObject(
       "BoardSession",
       "the transport",
@@ -102,19 +87,27 @@ export class BoardSession {
       "{ clock }, for example { clock: browserClock() }",
     );
     this.patienceS = options.patienceS ?? 1.5;
-    this.silence = new SilenceWatch(options.clock, () => this.noAnswer());
-    this.log = new SessionLog(options.clock, options.logLines);
     this.answers = new AnswerQueue((line) => {
       this.log.add("note", `belongs to no command: ${line}`);
       this.findOrder();
     });
-    transport.onData((bytes) => this.take(bytes));
-    transport.onClose((error) => this.transportClosed(error));
+    const protocol: LineProtocol = {
+      lineEnd: "\r",
+      take: (line) => this.answers.take(line),
+      silent: () => this.noAnswer(),
+      ended: (error) => this.answers.failAll(error),
+    };
+    this.lines = new LineSession(transport, protocol, options);
+  }
+
+  /** What was sent and received. */
+  get log(): SessionLog {
+    return this.lines.log;
   }
 
   /** Why the session can no longer be used; null while it is usable. */
   get failure(): PlotwrightError | null {
-    return this.fault;
+    return this.lines.failure;
   }
 
   /** Number of written commands without a reply yet. */
@@ -134,7 +127,7 @@ export class BoardSession {
 
   /** Called once, when the connection is lost or the board stops answering. */
   onFault(listener: (error: PlotwrightError) => void): void {
-    this.faultListeners.push(listener);
+    this.lines.onFault(listener);
   }
 
   /**
@@ -143,34 +136,33 @@ export class BoardSession {
    * earlier program.
    */
   async identify(): Promise<BoardIdentity> {
-    let entryCount = 0;
-    for (let attempt = 1; ; attempt++) {
-      this.hasHeard = false;
-      entryCount = this.log.count;
-      try {
-        // An earlier program may have left an unfinished line, so a failed attempt must not end the session.
-        const text = await this.ask("V", IDENTIFY_PATIENCE_S, true);
-        this.identity = { firmware: firmwareFromReply(text) ?? "0.0.0", text };
-        break;
-      } catch (error) {
-        if (this.fault) throw this.fault;
-        const heard = this.log.receivedSince(entryCount);
-        if (heard.some((line) => line.includes("!10 ")))
-          await this.ask(NO_CHECKSUMS, 1, true).catch(() => "");
-        if (attempt < IDENTIFY_TRIES) continue;
-        const last = this.log.receivedSince(this.log.count - HEARD_LINES);
-        // A late reply of an EiBotBoard is not a sign of another device.
-        const isBoard = last.some((line) => firmwareFromReply(line) !== null);
-        throw this.hasHeard && !isBoard ? wrongBoard(last) : silentAtStart(error);
-      }
-    }
-    if (this.log.receivedSince(entryCount).some(isEchoOfV)) throw echoes();
+    this.identity = await this.lines.identify({
+      board: "an EiBotBoard",
+      tries: IDENTIFY_TRIES,
+      attempt: () => this.askVersion(),
+      isOwn: (line) => firmwareFromReply(line) !== null,
+    });
     // An earlier program may have switched off the OK, or switched the board to the other reply syntax.
     if (firmwareFeatures(this.identity.firmware).hasFutureSyntax) {
       await this.send("CU,1,1");
       await this.send("CU,10,0");
     }
     return this.identity;
+  }
+
+  private async askVersion(): Promise<BoardIdentity | null> {
+    const entryCount = this.log.count;
+    // What was heard before may be replies to an earlier program.
+    this.lines.hasHeard = false;
+    // An earlier program may have left an unfinished line, so a failed attempt must not end the session.
+    const text = await this.ask("V", IDENTIFY_PATIENCE_S, true).catch(() => null);
+    const heard = this.log.receivedSince(entryCount);
+    if (text === null) {
+      if (heard.some((line) => line.includes("!10 "))) await this.ask(NO_CHECKSUMS, 1, true).catch(() => "");
+      return null;
+    }
+    if (heard.some(isEchoOfV)) throw echoes();
+    return { firmware: firmwareFromReply(text) ?? "0.0.0", text };
   }
 
   /**
@@ -188,30 +180,23 @@ export class BoardSession {
 
   /** Writes several commands at once. Never throws: errors go to each command's `onReply`. */
   write(commands: readonly Outgoing[]): void {
-    if (this.fault || this.closed) {
-      const error = this.fault ?? lineClosed();
-      for (const command of commands) command.onReply?.(error, "");
+    const { failure } = this.lines;
+    if (failure) {
+      for (const command of commands) command.onReply?.(failure, "");
       return;
     }
-    let text = "";
     const silent: Outgoing[] = [];
     for (const command of commands) {
-      text += `${command.line}\r`;
-      this.log.add("sent", command.line);
       if (hasNoReply(command.line)) silent.push(command);
       else this.expect(command);
     }
-    this.put(text);
+    this.lines.writeLines(commands.map(({ line }) => line));
     for (const command of silent) command.onReply?.(null, "");
   }
 
   /** Ends the session. Waiting commands are rejected with `disconnected`. */
-  async close(): Promise<void> {
-    if (this.closed) return;
-    this.closed = true;
-    this.silence.stop();
-    this.answers.failAll(lineClosed());
-    await this.transport.close();
+  close(): Promise<void> {
+    return this.lines.close();
   }
 
   private ask(line: string, waitS: number, alone: boolean, tries = 1): Promise<string> {
@@ -233,7 +218,7 @@ export class BoardSession {
    * confused with others, so when it arrives, all earlier commands have been answered.
    */
   private findOrder(): void {
-    if (this.answers.inDoubt || !this.identity || this.answers.count === 0 || this.fault) return;
+    if (this.answers.inDoubt || !this.identity || this.answers.count === 0 || this.failure) return;
     this.answers.inDoubt = true;
     const onReply = (): void => {
       this.answers.inDoubt = false;
@@ -251,23 +236,9 @@ export class BoardSession {
     if (this.answers.count === 1) this.awaitFirst();
   }
 
-  private put(text: string): void {
-    this.transport.write(asciiBytes(text)).catch((error: unknown) => {
-      this.fail(error instanceof PlotwrightError ? error : lineLost(error));
-    });
-  }
-
-  private take(bytes: Uint8Array): void {
-    this.hasHeard = true;
-    this.lines.push(bytes, (line) => {
-      this.log.add("received", line);
-      this.answers.take(line);
-    });
-  }
-
   /** Call when another command has become the first unanswered one. */
   private awaitFirst(): void {
-    this.silence.expect(this.answers.first?.patienceS ?? Infinity);
+    this.lines.expectWithin(this.answers.first?.patienceS ?? Infinity);
   }
 
   /** The first unanswered command has waited too long. */
@@ -275,20 +246,7 @@ export class BoardSession {
     const { first } = this.answers;
     if (!first) return;
     if (first.alone) this.answers.failFirst(silent(first.line));
-    else this.fail(silent(first.line));
-  }
-
-  private transportClosed(error: Error | undefined): void {
-    if (!this.closed) this.fail(error instanceof PlotwrightError ? error : lineLost(error));
-  }
-
-  private fail(error: PlotwrightError): void {
-    if (this.fault || this.closed) return;
-    this.fault = error;
-    this.silence.stop();
-    this.log.add("note", error.message);
-    this.answers.failAll(error);
-    for (const listener of this.faultListeners) listener(error);
+    else this.lines.fail(silent(first.line));
   }
 }
 
@@ -305,19 +263,3 @@ const echoes = (): PlotwrightError =>
     "no-board",
     "This port returns everything that is sent to it (echo), so it can't be distinguished from the board's replies: switch the echo off in the program or adapter between this computer and the board (for a terminal: stty raw -echo), then connect again.",
   );
-
-const silentAtStart = (cause: unknown): PlotwrightError =>
-  new PlotwrightError(
-    "board-timeout",
-    "Nothing answers on this port: check that it is the plotter's port, that the cable is plugged in firmly, and that no other program uses the port. Then unplug the board, plug it in and connect again.",
-    { cause },
-  );
-
-function wrongBoard(lastLines: readonly string[]): PlotwrightError {
-  const received = lastLines.map((line) => JSON.stringify(line)).join(", ");
-  return new PlotwrightError(
-    "no-board",
-    "Something answers on this port, but it is not an EiBotBoard: choose another device." +
-      (received === "" ? "" : ` It sent: ${received}.`),
-  );
-}

@@ -133,7 +133,7 @@ export class GrblMachine implements Machine {
       return error;
     } catch (failure) {
       // The pen is lifted when the machine is connected again.
-      if (this.session.hasFailed) return error;
+      if (this.session.failure) return error;
       const why = failure instanceof PlotwrightError ? ` ${failure.message}` : "";
       return new PlotwrightError(error.code, `${error.message} ${NOT_LIFTED}${why}`, { cause: error });
     }

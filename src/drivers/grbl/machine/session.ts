@@ -1,15 +1,15 @@
 /**
- * One Grbl over one transport: counts the unanswered characters, matches each `ok` or `error:n` to its line, and detects
- * a silent board and answers that are missing or doubled.
+ * The protocol of one Grbl: counts the unanswered characters, matches each `ok` or `error:n` to its line, and detects
+ * answers that are missing or doubled.
  *
  * Answers carry no numbers, so one that is lost or doubled shifts all later ones. A check (CHECK) reveals that: its own
  * report comes when all lines before it are read, so exactly those must have been answered then. What is lost at the very
  * end is noticed when the machine rests and still has not answered.
  */
 import { PlotwrightError } from "../../../errors.js";
-import { lineClosed, lineLost, silent } from "../../faults.js";
-import { asciiBytes, LineSplitter } from "../../line-splitter.js";
-import { SessionLog } from "../../session-log.js";
+import { silent } from "../../faults.js";
+import { LineSession, type LineProtocol } from "../../line-session.js";
+import type { SessionLog } from "../../session-log.js";
 import { SilenceWatch } from "../../silence-watch.js";
 import { delay, type Clock, type Transport } from "../../transport.js";
 import { QUEUE_MOVES, type Axes } from "../model/planner.js";
@@ -21,6 +21,7 @@ import {
   isHeld,
   isLocked,
   isMoving,
+  isReport,
   MODES_REPORT,
   NOW,
   offsetOf,
@@ -75,8 +76,8 @@ const IDENTIFY_S = 1;
 /** Time for braking. */
 const HOLD_S = 0.5;
 
-export class GrblSession {
-  readonly log: SessionLog;
+export class GrblSession implements LineProtocol {
+  readonly lineEnd = "\n";
   version: string | null = null;
   readonly settings = new BoardSettings();
   /** Set while a job is played. */
@@ -94,12 +95,9 @@ export class GrblSession {
   private statusWaiters: ((status: Status) => void)[] = [];
   private greetingWaiters: (() => void)[] = [];
   private failures: ((error: PlotwrightError) => void)[] = [];
-  private readonly lines = new LineSplitter();
-  private failure: PlotwrightError | null = null;
+  private readonly lines: LineSession;
   private isIdentified = false;
   private resetting: Promise<Status> | null = null;
-  private closed = false;
-  private readonly silence: SilenceWatch;
   /** Notices a board that reports its state, but does not answer its lines. */
   private readonly missing: SilenceWatch;
   private lastStatus: Status | null = null;
@@ -107,40 +105,53 @@ export class GrblSession {
   private cancelPoll: (() => void) | null = null;
 
   constructor(
-    private readonly transport: Transport,
+    transport: Transport,
     private readonly clock: Clock,
-    private readonly onLost: (error: PlotwrightError) => void,
   ) {
-    this.log = new SessionLog(clock);
-    this.silence = new SilenceWatch(clock, () => this.noAnswer());
     this.missing = new SilenceWatch(clock, () => this.answerMissing());
-    transport.onData((bytes) => this.lines.push(bytes, (line) => this.take(line)));
-    transport.onClose(() => this.fail(lineLost()));
+    this.lines = new LineSession(transport, this, { clock });
+  }
+
+  get log(): SessionLog {
+    return this.lines.log;
+  }
+
+  /** Why the session can no longer be used; null while it is usable. */
+  get failure(): PlotwrightError | null {
+    return this.lines.failure;
+  }
+
+  /** Called once, when the connection or the board is lost. */
+  onFault(listener: (error: PlotwrightError) => void): void {
+    this.lines.onFault(listener);
   }
 
   /** Resolves with the version. Rejects with `no-board` if another device answers, `board-timeout` if nothing does. */
   async identify(): Promise<string> {
-    for (let i = 0; i < IDENTIFY_TRIES && this.version === null && !this.failure; i++) {
-      // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
-      if (this.lastStatus && isMoving(this.lastStatus.state)) {
-        this.now(NOW.hold);
-        await delay(this.clock, HOLD_S);
-      }
-      if (i > 0) this.now(NOW.reset);
-      this.now(NOW.status);
-      const tooLate = delay(this.clock, IDENTIFY_S);
-      // "$" asks for help. It spoils a line that was left unfinished, such as G1X1 of G1X100, so that it is refused.
-      const answered = Promise.allSettled(["$", "", "$I"].map((line) => this.send(line))).then(
-        () => undefined,
-      );
-      await Promise.race([answered, tooLate]);
-      this.dropSent(silent("$I"));
-      // A reply to an earlier attempt must not count for a later line.
-      if (i > 0) await tooLate;
-    }
-    if (this.failure) throw this.failure;
-    if (this.version === null) throw notGrbl(this.received());
+    const version = await this.lines.identify({
+      board: "a Grbl",
+      tries: IDENTIFY_TRIES,
+      attempt: (index) => this.askVersion(index > 0),
+    });
     this.isIdentified = true;
+    return version;
+  }
+
+  private async askVersion(isAgain: boolean): Promise<string | null> {
+    // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
+    if (this.lastStatus && isMoving(this.lastStatus.state)) {
+      this.now(NOW.hold);
+      await delay(this.clock, HOLD_S);
+    }
+    if (isAgain) this.now(NOW.reset);
+    this.now(NOW.status);
+    const tooLate = delay(this.clock, IDENTIFY_S);
+    // "$" asks for help. It spoils a line that was left unfinished, such as G1X1 of G1X100, so that it is refused.
+    const answered = Promise.allSettled(["$", "", "$I"].map((line) => this.send(line))).then(() => undefined);
+    await Promise.race([answered, tooLate]);
+    this.dropSent(silent("$I"));
+    // A reply to an earlier attempt must not count for a later line.
+    if (isAgain) await tooLate;
     return this.version;
   }
 
@@ -156,11 +167,6 @@ export class GrblSession {
     return [x * mmPerUnit, y * mmPerUnit, z * mmPerUnit];
   }
 
-  /** The connection is lost or closed. */
-  get hasFailed(): boolean {
-    return this.failure !== null;
-  }
-
   /** Max accepted moves that are not done. */
   get queueMoves(): number {
     return this.buffers.queueMoves;
@@ -171,11 +177,10 @@ export class GrblSession {
     if (this.failure) return settle(this.failure);
     this.sent.push({ line, settle, isReported: false });
     this.sentBytes += line.length + 1;
-    this.log.add("sent", line);
-    this.put(`${line}\n`);
+    this.lines.writeLines([line]);
     // Not measured from an old reply.
     if (this.sent.length === 1) {
-      this.silence.expect(PATIENCE_S);
+      this.lines.expectWithin(PATIENCE_S);
       this.expectAnswer();
     }
     this.poll();
@@ -231,7 +236,7 @@ export class GrblSession {
   /** Sends a real-time command. */
   now(byte: string): void {
     if (byte !== NOW.status) this.log.add("sent", byte === NOW.reset ? "(reset)" : byte);
-    this.put(byte);
+    this.lines.writeText(byte);
   }
 
   status(): Promise<Status> {
@@ -251,11 +256,8 @@ export class GrblSession {
     return this.resetting;
   }
 
-  async close(): Promise<void> {
-    if (this.closed) return;
-    this.closed = true;
-    this.fail(lineClosed());
-    await this.transport.close();
+  close(): Promise<void> {
+    return this.lines.close();
   }
 
   private async resetOnce(): Promise<Status> {
@@ -271,7 +273,7 @@ export class GrblSession {
   private within<T>(what: string, begin: (resolve: (value: T) => void) => void): Promise<T> {
     return new Promise((resolve, reject) => {
       if (this.failure) return reject(this.failure);
-      const silence = new SilenceWatch(this.clock, () => this.fail(silent(what)));
+      const silence = new SilenceWatch(this.clock, () => this.lines.fail(silent(what)));
       silence.expect(PATIENCE_S);
       const failed = (error: PlotwrightError): void => {
         silence.stop();
@@ -286,16 +288,15 @@ export class GrblSession {
     });
   }
 
-  private put(text: string): void {
-    this.transport.write(asciiBytes(text)).catch(() => this.fail(lineLost()));
+  isRoutine(line: string): boolean {
+    return isReport(line);
   }
 
-  private take(line: string): void {
-    this.silence.expect(PATIENCE_S);
+  take(line: string): void {
+    this.lines.expectWithin(PATIENCE_S);
     this.reportedOffset = offsetOf(line) ?? this.reportedOffset;
     const status = statusOf(line, this.offset, this.settings.mmPerUnit);
     if (status) return this.reported(status);
-    this.log.add("received", line);
     this.version = versionOf(line) ?? this.version;
     this.buffers = buffersOf(line) ?? this.buffers;
     this.settings.take(line);
@@ -358,13 +359,13 @@ export class GrblSession {
     if (!first || this.resetting || !this.isIdentified) return;
     const error = unanswered(first.line, this.lastStatus?.state ?? "silent");
     if (this.playing) this.playing.outOfStep(error);
-    else this.fail(error);
+    else this.lines.fail(error);
   }
 
   private broken(error: PlotwrightError): void {
     if (this.version === null) return;
     // Without a job, the machine would keep a position that is wrong now. Connecting again finds out the board's state.
-    if (this.isIdentified && !this.playing) return this.fail(error);
+    if (this.isIdentified && !this.playing) return this.lines.fail(error);
     this.playing?.broken(error);
     this.dropSent(error);
   }
@@ -388,37 +389,17 @@ export class GrblSession {
     });
   }
 
-  private noAnswer(): void {
-    if (this.sent.length === 0) return;
-    // A device that has answered but is not identified is not a Grbl.
-    const isOther = this.version === null && this.received().length > 0;
-    this.fail(isOther ? notGrbl(this.received()) : silent(this.sent[0].line));
+  silent(): void {
+    if (this.sent.length > 0) this.lines.fail(silent(this.sent[0].line));
   }
 
-  private received(): string[] {
-    return this.log.receivedSince(0);
-  }
-
-  private fail(error: PlotwrightError): void {
-    if (this.failure) return;
-    this.failure = error;
-    this.silence.stop();
+  ended(error: PlotwrightError): void {
     this.missing.stop();
     this.cancelPoll?.();
-    this.log.add("note", error.message);
     this.playing?.broken(error);
     this.dropSent(error);
     for (const failed of this.failures.splice(0)) failed(error);
-    if (!this.closed) this.onLost(error);
   }
 }
 
 const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The machine was stopped.");
-
-function notGrbl(received: readonly string[]): PlotwrightError {
-  if (received.length === 0) return silent("its version");
-  return new PlotwrightError(
-    "no-board",
-    `Something answers on this port, but it is not a Grbl: choose another device, or another machine. It sent: ${received.slice(-4).join("; ")}.`,
-  );
-}
