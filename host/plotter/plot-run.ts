@@ -24,7 +24,7 @@ import {
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { JOURNAL_S, placeLeft, PROGRESS_S } from "./place-left.js";
 import { PenStops } from "./pen-stops.js";
-import { restedWhileStalled } from "./plotter-state.js";
+import { BLOT_S, restedWhileStalled } from "./plotter-state.js";
 import { RunSettings } from "./run-settings.js";
 import type { PlannedPlot, PlotPlanner } from "../planning/planning.js";
 import type {
@@ -40,8 +40,6 @@ import { Waiters } from "./waiters.js";
 /** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
-/** A pen that rests this long on the paper leaves a blot, real seconds. */
-const STALL_S = 2;
 
 /** The state that the user asked for. */
 type RequestedState = "run" | "hold" | "cancel";
@@ -409,7 +407,7 @@ export class MachinePlot implements LivePlotRun {
       lastS = clock.nowS();
       if (now) {
         // The replies that came meanwhile are read first: they tell how far the board has drawn.
-        if (!now.penUp && stalledS >= STALL_S) clock.after(0, () => this.#noteStall(stalledS));
+        if (!now.penUp && stalledS >= BLOT_S) clock.after(0, () => this.#noteStall(stalledS));
         this.#report(now);
         if (clock.nowS() >= this.#journalDueS) {
           this.#writeJournal(this.#stream.progress.place, this.#stream.receivedPlace);

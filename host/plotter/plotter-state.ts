@@ -67,6 +67,9 @@ export function penRested({ xMm, yMm }: PlotterState, restedS: number | null): s
   return `${rested}. It is lifted now: look for a blot there before you resume.`;
 }
 
+/** A pen that rests this long on the paper leaves a blot, real seconds. */
+export const BLOT_S = 2;
+
 /** The note of a plot whose computer stood still while the pen was down. */
 export const restedWhileStalled = ({ xMm, yMm }: PlotProgress, stalledS: number): string =>
   `This computer stood still for ${Math.round(stalledS)} s, and the pen rested on the paper meanwhile, at x ${xMm.toFixed(1)} mm, y ${yMm.toFixed(1)} mm from home. Look for a blot there.`;
