@@ -68,19 +68,16 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
       codespan({ text }: Tokens.Codespan) {
         // A short option or name stays on one line; a path may break before a slash.
         const mark = text.length <= 20 ? ' class="whole"' : "";
-        return `<code${mark}>${escapeHtml(text).replace(/(?<=\w)\/(?=[\w:])/g, "<wbr>/")}</code>`;
+        const html = escapeHtml(text).replace(/(?<=\w)\/(?=[\w:])/g, "<wbr>/");
+        return `<code${mark}>${keepOptionsTogether(html)}</code>`;
       },
       code({ text, lang = "" }: Tokens.Code) {
         const [language, file] = lang.split(" ");
         // A drawing made of characters scrolls, because its lines must not wrap: the keyboard must be able to reach them.
         if (language === "")
           return `<div class="code"><pre tabindex="0"><code>${escapeHtml(text)}</code></pre></div>\n`;
-        const { value: colored } = highlight.highlight(text, { language });
-        // A line does not break after the hyphens of an option.
-        const value =
-          language === "sh"
-            ? colored.replace(/(?<![\w-])--?[a-z][\w-]*/gi, '<span class="option">$&</span>')
-            : colored;
+        const colored = highlight.highlight(text, { language }).value;
+        const value = language === "sh" ? keepOptionsTogether(colored) : colored;
         const name = file === undefined || file === "no-run" ? "" : `<p class="file">${escapeHtml(file)}</p>`;
         return `<div class="code">${name}<pre class="wraps"><code>${value}</code></pre></div>\n`;
       },
@@ -106,6 +103,10 @@ export function renderMarkdown(source: string, markdown: string): Rendered {
   const html = marked.parse(markdown, { async: false });
   return { html, headings, pictures };
 }
+
+/** Prevents line breaks between the hyphens of an option and its first word. */
+const keepOptionsTogether = (html: string): string =>
+  html.replace(/(?<![\w-])--?[a-z]\w*/gi, '<span class="option">$&</span>');
 
 /** Prevents line breaks in "10 000" and "15 / 25", and between a number and its unit. */
 const keepNumbersTogether = (text: string): string =>
