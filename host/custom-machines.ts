@@ -9,23 +9,21 @@ export interface MachineStore {
 }
 
 export class CustomMachines {
-  readonly #store: MachineStore;
-  readonly #custom: Map<string, MachineProfile>;
-  readonly #announce: (event: ServerEvent) => void;
+  private readonly custom: Map<string, MachineProfile>;
+  private readonly announce: (event: ServerEvent) => void;
 
   constructor(
     custom: readonly MachineProfile[],
-    store: MachineStore,
+    private readonly store: MachineStore,
     announce: (event: ServerEvent) => void = () => undefined,
   ) {
-    this.#custom = new Map(custom.map((machine) => [machine.id, machine]));
-    this.#store = store;
-    this.#announce = announce;
+    this.custom = new Map(custom.map((machine) => [machine.id, machine]));
+    this.announce = announce;
   }
 
   /** Built-in machines first. */
   list(): ListedMachine[] {
-    const custom = [...this.#custom.values()].sort((a, b) => a.name.localeCompare(b.name));
+    const custom = [...this.custom.values()].sort((a, b) => a.name.localeCompare(b.name));
     return [
       ...MACHINES.map((machine) => ({ ...machine, builtIn: true })),
       ...custom.map((machine) => ({ ...machine, builtIn: false })),
@@ -35,25 +33,25 @@ export class CustomMachines {
   /** Stores the profile before it is used. Throws `conflict` for the id of a built-in machine. */
   save(machine: MachineProfile): MachineProfile {
     mustBeCustom(machine.id, "can't be changed. Save yours under another id.");
-    this.#store.save(machine);
-    this.#custom.set(machine.id, machine);
-    this.#announce({ type: "machines", machines: this.list() });
+    this.store.save(machine);
+    this.custom.set(machine.id, machine);
+    this.announce({ type: "machines", machines: this.list() });
     return machine;
   }
 
   /** Jobs that use the machine keep their copy. Throws `conflict` for a built-in machine, or `not-found`. */
   remove(id: string): void {
     mustBeCustom(id, "can't be removed.");
-    if (!this.#custom.has(id)) throw new PlotwrightError("not-found", `There is no machine ${id}.`);
+    if (!this.custom.has(id)) throw new PlotwrightError("not-found", `There is no machine ${id}.`);
     // Storage first: if it fails, the machine is still listed and can be removed later.
-    this.#store.remove(id);
-    this.#custom.delete(id);
-    this.#announce({ type: "machines", machines: this.list() });
+    this.store.remove(id);
+    this.custom.delete(id);
+    this.announce({ type: "machines", machines: this.list() });
   }
 
   /** Adds the profile to settings that name a custom machine without containing its profile. */
   withMachine(settings: PlotSettings): PlotSettings {
-    const custom = this.#custom.get(settings.machine);
+    const custom = this.custom.get(settings.machine);
     if (custom === undefined || settings.customMachine?.id === settings.machine) return settings;
     return { ...settings, customMachine: custom };
   }

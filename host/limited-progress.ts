@@ -9,35 +9,32 @@ const PROGRESS_MS = 100;
 type ProgressEvent = Extract<ServerEvent, { type: "progress" }>;
 
 export class LimitedProgress {
-  readonly #waiting = new Map<string, ProgressEvent>();
-  readonly #send: (event: ServerEvent) => void;
-  #timer: ReturnType<typeof setTimeout> | null = null;
+  private readonly waiting = new Map<string, ProgressEvent>();
+  private timer: ReturnType<typeof setTimeout> | null = null;
 
-  constructor(send: (event: ServerEvent) => void) {
-    this.#send = send;
-  }
+  constructor(private readonly send: (event: ServerEvent) => void) {}
 
   announce(event: ServerEvent): void {
     if (event.type === "progress") {
-      this.#waiting.set(event.plotterId, event);
-      this.#timer ??= setTimeout(() => this.#sendWaiting(), PROGRESS_MS);
+      this.waiting.set(event.plotterId, event);
+      this.timer ??= setTimeout(() => this.sendWaiting(), PROGRESS_MS);
       return;
     }
     // Waiting progress goes first, so that a job's end is not followed by older progress.
-    if (event.type === "job") this.#sendWaiting();
-    this.#send(event);
+    if (event.type === "job") this.sendWaiting();
+    this.send(event);
   }
 
   /** Drops what waits. */
   close(): void {
-    if (this.#timer !== null) clearTimeout(this.#timer);
-    this.#timer = null;
-    this.#waiting.clear();
+    if (this.timer !== null) clearTimeout(this.timer);
+    this.timer = null;
+    this.waiting.clear();
   }
 
-  #sendWaiting(): void {
-    const events = [...this.#waiting.values()];
+  private sendWaiting(): void {
+    const events = [...this.waiting.values()];
     this.close();
-    for (const event of events) this.#send(event);
+    for (const event of events) this.send(event);
   }
 }

@@ -88,36 +88,36 @@ function operationText(one: Operation, writer: TypeWriter): string {
 
 class TypeWriter {
   /** Names of the schemas, such as Job for jobSchema. */
-  readonly #names = z.registry<{ id: string }>();
-  readonly #used = new Map<string, Schema>();
+  private readonly names = z.registry<{ id: string }>();
+  private readonly used = new Map<string, Schema>();
 
   constructor() {
     for (const [name, one] of Object.entries(schemaEntry)) {
       if (!(one instanceof z.ZodType) || !name.endsWith("Schema")) continue;
       const id = name.charAt(0).toUpperCase() + name.slice(1, -"Schema".length);
-      this.#names.add(one, { id });
+      this.names.add(one, { id });
     }
-    this.#use(schemaEntry.apiErrorSchema);
-    this.#use(schemaEntry.serverEventSchema);
+    this.use(schemaEntry.apiErrorSchema);
+    this.use(schemaEntry.serverEventSchema);
   }
 
   /** Also notes the named types in it, for the list at the end. */
-  #use(type: ZodType): Schema {
+  private use(type: ZodType): Schema {
     const { $defs = {}, ...schema } = z.toJSONSchema(type, {
       io: "output",
       unrepresentable: "any",
-      metadata: this.#names,
+      metadata: this.names,
       override: ({ zodSchema, jsonSchema }) => {
         const about = z.globalRegistry.get(zodSchema)?.description;
         if (about !== undefined) jsonSchema.description = `${about[0].toUpperCase()}${about.slice(1)}`;
       },
     }) as Schema;
-    for (const [name, definition] of Object.entries($defs)) this.#used.set(name, definition);
+    for (const [name, definition] of Object.entries($defs)) this.used.set(name, definition);
     return schema;
   }
 
   inWords(what: string, type: ZodType): string {
-    const schema = this.#use(type);
+    const schema = this.use(type);
     if (schema.$ref !== undefined) return `${what}: ${this.link(nameIn(schema.$ref))}.`;
     const text = typeText(schema);
     const line = text.replace(/\s+/g, " ").replaceAll("; }", " }");
@@ -129,7 +129,7 @@ class TypeWriter {
   }
 
   namedTypes(): string {
-    const sorted = [...this.#used].sort(([one], [other]) => (one < other ? -1 : 1));
+    const sorted = [...this.used].sort(([one], [other]) => (one < other ? -1 : 1));
     return sorted
       .map(([name, schema]) => `### ${name}\n\n${fence(`type ${name} = ${typeText(schema, "", name)};`)}`)
       .join("\n\n");

@@ -43,29 +43,29 @@ export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions):
 /** The connection itself, with what is stored about the plotter. */
 export class NamedPlotter extends PlotterDriver implements ManagedPlotter {
   readonly id: string;
-  #name: string | null;
-  #machine: string | null;
+  private name: string | null;
+  private machineId: string | null;
 
   constructor({ id, name, machine }: Omit<PlotterRow, "device">, options: PlotterOptions) {
     super(options);
     this.id = id;
-    this.#name = name;
-    this.#machine = machine;
+    this.name = name;
+    this.machineId = machine;
   }
 
   snapshot(): Plotter {
-    const name = this.#name ?? (this.state.kind === "virtual" ? "Virtual plotter" : "Plotter");
-    return { id: this.id, name, machine: this.#machine, ...this.state };
+    const name = this.name ?? (this.state.kind === "virtual" ? "Virtual plotter" : "Plotter");
+    return { id: this.id, name, machine: this.machineId, ...this.state };
   }
 
   rename(name: string): void {
-    this.#name = name;
+    this.name = name;
     this.announce();
   }
 
   useMachine(machine: string | null, settings: PlotSettings): void {
     this.use(settings);
-    this.#machine = machine;
+    this.machineId = machine;
     this.announce();
   }
 }

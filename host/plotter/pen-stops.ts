@@ -9,32 +9,32 @@ import { penStopsOf, type PenStop } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 
 export class PenStops {
-  readonly #stops: readonly PenStop[];
+  private readonly stops: readonly PenStop[];
   /** The stop answered last: its pen is in the holder. */
-  #answered: PenStop | undefined;
+  private answered: PenStop | undefined;
 
   /** `from`: where an interrupted plot continues. Continuing answers the stop that the plot had reached. */
   constructor(strokes: StrokeSet, settings: PlotSettings, from: Place | null) {
-    this.#stops = penStopsOf(strokes, settings);
+    this.stops = penStopsOf(strokes, settings);
     if (from !== null) this.answer(from);
   }
 
   /** The strokes before which the plot goes home and waits. */
   get strokes(): readonly number[] {
-    return this.#stops.map(({ strokeIndex }) => strokeIndex);
+    return this.stops.map(({ strokeIndex }) => strokeIndex);
   }
 
   /** The pen to insert before the plot continues at a place; null if none. */
   due(place: Place | null): PlotWait | null {
-    const stop = this.#reached(place);
-    if (stop === undefined || stop === this.#answered) return null;
+    const stop = this.reached(place);
+    if (stop === undefined || stop === this.answered) return null;
     const { layerName, penName, color } = stop;
     return { kind: "pen", layerName, penName, color };
   }
 
   /** The user has inserted the pen that was due at a place. */
   answer(place: Place | null): void {
-    this.#answered = this.#reached(place);
+    this.answered = this.reached(place);
   }
 
   /**
@@ -42,21 +42,21 @@ export class PenStops {
    * and the pen of the stop before it is due now, unless it is in the holder.
    */
   moved(place: Place): void {
-    const [stop, answered] = [this.#reached(place), this.#answered];
+    const [stop, answered] = [this.reached(place), this.answered];
     if (answered === undefined || place.stroke >= answered.strokeIndex) return;
-    if (stop === undefined || hasSamePen(stop, answered)) this.#answered = stop;
+    if (stop === undefined || hasSamePen(stop, answered)) this.answered = stop;
   }
 
   /** The next stroke at which a plot from a place will wait; null if it runs to the end. */
   nextAfter(place: Place | null): number | null {
     const stroke = place?.stroke ?? 0;
-    return this.#stops.find(({ strokeIndex }) => strokeIndex > stroke)?.strokeIndex ?? null;
+    return this.stops.find(({ strokeIndex }) => strokeIndex > stroke)?.strokeIndex ?? null;
   }
 
   /** The last stop at or before a place. */
-  #reached(place: Place | null): PenStop | undefined {
+  private reached(place: Place | null): PenStop | undefined {
     const stroke = place?.stroke ?? 0;
-    return this.#stops.filter(({ strokeIndex }) => strokeIndex <= stroke).at(-1);
+    return this.stops.filter(({ strokeIndex }) => strokeIndex <= stroke).at(-1);
   }
 }
 

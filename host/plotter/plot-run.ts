@@ -50,367 +50,367 @@ export class MachinePlot implements LivePlotRun {
   /** While held, the place from which the plot resumes; before that, the place where it starts. */
   holdPlace: Place | null;
 
-  #requested: RequestedState = "run";
-  #held = false;
+  private requested: RequestedState = "run";
+  private held = false;
   /** What the plot waits for, if it was not held by the user. */
-  #wait: PlotWait | null = null;
-  readonly #stream: MachineRun;
-  readonly #settings: RunSettings;
-  readonly #stops: PenStops;
-  readonly #strokes: StrokeSet;
-  #failure: PlotwrightError | null = null;
+  private wait: PlotWait | null = null;
+  private readonly stream: MachineRun;
+  private readonly settings: RunSettings;
+  private readonly stops: PenStops;
+  private readonly strokes: StrokeSet;
+  private failure: PlotwrightError | null = null;
   /** Planned time of the plot after the part being drawn. */
-  #afterPartS = 0;
+  private afterPartS = 0;
   /** Times of the whole plot, if it is drawn in several parts. */
-  #whole: Promise<PlaceTimes> | null = null;
-  #planningS = 0;
-  #changing: Promise<void> | null = null;
+  private whole: Promise<PlaceTimes> | null = null;
+  private planningS = 0;
+  private changing: Promise<void> | null = null;
   /** Moves to the hold place; nothing else may move until they have finished. */
-  #checking: Promise<void> = Promise.resolve();
-  #journalDueS = -Infinity;
-  #stopTicking: () => void = () => undefined;
-  #wakeHold: (() => void) | null = null;
-  #cancelPlanning: ((error: PlotwrightError) => void) | null = null;
+  private checking: Promise<void> = Promise.resolve();
+  private journalDueS = -Infinity;
+  private stopTicking: () => void = () => undefined;
+  private wakeHold: (() => void) | null = null;
+  private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
   /** The carriage stays where it is until the next request: after an emergency stop, or when a held plot is left. */
-  #staysPut = false;
-  readonly #heldListeners: HeldListener[] = [];
-  readonly #progressListeners: ((progress: PlotProgress) => void)[] = [];
-  readonly #waiters = new Waiters();
+  private staysPut = false;
+  private readonly heldListeners: HeldListener[] = [];
+  private readonly progressListeners: ((progress: PlotProgress) => void)[] = [];
+  private readonly waiters = new Waiters();
+  private readonly start: PlotStart;
 
-  readonly #machine: Machine;
-  readonly #planner: PlotPlanner;
-  readonly #start: PlotStart;
-
-  constructor(machine: Machine, planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}) {
-    this.#machine = machine;
-    this.#planner = planner;
-    this.#start = start;
-    this.#strokes = planner.strokes;
-    this.#settings = new RunSettings(settings);
-    this.#stops = new PenStops(this.#strokes, settings, start.from ?? null);
-    this.#stream = machine.startRun({
-      strokes: this.#strokes,
-      settings: () => this.#settings.current,
+  constructor(
+    private readonly machine: Machine,
+    private readonly planner: PlotPlanner,
+    settings: PlotSettings,
+    start: PlotStart = {},
+  ) {
+    this.start = start;
+    this.strokes = planner.strokes;
+    this.settings = new RunSettings(settings);
+    this.stops = new PenStops(this.strokes, settings, start.from ?? null);
+    this.stream = machine.startRun({
+      strokes: this.strokes,
+      settings: () => this.settings.current,
       events: {
-        progressed: (progress) => this.#report(progress),
-        ended: (place) => this.#streamEnded(place),
+        progressed: (progress) => this.report(progress),
+        ended: (place) => this.streamEnded(place),
       },
     });
     const { from = null, received } = start;
     this.holdPlace =
-      from && placeLeft(machine, this.#strokes, settings, this.#stops.strokes, { from, received });
-    if (start.held ?? this.holdPlace !== null) this.#requested = "hold";
-    this.finished = this.#run();
+      from && placeLeft(machine, this.strokes, settings, this.stops.strokes, { from, received });
+    if (start.held ?? this.holdPlace !== null) this.requested = "hold";
+    this.finished = this.run();
     // Callers await `finished`. If none does, its rejection must not end the process, so it is handled here.
     void this.finished.then(
-      () => this.#waiters.end(true),
-      (error: unknown) => this.#waiters.end(error instanceof Error ? error : new Error(String(error))),
+      () => this.waiters.end(true),
+      (error: unknown) => this.waiters.end(error instanceof Error ? error : new Error(String(error))),
     );
   }
 
   get isHeld(): boolean {
-    return this.#held;
+    return this.held;
   }
 
   onProgress(listener: (progress: PlotProgress) => void): void {
-    this.#progressListeners.push(listener);
-    if (this.#stream.progress.latest) listener(this.#stream.progress.latest);
+    this.progressListeners.push(listener);
+    if (this.stream.progress.latest) listener(this.stream.progress.latest);
   }
 
   /** If the plot is held already, the listener learns it now. */
   onHeld(listener: HeldListener): void {
-    this.#heldListeners.push(listener);
-    if (this.#held) listener(true, this.#wait);
+    this.heldListeners.push(listener);
+    if (this.held) listener(true, this.wait);
   }
 
   pause(): Promise<void> {
-    if (this.#requested === "run") this.#request("hold");
-    return this.#waiters.until(() => this.#held || this.#requested === "cancel");
+    if (this.requested === "run") this.request("hold");
+    return this.waiters.until(() => this.held || this.requested === "cancel");
   }
 
   resume(): Promise<void> {
-    if (this.#requested === "hold") this.#request("run");
-    return this.#waiters.until(() => !this.#held);
+    if (this.requested === "hold") this.request("run");
+    return this.waiters.until(() => !this.held);
   }
 
   cancel(): Promise<void> {
-    this.#request("cancel");
-    this.#cancelPlanning?.(cancelled());
-    return this.#waiters.until(() => false);
+    this.request("cancel");
+    this.cancelPlanning?.(cancelled());
+    return this.waiters.until(() => false);
   }
 
   leave(): Promise<void> {
-    const staysPut = this.#requested === "hold" || this.#staysPut;
+    const staysPut = this.requested === "hold" || this.staysPut;
     const ended = this.cancel();
-    this.#staysPut = staysPut;
+    this.staysPut = staysPut;
     return ended;
   }
 
   async interrupt(): Promise<void> {
     const held = this.pause();
-    this.#cancelPlanning?.(cancelled());
+    this.cancelPlanning?.(cancelled());
     await held;
     await this.leave();
   }
 
   emergencyStop(): Promise<void> {
-    if (this.#requested === "run") this.#requested = "hold";
-    this.#staysPut = true;
-    if (this.#stream.playing) {
-      this.#stream.stopAtOnce();
+    if (this.requested === "run") this.requested = "hold";
+    this.staysPut = true;
+    if (this.stream.playing) {
+      this.stream.stopAtOnce();
       // The board no longer draws everything that it had received.
-      this.#writeJournal(this.#stream.progress.place);
-    } else this.#machine.stopAtOnce();
-    return this.#waiters.until(() => this.#held || this.#requested === "cancel");
+      this.writeJournal(this.stream.progress.place);
+    } else this.machine.stopAtOnce();
+    return this.waiters.until(() => this.held || this.requested === "cancel");
   }
 
   /** The board no longer follows commands: nothing more is sent, and `finished` rejects. */
   fail(error: PlotwrightError): void {
-    this.#failure ??= error;
-    this.#stream.fail(error);
-    this.#wakeHold?.();
+    this.failure ??= error;
+    this.stream.fail(error);
+    this.wakeHold?.();
   }
 
   async change(change: PlotChange): Promise<void> {
-    this.#settings.change(change);
+    this.settings.change(change);
     // Changes run one after the other; the last one plans with all requested changes.
-    const before = this.#changing ?? Promise.resolve();
-    this.#changing = before.catch(() => undefined).then(() => this.#changeInMotion());
-    await this.#changing;
+    const before = this.changing ?? Promise.resolve();
+    this.changing = before.catch(() => undefined).then(() => this.changeInMotion());
+    await this.changing;
   }
 
   moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place {
-    this.holdPlace = movedPlace(this.#strokes, this.#heldPlace(), by);
-    this.#stops.moved(this.holdPlace);
-    const wait = this.#stops.due(this.holdPlace);
-    const moved = this.#stream.progress.movedTo(this.holdPlace, this.#initialProgress());
-    if (moved) this.#report(moved);
-    if (wait?.layerName !== this.#wait?.layerName) this.#setHeld(true, wait);
-    this.#writeJournal(this.holdPlace);
+    this.holdPlace = movedPlace(this.strokes, this.heldPlace(), by);
+    this.stops.moved(this.holdPlace);
+    const wait = this.stops.due(this.holdPlace);
+    const moved = this.stream.progress.movedTo(this.holdPlace, this.initialProgress());
+    if (moved) this.report(moved);
+    if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
+    this.writeJournal(this.holdPlace);
     return this.holdPlace;
   }
 
   async checkHoldPlace(): Promise<void> {
-    const { x, y } = pointOfPlace(this.#strokes, this.#heldPlace());
-    const { stopSignal } = this.#machine;
-    const check = this.#checking.then(() => {
+    const { x, y } = pointOfPlace(this.strokes, this.heldPlace());
+    const { stopSignal } = this.machine;
+    const check = this.checking.then(() => {
       stopSignal.throwIfAborted();
-      return this.#machine.moveTo(x, y, this.#settings.current);
+      return this.machine.moveTo(x, y, this.settings.current);
     });
-    this.#checking = check.catch((error: unknown) => {
+    this.checking = check.catch((error: unknown) => {
       // The plot cannot resume from a lost position.
-      if (!this.#machine.state && error instanceof PlotwrightError) this.fail(error);
+      if (!this.machine.state && error instanceof PlotwrightError) this.fail(error);
     });
     await check;
   }
 
-  #heldPlace(): Place {
-    if (!this.#held || !this.holdPlace) {
+  private heldPlace(): Place {
+    if (!this.held || !this.holdPlace) {
       throw new PlotwrightError("conflict", "The plot is not held: pause it first.");
     }
     return this.holdPlace;
   }
 
-  #request(state: RequestedState): void {
-    this.#requested = state;
-    this.#staysPut = false;
-    if (state !== "run") this.#stream.slowToRest();
-    this.#wakeHold?.();
+  private request(state: RequestedState): void {
+    this.requested = state;
+    this.staysPut = false;
+    if (state !== "run") this.stream.slowToRest();
+    this.wakeHold?.();
   }
 
-  async #run(): Promise<PlotOutcome> {
-    if (strokeCount(this.#strokes) === 0) {
+  private async run(): Promise<PlotOutcome> {
+    if (strokeCount(this.strokes) === 0) {
       throw new PlotwrightError(
         "bad-file",
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
       );
     }
-    await this.#liftWhatWasLeft();
+    await this.liftWhatWasLeft();
     for (;;) {
-      if (this.#requested === "run" && this.#stops.due(this.holdPlace)) this.#requested = "hold";
-      if (this.#requested === "hold") await this.#hold();
-      if (this.#requested === "cancel") return this.#goHome();
-      const until = this.#stops.nextAfter(this.holdPlace);
-      const { changeCount } = this.#settings;
-      const plot = await this.#planFromRest().catch((error: unknown) => {
-        if (this.#requested !== "run") return null;
+      if (this.requested === "run" && this.stops.due(this.holdPlace)) this.requested = "hold";
+      if (this.requested === "hold") await this.hold();
+      if (this.requested === "cancel") return this.goHome();
+      const until = this.stops.nextAfter(this.holdPlace);
+      const { changeCount } = this.settings;
+      const plot = await this.planFromRest().catch((error: unknown) => {
+        if (this.requested !== "run") return null;
         throw error;
       });
       if (!plot) continue;
       // Lift before the check: a request during the lift must be seen before anything moves.
-      if (this.#machine.penUp !== true) await this.#machine.movePen(true, this.#settings.current);
-      if (this.#requested !== "run" || this.#settings.changeCount !== changeCount) continue;
-      await this.#stream.play(plot, this.#afterPartS, () => this.#streamBegun());
-      const next = this.#stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
+      if (this.machine.penUp !== true) await this.machine.movePen(true, this.settings.current);
+      if (this.requested !== "run" || this.settings.changeCount !== changeCount) continue;
+      await this.stream.play(plot, this.afterPartS, () => this.streamBegun());
+      const next = this.stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
       if (next) this.holdPlace = next;
-      else if (this.#stream.stopped) return this.#finishStoppedReturn();
+      else if (this.stream.stopped) return this.finishStoppedReturn();
       else return { kind: "done" };
     }
   }
 
   /** Lifts a pen that an interrupted plot may have left on the paper. */
-  async #liftWhatWasLeft(): Promise<void> {
-    if (!this.#start.from) return;
+  private async liftWhatWasLeft(): Promise<void> {
+    if (!this.start.from) return;
     // Plan now, while the user checks pen and paper.
-    this.#timesOfWhole().catch(() => undefined);
-    if (this.#machine.state && this.#machine.penUp !== true) {
-      await this.#machine.movePen(true, this.#settings.current);
+    this.timesOfWhole().catch(() => undefined);
+    if (this.machine.state && this.machine.penUp !== true) {
+      await this.machine.movePen(true, this.settings.current);
     }
   }
 
-  async #planFromRest(): Promise<PlannedPlot> {
-    const settings = this.#settings.current;
-    const board = await this.#machine.prepareMotors(settings);
+  private async planFromRest(): Promise<PlannedPlot> {
+    const settings = this.settings.current;
+    const board = await this.machine.prepareMotors(settings);
     // A request meanwhile, when there was no planning to cancel yet.
-    if (this.#requested !== "run") throw cancelled();
-    const { x, y } = this.#machine.positionMm(machineOf(settings))!;
-    const planning = this.#plan(this.holdPlace, x, y, board);
+    if (this.requested !== "run") throw cancelled();
+    const { x, y } = this.machine.positionMm(machineOf(settings))!;
+    const planning = this.plan(this.holdPlace, x, y, board);
     const cancel = new Promise<never>((_, reject) => {
-      this.#cancelPlanning = reject;
+      this.cancelPlanning = reject;
     });
     try {
       return await Promise.race([planning, cancel]);
     } finally {
-      this.#cancelPlanning = null;
+      this.cancelPlanning = null;
       planning.catch(() => undefined);
     }
   }
 
   /** Plans from a place to the next pen change. */
-  async #plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
-    const until = this.#stops.nextAfter(from);
-    const times = until === null && !this.#start.from ? null : await this.#timesOfWhole();
-    this.#afterPartS = until === null ? 0 : times!.leftFrom({ stroke: until, alongMm: 0 });
-    const clock = this.#machine.clock;
+  private async plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
+    const until = this.stops.nextAfter(from);
+    const times = until === null && !this.start.from ? null : await this.timesOfWhole();
+    this.afterPartS = until === null ? 0 : times!.leftFrom({ stroke: until, alongMm: 0 });
+    const clock = this.machine.clock;
     const startS = clock.nowS();
-    const plot = await this.#planner.plan({
+    const plot = await this.planner.plan({
       from,
       until,
       startXMm: x,
       startYMm: y,
-      settings: this.#settings.planned,
-      firmware: this.#machine.firmware,
+      settings: this.settings.planned,
+      firmware: this.machine.firmware,
       board,
     });
-    this.#planningS = clock.nowS() - startS;
+    this.planningS = clock.nowS() - startS;
     return plot;
   }
 
   /** Times of the whole plot, since progress refers to the whole even if only a part is being drawn. */
-  #timesOfWhole(): Promise<PlaceTimes> {
+  private timesOfWhole(): Promise<PlaceTimes> {
     const request = {
       from: null,
       until: null,
       startXMm: 0,
       startYMm: 0,
-      settings: this.#settings.planned,
-      firmware: this.#machine.firmware,
+      settings: this.settings.planned,
+      firmware: this.machine.firmware,
     };
-    this.#whole ??= this.#planner.plan(request).then(({ trajectory }) => {
+    this.whole ??= this.planner.plan(request).then(({ trajectory }) => {
       const times = new PlaceTimes(trajectory);
-      this.#stream.progress.isPartOf(trajectory, times, this.#start.from ?? null);
+      this.stream.progress.isPartOf(trajectory, times, this.start.from ?? null);
       return times;
     });
-    return this.#whole;
+    return this.whole;
   }
 
   /** Plans the rest with the new settings, and switches to it at a place that was not yet sent to the board. */
-  async #changeInMotion(): Promise<void> {
-    const { speed, clock } = this.#machine;
+  private async changeInMotion(): Promise<void> {
+    const { speed, clock } = this.machine;
     let tries = 0;
-    while (this.#requested === "run" && tries < CHANGE_TRIES) {
-      const { playing } = this.#stream;
-      const over = this.#stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.#planningS * 2 ** tries);
+    while (this.requested === "run" && tries < CHANGE_TRIES) {
+      const { playing } = this.stream;
+      const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** tries);
       if (over) {
         tries++;
-        const plot = await this.#plan(over.from, over.x, over.y, over.board);
-        if (this.#requested !== "run" || this.#stream.playing !== playing) return;
-        if (over.switchTo(plot, this.#afterPartS)) return;
-      } else if (!this.#stream.isSwitching) return;
+        const plot = await this.plan(over.from, over.x, over.y, over.board);
+        if (this.requested !== "run" || this.stream.playing !== playing) return;
+        if (over.switchTo(plot, this.afterPartS)) return;
+      } else if (!this.stream.isSwitching) return;
       else await new Promise<void>((resolve) => void clock.after(PROGRESS_S * speed, resolve));
     }
   }
 
-  async #hold(): Promise<void> {
-    this.#setHeld(true, this.#stops.due(this.holdPlace));
-    if (this.holdPlace) this.#writeJournal(this.holdPlace);
+  private async hold(): Promise<void> {
+    this.setHeld(true, this.stops.due(this.holdPlace));
+    if (this.holdPlace) this.writeJournal(this.holdPlace);
     this.holdPlace ??= { stroke: 0, alongMm: 0 };
-    while (this.#requested === "hold" && !this.#failure) {
+    while (this.requested === "hold" && !this.failure) {
       await new Promise<void>((resolve) => {
-        this.#wakeHold = resolve;
+        this.wakeHold = resolve;
       });
     }
-    this.#wakeHold = null;
-    await this.#untilChecked();
-    if (this.#failure) throw this.#failure;
-    if (this.#requested === "run") this.#stops.answer(this.holdPlace);
-    this.#setHeld(false, null);
+    this.wakeHold = null;
+    await this.untilChecked();
+    if (this.failure) throw this.failure;
+    if (this.requested === "run") this.stops.answer(this.holdPlace);
+    this.setHeld(false, null);
   }
 
-  async #untilChecked(): Promise<void> {
+  private async untilChecked(): Promise<void> {
     let last: Promise<void>;
     do {
-      last = this.#checking;
+      last = this.checking;
       await last;
-    } while (last !== this.#checking);
+    } while (last !== this.checking);
   }
 
   /** Handles a stop after everything was drawn, on the way home. */
-  async #finishStoppedReturn(): Promise<PlotOutcome> {
-    const { kind } = await this.#goHome();
-    return { kind: this.#requested === "cancel" ? kind : "done" };
+  private async finishStoppedReturn(): Promise<PlotOutcome> {
+    const { kind } = await this.goHome();
+    return { kind: this.requested === "cancel" ? kind : "done" };
   }
 
-  async #goHome(): Promise<PlotOutcome> {
-    if (this.#failure) throw this.#failure;
-    if (this.#staysPut) return { kind: "cancelled" };
+  private async goHome(): Promise<PlotOutcome> {
+    if (this.failure) throw this.failure;
+    if (this.staysPut) return { kind: "cancelled" };
     try {
-      await this.#machine.moveTo(0, 0, this.#settings.current);
+      await this.machine.moveTo(0, 0, this.settings.current);
     } catch (error) {
       // After an emergency stop, and if home is lost, the carriage stays where it is.
       if (!(error instanceof PlotwrightError)) throw error;
-      const isHomeLost = error.code === "board-error" && !this.#machine.state;
+      const isHomeLost = error.code === "board-error" && !this.machine.state;
       if (error.code !== "conflict" && !isHomeLost) throw error;
     }
     return { kind: "cancelled" };
   }
 
-  #setHeld(held: boolean, wait: PlotWait | null): void {
-    this.#held = held;
-    this.#wait = wait;
-    for (const listener of this.#heldListeners) listener(held, wait);
-    this.#waiters.check();
+  private setHeld(held: boolean, wait: PlotWait | null): void {
+    this.held = held;
+    this.wait = wait;
+    for (const listener of this.heldListeners) listener(held, wait);
+    this.waiters.check();
   }
 
-  #streamBegun(): void {
+  private streamBegun(): void {
     // A request that came before the stream existed.
-    if (this.#requested !== "run") this.#stream.slowToRest();
+    if (this.requested !== "run") this.stream.slowToRest();
     // From now on the plot no longer rests at the journal's place.
-    this.#journalDueS = -Infinity;
-    this.#stopTicking = this.#tick();
+    this.journalDueS = -Infinity;
+    this.stopTicking = this.tick();
   }
 
-  #streamEnded(place: Place | null): void {
-    this.#stopTicking();
-    const left = place ?? this.#stream.progress.place;
+  private streamEnded(place: Place | null): void {
+    this.stopTicking();
+    const left = place ?? this.stream.progress.place;
     // A board that still knows its position is at rest there.
-    this.#writeJournal(left, this.#machine.state ? undefined : this.#stream.receivedPlace);
+    this.writeJournal(left, this.machine.state ? undefined : this.stream.receivedPlace);
   }
 
-  #tick(): () => void {
-    const { clock, speed } = this.#machine;
+  private tick(): () => void {
+    const { clock, speed } = this.machine;
     let cancel = (): void => undefined;
     let lastS = clock.nowS();
     const next = (): void => {
-      const now = this.#stream.now();
+      const now = this.stream.now();
       const stalledS = (clock.nowS() - lastS) / speed;
       lastS = clock.nowS();
       if (now) {
         // The replies that came meanwhile are read first: they tell how far the board has drawn.
-        if (!now.penUp && stalledS >= BLOT_S) clock.after(0, () => this.#noteStall(stalledS));
-        this.#report(now);
-        if (clock.nowS() >= this.#journalDueS) {
-          this.#writeJournal(this.#stream.progress.place, this.#stream.receivedPlace);
+        if (!now.penUp && stalledS >= BLOT_S) clock.after(0, () => this.noteStall(stalledS));
+        this.report(now);
+        if (clock.nowS() >= this.journalDueS) {
+          this.writeJournal(this.stream.progress.place, this.stream.receivedPlace);
         }
       }
       cancel = clock.after(PROGRESS_S * speed, next);
@@ -419,28 +419,28 @@ export class MachinePlot implements LivePlotRun {
     return () => cancel();
   }
 
-  #noteStall(stalledS: number): void {
-    const now = this.#stream.now();
-    if (now && !now.penUp) this.#start.noted?.(restedWhileStalled(now, stalledS));
+  private noteStall(stalledS: number): void {
+    const now = this.stream.now();
+    if (now && !now.penUp) this.start.noted?.(restedWhileStalled(now, stalledS));
   }
 
-  #report(progress: PlotProgress): void {
-    for (const listener of this.#progressListeners) listener(progress);
+  private report(progress: PlotProgress): void {
+    for (const listener of this.progressListeners) listener(progress);
   }
 
-  #writeJournal(left: Place | null, received?: Place): void {
-    const { latest } = this.#stream.progress;
-    const { clock, speed } = this.#machine;
-    this.#journalDueS = clock.nowS() + JOURNAL_S * speed;
+  private writeJournal(left: Place | null, received?: Place): void {
+    const { latest } = this.stream.progress;
+    const { clock, speed } = this.machine;
+    this.journalDueS = clock.nowS() + JOURNAL_S * speed;
     if (!left) return;
-    const { xMm, yMm, penUp, elapsedS } = latest ?? this.#initialProgress();
-    this.#start.journal?.record({ place: left, received, xMm, yMm, penUp, elapsedS });
+    const { xMm, yMm, penUp, elapsedS } = latest ?? this.initialProgress();
+    this.start.journal?.record({ place: left, received, xMm, yMm, penUp, elapsedS });
   }
 
   /** The progress before anything has been streamed. */
-  #initialProgress(): Omit<JournalEntry, "place"> {
-    const { x, y } = this.#machine.positionMm(machineOf(this.#settings.current)) ?? { x: 0, y: 0 };
-    return { xMm: x, yMm: y, penUp: this.#machine.penUp ?? true, elapsedS: 0 };
+  private initialProgress(): Omit<JournalEntry, "place"> {
+    const { x, y } = this.machine.positionMm(machineOf(this.settings.current)) ?? { x: 0, y: 0 };
+    return { xMm: x, yMm: y, penUp: this.machine.penUp ?? true, elapsedS: 0 };
   }
 }
 

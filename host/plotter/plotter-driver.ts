@@ -46,155 +46,152 @@ import type { LivePlotRun, PlotProgress, PlotStart } from "./plotter-port.js";
 const RECONNECT_S = 2;
 
 export class PlotterDriver {
-  readonly #clock: Clock;
-  #settings: PlotSettings;
-  #current: PlotterState;
-  readonly #listeners: ((state: PlotterState) => void)[] = [];
-  #connection: Connection | null = null;
-  #machine: Machine | null = null;
+  private readonly clock: Clock;
+  private settings: PlotSettings;
+  private current: PlotterState;
+  private readonly listeners: ((state: PlotterState) => void)[] = [];
+  private connection: Connection | null = null;
+  private machine: Machine | null = null;
   /** The pen when the connection was lost. */
-  #penBefore: PenBefore | null = null;
+  private penBefore: PenBefore | null = null;
   /** Why there is no connection. */
-  #trouble: PlotwrightError | null = null;
-  #lostAtS: number | null = null;
-  #connecting: Promise<void> | null = null;
-  #cancelRetry: (() => void) | null = null;
-  #run: MachinePlot | null = null;
+  private trouble: PlotwrightError | null = null;
+  private lostAtS: number | null = null;
+  private connecting: Promise<void> | null = null;
+  private cancelRetry: (() => void) | null = null;
+  private run: MachinePlot | null = null;
   /** Resolves at the end of the current manual move. */
-  #movingByHand: Promise<void> | null = null;
+  private movingByHand: Promise<void> | null = null;
   /** Settings with another controller, to be used when nothing moves. */
-  #chosen: PlotSettings | null = null;
-  #closed = false;
+  private chosen: PlotSettings | null = null;
+  private closed = false;
   /** After a real board was connected, the virtual board is never used in its place. */
-  #hadSerial = false;
-  readonly #supply: SupplyWatch;
-  #virtual: VirtualMachine | null = null;
+  private hadSerial = false;
+  private readonly supply: SupplyWatch;
+  private virtual: VirtualMachine | null = null;
 
-  readonly #options: PlotterOptions;
-
-  constructor(options: PlotterOptions) {
-    this.#options = options;
-    this.#clock = options.clock;
-    this.#supply = new SupplyWatch(options.clock, {
-      mayAsk: () => !this.#movingByHand && (this.#run === null || this.#run.isHeld),
-      lost: (isBack) => this.#powerLost(isBack),
+  constructor(private readonly options: PlotterOptions) {
+    this.clock = options.clock;
+    this.supply = new SupplyWatch(options.clock, {
+      mayAsk: () => !this.movingByHand && (this.run === null || this.run.isHeld),
+      lost: (isBack) => this.powerLost(isBack),
       restored: () => {
-        if (this.#closed) return;
-        this.#setState({
+        if (this.closed) return;
+        this.setState({
           connection: "idle",
-          message: this.#connection && welcome(this.#connection.kind, this.#options.device),
+          message: this.connection && welcome(this.connection.kind, this.options.device),
         });
       },
     });
-    this.#settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
-    this.#current = initialState(options.device);
+    this.settings = options.settings ?? DEFAULT_PLOT_SETTINGS;
+    this.current = initialState(options.device);
   }
 
   get state(): PlotterState {
-    return this.#current;
+    return this.current;
   }
 
   /** The built-in virtual machine while it is in use: gives access to the drawn line and simulated faults. */
   get virtualMachine(): VirtualMachine | null {
-    return this.#connection?.kind === "virtual" ? this.#virtual : null;
+    return this.connection?.kind === "virtual" ? this.virtual : null;
   }
 
   onChange(listener: (state: PlotterState) => void): void {
-    this.#listeners.push(listener);
+    this.listeners.push(listener);
   }
 
   /** Tells the listeners that something has changed. */
   protected announce(): void {
-    for (const listener of this.#listeners) listener(this.#current);
+    for (const listener of this.listeners) listener(this.current);
   }
 
   /** Connects. Never rejects: errors are shown in `state`, and thrown by methods that need the board. */
   start(): Promise<void> {
-    this.#setState({ connection: "connecting", message: null });
-    return this.#startConnecting();
+    this.setState({ connection: "connecting", message: null });
+    return this.startConnecting();
   }
 
   /** Resolves when it is known whether the board is connected: immediately, unless it is still connecting. */
   async settled(): Promise<void> {
-    await this.#connecting;
+    await this.connecting;
   }
 
   /** Commands and replies of the current connection, as text to download. */
   log(): string {
-    return this.#connection?.machine.log() ?? "";
+    return this.connection?.machine.log() ?? "";
   }
 
   /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
   async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
-    await this.#connecting;
-    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
-    if (start.board && isOtherBoard(start.board, this.#current)) {
-      await this.#byHand((machine) => machine.liftAndFreeMotors(settings));
+    await this.connecting;
+    if (!this.isConnectedFor(settings)) await this.connectFor(settings);
+    if (start.board && isOtherBoard(start.board, this.current)) {
+      await this.byHand((machine) => machine.liftAndFreeMotors(settings));
     }
-    const machine = this.#idleMachine();
-    this.#settings = settings;
-    this.#machineChanged();
-    const run = new MachinePlot(machine, planner, settings, startOn(this.#current, start));
-    this.#run = run;
+    const machine = this.idleMachine();
+    this.settings = settings;
+    this.machineChanged();
+    const run = new MachinePlot(machine, planner, settings, startOn(this.current, start));
+    this.run = run;
     const beginsHeld = start.held ?? (start.from ?? null) !== null;
-    this.#setState({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
-    run.onHeld((held) => this.#setState({ activity: held ? "held" : "plotting" }));
-    run.onProgress((progress) => this.#positionChanged(progress));
+    this.setState({ connection: "busy", activity: beginsHeld ? "held" : "plotting" });
+    run.onHeld((held) => this.setState({ activity: held ? "held" : "plotting" }));
+    run.onProgress((progress) => this.positionChanged(progress));
     run.finished.then(
-      () => this.#runEnded(),
-      () => this.#runEnded(),
+      () => this.runEnded(),
+      () => this.runEnded(),
     );
     return run;
   }
 
   /** Sets machine, speeds and heights for manual moves. Home stays the same, since it is a motor position. */
   use(settings: PlotSettings): void {
-    this.#chosen = this.#isConnectedFor(settings) ? null : settings;
-    if (this.#chosen) void this.#useChosen();
+    this.chosen = this.isConnectedFor(settings) ? null : settings;
+    if (this.chosen) void this.useChosen();
     else {
-      this.#settings = settings;
-      this.#machineChanged();
+      this.settings = settings;
+      this.machineChanged();
     }
   }
 
   /** Default settings: those of the last job or move. */
   async pen(
     request: { readonly up: boolean; readonly heightPct?: number | undefined },
-    settings: PlotSettings = this.#settings,
+    settings: PlotSettings = this.settings,
   ): Promise<void> {
-    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
-    await this.#byHand((machine) => {
-      this.#settings = settings;
+    if (!this.isConnectedFor(settings)) await this.connectFor(settings);
+    await this.byHand((machine) => {
+      this.settings = settings;
       return machine.movePen(request.up, settings, request.heightPct);
     });
   }
 
   async motorsOff(): Promise<void> {
-    await this.#byHand((machine) => machine.motorsOff());
+    await this.byHand((machine) => machine.motorsOff());
   }
 
   /**
    * Makes a manual move with the machine, speeds and heights of `settings`; default: those of the last job or
    * move. Rejects with `busy` while plotting, and with `out-of-bounds` for positions outside the machine.
    */
-  async move(move: HandMove, settings: PlotSettings = this.#settings): Promise<void> {
-    if (!this.#isConnectedFor(settings)) await this.#connectFor(settings);
-    await this.#byHand((machine) => {
-      this.#settings = settings;
+  async move(move: HandMove, settings: PlotSettings = this.settings): Promise<void> {
+    if (!this.isConnectedFor(settings)) await this.connectFor(settings);
+    await this.byHand((machine) => {
+      this.settings = settings;
       return moveByHand(machine, move, settings);
     });
   }
 
   /** Stops a manual move at once, which then rejects with `conflict`. Resolves when the pen is up. */
   async stopMove(): Promise<void> {
-    if (!this.#movingByHand) return;
-    this.#machine?.stopAtOnce();
-    await this.#movingByHand;
+    if (!this.movingByHand) return;
+    this.machine?.stopAtOnce();
+    await this.movingByHand;
   }
 
   /** Sends one line, returns the whole answer. `bad-setting` for commands that would break the connection. */
   async command(line: string): Promise<CommandAnswer> {
-    return this.#byHand((machine) => {
+    return this.byHand((machine) => {
       if (!machine.console) throw noConsole();
       return machine.console.send(line);
     });
@@ -202,121 +199,121 @@ export class PlotterDriver {
 
   /** Closes the connection. During a move or a plot it first stops at once and lifts the pen. */
   async close(): Promise<void> {
-    this.#closed = true;
-    this.#cancelRetry?.();
-    this.#supply.stop();
+    this.closed = true;
+    this.cancelRetry?.();
+    this.supply.stop();
     // Before the first await: from now on no job may start on this connection.
-    this.#setState({ connection: "absent", message: null });
-    await this.#connecting;
-    const run = this.#run;
+    this.setState({ connection: "absent", message: null });
+    await this.connecting;
+    const run = this.run;
     run?.fail(closedError());
     // Fails if the connection is lost; there is nothing left to do then.
-    if (run || this.#movingByHand) await this.#machine?.stopAndLift(this.#settings).catch(() => undefined);
-    await this.#connection?.machine.close();
-    this.#virtual?.close();
+    if (run || this.movingByHand) await this.machine?.stopAndLift(this.settings).catch(() => undefined);
+    await this.connection?.machine.close();
+    this.virtual?.close();
   }
 
-  #isConnectedFor(settings: PlotSettings): boolean {
-    return machineOf(settings).controller.kind === machineOf(this.#settings).controller.kind;
+  private isConnectedFor(settings: PlotSettings): boolean {
+    return machineOf(settings).controller.kind === machineOf(this.settings).controller.kind;
   }
 
   /** Reconnects with the driver of these settings. If that fails, rejects and restores the previous settings. */
-  async #connectFor(settings: PlotSettings): Promise<void> {
-    await this.#connecting;
-    if (this.#run || this.#movingByHand) return;
-    const before = this.#settings;
-    await this.#reconnectFor(settings);
-    if (this.#machine) return;
-    this.#settings = before;
-    throw this.#trouble ?? notStarted();
+  private async connectFor(settings: PlotSettings): Promise<void> {
+    await this.connecting;
+    if (this.run || this.movingByHand) return;
+    const before = this.settings;
+    await this.reconnectFor(settings);
+    if (this.machine) return;
+    this.settings = before;
+    throw this.trouble ?? notStarted();
   }
 
-  async #useChosen(): Promise<void> {
-    await this.#connecting;
-    const settings = this.#chosen;
-    if (!settings || this.#closed || this.#run || this.#movingByHand) return;
-    this.#chosen = null;
-    await this.#reconnectFor(settings);
+  private async useChosen(): Promise<void> {
+    await this.connecting;
+    const settings = this.chosen;
+    if (!settings || this.closed || this.run || this.movingByHand) return;
+    this.chosen = null;
+    await this.reconnectFor(settings);
   }
 
   /** Reconnects with the driver of these settings. If that fails, the automatic attempts use it too. */
-  async #reconnectFor(settings: PlotSettings): Promise<void> {
-    this.#settings = settings;
-    const connection = this.#connection;
-    const virtual = this.#virtual;
-    this.#supply.stop();
-    this.#penBefore = null;
-    this.#machine = this.#connection = this.#virtual = null;
-    this.#setState({ connection: "connecting", message: null, ...UNKNOWN });
+  private async reconnectFor(settings: PlotSettings): Promise<void> {
+    this.settings = settings;
+    const connection = this.connection;
+    const virtual = this.virtual;
+    this.supply.stop();
+    this.penBefore = null;
+    this.machine = this.connection = this.virtual = null;
+    this.setState({ connection: "connecting", message: null, ...UNKNOWN });
     await connection?.machine.close().catch(() => undefined);
     virtual?.close();
-    await this.#startConnecting();
+    await this.startConnecting();
   }
 
-  #startConnecting(): Promise<void> {
-    if (this.#closed) return Promise.resolve();
-    this.#connecting ??= this.#connect().finally(() => {
-      this.#connecting = null;
+  private startConnecting(): Promise<void> {
+    if (this.closed) return Promise.resolve();
+    this.connecting ??= this.connect().finally(() => {
+      this.connecting = null;
     });
-    return this.#connecting;
+    return this.connecting;
   }
 
-  async #connect(): Promise<void> {
-    this.#cancelRetry?.();
+  private async connect(): Promise<void> {
+    this.cancelRetry?.();
     try {
       const connection = await connect({
-        device: this.#options.device,
-        devices: this.#options.devices,
-        isTaken: this.#options.isTaken,
-        virtualIfNone: this.#options.virtualIfNone !== false && !this.#hadSerial,
-        clock: this.#clock,
-        speed: this.#options.virtualSpeed ?? 1,
-        driver: driverOf(machineOf(this.#settings)),
-        usbIds: controllerOf(machineOf(this.#settings)).usbIds,
-        virtualMachine: () => this.#makeVirtual(),
+        device: this.options.device,
+        devices: this.options.devices,
+        isTaken: this.options.isTaken,
+        virtualIfNone: this.options.virtualIfNone !== false && !this.hadSerial,
+        clock: this.clock,
+        speed: this.options.virtualSpeed ?? 1,
+        driver: driverOf(machineOf(this.settings)),
+        usbIds: controllerOf(machineOf(this.settings)).usbIds,
+        virtualMachine: () => this.makeVirtual(),
         events: {
-          changed: () => this.#machineChanged(),
-          buttonPressed: () => void this.#run?.pause().catch(() => undefined),
-          supplyRead: (state) => this.#supply.read(state),
-          lost: (error) => this.#lost(error),
+          changed: () => this.machineChanged(),
+          buttonPressed: () => void this.run?.pause().catch(() => undefined),
+          supplyRead: (state) => this.supply.read(state),
+          lost: (error) => this.lost(error),
         },
       });
-      await this.#adopt(connection);
+      await this.adopt(connection);
     } catch (error) {
-      this.#lost(error instanceof PlotwrightError ? error : connectFailed(error));
+      this.lost(error instanceof PlotwrightError ? error : connectFailed(error));
     }
   }
 
-  #makeVirtual(): VirtualMachine {
-    const machine = machineOf(this.#settings);
-    this.#virtual ??= driverOf(machine).virtualMachine({
-      clock: this.#clock,
-      speed: this.#options.virtualSpeed ?? 1,
-      firmware: this.#options.firmware,
-      springs: this.#options.virtualSprings,
+  private makeVirtual(): VirtualMachine {
+    const machine = machineOf(this.settings);
+    this.virtual ??= driverOf(machine).virtualMachine({
+      clock: this.clock,
+      speed: this.options.virtualSpeed ?? 1,
+      firmware: this.options.firmware,
+      springs: this.options.virtualSprings,
       machine,
     });
-    return this.#virtual;
+    return this.virtual;
   }
 
-  async #adopt(connection: Connection): Promise<void> {
-    if (this.#closed) {
+  private async adopt(connection: Connection): Promise<void> {
+    if (this.closed) {
       await connection.machine.close();
       return;
     }
-    this.#connection = connection;
-    this.#hadSerial ||= connection.kind === "serial";
+    this.connection = connection;
+    this.hadSerial ||= connection.kind === "serial";
     const { machine } = connection;
-    await machine.readKeptState(this.#settings, this.#penBefore);
+    await machine.readKeptState(this.settings, this.penBefore);
     // close() closes the connection.
-    if (this.#closed) return;
-    this.#machine = machine;
-    this.#trouble = null;
-    this.#supply.watch(machine);
-    this.#machineChanged();
-    const restedS = this.#lostAtS === null ? null : this.#clock.nowS() - this.#lostAtS;
-    this.#lostAtS = null;
-    this.#setState({
+    if (this.closed) return;
+    this.machine = machine;
+    this.trouble = null;
+    this.supply.watch(machine);
+    this.machineChanged();
+    const restedS = this.lostAtS === null ? null : this.clock.nowS() - this.lostAtS;
+    this.lostAtS = null;
+    this.setState({
       kind: connection.kind,
       device: connection.device,
       connection: "idle",
@@ -325,40 +322,40 @@ export class PlotterDriver {
       firmware: machine.firmware,
       message:
         machine.foundMidPlot?.penUp === false
-          ? penRested(this.#current, restedS)
-          : welcome(connection.kind, this.#options.device),
+          ? penRested(this.current, restedS)
+          : welcome(connection.kind, this.options.device),
     });
   }
 
-  #lost(error: PlotwrightError): void {
-    if (this.#closed) return;
-    this.#trouble = error;
-    if (this.#machine) this.#lostAtS = this.#clock.nowS();
-    this.#supply.stop();
-    if (this.#machine) this.#penBefore = { penUp: this.#machine.penMoving ? null : this.#machine.penUp };
-    this.#machine = null;
-    this.#connection?.machine.close().catch(() => undefined);
-    this.#connection = null;
+  private lost(error: PlotwrightError): void {
+    if (this.closed) return;
+    this.trouble = error;
+    if (this.machine) this.lostAtS = this.clock.nowS();
+    this.supply.stop();
+    if (this.machine) this.penBefore = { penUp: this.machine.penMoving ? null : this.machine.penUp };
+    this.machine = null;
+    this.connection?.machine.close().catch(() => undefined);
+    this.connection = null;
     // A held run does not notice the lost board by itself.
-    this.#run?.fail(error);
+    this.run?.fail(error);
     const connection = error.code === "no-board" ? "absent" : "fault";
-    this.#setState({ connection, message: error.message, ...UNKNOWN });
-    this.#cancelRetry?.();
-    this.#cancelRetry = this.#clock.after(RECONNECT_S, () => void this.#startConnecting());
+    this.setState({ connection, message: error.message, ...UNKNOWN });
+    this.cancelRetry?.();
+    this.cancelRetry = this.clock.after(RECONNECT_S, () => void this.startConnecting());
   }
 
-  #runEnded(): void {
-    this.#run = null;
-    this.#setIdle();
-    this.#machineChanged();
+  private runEnded(): void {
+    this.run = null;
+    this.setIdle();
+    this.machineChanged();
   }
 
   /** Resolves when the motors are released. `isBack`: the supply failed only for a moment. */
-  async #powerLost(isBack: boolean): Promise<void> {
-    this.#run?.fail(isBack ? powerFailed() : powerLost());
-    this.#setState({ connection: "fault", message: (isBack ? powerFailed() : powerLow()).message });
-    const settings = this.#settings;
-    const machine = this.#machine;
+  private async powerLost(isBack: boolean): Promise<void> {
+    this.run?.fail(isBack ? powerFailed() : powerLost());
+    this.setState({ connection: "fault", message: (isBack ? powerFailed() : powerLow()).message });
+    const settings = this.settings;
+    const machine = this.machine;
     // A manual move, or the way home of a cancelled plot.
     machine?.stopAtOnce();
     try {
@@ -369,55 +366,55 @@ export class PlotterDriver {
     }
   }
 
-  async #byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
-    await this.#connecting;
-    const machine = this.#idleMachine();
+  private async byHand<T>(action: (machine: Machine) => Promise<T>): Promise<T> {
+    await this.connecting;
+    const machine = this.idleMachine();
     const { stopSignal } = machine;
     const moved = action(machine).catch(async (error: unknown) => {
       // A move that was stopped may have left the pen on the paper.
-      const isStopped = stopSignal.aborted && this.#machine === machine && !this.#closed;
-      if (isStopped && machine.penUp !== true) await machine.movePen(true, this.#settings);
+      const isStopped = stopSignal.aborted && this.machine === machine && !this.closed;
+      if (isStopped && machine.penUp !== true) await machine.movePen(true, this.settings);
       throw error;
     });
-    this.#movingByHand = moved.then(
+    this.movingByHand = moved.then(
       () => undefined,
       () => undefined,
     );
-    this.#setState({ connection: "busy", activity: "moving" });
+    this.setState({ connection: "busy", activity: "moving" });
     try {
       return await moved;
     } finally {
-      this.#movingByHand = null;
-      this.#setIdle();
+      this.movingByHand = null;
+      this.setIdle();
     }
   }
 
-  #setIdle(): void {
-    const isReady = this.#machine && !this.#closed && !this.#supply.isLow;
-    this.#setState({ activity: "none", ...(isReady ? { connection: "idle" } : {}) });
-    void this.#useChosen();
+  private setIdle(): void {
+    const isReady = this.machine && !this.closed && !this.supply.isLow;
+    this.setState({ activity: "none", ...(isReady ? { connection: "idle" } : {}) });
+    void this.useChosen();
   }
 
   /** The machine, for one request. Use it before the next await: another request could take it meanwhile. */
-  #idleMachine(): Machine {
-    if (this.#closed) throw closedError();
-    if (this.#run) {
+  private idleMachine(): Machine {
+    if (this.closed) throw closedError();
+    if (this.run) {
       throw new PlotwrightError("busy", "The plotter is plotting: cancel the plot or wait until it ends.");
     }
-    if (this.#movingByHand) {
+    if (this.movingByHand) {
       throw new PlotwrightError("busy", "The plotter is still moving: wait until it stops.");
     }
-    if (!this.#machine) throw this.#trouble ?? notStarted();
-    if (this.#supply.isLow) throw powerLow();
-    return this.#machine;
+    if (!this.machine) throw this.trouble ?? notStarted();
+    if (this.supply.isLow) throw powerLow();
+    return this.machine;
   }
 
-  #machineChanged(): void {
-    const machine = this.#machine;
+  private machineChanged(): void {
+    const machine = this.machine;
     if (!machine) return;
-    const position = machine.positionMm(machineOf(this.#settings));
-    this.#setState({
-      emergencyStopMs: machine.emergencyStopMs(this.#settings),
+    const position = machine.positionMm(machineOf(this.settings));
+    this.setState({
+      emergencyStopMs: machine.emergencyStopMs(this.settings),
       penUp: machine.penUp,
       penMoving: machine.penMoving,
       motorsOn: machine.motorsOn,
@@ -427,15 +424,15 @@ export class PlotterDriver {
   }
 
   /** Updates the position. While plotting it is not announced here, since the run's progress reports it. */
-  #positionChanged({ xMm, yMm, penUp, penMoving }: PlotProgress): void {
+  private positionChanged({ xMm, yMm, penUp, penMoving }: PlotProgress): void {
     // A run that ends because the connection is lost still reports a position, which is then unknown.
-    if (this.#machine) this.#current = { ...this.#current, xMm, yMm, penUp, penMoving };
+    if (this.machine) this.current = { ...this.current, xMm, yMm, penUp, penMoving };
   }
 
-  #setState(change: Partial<PlotterState>): void {
+  private setState(change: Partial<PlotterState>): void {
     const keys = Object.keys(change) as (keyof PlotterState)[];
-    if (keys.every((key) => this.#current[key] === change[key])) return;
-    this.#current = { ...this.#current, ...change };
+    if (keys.every((key) => this.current[key] === change[key])) return;
+    this.current = { ...this.current, ...change };
     this.announce();
   }
 }

@@ -47,40 +47,38 @@ interface PlotterUse {
 }
 
 export class PlotterRegistry {
-  readonly #parts: RegistryParts;
-  readonly #rows = new Map<string, PlotterRow>();
-  readonly #ports = new Map<string, ManagedPlotter>();
+  private readonly rows = new Map<string, PlotterRow>();
+  private readonly portById = new Map<string, ManagedPlotter>();
   /** Patches and removals run one after the other. */
-  #turn: Promise<unknown> = Promise.resolve();
-  #isClosed = false;
+  private turn: Promise<unknown> = Promise.resolve();
+  private isClosed = false;
 
-  constructor(parts: RegistryParts) {
-    this.#parts = parts;
+  constructor(private readonly parts: RegistryParts) {
     const { store, firstId } = parts;
     if (store.plotters().length === 0) {
       store.savePlotter({ id: firstId, name: null, device: "auto", machine: null });
     }
     store.plotters().forEach((row, index) => {
       const device = index === 0 ? (parts.firstDevice ?? row.device) : row.device;
-      this.#rows.set(row.id, { ...row, device });
+      this.rows.set(row.id, { ...row, device });
     });
     // Open only after all rows are known, so that a plotter with "auto" does not take the board of another.
-    for (const row of this.#rows.values()) this.#open(row);
+    for (const row of this.rows.values()) this.open(row);
   }
 
   /** The plotters by id. The map stays up to date. */
   get ports(): ReadonlyMap<string, PlotterPort> {
-    return this.#ports;
+    return this.portById;
   }
 
   list(): Plotter[] {
-    return [...this.#ports.values()].map((port) => port.snapshot());
+    return [...this.portById.values()].map((port) => port.snapshot());
   }
 
   /** By plotter id. A plotter without settings, or with an unreadable record, is left out. */
   settings(): Record<string, PlotterSettings> {
     return Object.fromEntries(
-      Object.entries(this.#parts.store.plotterSettings()).flatMap(([id, stored]) => {
+      Object.entries(this.parts.store.plotterSettings()).flatMap(([id, stored]) => {
         const parsed = plotterSettingsSchema.safeParse(stored);
         return parsed.success ? [[id, parsed.data]] : [];
       }),
@@ -89,20 +87,20 @@ export class PlotterRegistry {
 
   /** The settings from which jobs and manual moves start. `last`: those of its last job. */
   settingsOf(id: string, last?: PlotSettings): SettingsOfPlotter {
-    const machine = this.#rows.get(id)?.machine ?? null;
-    return settingsOfPlotter({ machine, own: this.settings()[id], last }, this.#parts.withMachine);
+    const machine = this.rows.get(id)?.machine ?? null;
+    return settingsOfPlotter({ machine, own: this.settings()[id], last }, this.parts.withMachine);
   }
 
   /** Throws `not-found`. */
   saveSettings(id: string, settings: PlotterSettings): PlotterSettings {
-    this.#find(id);
-    this.#parts.store.savePlotterSettings(id, settings);
-    this.#parts.announce({ type: "plotter-settings", plotterId: id, settings });
+    this.find(id);
+    this.parts.store.savePlotterSettings(id, settings);
+    this.parts.announce({ type: "plotter-settings", plotterId: id, settings });
     return settings;
   }
 
   async devices(): Promise<Device[]> {
-    const boards = await this.#parts.findBoards();
+    const boards = await this.parts.findBoards();
     return boards.map(({ path, description, serialNumber }) => ({
       path,
       description: serialNumber === null ? description : `${description} ${serialNumber}`,
@@ -112,13 +110,13 @@ export class PlotterRegistry {
 
   /** Throws `conflict` if another plotter has the name or device. */
   add({ name, device, machine = null }: NewPlotter): Plotter {
-    this.#mustBeFree(name, device, null);
-    if (machine !== null) this.#mustBeMachine(machine);
-    const row = { id: this.#newId(name), name, device, machine };
-    this.#parts.store.savePlotter(row);
-    this.#rows.set(row.id, row);
-    const port = this.#open(row);
-    this.#announce();
+    this.mustBeFree(name, device, null);
+    if (machine !== null) this.mustBeMachine(machine);
+    const row = { id: this.newId(name), name, device, machine };
+    this.parts.store.savePlotter(row);
+    this.rows.set(row.id, row);
+    const port = this.open(row);
+    this.announce();
     return port.snapshot();
   }
 
@@ -126,14 +124,14 @@ export class PlotterRegistry {
    * A new device makes it reconnect. Throws `busy` for a new device or machine while a job is being plotted.
    */
   patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
-    return this.#inTurn(() => this.#patch(id, patch, use));
+    return this.inTurn(() => this.patchNow(id, patch, use));
   }
 
-  async #patch(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
-    const { row, port } = this.#find(id);
+  private async patchNow(id: string, patch: PlotterPatch, use: PlotterUse): Promise<Plotter> {
+    const { row, port } = this.find(id);
     const { name = row.name, device = row.device, machine = row.machine } = patch;
-    this.#mustBeFree(patch.name ?? null, patch.device ?? null, id);
-    if (typeof patch.machine === "string") this.#mustBeMachine(patch.machine);
+    this.mustBeFree(patch.name ?? null, patch.device ?? null, id);
+    if (typeof patch.machine === "string") this.mustBeMachine(patch.machine);
     const isMoved = device !== row.device;
     const isOther = machine !== row.machine;
     if ((isMoved || isOther) && use.isPlotterBusy(id)) {
@@ -142,87 +140,87 @@ export class PlotterRegistry {
     const next = { id, name, device, machine };
     // A device that was set for this run only is not stored.
     const storedDevice =
-      patch.device ?? this.#parts.store.plotters().find((one) => one.id === id)?.device ?? device;
-    this.#parts.store.savePlotter({ ...next, device: storedDevice });
-    this.#rows.set(id, next);
+      patch.device ?? this.parts.store.plotters().find((one) => one.id === id)?.device ?? device;
+    this.parts.store.savePlotter({ ...next, device: storedDevice });
+    this.rows.set(id, next);
     if (isMoved) {
       await port.close();
-      if (!this.#isClosed) this.#open(next);
+      if (!this.isClosed) this.open(next);
     } else {
       if (isOther) port.useMachine(machine, this.settingsOf(id).settings);
       if (name !== null) port.rename(name);
     }
-    this.#announce();
-    return this.#find(id).port.snapshot();
+    this.announce();
+    return this.find(id).port.snapshot();
   }
 
   /** The plotter as it is stored. */
   stored(id: string): PlotterRow | undefined {
-    return this.#rows.get(id);
+    return this.rows.get(id);
   }
 
   /** Closes the plotter and connects it again. Throws `busy` while a job is being plotted. */
   reconnect(id: string, use: PlotterUse): Promise<Plotter> {
-    return this.#inTurn(async () => {
-      const { row, port } = this.#find(id);
+    return this.inTurn(async () => {
+      const { row, port } = this.find(id);
       if (use.isPlotterBusy(id)) {
         throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
       }
       await port.close();
-      if (!this.#isClosed) this.#open(row);
-      this.#announce();
-      return this.#find(id).port.snapshot();
+      if (!this.isClosed) this.open(row);
+      this.announce();
+      return this.find(id).port.snapshot();
     });
   }
 
   /** Throws `conflict` while it has jobs that have not ended, and for the last plotter. */
   remove(id: string, use: PlotterUse): Promise<void> {
-    return this.#inTurn(() => this.#remove(id, use));
+    return this.inTurn(() => this.removeNow(id, use));
   }
 
-  async #remove(id: string, use: PlotterUse): Promise<void> {
-    const { port } = this.#find(id);
+  private async removeNow(id: string, use: PlotterUse): Promise<void> {
+    const { port } = this.find(id);
     const count = use.liveJobCount(id);
     if (count > 0) {
       const jobs = count === 1 ? "a job" : `${count} jobs`;
       throw new PlotwrightError("conflict", `The plotter has ${jobs}: move them to another one first.`);
     }
-    if (this.#ports.size === 1) throw new PlotwrightError("conflict", "The last plotter can't be removed.");
-    this.#parts.store.removePlotter(id);
-    this.#rows.delete(id);
-    this.#ports.delete(id);
-    this.#announce();
+    if (this.portById.size === 1) throw new PlotwrightError("conflict", "The last plotter can't be removed.");
+    this.parts.store.removePlotter(id);
+    this.rows.delete(id);
+    this.portById.delete(id);
+    this.announce();
     await port.close();
   }
 
   async close(): Promise<void> {
-    this.#isClosed = true;
-    await Promise.all([...this.#ports.values()].map((port) => port.close()));
+    this.isClosed = true;
+    await Promise.all([...this.portById.values()].map((port) => port.close()));
   }
 
-  #inTurn<T>(work: () => Promise<T>): Promise<T> {
-    const done = this.#turn.then(work);
-    this.#turn = done.catch(() => undefined);
+  private inTurn<T>(work: () => Promise<T>): Promise<T> {
+    const done = this.turn.then(work);
+    this.turn = done.catch(() => undefined);
     return done;
   }
 
-  #open(row: PlotterRow): ManagedPlotter {
-    const isTaken = (path: string): boolean => this.#ownerOf(path, row.id) !== undefined;
-    const port = this.#parts.open(row, isTaken, this.settingsOf(row.id).settings);
+  private open(row: PlotterRow): ManagedPlotter {
+    const isTaken = (path: string): boolean => this.ownerOf(path, row.id) !== undefined;
+    const port = this.parts.open(row, isTaken, this.settingsOf(row.id).settings);
     port.onChange(() => {
-      if (this.#ports.get(row.id) !== port) return;
-      this.#parts.announce({ type: "plotter", plotter: port.snapshot() });
+      if (this.portById.get(row.id) !== port) return;
+      this.parts.announce({ type: "plotter", plotter: port.snapshot() });
     });
-    this.#ports.set(row.id, port);
+    this.portById.set(row.id, port);
     return port;
   }
 
-  #announce(): void {
-    this.#parts.announce({ type: "plotters", plotters: this.list() });
+  private announce(): void {
+    this.parts.announce({ type: "plotters", plotters: this.list() });
   }
 
-  #find(id: string): { readonly row: PlotterRow; readonly port: ManagedPlotter } {
-    const [row, port] = [this.#rows.get(id), this.#ports.get(id)];
+  private find(id: string): { readonly row: PlotterRow; readonly port: ManagedPlotter } {
+    const [row, port] = [this.rows.get(id), this.portById.get(id)];
     if (row === undefined || port === undefined) {
       throw new PlotwrightError("not-found", `There is no plotter ${id}.`);
     }
@@ -230,16 +228,16 @@ export class PlotterRegistry {
   }
 
   /** Throws `bad-setting` for an unknown machine id. */
-  #mustBeMachine(machine: string): void {
-    machineOf(this.#parts.withMachine({ ...DEFAULT_PLOT_SETTINGS, machine }));
+  private mustBeMachine(machine: string): void {
+    machineOf(this.parts.withMachine({ ...DEFAULT_PLOT_SETTINGS, machine }));
   }
 
-  #mustBeFree(name: string | null, device: string | null, exceptId: string | null): void {
-    const others = [...this.#rows.values()].filter(({ id }) => id !== exceptId);
+  private mustBeFree(name: string | null, device: string | null, exceptId: string | null): void {
+    const others = [...this.rows.values()].filter(({ id }) => id !== exceptId);
     if (name !== null && others.some((row) => row.name?.toLowerCase() === name.toLowerCase())) {
       throw new PlotwrightError("conflict", `There is already a plotter "${name}". Choose another name.`);
     }
-    const owner = device === null ? undefined : this.#ownerOf(device, exceptId);
+    const owner = device === null ? undefined : this.ownerOf(device, exceptId);
     if (owner !== undefined) {
       throw new PlotwrightError(
         "conflict",
@@ -249,16 +247,16 @@ export class PlotterRegistry {
   }
 
   /** The plotter that is set to this port or connected to it. "virtual" and "auto" may be used by many. */
-  #ownerOf(device: string, exceptId: string | null): PlotterRow | undefined {
+  private ownerOf(device: string, exceptId: string | null): PlotterRow | undefined {
     if (device === "virtual" || device === "auto") return undefined;
-    return [...this.#rows.values()].find(
+    return [...this.rows.values()].find(
       ({ id, device: chosen }) =>
-        id !== exceptId && (chosen === device || this.#ports.get(id)?.snapshot().device === device),
+        id !== exceptId && (chosen === device || this.portById.get(id)?.snapshot().device === device),
     );
   }
 
   /** A readable id for links and scripts. Ids are never reused, since jobs in the history refer to removed plotters. */
-  #newId(name: string): string {
+  private newId(name: string): string {
     const word = name
       .toLowerCase()
       .replace(/[^a-z0-9]+/g, "-")
@@ -266,7 +264,7 @@ export class PlotterRegistry {
     let nowMs = Date.now();
     const id = (): string => `${word === "" ? "plotter" : word}-${nowMs.toString(36)}`;
     // Different names may have the same word: "左" and "右" have none.
-    while (this.#rows.has(id())) nowMs++;
+    while (this.rows.has(id())) nowMs++;
     return id();
   }
 }

@@ -5,7 +5,7 @@ import type { PlotChange } from "./plotter-port.js";
 export class RunSettings {
   /** How many changes were made so far. */
   changeCount = 0;
-  #speedPct = 100;
+  private speedPct = 100;
 
   constructor(public current: PlotSettings) {}
 
@@ -15,13 +15,13 @@ export class RunSettings {
       pen: pen ?? this.current.pen,
       motion: motion ?? this.current.motion,
     };
-    this.#speedPct = speedPct ?? this.#speedPct;
+    this.speedPct = speedPct ?? this.speedPct;
     this.changeCount++;
   }
 
   /** The settings for planning, with the speeds scaled by `speedPct`. */
   get planned(): PlotSettings {
-    const factor = this.#speedPct / 100;
+    const factor = this.speedPct / 100;
     if (factor === 1) return this.current;
     const { draw, travel, layers = {} } = this.current.motion;
     const scaled = <T extends { readonly speedMmPerS?: number | undefined }>(limits: T): T =>

@@ -16,34 +16,32 @@ interface SupplyEvents {
 }
 
 export class SupplyWatch {
-  #isLow = false;
-  #wasReadLow = false;
-  #machine: Machine | null = null;
-  #cancel: (() => void) | null = null;
-  #released: Promise<void> = Promise.resolve();
-  readonly #clock: Clock;
-  readonly #events: SupplyEvents;
+  private isLowNow = false;
+  private wasReadLow = false;
+  private machine: Machine | null = null;
+  private cancel: (() => void) | null = null;
+  private released: Promise<void> = Promise.resolve();
 
-  constructor(clock: Clock, events: SupplyEvents) {
-    this.#clock = clock;
-    this.#events = events;
-  }
+  constructor(
+    private readonly clock: Clock,
+    private readonly events: SupplyEvents,
+  ) {}
 
   get isLow(): boolean {
-    return this.#isLow;
+    return this.isLowNow;
   }
 
   /** Asks this machine from now on, until another is watched or `stop` is called. */
   watch(machine: Machine): void {
     this.stop();
-    this.#isLow = false;
-    this.#machine = machine;
-    this.#askLater(machine);
+    this.isLowNow = false;
+    this.machine = machine;
+    this.askLater(machine);
   }
 
   stop(): void {
-    this.#cancel?.();
-    this.#machine = null;
+    this.cancel?.();
+    this.machine = null;
   }
 
   /**
@@ -52,38 +50,38 @@ export class SupplyWatch {
    */
   read(state: SupplyState): void {
     const isLow = state === "low";
-    if (state === "failed" || (isLow && this.#wasReadLow)) this.#lost(!isLow);
-    this.#wasReadLow = isLow;
+    if (state === "failed" || (isLow && this.wasReadLow)) this.lost(!isLow);
+    this.wasReadLow = isLow;
   }
 
-  #askLater(machine: Machine): void {
-    this.#cancel = this.#clock.after(ASK_EVERY_S, () => {
-      const asked = this.#events.mayAsk() ? this.#ask(machine) : Promise.resolve();
+  private askLater(machine: Machine): void {
+    this.cancel = this.clock.after(ASK_EVERY_S, () => {
+      const asked = this.events.mayAsk() ? this.ask(machine) : Promise.resolve();
       // A lost connection is reported by the machine's own event.
       asked
         .catch(() => undefined)
         .finally(() => {
-          if (this.#machine === machine) this.#askLater(machine);
+          if (this.machine === machine) this.askLater(machine);
         });
     });
   }
 
-  async #ask(machine: Machine): Promise<void> {
-    await this.#released;
+  private async ask(machine: Machine): Promise<void> {
+    await this.released;
     let state = await readSupply(machine);
     if (state === "low") state = await readSupply(machine);
     // After a failure that is known, the board also reports that the supply was low until now.
-    if (state === "low" || (state === "failed" && !this.#isLow)) this.#lost(state === "failed");
-    else if (this.#isLow) {
-      this.#isLow = false;
-      this.#events.restored();
+    if (state === "low" || (state === "failed" && !this.isLowNow)) this.lost(state === "failed");
+    else if (this.isLowNow) {
+      this.isLowNow = false;
+      this.events.restored();
     }
   }
 
-  #lost(isBack: boolean): void {
-    if (this.#isLow) return;
-    this.#isLow = true;
-    this.#released = this.#events.lost(isBack);
+  private lost(isBack: boolean): void {
+    if (this.isLowNow) return;
+    this.isLowNow = true;
+    this.released = this.events.lost(isBack);
   }
 }
 

@@ -34,24 +34,24 @@ export const expectedS = (stats: Job["stats"], ratio: number): number | null =>
 
 /** Measures how long a plot has moved, without the time in which it was held. Times are ISO 8601, as in the job. */
 export class MotionTimer {
-  #since: number | null;
-  #movedMs = 0;
+  private since: number | null;
+  private movedMs = 0;
 
   constructor(nowIso: string) {
-    this.#since = Date.parse(nowIso);
+    this.since = Date.parse(nowIso);
   }
 
   hold(nowIso: string): void {
-    this.#movedMs = this.movedS(nowIso) * 1000;
-    this.#since = null;
+    this.movedMs = this.movedS(nowIso) * 1000;
+    this.since = null;
   }
 
   release(nowIso: string): void {
-    this.#since = Date.parse(nowIso);
+    this.since = Date.parse(nowIso);
   }
 
   movedS(nowIso: string): number {
-    const now = this.#since === null ? 0 : Date.parse(nowIso) - this.#since;
-    return (this.#movedMs + now) / 1000;
+    const now = this.since === null ? 0 : Date.parse(nowIso) - this.since;
+    return (this.movedMs + now) / 1000;
   }
 }

@@ -26,17 +26,15 @@ interface Origin extends Pick<NewQueueJob, "watched" | "sharedId" | "copies"> {
 }
 
 export class JobList {
-  readonly #parts: ListParts;
-  readonly #jobs = new Map<string, Job>();
+  private readonly jobs = new Map<string, Job>();
   /** Jobs whose last change could not be stored, by id, each in its stored state. */
-  readonly #unsaved = new Map<string, Job | null>();
+  private readonly unsaved = new Map<string, Job | null>();
   /** Read from the store when it is needed; null after a change. */
-  #order: readonly string[] | null = null;
-  #retry: ReturnType<typeof setTimeout> | null = null;
+  private storedOrder: readonly string[] | null = null;
+  private retry: ReturnType<typeof setTimeout> | null = null;
 
-  constructor(parts: ListParts) {
-    this.#parts = parts;
-    for (const job of parts.store.jobs()) this.#jobs.set(job.id, job);
+  constructor(private readonly parts: ListParts) {
+    for (const job of parts.store.jobs()) this.jobs.set(job.id, job);
   }
 
   /** Queue order first, then history, newest first. */
@@ -45,14 +43,14 @@ export class JobList {
   }
 
   order(): readonly string[] {
-    this.#order ??= this.#parts.store.order();
-    return this.#order;
+    this.storedOrder ??= this.parts.store.order();
+    return this.storedOrder;
   }
 
   /** The whole queue, and the newest jobs of the history. */
   recent(): JobPage {
     let endedCount = 0;
-    const ids = this.order().filter((id) => !this.#isEnded(id) || ++endedCount <= HISTORY_PAGE);
+    const ids = this.order().filter((id) => !this.isEnded(id) || ++endedCount <= HISTORY_PAGE);
     return { jobs: ids.map((id) => this.get(id)), hasOlderJobs: endedCount > HISTORY_PAGE };
   }
 
@@ -62,24 +60,24 @@ export class JobList {
     const from = after === undefined ? 0 : order.indexOf(this.get(after).id) + 1;
     const older = order
       .slice(from)
-      .filter((id) => this.#isEnded(id) && (plotterId ?? this.get(id).plotterId) === this.get(id).plotterId);
+      .filter((id) => this.isEnded(id) && (plotterId ?? this.get(id).plotterId) === this.get(id).plotterId);
     return {
       jobs: older.slice(0, HISTORY_PAGE).map((id) => this.get(id)),
       hasOlderJobs: older.length > HISTORY_PAGE,
     };
   }
 
-  #isEnded(id: string): boolean {
+  private isEnded(id: string): boolean {
     return ENDED_STATES.includes(this.get(id).state);
   }
 
   has(id: string): boolean {
-    return this.#jobs.has(id);
+    return this.jobs.has(id);
   }
 
   /** Throws `not-found`. */
   get(id: string): Job {
-    const job = this.#jobs.get(id);
+    const job = this.jobs.get(id);
     if (job === undefined) throw new PlotwrightError("not-found", `There is no job ${id}.`);
     return job;
   }
@@ -93,7 +91,7 @@ export class JobList {
     drawing: StoredDrawing,
     { beforeId = null, watched, sharedId, copies = 1 }: Origin = {},
   ): Job {
-    const { store, announce } = this.#parts;
+    const { store, announce } = this.parts;
     const jobs = [job];
     while (jobs.length < copies) jobs.push({ ...job, id: crypto.randomUUID() });
     store.together(() => {
@@ -101,9 +99,9 @@ export class JobList {
       if (watched !== undefined) store.saveSeen(watched);
       if (sharedId !== undefined) store.saveShared(sharedId, job.id);
     });
-    this.#order = null;
+    this.storedOrder = null;
     for (const each of jobs) {
-      this.#jobs.set(each.id, each);
+      this.jobs.set(each.id, each);
       announce({ type: "job", job: each });
     }
     this.announceOrder();
@@ -112,78 +110,78 @@ export class JobList {
 
   /** Returns the job's drawing if no other job uses it, else null. */
   remove(id: string): string | null {
-    const unused = this.#parts.store.removeJob(id);
-    this.#order = null;
-    this.#jobs.delete(id);
-    this.#unsaved.delete(id);
-    this.#parts.announce({ type: "job-removed", id });
+    const unused = this.parts.store.removeJob(id);
+    this.storedOrder = null;
+    this.jobs.delete(id);
+    this.unsaved.delete(id);
+    this.parts.announce({ type: "job-removed", id });
     return unused;
   }
 
   /** `more`: other fields to change in the same step. */
   apply(id: string, event: JobEvent, more: Partial<Job> = {}): Job {
     const before = this.get(id);
-    const after = this.save({ ...applyJobEvent(before, event, this.#parts.nowIso()), ...more });
+    const after = this.save({ ...applyJobEvent(before, event, this.parts.nowIso()), ...more });
     if (ENDED_STATES.includes(after.state) !== ENDED_STATES.includes(before.state)) this.announceOrder();
     return after;
   }
 
   save(job: Job): Job {
-    const before = this.#jobs.get(job.id);
+    const before = this.jobs.get(job.id);
     try {
-      return this.#write(job);
+      return this.write(job);
     } catch (error) {
-      if (before && isOnPlotter(before) && isDiskFault(error)) return this.#saveLater(job);
+      if (before && isOnPlotter(before) && isDiskFault(error)) return this.saveLater(job);
       throw error;
     }
   }
 
   /** Adds the message about the full disk to a job that is on a plotter, unless it has the message already. */
   diskIsFull(id: string): void {
-    if (!this.#unsaved.has(id)) this.#saveLater(this.get(id));
+    if (!this.unsaved.has(id)) this.saveLater(this.get(id));
   }
 
   /** Tries once more to store the unsaved jobs. */
   close(): void {
-    this.#saveUnsaved();
-    if (this.#retry !== null) clearTimeout(this.#retry);
+    this.saveUnsaved();
+    if (this.retry !== null) clearTimeout(this.retry);
   }
 
-  #write(job: Job): Job {
-    const { store, announce, withChange, afterChange } = this.#parts;
-    const before = this.#unsaved.get(job.id) ?? this.#jobs.get(job.id) ?? null;
+  private write(job: Job): Job {
+    const { store, announce, withChange, afterChange } = this.parts;
+    const before = this.unsaved.get(job.id) ?? this.jobs.get(job.id) ?? null;
     store.together(() => {
       store.saveJob(job);
       withChange?.(before, job);
     });
-    this.#order = null;
-    this.#unsaved.delete(job.id);
-    this.#jobs.set(job.id, job);
+    this.storedOrder = null;
+    this.unsaved.delete(job.id);
+    this.jobs.set(job.id, job);
     announce({ type: "job", job });
     afterChange?.();
     return job;
   }
 
-  #saveLater(job: Job): Job {
-    if (!this.#unsaved.has(job.id)) this.#unsaved.set(job.id, this.#jobs.get(job.id) ?? null);
+  private saveLater(job: Job): Job {
+    if (!this.unsaved.has(job.id)) this.unsaved.set(job.id, this.jobs.get(job.id) ?? null);
     const announced = { ...job, message: withDiskFull(job.message) };
-    this.#jobs.set(job.id, announced);
-    this.#parts.announce({ type: "job", job: announced });
-    this.#retry ??= setTimeout(() => this.#saveUnsaved(), RETRY_MS);
+    this.jobs.set(job.id, announced);
+    this.parts.announce({ type: "job", job: announced });
+    this.retry ??= setTimeout(() => this.saveUnsaved(), RETRY_MS);
     return announced;
   }
 
-  #saveUnsaved(): void {
-    this.#retry = null;
-    if (this.#unsaved.size === 0) return;
+  private saveUnsaved(): void {
+    this.retry = null;
+    if (this.unsaved.size === 0) return;
     try {
-      for (const id of [...this.#unsaved.keys()]) {
+      for (const id of [...this.unsaved.keys()]) {
         const job = this.get(id);
-        this.#write({ ...job, message: withoutDiskFull(job.message) });
+        this.write({ ...job, message: withoutDiskFull(job.message) });
       }
       this.announceOrder();
     } catch {
-      this.#retry = setTimeout(() => this.#saveUnsaved(), RETRY_MS);
+      this.retry = setTimeout(() => this.saveUnsaved(), RETRY_MS);
     }
   }
 
@@ -198,21 +196,21 @@ export class JobList {
    * because other plotters may be plotting.
    */
   updateExpected(plotterId: string, ratio: number): void {
-    const expectedS = this.#parts.store.saveExpected(plotterId, ratio);
+    const expectedS = this.parts.store.saveExpected(plotterId, ratio);
     const ids = Object.keys(expectedS);
-    for (const id of ids) this.#jobs.set(id, { ...this.get(id), expectedS: expectedS[id] ?? null });
-    if (ids.length > 0) this.#parts.announce({ type: "expected", expectedS });
+    for (const id of ids) this.jobs.set(id, { ...this.get(id), expectedS: expectedS[id] ?? null });
+    if (ids.length > 0) this.parts.announce({ type: "expected", expectedS });
   }
 
   /** Changes memory only, without storing or announcing. */
   progressed(id: string, progress: Pick<Job, "progress" | "elapsedS" | "remainingS">): void {
-    this.#jobs.set(id, { ...this.get(id), ...progress });
+    this.jobs.set(id, { ...this.get(id), ...progress });
   }
 
   /** Call after the order was changed in the store. */
   announceOrder(): void {
-    this.#order = null;
-    this.#parts.announce({ type: "order", ids: this.recent().jobs.map(({ id }) => id) });
+    this.storedOrder = null;
+    this.parts.announce({ type: "order", ids: this.recent().jobs.map(({ id }) => id) });
   }
 
   /** Throws `conflict` unless the job is queued. `what`: the part to change, as in "Its settings". */

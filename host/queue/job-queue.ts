@@ -32,78 +32,76 @@ const MAX_SETTINGS_BYTES = 100_000;
 export class JobQueue {
   /** The jobs that are on a plotter: pause, resume, cancel and the like. */
   readonly plots: RunningPlots;
-  readonly #parts: QueueParts;
-  readonly #jobs: JobList;
-  readonly #settings: SettingsOfJobs;
+  private readonly jobs: JobList;
+  private readonly jobSettings: SettingsOfJobs;
   /** Starts in progress, by job id. */
-  readonly #beginning = new Map<string, Promise<Job | string>>();
+  private readonly beginning = new Map<string, Promise<Job | string>>();
 
   /** Loads the stored jobs; a job that was plotting when the server ended becomes interrupted. */
-  constructor(parts: QueueParts) {
-    this.#parts = parts;
-    this.#jobs = new JobList(parts);
-    this.#settings = new SettingsOfJobs(parts, this.#jobs);
-    this.plots = new RunningPlots(parts, this.#jobs, this.#settings, (job) => this.#done(job));
+  constructor(private readonly parts: QueueParts) {
+    this.jobs = new JobList(parts);
+    this.jobSettings = new SettingsOfJobs(parts, this.jobs);
+    this.plots = new RunningPlots(parts, this.jobs, this.jobSettings, (job) => this.done(job));
   }
 
   /** Queue order first, then history, newest first. */
   list(): Job[] {
-    return this.#jobs.list();
+    return this.jobs.list();
   }
 
   /** The whole queue, and the newest 50 jobs of the history. */
   recent(): JobPage {
-    return this.#jobs.recent();
+    return this.jobs.recent();
   }
 
   /** The next 50 jobs of the history. Throws `not-found` if there is no job `after`. */
   older(wanted: HistoryRequest): JobPage {
-    return this.#jobs.older(wanted);
+    return this.jobs.older(wanted);
   }
 
   /** Throws `not-found`. */
   get(id: string): Job {
-    return this.#jobs.get(id);
+    return this.jobs.get(id);
   }
 
   /** The settings of one plotter; default: the first one. */
   settings(plotterId = this.firstPlotter()): QueueSettings {
-    const stored = queueSettingsSchema.safeParse(this.#parts.store.setting(settingOf(plotterId)));
+    const stored = queueSettingsSchema.safeParse(this.parts.store.setting(settingOf(plotterId)));
     return stored.success ? stored.data : { runOn: false };
   }
 
   /** The settings from which jobs and manual moves of a plotter start. */
   settingsOf(plotterId: string): SettingsOfPlotter {
-    return this.#settings.of(plotterId);
+    return this.jobSettings.of(plotterId);
   }
 
   /** The settings of a manual move: the plotter's, with what the caller gives. Throws `bad-setting`. */
   handSettings(plotterId: string, { settings, profile }: HandMoveRequest = {}): PlotSettings {
-    const whole = this.#settings.with(plotterId, settings).settings;
+    const whole = this.jobSettings.with(plotterId, settings).settings;
     if (profile === undefined) return whole;
     const motion = motionForSprings(whole.motion, machineOf(whole).springs ?? null, profile.springs ?? null);
     return { ...whole, machine: profile.id, customMachine: profile, motion };
   }
 
   allSettings(): Record<string, QueueSettings> {
-    return Object.fromEntries([...this.#parts.plotters.keys()].map((id) => [id, this.settings(id)]));
+    return Object.fromEntries([...this.parts.plotters.keys()].map((id) => [id, this.settings(id)]));
   }
 
   saveSettings(settings: QueueSettings, plotterId = this.firstPlotter()): QueueSettings {
-    findPlotter(this.#parts.plotters, plotterId);
-    this.#parts.store.saveSetting(settingOf(plotterId), settings);
-    if (plotterId === this.firstPlotter()) this.#parts.announce({ type: "queue", queue: settings });
-    this.#parts.announce({ type: "queues", queues: this.allSettings() });
+    findPlotter(this.parts.plotters, plotterId);
+    this.parts.store.saveSetting(settingOf(plotterId), settings);
+    if (plotterId === this.firstPlotter()) this.parts.announce({ type: "queue", queue: settings });
+    this.parts.announce({ type: "queues", queues: this.allSettings() });
     return settings;
   }
 
   /** Adds a queued copy with the same drawing and settings: directly after a queued job, otherwise last. */
   duplicate(id: string): Job {
     const job = this.get(id);
-    const waiting = this.#jobs.order().filter((queuedId) => this.get(queuedId).state === "queued");
+    const waiting = this.jobs.order().filter((queuedId) => this.get(queuedId).state === "queued");
     const beforeId = job.state === "queued" ? (waiting[waiting.indexOf(id) + 1] ?? null) : null;
-    const copy = this.#newJob({ ...job, plotterId: this.#existingPlotter(job) });
-    return this.#jobs.insert(copy, { id: this.#parts.store.drawingOf(id), bytes: 0 }, { beforeId });
+    const copy = this.newJob({ ...job, plotterId: this.existingPlotter(job) });
+    return this.jobs.insert(copy, { id: this.parts.store.drawingOf(id), bytes: 0 }, { beforeId });
   }
 
   /**
@@ -112,23 +110,23 @@ export class JobQueue {
    */
   async add(wanted: NewQueueJob, requester: Requester = {}): Promise<Job> {
     try {
-      return await this.#add(wanted, requester);
+      return await this.addJob(wanted, requester);
     } catch (error) {
-      await this.#discard(wanted.drawing.id);
+      await this.discard(wanted.drawing.id);
       throw error;
     }
   }
 
-  async #add(wanted: NewQueueJob, requester: Requester): Promise<Job> {
+  private async addJob(wanted: NewQueueJob, requester: Requester): Promise<Job> {
     const { name, drawing, from, plotterId = this.firstPlotter() } = wanted;
-    findPlotter(this.#parts.plotters, plotterId);
+    findPlotter(this.parts.plotters, plotterId);
     const { settings, note } =
       wanted.sharedId === undefined
-        ? this.#settings.with(plotterId, wanted.settings)
-        : this.#settings.withForeign(plotterId, wanted.settings);
+        ? this.jobSettings.with(plotterId, wanted.settings)
+        : this.jobSettings.withForeign(plotterId, wanted.settings);
     mustFit(settings);
-    const firmware = this.#firmwareOf(plotterId, settings);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing.id, settings, firmware, requester);
+    const firmware = this.firmwareOf(plotterId, settings);
+    const { stats, warnings } = await this.parts.planning.measure(drawing.id, settings, firmware, requester);
     if (from && from.strokeIndex >= stats.strokeCount) {
       throw new PlotwrightError(
         "bad-setting",
@@ -136,10 +134,10 @@ export class JobQueue {
       );
     }
     // The plotter may have been removed meanwhile.
-    findPlotter(this.#parts.plotters, plotterId);
-    const job = this.#newJob({ plotterId, name, settings, stats, warnings: noted(note, warnings) });
+    findPlotter(this.parts.plotters, plotterId);
+    const job = this.newJob({ plotterId, name, settings, stats, warnings: noted(note, warnings) });
     const { watched, sharedId, copies } = wanted;
-    return this.#jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId, copies });
+    return this.jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId, copies });
   }
 
   /**
@@ -148,66 +146,66 @@ export class JobQueue {
    */
   async patch(id: string, patch: JobPatch, requester: Requester = {}): Promise<Job> {
     const { name, settings, plotterId } = patch;
-    if (plotterId !== undefined) this.#jobs.mustBeQueued(id, "Its plotter");
-    if (settings !== undefined) this.#jobs.mustBeQueued(id, "Its settings");
-    if (plotterId !== undefined) findPlotter(this.#parts.plotters, plotterId);
-    const planned = await this.#remeasured(id, patch, requester);
+    if (plotterId !== undefined) this.jobs.mustBeQueued(id, "Its plotter");
+    if (settings !== undefined) this.jobs.mustBeQueued(id, "Its settings");
+    if (plotterId !== undefined) findPlotter(this.parts.plotters, plotterId);
+    const planned = await this.remeasured(id, patch, requester);
     // The plotter may have been removed meanwhile.
-    if (plotterId !== undefined) findPlotter(this.#parts.plotters, plotterId);
+    if (plotterId !== undefined) findPlotter(this.parts.plotters, plotterId);
     const job = {
       ...this.get(id),
       ...planned,
       ...(name === undefined ? {} : { name }),
       ...(plotterId === undefined ? {} : { plotterId }),
     };
-    return this.#jobs.save(job.state === "queued" ? { ...job, expectedS: this.#expectedS(job) } : job);
+    return this.jobs.save(job.state === "queued" ? { ...job, expectedS: this.expectedS(job) } : job);
   }
 
   /** The figures of a job after its settings or plotter change; empty if they stay the same. */
-  async #remeasured(id: string, patch: JobPatch, requester: Requester): Promise<Partial<Job>> {
+  private async remeasured(id: string, patch: JobPatch, requester: Requester): Promise<Partial<Job>> {
     const { settings, plotterId } = patch;
     if (settings === undefined && plotterId === undefined) return {};
     const job = this.get(id);
-    const { settings: wanted, note } = this.#settings.changed(job, patch);
+    const { settings: wanted, note } = this.jobSettings.changed(job, patch);
     mustFit(wanted);
     if (settings !== undefined) mustKeepStrokes(job, wanted);
-    const firmware = this.#firmwareOf(plotterId ?? job.plotterId, wanted);
-    const before = this.#firmwareOf(job.plotterId, wanted);
+    const firmware = this.firmwareOf(plotterId ?? job.plotterId, wanted);
+    const before = this.firmwareOf(job.plotterId, wanted);
     if (isSameJson(job.settings, wanted) && isPlannedAlike(machineOf(wanted), wanted.pen, firmware, before)) {
       return {};
     }
-    const drawing = this.#parts.store.drawingOf(id);
-    const { stats, warnings } = await this.#parts.planning.measure(drawing, wanted, firmware, requester);
-    mustBeSame(job, this.#jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings"));
+    const drawing = this.parts.store.drawingOf(id);
+    const { stats, warnings } = await this.parts.planning.measure(drawing, wanted, firmware, requester);
+    mustBeSame(job, this.jobs.mustBeQueued(id, settings === undefined ? "Its plotter" : "Its settings"));
     return { settings: wanted, stats, warnings: noted(note, warnings), remainingS: stats.durationS };
   }
 
   /** The firmware of the plotter's board; null if it is unknown, or if the settings' machine has another controller. */
-  #firmwareOf(plotterId: string, settings: PlotSettings): string | null {
-    return firmwareFor(machineOf(settings), this.#parts.plotters.get(plotterId)?.snapshot().firmware ?? null);
+  private firmwareOf(plotterId: string, settings: PlotSettings): string | null {
+    return firmwareFor(machineOf(settings), this.parts.plotters.get(plotterId)?.snapshot().firmware ?? null);
   }
 
   move(id: string, beforeId: string | null): void {
-    this.#jobs.mustBeQueued(id, "Its place");
-    this.#parts.store.moveJob(id, beforeId);
-    this.#jobs.announceOrder();
+    this.jobs.mustBeQueued(id, "Its place");
+    this.parts.store.moveJob(id, beforeId);
+    this.jobs.announceOrder();
   }
 
   /** Puts an ended job at the end of the queue again, with the same settings. */
   requeue(id: string): Job {
     const job = this.get(id);
     const { stats } = job;
-    const plotterId = this.#existingPlotter(job);
+    const plotterId = this.existingPlotter(job);
     // Check first: a job that is already queued must not lose its place in the queue.
-    applyJobEvent(job, { type: "requeue" }, this.#parts.nowIso());
-    this.#parts.store.moveJob(id, null);
-    return this.#jobs.apply(
+    applyJobEvent(job, { type: "requeue" }, this.parts.nowIso());
+    this.parts.store.moveJob(id, null);
+    return this.jobs.apply(
       id,
       { type: "requeue" },
       {
         plotterId,
         remainingS: stats?.durationS ?? null,
-        expectedS: this.#expectedS({ plotterId, stats }),
+        expectedS: this.expectedS({ plotterId, stats }),
       },
     );
   }
@@ -217,27 +215,27 @@ export class JobQueue {
     if (isOnPlotter(job)) {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}. Cancel it before removing it.`);
     }
-    const unused = this.#jobs.remove(id);
-    if (unused !== null) await this.#discard(unused);
+    const unused = this.jobs.remove(id);
+    if (unused !== null) await this.discard(unused);
   }
 
   /** Not an error: the job is gone or was not added, and the next start clears away a file that is left. */
-  async #discard(drawingId: string): Promise<void> {
+  private async discard(drawingId: string): Promise<void> {
     try {
-      await this.#parts.files.remove(drawingId);
+      await this.parts.files.remove(drawingId);
     } catch (error) {
-      this.#parts.log?.(`the drawing ${drawingId} could not be removed: ${(error as Error).message}`);
+      this.parts.log?.(`the drawing ${drawingId} could not be removed: ${(error as Error).message}`);
     }
   }
 
   /** Id of the job's stored drawing. */
   drawingOf(id: string): string {
-    return this.#parts.store.drawingOf(id);
+    return this.parts.store.drawingOf(id);
   }
 
   /** Whether the job is on a plotter now; false for an unknown id. */
   isRunning(id: string): boolean {
-    return this.#jobs.has(id) && isOnPlotter(this.get(id));
+    return this.jobs.has(id) && isOnPlotter(this.get(id));
   }
 
   /** Number of a plotter's jobs that have not ended. */
@@ -256,7 +254,7 @@ export class JobQueue {
    * job.
    */
   async start(id: string): Promise<Job> {
-    const started = await this.#begin(id);
+    const started = await this.begin(id);
     if (typeof started === "string") throw new PlotwrightError("conflict", started);
     return started;
   }
@@ -266,7 +264,7 @@ export class JobQueue {
    * starts.
    */
   async plotterSettled(id: string): Promise<void> {
-    await findPlotter(this.#parts.plotters, this.get(id).plotterId).settled();
+    await findPlotter(this.parts.plotters, this.get(id).plotterId).settled();
   }
 
   async change(id: string, change: JobChange): Promise<Job> {
@@ -280,16 +278,16 @@ export class JobQueue {
   }
 
   /** Returns the job, or why it must not start here. Two calls at the same time share one start. */
-  #begin(id: string): Promise<Job | string> {
-    const running = this.#beginning.get(id);
+  private begin(id: string): Promise<Job | string> {
+    const running = this.beginning.get(id);
     if (running !== undefined) return running;
-    const begun = this.#claimAndStart(id).finally(() => this.#beginning.delete(id));
-    this.#beginning.set(id, begun);
+    const begun = this.claimAndStart(id).finally(() => this.beginning.delete(id));
+    this.beginning.set(id, begun);
     return begun;
   }
 
-  async #claimAndStart(id: string): Promise<Job | string> {
-    const { claims } = this.#parts;
+  private async claimAndStart(id: string): Promise<Job | string> {
+    const { claims } = this.parts;
     if (claims === undefined) return this.plots.start(id);
     this.plots.mustBeStartable(id);
     const refusal = await claims.claim(id);
@@ -303,13 +301,13 @@ export class JobQueue {
     }
   }
 
-  #done(job: Job): void {
+  private done(job: Job): void {
     const { plotterId } = job;
-    this.#jobs.updateExpected(plotterId, timeRatio(this.list(), plotterId));
+    this.jobs.updateExpected(plotterId, timeRatio(this.list(), plotterId));
     if (!this.settings(plotterId).runOn || this.plots.isClosing) return;
     // A full disk stores neither the start nor the message why the job did not start. That must not end the server.
-    this.#startNext(plotterId).catch((error: unknown) => {
-      this.#parts.log?.(
+    this.startNext(plotterId).catch((error: unknown) => {
+      this.parts.log?.(
         `the next job can't be started: ${error instanceof Error ? error.message : String(error)}`,
       );
     });
@@ -319,41 +317,41 @@ export class JobQueue {
    * Starts the next queued job of a plotter whose queue runs automatically. A job that another server may have is
    * skipped, and the next one starts.
    */
-  async #startNext(plotterId: string): Promise<void> {
+  private async startNext(plotterId: string): Promise<void> {
     const waiting = this.list().filter((job) => job.plotterId === plotterId && job.state === "queued");
     for (const { id } of waiting) {
       try {
-        const begun = await this.#begin(id);
+        const begun = await this.begin(id);
         if (typeof begun !== "string") return;
-        this.#note(id, begun);
+        this.note(id, begun);
       } catch (error) {
-        this.#note(id, error instanceof Error ? error.message : String(error));
+        this.note(id, error instanceof Error ? error.message : String(error));
         return;
       }
     }
   }
 
   /** Does nothing if the job was removed meanwhile or the server is closing. */
-  #note(id: string, message: string): void {
-    if (!this.plots.isClosing && this.#jobs.has(id)) this.#jobs.note(id, message);
+  private note(id: string, message: string): void {
+    if (!this.plots.isClosing && this.jobs.has(id)) this.jobs.note(id, message);
   }
 
-  #newJob(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {
-    return { ...queuedJob(from, this.#parts.nowIso()), expectedS: this.#expectedS(from) };
+  private newJob(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {
+    return { ...queuedJob(from, this.parts.nowIso()), expectedS: this.expectedS(from) };
   }
 
-  #expectedS({ plotterId, stats }: Pick<Job, "plotterId" | "stats">): number | null {
+  private expectedS({ plotterId, stats }: Pick<Job, "plotterId" | "stats">): number | null {
     return expectedS(stats, timeRatio(this.list(), plotterId));
   }
 
   /** The job's plotter, or the first one if that plotter was removed. */
-  #existingPlotter({ plotterId }: Job): string {
-    return this.#parts.plotters.has(plotterId) ? plotterId : this.firstPlotter();
+  private existingPlotter({ plotterId }: Job): string {
+    return this.parts.plotters.has(plotterId) ? plotterId : this.firstPlotter();
   }
 
   /** Id of the plotter for jobs that name none. */
   firstPlotter(): string {
-    const first = [...this.#parts.plotters.keys()][0];
+    const first = [...this.parts.plotters.keys()][0];
     if (first === undefined) throw new PlotwrightError("no-board", "There is no plotter.");
     return first;
   }

@@ -14,19 +14,16 @@ import type { QueueParts } from "./queue-parts.js";
 type Parts = Pick<QueueParts, "settingsOf" | "withMachine">;
 
 export class SettingsOfJobs {
-  readonly #parts: Parts;
-  readonly #jobs: JobList;
-
-  constructor(parts: Parts, jobs: JobList) {
-    this.#parts = parts;
-    this.#jobs = jobs;
-  }
+  constructor(
+    private readonly parts: Parts,
+    private readonly jobs: JobList,
+  ) {}
 
   /** The settings of a plotter, for jobs and manual moves. */
   of(plotterId: string): SettingsOfPlotter {
-    const last = this.#lastOn(plotterId);
+    const last = this.lastOn(plotterId);
     return (
-      this.#parts.settingsOf?.(plotterId, last) ??
+      this.parts.settingsOf?.(plotterId, last) ??
       settingsOfPlotter({ machine: null, own: undefined, last }, this.withMachine)
     );
   }
@@ -58,10 +55,10 @@ export class SettingsOfJobs {
   }
 
   readonly withMachine = (settings: PlotSettings): PlotSettings =>
-    this.#parts.withMachine?.(settings) ?? settings;
+    this.parts.withMachine?.(settings) ?? settings;
 
-  #lastOn(plotterId: string): PlotSettings | undefined {
-    const begun = this.#jobs
+  private lastOn(plotterId: string): PlotSettings | undefined {
+    const begun = this.jobs
       .list()
       .filter((job) => job.plotterId === plotterId && job.startedAt !== null)
       .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""));

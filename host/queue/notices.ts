@@ -14,46 +14,44 @@ const SETTING = "notices";
 const MAX_NOTICES = 50;
 
 export class Notices {
-  readonly #parts: NoticeParts;
-  #list: readonly Notice[];
+  private kept: readonly Notice[];
 
-  constructor(parts: NoticeParts) {
-    this.#parts = parts;
+  constructor(private readonly parts: NoticeParts) {
     const stored = z.array(noticeSchema).safeParse(parts.store.setting(SETTING));
-    this.#list = stored.success ? stored.data : [];
+    this.kept = stored.success ? stored.data : [];
   }
 
   /** Oldest first. */
   list(): Notice[] {
-    return [...this.#list];
+    return [...this.kept];
   }
 
   /** Returns its id. */
   add(message: string): string {
-    const notice = { id: crypto.randomUUID(), at: this.#parts.nowIso(), message };
-    const list = [...this.#list, notice].slice(-MAX_NOTICES);
+    const notice = { id: crypto.randomUUID(), at: this.parts.nowIso(), message };
+    const list = [...this.kept, notice].slice(-MAX_NOTICES);
     try {
-      this.#save(list);
+      this.save(list);
     } catch {
       // On a full disk the notice is still shown, until the server ends.
-      this.#list = list;
+      this.kept = list;
     }
-    this.#parts.announce({ type: "notice", notice });
+    this.parts.announce({ type: "notice", notice });
     return notice.id;
   }
 
   /** Throws `not-found`. */
   remove(id: string): void {
-    const left = this.#list.filter((notice) => notice.id !== id);
-    if (left.length === this.#list.length) {
+    const left = this.kept.filter((notice) => notice.id !== id);
+    if (left.length === this.kept.length) {
       throw new PlotwrightError("not-found", `There is no notice ${id}.`);
     }
-    this.#save(left);
-    this.#parts.announce({ type: "notice-removed", id });
+    this.save(left);
+    this.parts.announce({ type: "notice-removed", id });
   }
 
-  #save(list: readonly Notice[]): void {
-    this.#parts.store.saveSetting(SETTING, list);
-    this.#list = list;
+  private save(list: readonly Notice[]): void {
+    this.parts.store.saveSetting(SETTING, list);
+    this.kept = list;
   }
 }

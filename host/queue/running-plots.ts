@@ -55,128 +55,125 @@ const MAX_NOTES = 5;
 type PlotEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
 
 export class RunningPlots {
-  readonly #parts: QueueParts;
-  readonly #jobs: JobList;
-  readonly #settings: SettingsOfJobs;
-  readonly #done: (job: Job) => void;
   /** By plotter id. */
-  readonly #running = new Map<string, Running>();
-  #closing = false;
-  #lastFault: string | null = null;
+  private readonly running = new Map<string, Running>();
+  private closing = false;
+  private lastFault: string | null = null;
 
   /**
    * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
    * plot.
    */
-  constructor(parts: QueueParts, jobs: JobList, settings: SettingsOfJobs, done: (job: Job) => void) {
-    this.#parts = parts;
-    this.#jobs = jobs;
-    this.#settings = settings;
-    this.#done = done;
-    for (const job of jobs.list()) if (isOnPlotter(job)) this.#interrupt(job.id, this.#stopped);
+  constructor(
+    private readonly parts: QueueParts,
+    private readonly jobs: JobList,
+    private readonly settings: SettingsOfJobs,
+    private readonly done: (job: Job) => void,
+  ) {
+    for (const job of jobs.list()) if (isOnPlotter(job)) this.interrupt(job.id, this.stopped);
   }
 
-  get #stopped(): string {
-    return this.#parts.stoppedMessage ?? SERVER_STOPPED;
+  private get stopped(): string {
+    return this.parts.stoppedMessage ?? SERVER_STOPPED;
   }
 
   isBusy(plotterId: string): boolean {
-    return this.#running.has(plotterId);
+    return this.running.has(plotterId);
   }
 
   get isClosing(): boolean {
-    return this.#closing;
+    return this.closing;
   }
 
   /** Throws the errors that `start` would throw. */
   mustBeStartable(id: string): void {
-    this.#freePlotter(id);
-    applyJobEvent(this.#jobs.get(id), { type: "start" }, this.#parts.nowIso());
+    this.freePlotter(id);
+    applyJobEvent(this.jobs.get(id), { type: "start" }, this.parts.nowIso());
   }
 
   /** Throws `busy` while the job's plotter is plotting another job. */
   start(id: string): Job {
-    const plotter = this.#freePlotter(id);
+    const plotter = this.freePlotter(id);
     // The journal of an earlier plot of this job, which was interrupted and queued again.
-    this.#parts.store.clearJournal(id);
-    const started = this.#jobs.apply(id, { type: "start" }, this.#settings.onPlotter(this.#jobs.get(id)));
-    this.#begin(plotter, started);
+    this.parts.store.clearJournal(id);
+    const started = this.jobs.apply(id, { type: "start" }, this.settings.onPlotter(this.jobs.get(id)));
+    this.begin(plotter, started);
     return started;
   }
 
   /** Starts an interrupted or cancelled job at its place, held: nothing moves until it is resumed. */
   recover(id: string): Job {
-    const plotter = this.#freePlotter(id);
-    const { place: from } = this.#jobs.get(id);
-    const { board } = this.#journal(id) ?? {};
+    const plotter = this.freePlotter(id);
+    const { place: from } = this.jobs.get(id);
+    const { board } = this.journal(id) ?? {};
     const found = plotter.snapshot();
-    const job = this.#jobs.apply(
+    const job = this.jobs.apply(
       id,
       { type: "recover" },
-      { ...this.#settings.onPlotter(this.#jobs.get(id)), place: from ?? { strokeIndex: 0, alongMm: 0 } },
+      { ...this.settings.onPlotter(this.jobs.get(id)), place: from ?? { strokeIndex: 0, alongMm: 0 } },
     );
-    this.#keepPlace({ id, place: from });
-    this.#begin(plotter, job).timer.hold(this.#parts.nowIso());
+    this.keepPlace({ id, place: from });
+    this.begin(plotter, job).timer.hold(this.parts.nowIso());
     const isOther = board !== undefined && isOtherBoard(board, found);
     const isLost = isOther || found.xMm === null;
     const place = isLost
       ? `${isOther ? OTHER_BOARD : "The board has lost its position"}: push the carriage to home by hand before you resume. The line may overlap a little where it continues.`
       : "The board still knows its position. Check it with the pen up, then resume.";
-    return this.#jobs.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
+    return this.jobs.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
   }
 
   /** Changes pen heights and speeds of a job that is plotting or held. */
   async change(id: string, change: JobChange): Promise<Job> {
-    const run = this.#liveRun(id, ["plotting", "paused"], "changed");
+    const run = this.liveRun(id, ["plotting", "paused"], "changed");
     const { pen, motion, speedPct } = change;
-    const whole = this.#settings.changed(this.#jobs.get(id), { settings: { pen, motion } }).settings;
+    const whole = this.settings.changed(this.jobs.get(id), { settings: { pen, motion } }).settings;
     const now = { ...(pen && { pen: whole.pen }), ...(motion && { motion: whole.motion }) };
     await run.change({ ...now, speedPct });
-    const job = this.#jobs.get(id);
+    const job = this.jobs.get(id);
     const settings = { ...job.settings, ...now };
-    return this.#jobs.save({ ...job, settings, speedPct: speedPct ?? job.speedPct });
+    return this.jobs.save({ ...job, settings, speedPct: speedPct ?? job.speedPct });
   }
 
   /** Stops without slowing down; afterwards the job is held. While it is still being planned nothing moves. */
   async emergencyStop(id: string): Promise<Job> {
-    const running = this.#runningOf(id, ["plotting", "paused"], "stopped");
+    const running = this.runningOf(id, ["plotting", "paused"], "stopped");
     if (running.run === null) running.beginsHeld = true;
     else await running.run.emergencyStop();
-    return this.#jobs.get(id);
+    return this.jobs.get(id);
   }
 
   /** Moves the place from which a held job will resume. */
   movePlace(id: string, by: MovePlace): Job {
-    const place = this.#liveRun(id, ["paused"], "moved along").moveHoldPlace(by);
-    return this.#jobs.save({ ...this.#jobs.get(id), place: jobPlace(place) });
+    const place = this.liveRun(id, ["paused"], "moved along").moveHoldPlace(by);
+    return this.jobs.save({ ...this.jobs.get(id), place: jobPlace(place) });
   }
 
   /** Travels to the place of a held job with the pen up. */
   async checkPlace(id: string): Promise<Job> {
-    await this.#liveRun(id, ["paused"], "checked").checkHoldPlace();
-    return this.#jobs.get(id);
+    await this.liveRun(id, ["paused"], "checked").checkHoldPlace();
+    return this.jobs.get(id);
   }
 
   pause(id: string): Job {
-    const running = this.#runningOf(id, ["plotting"], "paused");
+    const running = this.runningOf(id, ["plotting"], "paused");
     if (running.run === null) running.beginsHeld = true;
-    else this.#ask(running, running.run.pause());
-    return this.#jobs.note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
+    else this.ask(running, running.run.pause());
+    return this.jobs.note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
   }
 
   resume(id: string): Job {
-    const running = this.#runningOf(id, ["paused"], "resumed");
+    const running = this.runningOf(id, ["paused"], "resumed");
     if (running.run === null) running.beginsHeld = false;
-    else this.#ask(running, this.#resume(running, running.run));
-    return this.#jobs.note(id, "Resuming.");
+    else this.ask(running, this.resumeRun(running, running.run));
+    return this.jobs.note(id, "Resuming.");
   }
 
   cancel(id: string): Job {
-    const running = this.#running.get(this.#jobs.get(id).plotterId);
-    if (running?.job.id !== id) return this.#cancelled(id);
+    const running = this.running.get(this.jobs.get(id).plotterId);
+    if (running?.job.id !== id) return this.cancelled(id);
     running.abort.abort();
-    if (running.run !== null) this.#ask(running, running.run.cancel());
-    return this.#jobs.note(id, "Cancelling: the pen lifts and goes home.");
+    if (running.run !== null) this.ask(running, running.run.cancel());
+    return this.jobs.note(id, "Cancelling: the pen lifts and goes home.");
   }
 
   /**
@@ -184,18 +181,18 @@ export class RunningPlots {
    * where it is: it must not move until the user resumes it.
    */
   async close(): Promise<void> {
-    this.#closing = true;
-    const running = [...this.#running.values()];
-    for (const one of running) this.#leave(one);
+    this.closing = true;
+    const running = [...this.running.values()];
+    for (const one of running) this.leave(one);
     await Promise.all(running.map(({ finished }) => finished));
-    this.#jobs.close();
+    this.jobs.close();
   }
 
-  #begin(plotter: PlotterPort, job: Job): Running {
+  private begin(plotter: PlotterPort, job: Job): Running {
     const running: Running = {
       job,
       plotter,
-      timer: new MotionTimer(this.#parts.nowIso()),
+      timer: new MotionTimer(this.parts.nowIso()),
       notes: [],
       abort: new AbortController(),
       isLeft: false,
@@ -203,14 +200,14 @@ export class RunningPlots {
       beginsHeld: job.place !== null,
       finished: Promise.resolve(),
     };
-    this.#running.set(plotter.id, running);
-    running.finished = this.#follow(running);
+    this.running.set(plotter.id, running);
+    running.finished = this.follow(running);
     return running;
   }
 
   /** Plots, and applies the end to the job. */
-  async #follow(running: Running): Promise<void> {
-    const end = await this.#plot(running).catch((error: unknown): PlotEnd => {
+  private async follow(running: Running): Promise<void> {
+    const end = await this.plot(running).catch((error: unknown): PlotEnd => {
       const wanted =
         running.abort.signal.aborted && error instanceof PlotwrightError && error.code === "cancelled";
       return wanted
@@ -218,28 +215,28 @@ export class RunningPlots {
         : { kind: "failed", error: error instanceof Error ? error : new Error(String(error)) };
     });
     running.run = null;
-    this.#safely(running.job.id, () => this.#ended(running, end));
+    this.safely(running.job.id, () => this.ended(running, end));
   }
 
-  async #plot(running: Running): Promise<PlotOutcome> {
+  private async plot(running: Running): Promise<PlotOutcome> {
     const { job, plotter, abort } = running;
     const { id, settings, place, speedPct } = job;
     const from = place === null ? null : { stroke: place.strokeIndex, alongMm: place.alongMm };
     // An interrupted plot may have left the pen on the paper. So its planner is opened even after a cancel: cancelling
     // the run then lifts the pen.
     const signal = from === null ? abort.signal : new AbortController().signal;
-    const planner = await this.#parts.planning.open(this.#parts.store.drawingOf(id), settings, signal);
+    const planner = await this.parts.planning.open(this.parts.store.drawingOf(id), settings, signal);
     try {
       const held = running.beginsHeld;
-      const run = await plotter.plot(planner, settings, { from, held, ...this.#startOf(running, from) });
+      const run = await plotter.plot(planner, settings, { from, held, ...this.startOf(running, from) });
       running.run = run;
-      run.onProgress((progress) => this.#progress(id, plotter.id, progress));
-      run.onHeld((isHeld, wait = null) => this.#safely(id, () => this.#held(id, isHeld, wait)));
+      run.onProgress((progress) => this.progress(id, plotter.id, progress));
+      run.onHeld((isHeld, wait = null) => this.safely(id, () => this.held(id, isHeld, wait)));
       // Requests that came before the run existed.
-      if (abort.signal.aborted) this.#ask(running, running.isLeft ? run.leave() : run.cancel());
-      else if (running.beginsHeld && !held) this.#ask(running, run.pause());
-      else if (!running.beginsHeld && from !== null) this.#ask(running, this.#resume(running, run));
-      if (speedPct !== 100) this.#ask(running, run.change({ speedPct }));
+      if (abort.signal.aborted) this.ask(running, running.isLeft ? run.leave() : run.cancel());
+      else if (running.beginsHeld && !held) this.ask(running, run.pause());
+      else if (!running.beginsHeld && from !== null) this.ask(running, this.resumeRun(running, run));
+      if (speedPct !== 100) this.ask(running, run.change({ speedPct }));
       return await run.finished;
     } finally {
       await planner.close();
@@ -247,95 +244,95 @@ export class RunningPlots {
   }
 
   /** What the plotter gets besides the place where the run starts. */
-  #startOf({ job: { id }, notes }: Running, from: Place | null): PlotStart {
-    const entry = this.#journal(id);
+  private startOf({ job: { id }, notes }: Running, from: Place | null): PlotStart {
+    const entry = this.journal(id);
     // `received` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     return {
       received: isJournalPlace ? entry?.received : undefined,
       board: entry?.board,
-      journal: { record: (written) => this.#safely(id, () => this.#saveJournal(id, written)) },
+      journal: { record: (written) => this.safely(id, () => this.saveJournal(id, written)) },
       noted: (message) => {
         notes.push(message);
         if (notes.length > MAX_NOTES) notes.shift();
-        this.#safely(id, () => void this.#jobs.note(id, message));
+        this.safely(id, () => void this.jobs.note(id, message));
       },
     };
   }
 
   /** A recovered job is paused before its run is held, and the run does not report that it was never held. */
-  async #resume({ job, abort }: Running, run: LivePlotRun): Promise<void> {
+  private async resumeRun({ job, abort }: Running, run: LivePlotRun): Promise<void> {
     await run.resume();
-    if (!abort.signal.aborted) this.#safely(job.id, () => this.#held(job.id, false, null));
+    if (!abort.signal.aborted) this.safely(job.id, () => this.held(job.id, false, null));
   }
 
   /** A cancelled plot is already about to end. */
-  #leave(running: Running): void {
+  private leave(running: Running): void {
     if (running.abort.signal.aborted) return;
     running.isLeft = true;
     running.abort.abort();
-    if (running.run !== null) this.#ask(running, running.run.leave());
+    if (running.run !== null) this.ask(running, running.run.leave());
   }
 
   /** A request that can't be carried out is reported; the plot itself continues. */
-  #ask(running: Running, request: Promise<void>): void {
+  private ask(running: Running, request: Promise<void>): void {
     request.catch((error: unknown) => {
       if (running.run === null) return;
       const message = error instanceof Error ? error.message : String(error);
-      this.#safely(running.job.id, () => void this.#jobs.note(running.job.id, message));
+      this.safely(running.job.id, () => void this.jobs.note(running.job.id, message));
     });
   }
 
   /**
    * Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed.
    */
-  #saveJournal(id: string, entry: Pick<JournalEntry, "place" | "received">): void {
-    const { progress, elapsedS, remainingS } = this.#jobs.get(id);
-    this.#parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
+  private saveJournal(id: string, entry: Pick<JournalEntry, "place" | "received">): void {
+    const { progress, elapsedS, remainingS } = this.jobs.get(id);
+    this.parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
 
   /** A full disk must neither stop the pen in mid-stroke nor end the server: it may soon have room again. */
-  #safely(jobId: string, write: () => void): void {
+  private safely(jobId: string, write: () => void): void {
     try {
       write();
-      this.#lastFault = null;
+      this.lastFault = null;
     } catch (error) {
       const fault = error instanceof Error ? error.message : String(error);
-      if (fault !== this.#lastFault) this.#parts.log?.(`the state of a plot can't be stored: ${fault}`);
-      this.#lastFault = fault;
-      if (isDiskFault(error)) this.#jobs.diskIsFull(jobId);
+      if (fault !== this.lastFault) this.parts.log?.(`the state of a plot can't be stored: ${fault}`);
+      this.lastFault = fault;
+      if (isDiskFault(error)) this.jobs.diskIsFull(jobId);
     }
   }
 
-  #progress(jobId: string, plotterId: string, progress: PlotProgress): void {
+  private progress(jobId: string, plotterId: string, progress: PlotProgress): void {
     // The travel home of a cancelled plot is not progress of the drawing.
-    if (this.#running.get(plotterId)?.abort.signal.aborted !== true) {
+    if (this.running.get(plotterId)?.abort.signal.aborted !== true) {
       const { progress: share, elapsedS, remainingS } = progress;
-      this.#jobs.progressed(jobId, { progress: share, elapsedS, remainingS });
+      this.jobs.progressed(jobId, { progress: share, elapsedS, remainingS });
     }
-    this.#parts.announce({ type: "progress", jobId, plotterId, ...progress });
+    this.parts.announce({ type: "progress", jobId, plotterId, ...progress });
   }
 
   /** If an interrupted job waited for a pen, it still waits for that pen until it is resumed. */
-  #held(id: string, held: boolean, wait: PlotWait | null): void {
-    const job = this.#jobs.get(id);
-    const running = this.#running.get(job.plotterId);
+  private held(id: string, held: boolean, wait: PlotWait | null): void {
+    const job = this.jobs.get(id);
+    const running = this.running.get(job.plotterId);
     // Released only to go home: the job keeps its place and the pen that it waits for.
     if (running?.abort.signal.aborted === true) return;
     if (held && job.state === "plotting") {
-      running?.timer.hold(this.#parts.nowIso());
+      running?.timer.hold(this.parts.nowIso());
       const waitsFor = wait ?? job.wait;
       const message = waitsFor === null ? null : penWords(waitsFor);
-      this.#jobs.apply(id, { type: "hold" }, { place: this.#holdPlace(running), wait: waitsFor, message });
+      this.jobs.apply(id, { type: "hold" }, { place: this.holdPlace(running), wait: waitsFor, message });
     } else if (held && job.state === "paused") {
       // A recovered job: only now has the board reported where it stopped.
-      const place = this.#holdPlace(running);
+      const place = this.holdPlace(running);
       const isNewWait = wait !== null && wait.layerName !== job.wait?.layerName;
-      this.#jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
+      this.jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
-      running?.timer.release(this.#parts.nowIso());
-      this.#keepPlace(job);
-      this.#jobs.apply(id, { type: "release" }, { place: null });
+      running?.timer.release(this.parts.nowIso());
+      this.keepPlace(job);
+      this.jobs.apply(id, { type: "release" }, { place: null });
     }
   }
 
@@ -343,73 +340,73 @@ export class RunningPlots {
    * A job that was cancelled, or that starts in the middle, has no journal until it draws. Its place is stored here:
    * otherwise it would start at the beginning after a crash, a cancel or a failure while the rest is being planned.
    */
-  #keepPlace({ id, place }: Pick<Job, "id" | "place">): void {
-    if (place === null || this.#journal(id) !== null) return;
-    this.#saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
+  private keepPlace({ id, place }: Pick<Job, "id" | "place">): void {
+    if (place === null || this.journal(id) !== null) return;
+    this.saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
   }
 
-  #ended(running: Running, end: PlotEnd): void {
-    this.#running.delete(running.plotter.id);
+  private ended(running: Running, end: PlotEnd): void {
+    this.running.delete(running.plotter.id);
     const {
       job: { id },
       notes,
     } = running;
-    const { store, nowIso } = this.#parts;
+    const { store, nowIso } = this.parts;
     // A plot that is partly on paper must stay recoverable, whatever the error.
     if (end.kind === "failed" && (canContinue(end.error) || store.journal(id) !== undefined)) {
-      this.#interrupt(id, end.error.message);
+      this.interrupt(id, end.error.message);
     } else if (end.kind === "failed") {
-      this.#jobs.apply(id, { type: "fail", message: end.error.message });
-    } else if (end.kind === "cancelled" && running.isLeft) this.#interrupt(id, this.#stopped);
-    else if (end.kind === "cancelled") this.#cancelled(id);
+      this.jobs.apply(id, { type: "fail", message: end.error.message });
+    } else if (end.kind === "cancelled" && running.isLeft) this.interrupt(id, this.stopped);
+    else if (end.kind === "cancelled") this.cancelled(id);
     else {
       // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.
-      if (this.#jobs.get(id).state === "paused") this.#jobs.apply(id, { type: "release" });
-      this.#jobs.apply(id, { type: "finish" }, { plottedS: running.timer.movedS(nowIso()) });
+      if (this.jobs.get(id).state === "paused") this.jobs.apply(id, { type: "release" });
+      this.jobs.apply(id, { type: "finish" }, { plottedS: running.timer.movedS(nowIso()) });
     }
-    let job = this.#jobs.get(id);
+    let job = this.jobs.get(id);
     if (notes.length > 0)
-      job = this.#jobs.save({ ...job, message: [job.message ?? [], notes].flat().join(" ") });
-    this.#jobs.announceOrder();
+      job = this.jobs.save({ ...job, message: [job.message ?? [], notes].flat().join(" ") });
+    this.jobs.announceOrder();
     if (ENDED_STATES.includes(job.state)) store.clearJournal(id);
-    if (job.state === "done") this.#done(job);
+    if (job.state === "done") this.done(job);
   }
 
-  #interrupt(id: string, message: string): void {
-    const progress = journalProgressSchema.safeParse(this.#parts.store.journal(id)).data ?? {};
-    this.#jobs.apply(id, { type: "interrupt", message, place: this.#reachedPlace(id) }, progress);
+  private interrupt(id: string, message: string): void {
+    const progress = journalProgressSchema.safeParse(this.parts.store.journal(id)).data ?? {};
+    this.jobs.apply(id, { type: "interrupt", message, place: this.reachedPlace(id) }, progress);
   }
 
   /** The place stays with the job, so that the user can continue it there. */
-  #cancelled(id: string): Job {
-    return this.#jobs.apply(id, { type: "cancel", place: this.#reachedPlace(id) });
+  private cancelled(id: string): Job {
+    return this.jobs.apply(id, { type: "cancel", place: this.reachedPlace(id) });
   }
 
   /** The place in the journal. Without a journal nothing has been drawn since the job's own place. */
-  #reachedPlace(id: string): JobPlace | null {
-    const entry = this.#journal(id);
-    return entry ? jobPlace(entry.place) : this.#jobs.get(id).place;
+  private reachedPlace(id: string): JobPlace | null {
+    const entry = this.journal(id);
+    return entry ? jobPlace(entry.place) : this.jobs.get(id).place;
   }
 
-  #journal(id: string): z.infer<typeof journalSchema> | null {
-    return journalSchema.safeParse(this.#parts.store.journal(id)).data ?? null;
+  private journal(id: string): z.infer<typeof journalSchema> | null {
+    return journalSchema.safeParse(this.parts.store.journal(id)).data ?? null;
   }
 
-  #holdPlace(running: Running | undefined): JobPlace | null {
+  private holdPlace(running: Running | undefined): JobPlace | null {
     const place = running?.run?.holdPlace ?? null;
     return place === null ? null : jobPlace(place);
   }
 
   /** The run of a job for requests that need one; throws `conflict` while it is still being planned. */
-  #liveRun(id: string, states: readonly Job["state"][], verb: string): LivePlotRun {
-    const { run } = this.#runningOf(id, states, verb);
+  private liveRun(id: string, states: readonly Job["state"][], verb: string): LivePlotRun {
+    const { run } = this.runningOf(id, states, verb);
     if (run !== null) return run;
     throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
   }
 
-  #runningOf(id: string, states: readonly Job["state"][], verb: string): Running {
-    const job = this.#jobs.get(id);
-    const running = this.#running.get(job.plotterId);
+  private runningOf(id: string, states: readonly Job["state"][], verb: string): Running {
+    const job = this.jobs.get(id);
+    const running = this.running.get(job.plotterId);
     if (running?.job.id !== id || !states.includes(job.state)) {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
     }
@@ -417,14 +414,14 @@ export class RunningPlots {
   }
 
   /** The job's plotter; throws unless it is connected and has no other job. */
-  #freePlotter(id: string): PlotterPort {
-    if (this.#closing) throw new PlotwrightError("conflict", "plotwright is stopping.");
-    const plotter = findPlotter(this.#parts.plotters, this.#jobs.get(id).plotterId);
-    const other = this.#running.get(plotter.id);
+  private freePlotter(id: string): PlotterPort {
+    if (this.closing) throw new PlotwrightError("conflict", "plotwright is stopping.");
+    const plotter = findPlotter(this.parts.plotters, this.jobs.get(id).plotterId);
+    const other = this.running.get(plotter.id);
     if (other !== undefined && other.job.id !== id) {
       throw new PlotwrightError(
         "busy",
-        `"${this.#jobs.get(other.job.id).name}" is being plotted. Wait until it ends, or cancel it.`,
+        `"${this.jobs.get(other.job.id).name}" is being plotted. Wait until it ends, or cancel it.`,
       );
     }
     mustBeIdle(plotter);

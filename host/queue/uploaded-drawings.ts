@@ -10,26 +10,26 @@ interface Upload {
 }
 
 export class UploadedDrawings {
-  readonly #files: DrawingStore;
-  readonly #log: (line: string) => void;
-  readonly #keepMs: number;
-  readonly #uploads = new Map<string, Upload>();
+  private readonly keepMs: number;
+  private readonly uploads = new Map<string, Upload>();
 
-  constructor(files: DrawingStore, log: (line: string) => void, keepMs = KEEP_MS) {
-    this.#files = files;
-    this.#log = log;
-    this.#keepMs = keepMs;
+  constructor(
+    private readonly files: DrawingStore,
+    private readonly log: (line: string) => void,
+    keepMs = KEEP_MS,
+  ) {
+    this.keepMs = keepMs;
   }
 
   /** Keeps a stored drawing until it is claimed. */
   keep(drawing: StoredDrawing): void {
-    const timer = setTimeout(() => void this.#remove(drawing.id), this.#keepMs);
-    this.#uploads.set(drawing.id, { drawing, timer });
+    const timer = setTimeout(() => void this.remove(drawing.id), this.keepMs);
+    this.uploads.set(drawing.id, { drawing, timer });
   }
 
   /** Hands the drawing over to the caller, who has to remove it if it is not used. Throws `not-found`. */
   claim(id: string): StoredDrawing {
-    const upload = this.#uploads.get(id);
+    const upload = this.uploads.get(id);
     if (upload === undefined) {
       throw new PlotwrightError(
         "not-found",
@@ -37,20 +37,20 @@ export class UploadedDrawings {
       );
     }
     clearTimeout(upload.timer);
-    this.#uploads.delete(id);
+    this.uploads.delete(id);
     return upload.drawing;
   }
 
   /** Removes all drawings that were not claimed. */
   async close(): Promise<void> {
-    await Promise.all([...this.#uploads.keys()].map((id) => this.#remove(id)));
+    await Promise.all([...this.uploads.keys()].map((id) => this.remove(id)));
   }
 
-  async #remove(id: string): Promise<void> {
+  private async remove(id: string): Promise<void> {
     try {
-      await this.#files.remove(this.claim(id).id);
+      await this.files.remove(this.claim(id).id);
     } catch (error) {
-      this.#log(`an uploaded drawing could not be removed: ${(error as Error).message}`);
+      this.log(`an uploaded drawing could not be removed: ${(error as Error).message}`);
     }
   }
 }

@@ -13,75 +13,74 @@ const MAX_SILENT_POLLS = 40;
 
 export class JobRun implements WatchedRun {
   readonly finished: Promise<PlotOutcome>;
-  readonly #client: ServerClient;
-  readonly #id: string;
-  readonly #progressListeners: ((progress: PlotAmounts) => void)[] = [];
-  readonly #heldListeners: ((held: boolean, wait: PlotWait | null) => void)[] = [];
-  #isHeld = false;
-  #waitsFor: string | null = null;
-  #isLeft = false;
+  private readonly progressListeners: ((progress: PlotAmounts) => void)[] = [];
+  private readonly heldListeners: ((held: boolean, wait: PlotWait | null) => void)[] = [];
+  private isHeld = false;
+  private waitsFor: string | null = null;
+  private isLeft = false;
 
-  constructor(client: ServerClient, id: string) {
-    this.#client = client;
-    this.#id = id;
-    this.finished = this.#follow();
+  constructor(
+    private readonly client: ServerClient,
+    private readonly id: string,
+  ) {
+    this.finished = this.follow();
     // Its rejection is handled where it is awaited, which may be later.
     this.finished.catch(() => undefined);
   }
 
   onProgress(listener: (progress: PlotAmounts) => void): void {
-    this.#progressListeners.push(listener);
+    this.progressListeners.push(listener);
   }
 
   onHeld(listener: (held: boolean, wait: PlotWait | null) => void): void {
-    this.#heldListeners.push(listener);
+    this.heldListeners.push(listener);
   }
 
   async pause(): Promise<void> {
-    await this.#client.jobs.pause(this.#id);
+    await this.client.jobs.pause(this.id);
   }
 
   async resume(): Promise<void> {
-    await this.#client.jobs.resume(this.#id);
+    await this.client.jobs.resume(this.id);
   }
 
   async cancel(): Promise<void> {
-    await this.#client.jobs.cancel(this.#id);
+    await this.client.jobs.cancel(this.id);
   }
 
   /** Only this command ends: the server goes on. */
   interrupt(): Promise<void> {
-    this.#isLeft = true;
+    this.isLeft = true;
     return Promise.resolve();
   }
 
-  async #follow(): Promise<PlotOutcome> {
+  private async follow(): Promise<PlotOutcome> {
     for (let silent = 0; ; await wait(POLL_MS)) {
-      if (this.#isLeft) return { kind: "cancelled" };
-      const job = await this.#client.jobs.get(this.#id).catch((error: unknown) => {
+      if (this.isLeft) return { kind: "cancelled" };
+      const job = await this.client.jobs.get(this.id).catch((error: unknown) => {
         const isSilent = error instanceof PlotwrightError && error.code === "disconnected";
         if (!isSilent || ++silent > MAX_SILENT_POLLS) throw error;
         return null;
       });
       if (job === null) continue;
       silent = 0;
-      this.#announce(job);
+      this.announce(job);
       if (job.state === "done" || job.state === "cancelled") return { kind: job.state };
       if (job.state === "failed" || job.state === "interrupted") throw faultOf(job);
     }
   }
 
-  #announce({ state, progress, elapsedS, remainingS, wait: waitsFor }: Job): void {
+  private announce({ state, progress, elapsedS, remainingS, wait: waitsFor }: Job): void {
     if (state !== "queued") {
       const amounts = { progress, elapsedS, remainingS: remainingS ?? 0 };
-      this.#progressListeners.forEach((listener) => listener(amounts));
+      this.progressListeners.forEach((listener) => listener(amounts));
     }
     const isHeld = state === "paused";
     const layer = waitsFor?.layerName ?? null;
-    if (isHeld === this.#isHeld && layer === this.#waitsFor) return;
-    this.#isHeld = isHeld;
-    this.#waitsFor = layer;
-    this.#heldListeners.forEach((listener) => listener(isHeld, waitsFor));
+    if (isHeld === this.isHeld && layer === this.waitsFor) return;
+    this.isHeld = isHeld;
+    this.waitsFor = layer;
+    this.heldListeners.forEach((listener) => listener(isHeld, waitsFor));
   }
 }
 

@@ -40,23 +40,24 @@ export interface InterruptedPlot extends StoredPlot {
 }
 
 export class PlotRecord {
-  readonly #folder: string;
-  readonly #dataDir: string;
-  readonly #names: readonly string[];
-  readonly #device: string;
+  private readonly folder: string;
+  private readonly names: readonly string[];
+  private readonly device: string;
   /** False while another process stores its plot in this folder. */
-  #isOurs = true;
+  private isOurs = true;
 
-  constructor(dataDir: string, device = "auto") {
-    this.#dataDir = dataDir;
-    this.#device = device;
-    this.#names = ["command-line", encodeURIComponent(device)];
-    this.#folder = join(dataDir, ...this.#names);
+  constructor(
+    private readonly dataDir: string,
+    device = "auto",
+  ) {
+    this.device = device;
+    this.names = ["command-line", encodeURIComponent(device)];
+    this.folder = join(dataDir, ...this.names);
   }
 
   /** The drawing as it was when the plot began. */
   get drawingPath(): string {
-    return join(this.#folder, "drawing");
+    return join(this.folder, "drawing");
   }
 
   /**
@@ -64,12 +65,12 @@ export class PlotRecord {
    * stored. Throws `bad-file` if the drawing can't be read, `bad-setting` if the data folder can't be written to.
    */
   begin(path: string, plot: StoredPlot): void {
-    this.#isOurs = this.#device !== "virtual" || this.#ownerElsewhere() === null;
-    if (!this.#isOurs) return;
+    this.isOurs = this.device !== "virtual" || this.ownerElsewhere() === null;
+    if (!this.isOurs) return;
     const drawing = readDrawing(path);
-    makeDataFolder(this.#dataDir, ...this.#names);
-    this.#mustWrite(() => {
-      rmSync(join(this.#folder, "journal.json"), { force: true });
+    makeDataFolder(this.dataDir, ...this.names);
+    this.mustWrite(() => {
+      rmSync(join(this.folder, "journal.json"), { force: true });
       writeFileSync(this.drawingPath, drawing);
     });
     this.takeOver(plot);
@@ -77,24 +78,24 @@ export class PlotRecord {
 
   /** Call when this process begins or resumes a plot. Throws `bad-setting` if the data folder can't be written to. */
   takeOver({ name, settings, only }: StoredPlot): void {
-    this.#mustWrite(() => this.#write("plot.json", { name, settings, only, ...thisProcess() }));
+    this.mustWrite(() => this.write("plot.json", { name, settings, only, ...thisProcess() }));
   }
 
   /** `progress`: 0 … 1. Throws the system's error if the disk is full. */
   save(entry: JournalEntry, progress: number): void {
-    if (this.#isOurs) this.#write("journal.json", { ...entry, progress });
+    if (this.isOurs) this.write("journal.json", { ...entry, progress });
   }
 
   end(): void {
-    if (this.#isOurs) rmSync(this.#folder, { recursive: true, force: true });
+    if (this.isOurs) rmSync(this.folder, { recursive: true, force: true });
   }
 
   /** Null if the last plot ended, had drawn nothing, or still runs in another process. */
   find(): InterruptedPlot | null {
-    const plot = plotSchema.safeParse(this.#read("plot.json"));
-    const entry = entrySchema.safeParse(this.#read("journal.json"));
+    const plot = plotSchema.safeParse(this.read("plot.json"));
+    const entry = entrySchema.safeParse(this.read("journal.json"));
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
-    if (this.#ownerElsewhere() !== null) return null;
+    if (this.ownerElsewhere() !== null) return null;
     const { name, settings, only } = plot.data;
     const { place, received, board, progress } = entry.data;
     return { name, settings, only, from: place, received, board, progress };
@@ -104,8 +105,8 @@ export class PlotRecord {
   mustFind(): InterruptedPlot {
     const found = this.find();
     if (found !== null) return found;
-    const pid = this.#ownerElsewhere();
-    if (pid !== null) throw stillRuns(pid, this.#device);
+    const pid = this.ownerElsewhere();
+    if (pid !== null) throw stillRuns(pid, this.device);
     throw new PlotwrightError(
       "not-found",
       "No plot was interrupted on this device: there is nothing to resume.",
@@ -113,34 +114,34 @@ export class PlotRecord {
   }
 
   /** The other process that is plotting; null if none is. */
-  #ownerElsewhere(): number | null {
-    const { success, data } = ownerSchema.safeParse(this.#read("plot.json"));
+  private ownerElsewhere(): number | null {
+    const { success, data } = ownerSchema.safeParse(this.read("plot.json"));
     return success && data.pid !== process.pid && isAlive(data) ? data.pid : null;
   }
 
-  #read(name: string): unknown {
+  private read(name: string): unknown {
     try {
-      return JSON.parse(readFileSync(join(this.#folder, name), "utf8"));
+      return JSON.parse(readFileSync(join(this.folder, name), "utf8"));
     } catch {
       return null;
     }
   }
 
-  #mustWrite(write: () => void): void {
+  private mustWrite(write: () => void): void {
     try {
       write();
     } catch (cause) {
       throw new PlotwrightError(
         "bad-setting",
-        `The data folder ${this.#dataDir} can't be written to: ${fileFault(cause)}. Choose another one with --data.`,
+        `The data folder ${this.dataDir} can't be written to: ${fileFault(cause)}. Choose another one with --data.`,
         { cause },
       );
     }
   }
 
   /** Writes the file atomically. */
-  #write(name: string, value: unknown): void {
-    const path = join(this.#folder, name);
+  private write(name: string, value: unknown): void {
+    const path = join(this.folder, name);
     writeFileSync(`${path}.new`, JSON.stringify(value));
     renameSync(`${path}.new`, path);
   }

@@ -100,65 +100,65 @@ export function cancelled(io: CliIo): number {
 
 /** The meaning of the user's keys, which depends on the state. */
 class Control {
-  readonly #run: WatchedRun;
-  readonly #io: CliIo;
-  #held: boolean;
-  #cancelling = false;
+  private held: boolean;
+  private cancelling = false;
   isInterrupted = false;
   /** Rejects if a request fails. */
   readonly failed: Promise<never>;
-  #fail: (error: unknown) => void = () => undefined;
+  private fail: (error: unknown) => void = () => undefined;
 
-  constructor(run: WatchedRun, io: CliIo, isHeld: boolean) {
-    this.#run = run;
-    this.#io = io;
-    this.#held = isHeld;
-    this.failed = new Promise((_resolve, reject) => (this.#fail = reject));
+  constructor(
+    private readonly run: WatchedRun,
+    private readonly io: CliIo,
+    isHeld: boolean,
+  ) {
+    this.held = isHeld;
+    this.failed = new Promise((_resolve, reject) => (this.fail = reject));
     this.failed.catch(() => undefined);
   }
 
   interrupt(): void {
-    if (this.#isEnding) return;
-    if (this.#held || !this.#io.hasKeyboard) {
-      this.#cancelling = true;
-      this.#io.err("Cancelling: the pen lifts and goes home.\n");
-      this.#run.cancel().catch(this.#fail);
+    if (this.isEnding) return;
+    if (this.held || !this.io.hasKeyboard) {
+      this.cancelling = true;
+      this.io.err("Cancelling: the pen lifts and goes home.\n");
+      this.run.cancel().catch(this.fail);
     } else {
-      this.#held = true;
-      this.#io.err("Paused. Enter resumes, Ctrl-C again cancels.\n");
-      this.#run.pause().catch(this.#fail);
+      this.held = true;
+      this.io.err("Paused. Enter resumes, Ctrl-C again cancels.\n");
+      this.run.pause().catch(this.fail);
     }
   }
 
   mustEnd(words: string): void {
-    if (this.#isEnding) return;
+    if (this.isEnding) return;
     this.isInterrupted = true;
-    this.#io.err(printed`${words}\n`);
-    this.#run.interrupt().catch(this.#fail);
+    this.io.err(printed`${words}\n`);
+    this.run.interrupt().catch(this.fail);
   }
 
-  get #isEnding(): boolean {
-    return this.#cancelling || this.isInterrupted;
+  private get isEnding(): boolean {
+    return this.cancelling || this.isInterrupted;
   }
 
   /** The plot is held: by the user's key, or by the button on the machine. */
   paused(): void {
-    if (this.#held || this.#isEnding) return;
-    this.#held = true;
-    this.#io.err(`Paused. ${this.#io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
+    if (this.held || this.isEnding) return;
+    this.held = true;
+    this.io.err(`Paused. ${this.io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
   }
 
   /** A planned stop, for another pen. */
   waitsFor({ penName, layerName }: PlotWait): void {
-    if (this.#isEnding) return;
-    this.#held = true;
+    if (this.isEnding) return;
+    this.held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
-    this.#io.err(printed`Put in ${what}. ${this.#io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
+    this.io.err(printed`Put in ${what}. ${this.io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
   }
 
   resume(): void {
-    if (!this.#held || this.#isEnding) return;
-    this.#held = false;
-    this.#run.resume().catch(this.#fail);
+    if (!this.held || this.isEnding) return;
+    this.held = false;
+    this.run.resume().catch(this.fail);
   }
 }

@@ -16,54 +16,52 @@ interface Part {
 }
 
 export class Closing {
-  readonly #parts: Part[] = [];
-  readonly #urgent: Part[] = [];
-  readonly #log: (line: string) => void;
-  #running: Promise<void> | null = null;
-  readonly #limits: { readonly partMs: number; readonly plotsMs: number };
+  private readonly parts: Part[] = [];
+  private readonly urgent: Part[] = [];
+  private running: Promise<void> | null = null;
+  private readonly limits: { readonly partMs: number; readonly plotsMs: number };
 
   constructor(
-    log: (line: string) => void,
+    private readonly log: (line: string) => void,
     limits: { readonly partMs: number; readonly plotsMs: number } = {
       partMs: LIMIT_MS,
       plotsMs: PLOTS_LIMIT_MS,
     },
   ) {
-    this.#log = log;
-    this.#limits = limits;
+    this.limits = limits;
   }
 
   add(name: string, close: CloseStep): void {
-    this.#parts.push({ name, close });
+    this.parts.push({ name, close });
   }
 
   /** Adds a part that is closed before the others, in parallel with the other urgent parts. */
   addUrgent(name: string, close: CloseStep): void {
-    this.#urgent.push({ name, close });
+    this.urgent.push({ name, close });
   }
 
   /** Closes everything. Never rejects; further calls return the same promise. */
   run(): Promise<void> {
-    this.#running ??= this.#closeAll();
-    return this.#running;
+    this.running ??= this.closeAll();
+    return this.running;
   }
 
-  async #closeAll(): Promise<void> {
-    const { partMs, plotsMs } = this.#limits;
-    await Promise.all(this.#urgent.splice(0).map((part) => this.#close(part, plotsMs)));
-    for (const part of this.#parts.splice(0).reverse()) await this.#close(part, partMs);
+  private async closeAll(): Promise<void> {
+    const { partMs, plotsMs } = this.limits;
+    await Promise.all(this.urgent.splice(0).map((part) => this.close(part, plotsMs)));
+    for (const part of this.parts.splice(0).reverse()) await this.close(part, partMs);
   }
 
-  async #close({ name, close }: Part, limitMs: number): Promise<void> {
+  private async close({ name, close }: Part, limitMs: number): Promise<void> {
     let timer: NodeJS.Timeout | undefined;
     const late = new Promise<void>((resolve) => {
       timer = setTimeout(() => {
-        this.#log(`closing: ${name} did not close within ${limitMs / 1000} s; continuing without it`);
+        this.log(`closing: ${name} did not close within ${limitMs / 1000} s; continuing without it`);
         resolve();
       }, limitMs);
     });
     const closed = (async () => close())().catch((error: unknown) => {
-      this.#log(`closing: ${name}: ${error instanceof Error ? error.message : String(error)}`);
+      this.log(`closing: ${name}: ${error instanceof Error ? error.message : String(error)}`);
     });
     await Promise.race([closed, late]);
     clearTimeout(timer);

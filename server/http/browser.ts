@@ -19,46 +19,47 @@ const COOKIE_DAYS = 400;
 const SAFE_METHODS = new Set(["GET", "HEAD", "OPTIONS"]);
 
 export class Browsers {
-  readonly #access: Access;
   /** Requests of browsers that get their cookie with this answer. */
-  readonly #fresh = new WeakMap<Request, string>();
+  private readonly fresh = new WeakMap<Request, string>();
   /** By browser id. */
-  readonly #names = new Map<string, string>();
+  private readonly names = new Map<string, string>();
 
   /** `known`: a browser that got its name before the server was restarted. */
-  constructor(access: Access, known: Operator | null = null) {
-    this.#access = access;
-    if (known !== null) this.#names.set(known.id, known.name);
+  constructor(
+    private readonly access: Access,
+    known: Operator | null = null,
+  ) {
+    if (known !== null) this.names.set(known.id, known.name);
   }
 
   /** Null for scripts. */
   of(request: Request): Operator | null {
     if (bearerOf(request) !== null) return null;
-    const id = this.#idOf(request);
-    return id === null ? null : { id, name: this.#nameOf(id, request) };
+    const id = this.idOf(request);
+    return id === null ? null : { id, name: this.nameOf(id, request) };
   }
 
-  #idOf(request: Request): string | null {
+  private idOf(request: Request): string | null {
     const session = cookieOf(request, SESSION_COOKIE);
-    const entry = session === null ? null : this.#access.entryOf(session);
+    const entry = session === null ? null : this.access.entryOf(session);
     if (entry !== null) return entry.id;
-    const secret = cookieOf(request, BROWSER_COOKIE) ?? this.#fresh.get(request) ?? null;
+    const secret = cookieOf(request, BROWSER_COOKIE) ?? this.fresh.get(request) ?? null;
     return secret === null ? null : createHash("sha256").update(secret).digest("hex").slice(0, 16);
   }
 
   /** Two browsers of one kind have different names: "Chrome on Linux", "Chrome 2 on Linux". */
-  #nameOf(id: string, request: Request): string {
+  private nameOf(id: string, request: Request): string {
     const [what, where] = browserWords(request);
     const named = (number: number): string => `${what}${number === 1 ? "" : ` ${number}`} on ${where}`;
-    const known = this.#names.get(id);
+    const known = this.names.get(id);
     if (known?.endsWith(where) === true) return known;
-    const taken = new Set(this.#names.values());
+    const taken = new Set(this.names.values());
     let number = 1;
     while (taken.has(named(number))) number++;
-    this.#names.delete(id);
-    this.#names.set(id, named(number));
-    const [oldest] = this.#names.keys();
-    if (this.#names.size > MAX_NAMES && oldest !== undefined) this.#names.delete(oldest);
+    this.names.delete(id);
+    this.names.set(id, named(number));
+    const [oldest] = this.names.keys();
+    if (this.names.size > MAX_NAMES && oldest !== undefined) this.names.delete(oldest);
     return named(number);
   }
 
@@ -69,7 +70,7 @@ export class Browsers {
       const isBrowser = request.headers["user-agent"]?.startsWith("Mozilla/") === true;
       if (isBrowser && cookieOf(request, BROWSER_COOKIE) === null) {
         const secret = randomBytes(24).toString("base64url");
-        this.#fresh.set(request, secret);
+        this.fresh.set(request, secret);
         response.cookie(BROWSER_COOKIE, secret, {
           httpOnly: true,
           sameSite: "strict",

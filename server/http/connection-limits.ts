@@ -33,49 +33,46 @@ interface Member {
 
 export class ConnectionLimits {
   /** TLS wraps the socket object, so the key is the remote address and port. Within a share, the oldest come first. */
-  readonly #members = new Map<string, Member>();
-  readonly #isLocal: (address: string | undefined) => boolean;
+  private readonly members = new Map<string, Member>();
 
-  constructor(isLocal: (address: string | undefined) => boolean) {
-    this.#isLocal = isLocal;
-  }
+  constructor(private readonly isLocal: (address: string | undefined) => boolean) {}
 
   opened(socket: Socket): void {
     const key = keyOf(socket);
     const client = socket.remoteAddress ?? "";
-    this.#members.set(key, { socket, share: "unknown", client });
+    this.members.set(key, { socket, share: "unknown", client });
     socket.once("close", () => {
-      if (this.#members.get(key)?.socket === socket) this.#members.delete(key);
+      if (this.members.get(key)?.socket === socket) this.members.delete(key);
     });
-    this.#move(key, this.#isLocal(socket.remoteAddress) ? "local" : "unknown", client);
+    this.move(key, this.isLocal(socket.remoteAddress) ? "local" : "unknown", client);
   }
 
   /** Call with every request of a client that has identified itself. */
   identified(socket: Socket, { id, role, isLocal }: Caller): void {
     const share = isLocal ? "local" : role;
     const key = keyOf(socket);
-    const member = this.#members.get(key);
+    const member = this.members.get(key);
     if (member === undefined || (member.share === share && member.client === id)) return;
-    this.#move(key, share, id);
+    this.move(key, share, id);
   }
 
   /** Moves a connection to a client's share, and closes one if that share is now too large. */
-  #move(key: string, share: Share, client: string): void {
-    const moved = this.#members.get(key);
+  private move(key: string, share: Share, client: string): void {
+    const moved = this.members.get(key);
     if (moved === undefined) return;
     Object.assign(moved, { share, client });
     // To the end: it must not be the one that is closed.
-    this.#members.delete(key);
-    this.#members.set(key, moved);
+    this.members.delete(key);
+    this.members.set(key, moved);
     const { each, all } = LIMITS[share];
-    const members = [...this.#members.values()].filter((member) => member.share === share);
+    const members = [...this.members.values()].filter((member) => member.share === share);
     const own = members.filter((member) => member.client === client);
-    if (own.length > each) this.#close(own[0]);
-    else if (members.length > all) this.#close(oldestOfLargest(members));
+    if (own.length > each) this.close(own[0]);
+    else if (members.length > all) this.close(oldestOfLargest(members));
   }
 
-  #close({ socket }: Member): void {
-    this.#members.delete(keyOf(socket));
+  private close({ socket }: Member): void {
+    this.members.delete(keyOf(socket));
     socket.destroy();
   }
 }

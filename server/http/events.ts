@@ -36,39 +36,39 @@ interface Stream {
 }
 
 export class EventHub {
-  readonly #streams = new Map<Response, Stream>();
-  readonly #events = new LimitedProgress((event) => this.#write(`data: ${JSON.stringify(event)}\n\n`));
-  readonly #heartbeat: NodeJS.Timeout;
-  #snapshot: { readonly text: Buffer; readonly atMs: number } | null = null;
+  private readonly streams = new Map<Response, Stream>();
+  private readonly events = new LimitedProgress((event) => this.write(`data: ${JSON.stringify(event)}\n\n`));
+  private readonly heartbeat: NodeJS.Timeout;
+  private snapshot: { readonly text: Buffer; readonly atMs: number } | null = null;
   /** The callers to whom a snapshot is being sent, with the clients that wait for their turn. */
-  readonly #waiting = new Map<string, (() => void)[]>();
+  private readonly waiting = new Map<string, (() => void)[]>();
   /** The time limits of the snapshots that are being sent. */
-  readonly #transfers = new Set<NodeJS.Timeout>();
-  #isClosed = false;
+  private readonly transfers = new Set<NodeJS.Timeout>();
+  private isClosed = false;
 
   constructor() {
-    this.#heartbeat = setInterval(() => this.#write(":\n\n"), HEARTBEAT_MS);
-    this.#heartbeat.unref();
+    this.heartbeat = setInterval(() => this.write(":\n\n"), HEARTBEAT_MS);
+    this.heartbeat.unref();
   }
 
   announce(event: ServerEvent): void {
-    if (this.#isClosed) return;
-    if (event.type !== "progress") this.#snapshot = null;
-    this.#events.announce(event);
+    if (this.isClosed) return;
+    if (event.type !== "progress") this.snapshot = null;
+    this.events.announce(event);
   }
 
   /** The snapshot as JSON. `make` is called only if it has changed. */
   snapshotText(make: () => Snapshot): Buffer {
     const nowMs = performance.now();
-    if (this.#snapshot === null || nowMs - this.#snapshot.atMs > SNAPSHOT_MS) {
-      this.#snapshot = { text: Buffer.from(jsonOf(make())), atMs: nowMs };
+    if (this.snapshot === null || nowMs - this.snapshot.atMs > SNAPSHOT_MS) {
+      this.snapshot = { text: Buffer.from(jsonOf(make())), atMs: nowMs };
     }
-    return this.#snapshot.text;
+    return this.snapshot.text;
   }
 
   /** Answers with the snapshot. `callerId`: the session or key that asks. */
   answer(response: Response, callerId: string, make: () => Snapshot): Promise<void> {
-    return this.#inTurn(response, callerId, async (isRead) => {
+    return this.inTurn(response, callerId, async (isRead) => {
       const text = this.snapshotText(make);
       response.type("json").set("Content-Length", String(text.length));
       await send(text, response, isRead);
@@ -86,9 +86,9 @@ export class EventHub {
     const retryMs = Math.round(RETRY_FROM_MS + RETRY_RANGE_MS * Math.random());
     response.write(`retry: ${retryMs}\n\ndata: {"type":"snapshot","snapshot":`);
     const stream: Stream = { callerId, waiting: "snapshot" };
-    this.#streams.set(response, stream);
-    request.on("close", () => this.#streams.delete(response));
-    await this.#inTurn(response, callerId, async (isRead) => {
+    this.streams.set(response, stream);
+    request.on("close", () => this.streams.delete(response));
+    await this.inTurn(response, callerId, async (isRead) => {
       const text = this.snapshotText(make);
       const events: Buffer[] = [];
       stream.waiting = events;
@@ -100,64 +100,64 @@ export class EventHub {
   }
 
   /** Transfers to a caller one after the other. `transfer` calls `isRead` whenever the client reads on. */
-  async #inTurn(
+  private async inTurn(
     response: Response,
     callerId: string,
     transfer: (isRead: () => unknown) => Promise<void>,
   ): Promise<void> {
-    const before = this.#waiting.get(callerId);
-    if (before === undefined) this.#waiting.set(callerId, []);
+    const before = this.waiting.get(callerId);
+    if (before === undefined) this.waiting.set(callerId, []);
     else await new Promise<void>((resolve) => before.push(resolve));
     let hasPassed = false;
     const pass = (): void => {
       if (hasPassed) return;
       hasPassed = true;
       // The newest first: older ones may be those of a page that was reloaded.
-      const next = this.#waiting.get(callerId)?.pop();
-      if (next === undefined) this.#waiting.delete(callerId);
+      const next = this.waiting.get(callerId)?.pop();
+      if (next === undefined) this.waiting.delete(callerId);
       else next();
     };
-    if (this.#isClosed || response.closed) {
+    if (this.isClosed || response.closed) {
       pass();
       return;
     }
     const stuck = setTimeout(pass, STUCK_MS).unref();
-    this.#transfers.add(stuck);
+    this.transfers.add(stuck);
     try {
-      await transfer(() => !this.#isClosed && stuck.refresh());
+      await transfer(() => !this.isClosed && stuck.refresh());
     } finally {
       clearTimeout(stuck);
-      this.#transfers.delete(stuck);
+      this.transfers.delete(stuck);
       pass();
     }
   }
 
   /** Ends the streams of a session or key that has ended. */
   drop(callerId: string): void {
-    for (const [response, stream] of this.#streams) if (stream.callerId === callerId) this.#end(response);
+    for (const [response, stream] of this.streams) if (stream.callerId === callerId) this.end(response);
   }
 
   close(): void {
-    this.#isClosed = true;
-    clearInterval(this.#heartbeat);
-    for (const stuck of this.#transfers) clearTimeout(stuck);
-    this.#events.close();
-    for (const response of this.#streams.keys()) this.#end(response);
+    this.isClosed = true;
+    clearInterval(this.heartbeat);
+    for (const stuck of this.transfers) clearTimeout(stuck);
+    this.events.close();
+    for (const response of this.streams.keys()) this.end(response);
   }
 
-  #end(response: Response): void {
-    this.#streams.delete(response);
+  private end(response: Response): void {
+    this.streams.delete(response);
     response.end();
   }
 
-  #write(text: string): void {
+  private write(text: string): void {
     const bytes = Buffer.from(text);
-    for (const [response, { waiting }] of this.#streams) {
+    for (const [response, { waiting }] of this.streams) {
       // The snapshot will have everything that is announced before.
       if (waiting === "snapshot") continue;
       const unsentBytes = waiting?.reduce((sum, { length }) => sum + length, 0) ?? response.writableLength;
       if (unsentBytes > MAX_UNSENT_BYTES) {
-        this.#streams.delete(response);
+        this.streams.delete(response);
         response.destroy();
       } else if (waiting !== null) waiting.push(bytes);
       else response.write(bytes);

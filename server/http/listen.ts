@@ -98,48 +98,45 @@ export function httpServer(
  * would start hundreds of them together.
  */
 class Turns {
-  readonly #app: RequestListener;
   /** The requests that wait behind the current one, by connection. */
-  readonly #waiting = new WeakMap<Socket, [IncomingMessage, ServerResponse][]>();
+  private readonly waiting = new WeakMap<Socket, [IncomingMessage, ServerResponse][]>();
 
-  constructor(app: RequestListener) {
-    this.#app = app;
-  }
+  constructor(private readonly app: RequestListener) {}
 
   isBusy(socket: Socket): boolean {
-    return this.#waiting.has(socket);
+    return this.waiting.has(socket);
   }
 
   /** Starts a request, or lets it wait; closes the connection when more than `maxWaiting` would wait. */
   take(request: IncomingMessage, response: ServerResponse, maxWaiting: number): void {
     const { socket } = request;
-    const waiting = this.#waiting.get(socket);
+    const waiting = this.waiting.get(socket);
     if (waiting === undefined) {
-      this.#waiting.set(socket, []);
-      this.#start(request, response);
+      this.waiting.set(socket, []);
+      this.start(request, response);
     } else if (waiting.length < maxWaiting) waiting.push([request, response]);
-    else this.#cutOff(socket);
+    else this.cutOff(socket);
   }
 
   /**
    * Node makes an error for each of the hundreds of requests that it has already parsed. Their stack traces alone would
    * take most of the time that a flood costs.
    */
-  #cutOff(socket: Socket): void {
+  private cutOff(socket: Socket): void {
     const { stackTraceLimit } = Error;
     socket.prependOnceListener("close", () => (Error.stackTraceLimit = 0));
     socket.once("close", () => (Error.stackTraceLimit = stackTraceLimit));
     socket.destroy();
   }
 
-  #start(request: IncomingMessage, response: ServerResponse): void {
+  private start(request: IncomingMessage, response: ServerResponse): void {
     const { socket } = request;
     response.once("close", () => {
-      const next = this.#waiting.get(socket)?.shift();
-      if (next === undefined || socket.destroyed) this.#waiting.delete(socket);
-      else this.#start(...next);
+      const next = this.waiting.get(socket)?.shift();
+      if (next === undefined || socket.destroyed) this.waiting.delete(socket);
+      else this.start(...next);
     });
-    this.#app(request, response);
+    this.app(request, response);
   }
 }
 

@@ -17,45 +17,42 @@ const MAX_LINES = 10;
 const MAX_PATH = 100;
 
 export class Refusals {
-  readonly #log: (line: string) => void;
-  #total = 0;
+  private count = 0;
   /** `total` at the start of the current period, and the requests of the period by address. */
-  #before = 0;
-  readonly #addresses = new Map<string, number>();
-  #timer: NodeJS.Timeout | null = null;
+  private before = 0;
+  private readonly addresses = new Map<string, number>();
+  private timer: NodeJS.Timeout | null = null;
 
-  constructor(log: (line: string) => void) {
-    this.#log = log;
-  }
+  constructor(private readonly log: (line: string) => void) {}
 
   /** All refusals since the server was started. */
   get total(): number {
-    return this.#total;
+    return this.count;
   }
 
   note(request: Refused, why: string): void {
     const address = request.socket.remoteAddress ?? "?";
-    this.#total++;
-    if (this.#total - this.#before <= MAX_LINES) {
+    this.count++;
+    if (this.count - this.before <= MAX_LINES) {
       const { method, originalUrl: url = request.url } = request;
       const what = method === undefined || url === undefined ? "a request" : `${method} ${pathOf(url)}`;
-      this.#log(`refused ${what} from ${address}: ${why}`);
+      this.log(`refused ${what} from ${address}: ${why}`);
     } else {
-      const isKnown = this.#addresses.has(address) || this.#addresses.size < MAX_LINES;
+      const isKnown = this.addresses.has(address) || this.addresses.size < MAX_LINES;
       const counted = isKnown ? address : "others";
-      this.#addresses.set(counted, (this.#addresses.get(counted) ?? 0) + 1);
+      this.addresses.set(counted, (this.addresses.get(counted) ?? 0) + 1);
     }
-    this.#timer ??= setTimeout(() => this.close(), PERIOD_MS).unref();
+    this.timer ??= setTimeout(() => this.close(), PERIOD_MS).unref();
   }
 
   /** Ends the period: logs the number of requests that have no line. */
   close(): void {
-    if (this.#timer !== null) clearTimeout(this.#timer);
-    this.#timer = null;
-    const addresses = [...this.#addresses].map(([address, count]) => `${count} from ${address}`);
-    if (addresses.length > 0) this.#log(`refused more requests: ${addresses.join(", ")}`);
-    this.#addresses.clear();
-    this.#before = this.#total;
+    if (this.timer !== null) clearTimeout(this.timer);
+    this.timer = null;
+    const addresses = [...this.addresses].map(([address, count]) => `${count} from ${address}`);
+    if (addresses.length > 0) this.log(`refused more requests: ${addresses.join(", ")}`);
+    this.addresses.clear();
+    this.before = this.count;
   }
 }
 

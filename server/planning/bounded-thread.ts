@@ -36,60 +36,58 @@ interface ThreadListener<Message> {
 }
 
 export class BoundedThread<Message> {
-  readonly #worker: Worker;
-  readonly #listener: ThreadListener<Message>;
-  readonly #memoryTimer: NodeJS.Timeout;
-  #timer: NodeJS.Timeout | undefined;
-  #isEnded = false;
+  private readonly worker: Worker;
+  private readonly memoryTimer: NodeJS.Timeout;
+  private timer: NodeJS.Timeout | undefined;
+  private isEnded = false;
 
   constructor(
     { name, starterUrl, workerData, heapMb, growthMb }: ThreadStart,
-    listener: ThreadListener<Message>,
+    private readonly listener: ThreadListener<Message>,
   ) {
-    this.#listener = listener;
-    this.#worker = startWorker(name, starterUrl, {
+    this.worker = startWorker(name, starterUrl, {
       workerData,
       resourceLimits: { maxOldGenerationSizeMb: heapMb },
       // A library may print warnings about a damaged file; they must not mix with the output of a command.
       stdout: true,
     });
-    this.#worker.stdout.resume();
+    this.worker.stdout.resume();
     const maxBytes = process.memoryUsage.rss() + growthMb * 1e6;
-    this.#memoryTimer = setInterval(() => {
+    this.memoryTimer = setInterval(() => {
       if (process.memoryUsage.rss() > maxBytes) void this.stop(tooLarge());
     }, MEMORY_CHECK_MS);
-    this.#worker.on("message", (message: Message) => {
-      if (!this.#isEnded) listener.message(message);
+    this.worker.on("message", (message: Message) => {
+      if (!this.isEnded) listener.message(message);
     });
-    this.#worker.on("error", (error) => this.#end(endOf(error)));
-    this.#worker.on("exit", () => this.#end(new PlotwrightError("internal", "The planning thread ended.")));
+    this.worker.on("error", (error) => this.end(endOf(error)));
+    this.worker.on("exit", () => this.end(new PlotwrightError("internal", "The planning thread ended.")));
   }
 
   post(message: unknown): void {
-    this.#worker.postMessage(message);
+    this.worker.postMessage(message);
   }
 
   /**
    * Sets the time limit for the work from now on, in place of the last limit; null while the thread is idle.
    */
   allow(limit: TimeLimit | null): void {
-    clearTimeout(this.#timer);
-    if (limit !== null && !this.#isEnded) {
-      this.#timer = setTimeout(() => void this.stop(limit.error), limit.s * 1_000);
+    clearTimeout(this.timer);
+    if (limit !== null && !this.isEnded) {
+      this.timer = setTimeout(() => void this.stop(limit.error), limit.s * 1_000);
     }
   }
 
   async stop(reason: Error): Promise<void> {
-    this.#end(reason);
-    await this.#worker.terminate();
+    this.end(reason);
+    await this.worker.terminate();
   }
 
-  #end(reason: Error): void {
-    if (this.#isEnded) return;
-    this.#isEnded = true;
-    clearTimeout(this.#timer);
-    clearInterval(this.#memoryTimer);
-    this.#listener.ended(reason);
+  private end(reason: Error): void {
+    if (this.isEnded) return;
+    this.isEnded = true;
+    clearTimeout(this.timer);
+    clearInterval(this.memoryTimer);
+    this.listener.ended(reason);
   }
 }
 

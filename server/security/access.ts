@@ -33,23 +33,21 @@ const SEEN_EVERY_MS = 60_000;
 export class Access {
   /** Requests from this computer need no pairing. */
   readonly trustsLoopback: boolean;
-  readonly #store: Pick<Store, "setting" | "saveSetting">;
-  readonly #now: () => Date;
+  private readonly now: () => Date;
   /** By the hash of their secrets, so that a request needs one look-up. */
-  #entries: ReadonlyMap<string, StoredEntry>;
-  #pairing = newPairing();
-  #onRevoke: (id: string) => void = () => undefined;
-  #onNewPairing: () => void = () => undefined;
+  private entries: ReadonlyMap<string, StoredEntry>;
+  private pairing = newPairing();
+  private revokeListener: (id: string) => void = () => undefined;
+  private pairingListener: () => void = () => undefined;
 
   constructor(
-    store: Pick<Store, "setting" | "saveSetting">,
+    private readonly store: Pick<Store, "setting" | "saveSetting">,
     options: { readonly trustsLoopback?: boolean | undefined; readonly now?: () => Date } = {},
   ) {
-    this.#store = store;
-    this.#now = options.now ?? (() => new Date());
+    this.now = options.now ?? (() => new Date());
     this.trustsLoopback = options.trustsLoopback ?? true;
     const stored = storedSchema.safeParse(store.setting(SETTING));
-    this.#entries = byHash(stored.success ? stored.data : []);
+    this.entries = byHash(stored.success ? stored.data : []);
   }
 
   /**
@@ -57,7 +55,7 @@ export class Access {
    * revoked.
    */
   pairingPath(role: Role): string {
-    return `/pair?token=${this.#pairing[role]}`;
+    return `/pair?token=${this.pairing[role]}`;
   }
 
   /**
@@ -66,55 +64,55 @@ export class Access {
    */
   pair(token: string, name: string, before: string | null): string {
     // Compared as hashes, so that the time says nothing about the tokens.
-    const role = ROLES.find((one) => hashOf(this.#pairing[one]) === hashOf(token));
+    const role = ROLES.find((one) => hashOf(this.pairing[one]) === hashOf(token));
     if (role === undefined) {
       throw new PlotwrightError(
         "not-allowed",
         "This link is no longer valid. Use the one the server shows now.",
       );
     }
-    const entries = this.#valid();
+    const entries = this.valid();
     const beforeSha256 = before === null ? null : hashOf(before);
     const others = entries.filter((entry) => entry.kind === "key" || entry.secretSha256 !== beforeSha256);
     const kept = withRoom(others, role);
-    const { secret } = this.#add("session", role, name, kept);
-    for (const { id } of entries.filter((entry) => !kept.includes(entry))) this.#onRevoke(id);
+    const { secret } = this.add("session", role, name, kept);
+    for (const { id } of entries.filter((entry) => !kept.includes(entry))) this.revokeListener(id);
     return secret;
   }
 
   /** Throws `conflict` if there are too many keys. */
   createKey(name: string, role: Role): { readonly entry: AccessEntry; readonly secret: string } {
-    const entries = this.#valid();
+    const entries = this.valid();
     if (entries.filter(({ kind }) => kind === "key").length >= MAX_KEYS) {
       throw new PlotwrightError("conflict", `There are ${MAX_KEYS} keys already. Revoke one of them first.`);
     }
-    return this.#add("key", role, name, entries);
+    return this.add("key", role, name, entries);
   }
 
   list(): AccessEntry[] {
-    return this.#valid().map(publicPart);
+    return this.valid().map(publicPart);
   }
 
   /** Throws `not-found`. Revoking a session also replaces the pairing links. */
   revoke(id: string): void {
-    const entries = [...this.#entries.values()];
+    const entries = [...this.entries.values()];
     const revoked = entries.find((entry) => entry.id === id);
     if (revoked === undefined) throw new PlotwrightError("not-found", `There is no access ${id}.`);
-    this.#save(entries.filter((entry) => entry !== revoked));
-    this.#onRevoke(id);
+    this.save(entries.filter((entry) => entry !== revoked));
+    this.revokeListener(id);
     if (revoked.kind === "key") return;
-    this.#pairing = newPairing();
-    this.#onNewPairing();
+    this.pairing = newPairing();
+    this.pairingListener();
   }
 
   /** Sets the listener called with the id of a session or key that ends, so that its open streams can be ended. */
   onRevoke(listener: (id: string) => void): void {
-    this.#onRevoke = listener;
+    this.revokeListener = listener;
   }
 
   /** Sets the listener called when the pairing links were replaced. */
   onNewPairing(listener: () => void): void {
-    this.#onNewPairing = listener;
+    this.pairingListener = listener;
   }
 
   /** The role of a secret; null if the secret is unknown. */
@@ -125,32 +123,32 @@ export class Access {
   /** The session or key with this secret; null if the secret is unknown. */
   entryOf(secret: string): AccessEntry | null {
     // The time of this look-up depends on the hash, from which the secret can't be found.
-    const entry = this.#entries.get(hashOf(secret));
-    if (entry === undefined || !this.#isValid(entry)) return null;
-    const now = this.#now();
-    if (now.getTime() - Date.parse(entry.lastSeenAt) > SEEN_EVERY_MS) this.#saveSeen(entry, now);
+    const entry = this.entries.get(hashOf(secret));
+    if (entry === undefined || !this.isValid(entry)) return null;
+    const now = this.now();
+    if (now.getTime() - Date.parse(entry.lastSeenAt) > SEEN_EVERY_MS) this.saveSeen(entry, now);
     return publicPart(entry);
   }
 
   /** Ignores a full disk: a device that wants to stop a plot must not be refused because of it. */
-  #saveSeen(seen: StoredEntry, now: Date): void {
+  private saveSeen(seen: StoredEntry, now: Date): void {
     const lastSeenAt = now.toISOString();
-    const entries = [...this.#entries.values()];
+    const entries = [...this.entries.values()];
     try {
-      this.#save(entries.map((entry) => (entry === seen ? { ...entry, lastSeenAt } : entry)));
+      this.save(entries.map((entry) => (entry === seen ? { ...entry, lastSeenAt } : entry)));
     } catch {
       return;
     }
   }
 
-  #add(
+  private add(
     kind: AccessEntry["kind"],
     role: Role,
     name: string,
     others: readonly StoredEntry[],
   ): { entry: AccessEntry; secret: string } {
     const secret = newSecret();
-    const at = this.#now().toISOString();
+    const at = this.now().toISOString();
     const entry: AccessEntry = {
       id: randomBytes(8).toString("hex"),
       kind,
@@ -159,22 +157,22 @@ export class Access {
       createdAt: at,
       lastSeenAt: at,
     };
-    this.#save([...others, { ...entry, secretSha256: hashOf(secret) }]);
+    this.save([...others, { ...entry, secretSha256: hashOf(secret) }]);
     return { entry, secret };
   }
 
   /** All entries but the sessions that have ended. They leave the store when the next session or key is added. */
-  #valid(): StoredEntry[] {
-    return [...this.#entries.values()].filter((entry) => this.#isValid(entry));
+  private valid(): StoredEntry[] {
+    return [...this.entries.values()].filter((entry) => this.isValid(entry));
   }
 
-  #isValid({ kind, createdAt }: StoredEntry): boolean {
-    return kind === "key" || Date.parse(createdAt) > this.#now().getTime() - SESSION_DAYS * 86_400_000;
+  private isValid({ kind, createdAt }: StoredEntry): boolean {
+    return kind === "key" || Date.parse(createdAt) > this.now().getTime() - SESSION_DAYS * 86_400_000;
   }
 
-  #save(entries: readonly StoredEntry[]): void {
-    this.#store.saveSetting(SETTING, entries);
-    this.#entries = byHash(entries);
+  private save(entries: readonly StoredEntry[]): void {
+    this.store.saveSetting(SETTING, entries);
+    this.entries = byHash(entries);
   }
 }
 

@@ -24,22 +24,20 @@ const SETTING = "operator";
 const LAPSE_MS = 30_000;
 
 export class OperatorLock {
-  readonly #parts: OperatorLockParts;
-  #operator: Operator | null;
+  private current: Operator | null;
   /** Open event streams by browser. */
-  readonly #streams = new Map<string, number>();
-  #lapse: NodeJS.Timeout | null = null;
-  #isClosed = false;
+  private readonly streams = new Map<string, number>();
+  private lapse: NodeJS.Timeout | null = null;
+  private isClosed = false;
 
-  constructor(parts: OperatorLockParts) {
-    this.#parts = parts;
+  constructor(private readonly parts: OperatorLockParts) {
     const stored = operatorSchema.safeParse(parts.store.setting(SETTING));
-    this.#operator = stored.success ? stored.data : null;
-    this.#restartLapse();
+    this.current = stored.success ? stored.data : null;
+    this.restartLapse();
   }
 
   get operator(): Operator | null {
-    return this.#operator;
+    return this.current;
   }
 
   /**
@@ -47,64 +45,64 @@ export class OperatorLock {
    * another has it.
    */
   act(browser: Operator): void {
-    if (this.#operator === null) this.#give(browser, "acts first");
-    else if (this.#operator.id !== browser.id) {
+    if (this.current === null) this.give(browser, "acts first");
+    else if (this.current.id !== browser.id) {
       throw new PlotwrightError(
         "not-operator",
-        `${this.#operator.name} is operating. Take over to change something; you can stop a plot without taking over.`,
+        `${this.current.name} is operating. Take over to change something; you can stop a plot without taking over.`,
       );
-    } else this.#restartLapse();
+    } else this.restartLapse();
   }
 
   take(browser: Operator): Operator {
-    if (this.#operator?.id !== browser.id) {
-      const from = this.#operator === null ? "" : ` from ${this.#operator.name}`;
-      this.#give(browser, `takes over${from}`);
+    if (this.current?.id !== browser.id) {
+      const from = this.current === null ? "" : ` from ${this.current.name}`;
+      this.give(browser, `takes over${from}`);
     }
     return browser;
   }
 
   /** A browser has opened its event stream. Call the returned function when the stream ends. */
   streamOpened(id: string): () => void {
-    this.#streams.set(id, (this.#streams.get(id) ?? 0) + 1);
-    this.#restartLapse();
+    this.streams.set(id, (this.streams.get(id) ?? 0) + 1);
+    this.restartLapse();
     return () => {
-      const left = (this.#streams.get(id) ?? 1) - 1;
-      if (left === 0) this.#streams.delete(id);
-      else this.#streams.set(id, left);
-      this.#restartLapse();
+      const left = (this.streams.get(id) ?? 1) - 1;
+      if (left === 0) this.streams.delete(id);
+      else this.streams.set(id, left);
+      this.restartLapse();
     };
   }
 
   /** Streams that end after this no longer start the timer. */
   close(): void {
-    this.#isClosed = true;
-    this.#restartLapse();
+    this.isClosed = true;
+    this.restartLapse();
   }
 
-  #give(operator: Operator | null, why: string): void {
-    this.#operator = operator;
+  private give(operator: Operator | null, why: string): void {
+    this.current = operator;
     try {
-      this.#parts.store.saveSetting(SETTING, operator);
+      this.parts.store.saveSetting(SETTING, operator);
     } catch (error) {
       // A full disk must neither prevent operating nor end the server when the lock lapses.
-      this.#parts.log(`the operator is not stored: ${(error as Error).message}`);
+      this.parts.log(`the operator is not stored: ${(error as Error).message}`);
     }
-    this.#parts.log(`operator: ${operator?.name ?? "none"} (${why})`);
-    this.#parts.announce(operator);
-    this.#restartLapse();
+    this.parts.log(`operator: ${operator?.name ?? "none"} (${why})`);
+    this.parts.announce(operator);
+    this.restartLapse();
   }
 
   /** Restarts the timer that releases the lock, which runs while the holder has no event stream. */
-  #restartLapse(): void {
-    if (this.#lapse !== null) clearTimeout(this.#lapse);
-    this.#lapse = null;
-    if (this.#isClosed || this.#operator === null || this.#streams.has(this.#operator.id)) return;
-    const holder = this.#operator;
-    this.#lapse = setTimeout(
-      () => this.#give(null, `${holder.name} has disconnected`),
-      this.#parts.lapseMs ?? LAPSE_MS,
+  private restartLapse(): void {
+    if (this.lapse !== null) clearTimeout(this.lapse);
+    this.lapse = null;
+    if (this.isClosed || this.current === null || this.streams.has(this.current.id)) return;
+    const holder = this.current;
+    this.lapse = setTimeout(
+      () => this.give(null, `${holder.name} has disconnected`),
+      this.parts.lapseMs ?? LAPSE_MS,
     );
-    this.#lapse.unref();
+    this.lapse.unref();
   }
 }

@@ -17,50 +17,48 @@ export async function openSerial(path: string): Promise<Transport> {
 }
 
 class SerialTransport implements Transport {
-  readonly #port: SerialPort;
-  #closing: Promise<void> | null = null;
+  private closing: Promise<void> | null = null;
 
-  constructor(port: SerialPort) {
-    this.#port = port;
+  constructor(private readonly port: SerialPort) {
     // An "error" event without a listener would end the process; a lost connection is reported by "close".
     port.on("error", () => undefined);
   }
 
   write(bytes: Uint8Array): Promise<void> {
     return new Promise((resolve, reject) => {
-      if (!this.#port.isOpen) {
-        reject(lostError(this.#port.path));
+      if (!this.port.isOpen) {
+        reject(lostError(this.port.path));
         return;
       }
-      this.#port.write(Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength), (error) => {
-        if (error) reject(lostError(this.#port.path, error));
+      this.port.write(Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength), (error) => {
+        if (error) reject(lostError(this.port.path, error));
         else resolve();
       });
     });
   }
 
   onData(listener: (bytes: Uint8Array) => void): void {
-    this.#port.removeAllListeners("data");
-    this.#port.on("data", listener);
+    this.port.removeAllListeners("data");
+    this.port.on("data", listener);
   }
 
   onClose(listener: (error?: Error) => void): void {
-    this.#port.once("close", (error: Error | null | undefined) => {
-      if (this.#closing) listener();
-      else listener(lostError(this.#port.path, error ?? undefined));
+    this.port.once("close", (error: Error | null | undefined) => {
+      if (this.closing) listener();
+      else listener(lostError(this.port.path, error ?? undefined));
     });
   }
 
   close(): Promise<void> {
-    this.#closing ??= new Promise((resolve) => {
-      if (!this.#port.isOpen) {
+    this.closing ??= new Promise((resolve) => {
+      if (!this.port.isOpen) {
         resolve();
         return;
       }
       // Discard unsent output: otherwise closing would wait for a board that may no longer read it.
-      this.#port.flush(() => this.#port.close(() => resolve()));
+      this.port.flush(() => this.port.close(() => resolve()));
     });
-    return this.#closing;
+    return this.closing;
   }
 }
 

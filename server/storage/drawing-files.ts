@@ -15,21 +15,21 @@ export type { StoredDrawing } from "../../host/storage.js";
 export const UNCLAIMED_DAYS = 30;
 
 export class DrawingFiles implements DrawingStore {
-  readonly #dir: string;
+  private readonly dir: string;
   /** Folder for drawings that belong to no job. */
   readonly unclaimedDir: string;
   /** Size limit of one file. */
   readonly maxBytes: number;
 
   constructor(dataDir: string, maxBytes: number) {
-    this.#dir = join(dataDir, "drawings");
+    this.dir = join(dataDir, "drawings");
     this.unclaimedDir = join(dataDir, "unclaimed-drawings");
     this.maxBytes = maxBytes;
   }
 
   path(id: string): string {
     if (!/^[0-9a-f]{32}$/.test(id)) throw new RangeError(`Not a drawing's id: ${id}`);
-    return join(this.#dir, `${id}.svg`);
+    return join(this.dir, `${id}.svg`);
   }
 
   /**
@@ -37,7 +37,7 @@ export class DrawingFiles implements DrawingStore {
    */
   async add(chunks: AsyncIterable<Uint8Array> | Iterable<Uint8Array>): Promise<StoredDrawing> {
     const id = newId();
-    const draft = join(this.#dir, `incoming-${id}`);
+    const draft = join(this.dir, `incoming-${id}`);
     let bytes = 0;
     const file = await open(draft, "wx", 0o600);
     try {
@@ -52,7 +52,7 @@ export class DrawingFiles implements DrawingStore {
         await file.close();
       }
       await rename(draft, this.path(id));
-      await syncFolder(this.#dir);
+      await syncFolder(this.dir);
       return { id, bytes };
     } catch (error) {
       await rm(draft, { force: true });
@@ -85,19 +85,19 @@ export class DrawingFiles implements DrawingStore {
    */
   async sweep(isUsed: (id: string) => boolean, nowMs = Date.now()): Promise<number> {
     let movedCount = 0;
-    for (const name of await readdir(this.#dir)) {
+    for (const name of await readdir(this.dir)) {
       const id = drawingId(name);
-      if (id === undefined && name.startsWith("incoming-")) await rm(join(this.#dir, name), { force: true });
+      if (id === undefined && name.startsWith("incoming-")) await rm(join(this.dir, name), { force: true });
       if (id === undefined || isUsed(id)) continue;
       await mkdir(this.unclaimedDir, { recursive: true, mode: 0o700 });
-      await rename(join(this.#dir, name), join(this.unclaimedDir, name));
+      await rename(join(this.dir, name), join(this.unclaimedDir, name));
       movedCount++;
     }
     for (const name of existsSync(this.unclaimedDir) ? await readdir(this.unclaimedDir) : []) {
       const id = drawingId(name);
       if (id === undefined) continue;
       const path = join(this.unclaimedDir, name);
-      if (isUsed(id)) await rename(path, join(this.#dir, name));
+      if (isUsed(id)) await rename(path, join(this.dir, name));
       // Not mtimeMs: that is when it was uploaded, which moving it does not change.
       else if (nowMs - (await stat(path)).ctimeMs > UNCLAIMED_DAYS * 86_400_000) await rm(path);
     }

@@ -17,42 +17,42 @@ const MAX_LINE = 4_000;
 const MAX_WAITING = 200_000;
 
 export class LogBook {
-  readonly #path: string;
-  #bytes: number;
-  #waiting = "";
-  #writing: Promise<void> | null = null;
+  private readonly path: string;
+  private bytes: number;
+  private waiting = "";
+  private writing: Promise<void> | null = null;
 
   constructor(dataDir: string) {
-    this.#path = logPath(dataDir);
-    this.#bytes = statSync(this.#path, { throwIfNoEntry: false })?.size ?? 0;
+    this.path = logPath(dataDir);
+    this.bytes = statSync(this.path, { throwIfNoEntry: false })?.size ?? 0;
   }
 
   write(line: string): void {
-    if (this.#waiting.length > MAX_WAITING) return;
+    if (this.waiting.length > MAX_WAITING) return;
     const text = printable(line.replace(/\s*\n\s*/g, " | "));
     const cut = text.length > MAX_LINE ? `${text.slice(0, MAX_LINE)}…` : text;
-    this.#waiting += `${new Date().toISOString()} ${cut}\n`;
-    this.#writing ??= this.#writeWaiting().finally(() => {
-      this.#writing = null;
+    this.waiting += `${new Date().toISOString()} ${cut}\n`;
+    this.writing ??= this.writeWaiting().finally(() => {
+      this.writing = null;
     });
   }
 
   /** Resolves when all lines so far are in the file. */
   async written(): Promise<void> {
-    await this.#writing;
+    await this.writing;
   }
 
-  async #writeWaiting(): Promise<void> {
-    while (this.#waiting !== "") {
-      const text = this.#waiting;
-      this.#waiting = "";
+  private async writeWaiting(): Promise<void> {
+    while (this.waiting !== "") {
+      const text = this.waiting;
+      this.waiting = "";
       try {
-        if (this.#bytes > MAX_BYTES) {
-          await rename(this.#path, `${this.#path}.1`);
-          this.#bytes = 0;
+        if (this.bytes > MAX_BYTES) {
+          await rename(this.path, `${this.path}.1`);
+          this.bytes = 0;
         }
-        await appendFile(this.#path, text, { mode: 0o600 });
-        this.#bytes += Buffer.byteLength(text);
+        await appendFile(this.path, text, { mode: 0o600 });
+        this.bytes += Buffer.byteLength(text);
       } catch {
         // A full disk must not stop a plot. The line is also printed to the terminal.
       }

@@ -90,25 +90,17 @@ export const foreignKinds = (sources: Sources): string[] =>
     "web/plotter/profile.ts",
   ]);
 
-/** Private members that are not `private name` in src, or `#name` elsewhere. Private constructors have one form only. */
-export const foreignPrivateMembers = (sources: Sources): string[] =>
+/** Private members that are not `private name`. */
+export const privateIdentifiers = (sources: Sources): string[] =>
   Object.entries(sources).flatMap(([file, text]) => {
     const found: string[] = [];
-    const isInSrc = file.startsWith("src/");
     const visit = (node: ts.Node): void => {
-      if (isInSrc && ts.isPrivateIdentifier(node)) found.push(`${file}: ${node.text}`);
-      if (!isInSrc && !ts.isConstructorDeclaration(node) && isPrivate(node)) {
-        found.push(`${file}: ${node.getText()}`);
-      }
+      if (ts.isPrivateIdentifier(node)) found.push(`${file}: ${node.text}`);
       ts.forEachChild(node, visit);
     };
     visit(parsed(file, text));
     return found;
   });
-
-const isPrivate = (node: ts.Node): boolean =>
-  ts.canHaveModifiers(node) &&
-  (ts.getModifiers(node) ?? []).some(({ kind }) => kind === ts.SyntaxKind.PrivateKeyword);
 
 const isTypeDeclaration = (
   node: ts.Statement,

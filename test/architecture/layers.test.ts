@@ -8,7 +8,7 @@ import {
   findCycle,
   foreignCommands,
   foreignKinds,
-  foreignPrivateMembers,
+  privateIdentifiers,
   importsBetweenDrivers,
   importsOf,
   inside as importsInside,
@@ -276,8 +276,8 @@ describe("the boundaries", () => {
     expect(importsBetweenDrivers(SOURCES)).toEqual([]);
   });
 
-  it("write private members in one way in src, and in another in host, server and web", () => {
-    expect(foreignPrivateMembers(SOURCES)).toEqual([]);
+  it("let private members be written in one way", () => {
+    expect(privateIdentifiers(SOURCES)).toEqual([]);
   });
 
   it("leave planning and compiling to planJob and the drivers", () => {

@@ -13,8 +13,8 @@ export class CaughtIo implements CliIo {
   errText = "";
   readonly isTerminal = false;
   hasKeyboard = true;
-  #interrupt: ((isFinal: boolean) => void)[] = [];
-  #line: ((line: string) => void)[] = [];
+  private interruptListeners: ((isFinal: boolean) => void)[] = [];
+  private lineListeners: ((line: string) => void)[] = [];
 
   out(text: string): void {
     this.outText += text;
@@ -25,8 +25,8 @@ export class CaughtIo implements CliIo {
   }
 
   onInterrupt(listener: (isFinal: boolean) => void): () => void {
-    this.#interrupt.push(listener);
-    return () => (this.#interrupt = this.#interrupt.filter((one) => one !== listener));
+    this.interruptListeners.push(listener);
+    return () => (this.interruptListeners = this.interruptListeners.filter((one) => one !== listener));
   }
 
   endWithin(): void {}
@@ -34,26 +34,26 @@ export class CaughtIo implements CliIo {
   status(): void {}
 
   onLine(listener: (line: string) => void): () => void {
-    this.#line.push(listener);
-    return () => (this.#line = this.#line.filter((one) => one !== listener));
+    this.lineListeners.push(listener);
+    return () => (this.lineListeners = this.lineListeners.filter((one) => one !== listener));
   }
 
   /** Whether an interrupt is handled; otherwise it would end the process. */
   get listens(): boolean {
-    return this.#interrupt.length > 0;
+    return this.interruptListeners.length > 0;
   }
 
   interrupt(): void {
-    [...this.#interrupt].forEach((listener) => listener(false));
+    [...this.interruptListeners].forEach((listener) => listener(false));
   }
 
   /** The process is asked to end: SIGTERM, or its terminal is closed. */
   end(): void {
-    [...this.#interrupt].forEach((listener) => listener(true));
+    [...this.interruptListeners].forEach((listener) => listener(true));
   }
 
   line(text = ""): void {
-    [...this.#line].forEach((listener) => listener(text));
+    [...this.lineListeners].forEach((listener) => listener(text));
   }
 }
 

@@ -37,30 +37,27 @@ const ENDS = {
 /** A board, the folder for a drawing and the data, and the commands that use them. */
 class Desk {
   readonly dir = mkdtempSync(join(tmpdir(), "plotwright-ended-"));
-  readonly #speed: number;
-  readonly #running: AtTerminal[] = [];
+  private readonly running: AtTerminal[] = [];
 
   private constructor(
     readonly board: PtyBoard,
-    speed: number,
-  ) {
-    this.#speed = speed;
-  }
+    private readonly speed: number,
+  ) {}
 
   static async open(options: { firmware?: string; speed?: number } = {}): Promise<Desk> {
     return new Desk(await PtyBoard.open({ ...options, wakeful: true }), options.speed ?? 1);
   }
 
   async close(): Promise<void> {
-    this.#running.forEach((one) => one.signal("SIGKILL"));
+    this.running.forEach((one) => one.signal("SIGKILL"));
     await this.board.close();
     rmSync(this.dir, { recursive: true, force: true });
   }
 
   run(...args: string[]): AtTerminal {
-    const device = ["--device", this.board.path, "--virtual-speed", String(this.#speed)];
+    const device = ["--device", this.board.path, "--virtual-speed", String(this.speed)];
     const started = new AtTerminal([...args, ...device, "--data", this.dir]);
-    this.#running.push(started);
+    this.running.push(started);
     return started;
   }
 
@@ -112,26 +109,26 @@ class Desk {
 class AtTerminal {
   said = "";
   readonly ended: Promise<{ exitCode: number; signal?: number }>;
-  readonly #terminal;
+  private readonly terminal;
 
   constructor(args: readonly string[]) {
-    this.#terminal = spawnAtTerminal(process.execPath, [MAIN, ...args], { cwd: ROOT });
-    this.#terminal.onData((text) => (this.said += text));
-    this.ended = new Promise((resolve) => this.#terminal.onExit(resolve));
+    this.terminal = spawnAtTerminal(process.execPath, [MAIN, ...args], { cwd: ROOT });
+    this.terminal.onData((text) => (this.said += text));
+    this.ended = new Promise((resolve) => this.terminal.onExit(resolve));
   }
 
   type(text: string): void {
-    this.#terminal.write(text);
+    this.terminal.write(text);
   }
 
   /** Closes the other end of the terminal. The type lacks this method. */
   drop(): void {
-    (this.#terminal as unknown as { destroy(): void }).destroy();
+    (this.terminal as unknown as { destroy(): void }).destroy();
   }
 
   signal(name: "SIGTERM" | "SIGHUP" | "SIGKILL"): void {
     try {
-      process.kill(this.#terminal.pid, name);
+      process.kill(this.terminal.pid, name);
     } catch {
       // It has ended.
     }

@@ -30,29 +30,29 @@ afterEach(() => {
 /** A terminal of this size with a plot on it. */
 class PlotAtTerminal {
   readonly exitCode: Promise<number>;
-  readonly #screen;
-  readonly #process;
+  private readonly screen;
+  private readonly process;
 
   constructor(cols: number, rows: number) {
-    this.#screen = new xterm.Terminal({ cols, rows, allowProposedApi: true, scrollback: 1_000 });
+    this.screen = new xterm.Terminal({ cols, rows, allowProposedApi: true, scrollback: 1_000 });
     const args = ["plot", join(dir, "a.svg"), "--no-fit", "--device", "virtual", "--virtual-speed", "2"];
-    this.#process = spawn(process.execPath, [join(ROOT, "dist/server/main.js"), ...args, "--data", dir], {
+    this.process = spawn(process.execPath, [join(ROOT, "dist/server/main.js"), ...args, "--data", dir], {
       cols,
       rows,
       cwd: ROOT,
     });
-    this.#process.onData((text) => this.#screen.write(text));
-    this.exitCode = new Promise((resolve) => this.#process.onExit(({ exitCode }) => resolve(exitCode)));
-    end = () => this.#process.kill("SIGKILL");
+    this.process.onData((text) => this.screen.write(text));
+    this.exitCode = new Promise((resolve) => this.process.onExit(({ exitCode }) => resolve(exitCode)));
+    end = () => this.process.kill("SIGKILL");
   }
 
   type(text: string): void {
-    this.#process.write(text);
+    this.process.write(text);
   }
 
   /** All lines that the user sees or can scroll back to, without empty ones; wrapped lines are one. */
   lines(): string[] {
-    const { active } = this.#screen.buffer;
+    const { active } = this.screen.buffer;
     const lines: string[] = [];
     for (let y = 0; y < active.length; y++) {
       const row = active.getLine(y);

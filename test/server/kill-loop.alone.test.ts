@@ -42,20 +42,20 @@ class Client {
   readonly removed = new Set<string>();
   maybeRemoved: string | null = null;
   readonly done = new Map<string, number | null>();
-  readonly #random: () => number;
-  #nameCount = 0;
+  private readonly random: () => number;
+  private nameCount = 0;
   url = "";
 
   constructor(seed: number) {
     let state = seed;
-    this.#random = () => {
+    this.random = () => {
       state = (Math.imul(state, 1_664_525) + 1_013_904_223) >>> 0;
       return state / 2 ** 32;
     };
   }
 
   below(count: number): number {
-    return Math.floor(this.#random() * count);
+    return Math.floor(this.random() * count);
   }
 
   async state(): Promise<Job[]> {
@@ -77,17 +77,17 @@ class Client {
     const broken = jobs.find(({ state }) => state === "interrupted");
     const held = jobs.find(({ state }) => state === "paused");
     const choice = this.below(10);
-    if (held !== undefined) return this.#simple(held.id, "resume");
-    if (broken !== undefined && choice < 9) return this.#simple(broken.id, "recover");
-    if (any === undefined || (choice < 4 && queued.length < 8)) return this.#add();
-    if (choice === 4) return this.#remove(any.id);
-    if (choice < 7) return this.#simple(any.id, "start");
-    return this.#move(any.id, this.below(3) === 0 ? null : (queued[this.below(queued.length)]?.id ?? null));
+    if (held !== undefined) return this.simple(held.id, "resume");
+    if (broken !== undefined && choice < 9) return this.simple(broken.id, "recover");
+    if (any === undefined || (choice < 4 && queued.length < 8)) return this.add();
+    if (choice === 4) return this.remove(any.id);
+    if (choice < 7) return this.simple(any.id, "start");
+    return this.move(any.id, this.below(3) === 0 ? null : (queued[this.below(queued.length)]?.id ?? null));
   }
 
   /** Returns false if the server ended before it answered: then both orders are possible. */
   async carryOut({ method, path, body, isJson, becomes }: Action): Promise<boolean> {
-    const name = method === "POST" && body !== undefined && isJson !== true ? this.#lastName() : null;
+    const name = method === "POST" && body !== undefined && isJson !== true ? this.lastName() : null;
     const removed = method === "DELETE" ? path.replace("/jobs/", "") : null;
     try {
       const response = await fetch(`${this.url}/api/v1${path}`, {
@@ -116,9 +116,9 @@ class Client {
       const jobs = await this.state();
       const job = jobs.find(({ state }) => !ENDED_STATES.includes(state));
       const next = { interrupted: "recover", paused: "resume", queued: "start" } as const;
-      if (job === undefined) await this.carryOut(this.#add());
+      if (job === undefined) await this.carryOut(this.add());
       else if (job.state in next)
-        await this.carryOut(this.#simple(job.id, next[job.state as keyof typeof next]));
+        await this.carryOut(this.simple(job.id, next[job.state as keyof typeof next]));
       await this.plotted();
       this.check(await this.state());
     }
@@ -158,27 +158,27 @@ class Client {
     [this.maybe, this.maybeName, this.maybeRemoved] = [null, null, null];
   }
 
-  #lastName = (): string => `job ${this.#nameCount}`;
+  private lastName = (): string => `job ${this.nameCount}`;
 
-  #add(): Action {
-    this.#nameCount++;
+  private add(): Action {
+    this.nameCount++;
     return {
       method: "POST",
-      path: `/jobs?name=${encodeURIComponent(this.#lastName())}`,
+      path: `/jobs?name=${encodeURIComponent(this.lastName())}`,
       body: this.below(3) === 0 ? LONG : SHORT,
       becomes: (order, answer) => (answer === null ? order : [...order, answer.id]),
     };
   }
 
-  #simple(id: string, name: string): Action {
+  private simple(id: string, name: string): Action {
     return { method: "POST", path: `/jobs/${id}/${name}`, becomes: (order) => order };
   }
 
-  #remove(id: string): Action {
+  private remove(id: string): Action {
     return { method: "DELETE", path: `/jobs/${id}`, becomes: (order) => order };
   }
 
-  #move(id: string, beforeId: string | null): Action {
+  private move(id: string, beforeId: string | null): Action {
     return {
       method: "POST",
       path: `/jobs/${id}/move`,

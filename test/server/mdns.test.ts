@@ -63,7 +63,7 @@ class Announcer {
   readonly names: (string | null)[] = [];
   readonly logged: string[] = [];
   readonly local: LocalName;
-  #onChange: () => void = () => undefined;
+  private onChange: () => void = () => undefined;
 
   constructor(socket: Line, options: Partial<LocalNameOptions> = {}) {
     this.local = new LocalName({
@@ -73,11 +73,11 @@ class Announcer {
       ...PACE,
       onName: (name) => {
         this.names.push(name);
-        this.#onChange();
+        this.onChange();
       },
       log: (line) => {
         this.logged.push(line);
-        this.#onChange();
+        this.onChange();
       },
       ...options,
     });
@@ -85,10 +85,10 @@ class Announcer {
 
   until(isSo: (announcer: this) => boolean): Promise<void> {
     return new Promise((resolve) => {
-      this.#onChange = () => {
+      this.onChange = () => {
         if (isSo(this)) resolve();
       };
-      this.#onChange();
+      this.onChange();
     });
   }
 

@@ -74,7 +74,7 @@ export class SerialPages {
   async plot(page: Page): Promise<void> {
     await waitForPlan(page);
     await page.getByRole("button", { name: "Connect a plotter…" }).click();
-    await this.#untilConnected(page);
+    await this.untilConnected(page);
     await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
   }
 
@@ -85,7 +85,7 @@ export class SerialPages {
   }
 
   /** A port that the page may use is found by itself. */
-  async #untilConnected(page: Page): Promise<void> {
+  private async untilConnected(page: Page): Promise<void> {
     await page.getByRole("button", { name: "Connect a plotter…" }).waitFor({ state: "detached" });
     await expect.poll(() => this.app.serial.isOpen, { timeout: PATIENCE_MS }).toBe(true);
   }
@@ -94,7 +94,7 @@ export class SerialPages {
   async recover(page: Page): Promise<void> {
     for (let interruptions = 1; interruptions <= MAX_INTERRUPTIONS; interruptions++) {
       await expectState(page, /^Interrupted/);
-      await this.#untilConnected(page);
+      await this.untilConnected(page);
       await statusCard(page).getByRole("button", { name: "Go on from there" }).click();
       await expectState(page, /^Paused/);
       await statusCard(page).getByRole("button", { name: "Resume" }).click();

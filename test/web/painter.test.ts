@@ -13,15 +13,15 @@ const sceneOf = (count: number): Picture => ({
 class TurnClock implements PainterClock {
   /** Called at each turn, for the page's work in between. */
   onTurn: (turn: number) => void = () => undefined;
-  #turns = 0;
-  #ms = 0;
+  private turns = 0;
+  private ms = 0;
 
   nowMs(): number {
-    return this.#ms;
+    return this.ms;
   }
   async wait(ms: number): Promise<void> {
-    this.#ms += Math.max(1, ms);
-    this.onTurn(++this.#turns);
+    this.ms += Math.max(1, ms);
+    this.onTurn(++this.turns);
     return Promise.resolve();
   }
 }
@@ -31,11 +31,11 @@ class Card implements SceneRenderer {
   readonly parts: number[] = [];
   readonly shown: { offsetX: number; detail: Detail; pieces: number }[] = [];
   mostPartsAtOnce = 0;
-  #busyUntilMs = 0;
-  #atOnce = 0;
-  #scene: Picture | null = null;
-  #left = 0;
-  #now: { frame: Frame; detail: Detail; pieces: number } | null = null;
+  private busyUntilMs = 0;
+  private atOnce = 0;
+  private scene: Picture | null = null;
+  private left = 0;
+  private now: { frame: Frame; detail: Detail; pieces: number } | null = null;
 
   constructor(
     readonly piecesPerMs: number,
@@ -43,37 +43,37 @@ class Card implements SceneRenderer {
   ) {}
 
   setScene(scene: Picture | null): void {
-    this.#scene = scene;
-    this.#left = 0;
+    this.scene = scene;
+    this.left = 0;
   }
   begin(wanted: Frame, detail: Detail): number {
-    const count = this.#scene?.draw.count ?? 0;
-    this.#left = detail === "whole" ? count : Math.min(count, COARSE);
-    this.#now = { frame: wanted, detail, pieces: 0 };
-    return this.#left;
+    const count = this.scene?.draw.count ?? 0;
+    this.left = detail === "whole" ? count : Math.min(count, COARSE);
+    this.now = { frame: wanted, detail, pieces: 0 };
+    return this.left;
   }
   advance(pieceCount: number): number {
-    const drawn = Math.min(pieceCount, this.#left);
-    this.#left -= drawn;
+    const drawn = Math.min(pieceCount, this.left);
+    this.left -= drawn;
     this.parts.push(drawn);
-    this.#now!.pieces += drawn;
-    this.#atOnce = this.isIdle() ? 1 : this.#atOnce + 1;
-    this.mostPartsAtOnce = Math.max(this.mostPartsAtOnce, this.#atOnce);
-    this.#busyUntilMs = Math.max(this.clock.nowMs(), this.#busyUntilMs) + drawn / this.piecesPerMs;
+    this.now!.pieces += drawn;
+    this.atOnce = this.isIdle() ? 1 : this.atOnce + 1;
+    this.mostPartsAtOnce = Math.max(this.mostPartsAtOnce, this.atOnce);
+    this.busyUntilMs = Math.max(this.clock.nowMs(), this.busyUntilMs) + drawn / this.piecesPerMs;
     return drawn;
   }
   get isFinished(): boolean {
-    return this.#left === 0;
+    return this.left === 0;
   }
   isIdle(): boolean {
-    return this.clock.nowMs() >= this.#busyUntilMs;
+    return this.clock.nowMs() >= this.busyUntilMs;
   }
   present(): void {
-    const { frame: of, detail, pieces } = this.#now!;
+    const { frame: of, detail, pieces } = this.now!;
     this.shown.push({ offsetX: of.view.offsetX, detail, pieces });
   }
   close(): void {
-    this.#scene = null;
+    this.scene = null;
   }
 }
 

@@ -26,7 +26,7 @@ class Plotters {
   /** Another browser is the operator. */
   isOthers = false;
   putCount = 0;
-  readonly #pages: { readonly store: PageStore; readonly follow: () => void }[] = [];
+  private readonly pages: { readonly store: PageStore; readonly follow: () => void }[] = [];
 
   readonly backend = {
     plotters: {
@@ -53,8 +53,8 @@ class Plotters {
   } as unknown as Backend;
 
   tell(): void {
-    for (const { store, follow } of this.#pages) {
-      store.setState({ ...this.#state() });
+    for (const { store, follow } of this.pages) {
+      store.setState({ ...this.state() });
       follow();
     }
   }
@@ -70,8 +70,8 @@ class Plotters {
       nowMs: () => (nowMs += 10_000),
       after: (_delayMs, callback) => void setTimeout(callback, 0),
     });
-    this.#pages.push({ store, follow: actions.followPlotter });
-    store.setState({ link: "connected", me: { role: "operate", id: "a", name: "A" }, ...this.#state() });
+    this.pages.push({ store, follow: actions.followPlotter });
+    store.setState({ link: "connected", me: { role: "operate", id: "a", name: "A" }, ...this.state() });
     actions.followPlotter();
     return {
       store,
@@ -88,7 +88,7 @@ class Plotters {
     };
   }
 
-  #state() {
+  private state() {
     return {
       plotters: [makePlotter("left", { machine: this.machine }), makePlotter("right")],
       plotterSettings: { ...this.stored },

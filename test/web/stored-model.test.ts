@@ -19,14 +19,14 @@ class Records {
   readonly journals = new Map<string, unknown>();
 
   put(store: string, key: string, value: unknown): void {
-    this.#of(store).set(key, structuredClone(value));
+    this.of(store).set(key, structuredClone(value));
   }
 
   remove(store: string, key: string): void {
-    this.#of(store).delete(key);
+    this.of(store).delete(key);
   }
 
-  #of(store: string): Map<string, unknown> {
+  private of(store: string): Map<string, unknown> {
     return this[store as "jobs"];
   }
 }

@@ -30,206 +30,213 @@ const MOST_BELOW = 0.24;
 const MAX_RATIO = 2;
 
 export class Stage {
-  readonly #canvases: StageCanvases;
-  readonly #belowPx: number;
-  readonly #observer: ResizeObserver;
-  readonly #strokes: Strokes;
-  #scene: Picture | null = null;
-  #look: FrameLook;
-  #desk: Desk;
-  #marker: Marker | null = null;
-  #paint: Paint | null = null;
-  #rulerSpan: Box | null = null;
-  #colors: DeskColors;
-  #size: Size = { width: 0, height: 0 };
-  #view: View = { scale: 1, offsetX: 0, offsetY: 0 };
+  private readonly observer: ResizeObserver;
+  private readonly strokes: Strokes;
+  private scene: Picture | null = null;
+  private shownDesk: Desk;
+  private marker: Marker | null = null;
+  private paint: Paint | null = null;
+  private rulerSpan: Box | null = null;
+  private colors: DeskColors;
+  private cssSize: Size = { width: 0, height: 0 };
+  private currentView: View = { scale: 1, offsetX: 0, offsetY: 0 };
   /** The view that the strokes canvas shows. */
-  #drawnView: View | null = null;
+  private drawnView: View | null = null;
   /** Until the user pans or zooms, the whole paper stays visible. */
-  #isFitted = true;
-  #areStrokesStale = true;
+  private isFitted = true;
+  private areStrokesStale = true;
   /** The scene is not visible yet. */
-  #isSceneNew = true;
+  private isSceneNew = true;
   /** The scene of each requested frame. */
-  readonly #scenes = new WeakMap<Frame, Picture | null>();
+  private readonly scenes = new WeakMap<Frame, Picture | null>();
   /** The 2D canvases are drawn only when something on them has changed. */
-  #areSheetsStale = true;
-  #request = 0;
+  private areSheetsStale = true;
+  private request = 0;
 
   /** `onFault` is called if the strokes can't be drawn. */
-  constructor(canvases: StageCanvases, desk: Desk, look: FrameLook, belowPx: number, onFault: () => void) {
-    this.#canvases = canvases;
-    this.#belowPx = belowPx;
-    this.#desk = desk;
-    this.#look = look;
-    this.#colors = deskColors(canvases.box);
+  constructor(
+    private readonly canvases: StageCanvases,
+    desk: Desk,
+    private look: FrameLook,
+    private readonly belowPx: number,
+    onFault: () => void,
+  ) {
+    this.shownDesk = desk;
+    this.colors = deskColors(canvases.box);
     const worker = new Worker(new URL("../worker/draw.worker.ts", import.meta.url), { type: "module" });
     const shown = canvases.strokes.getContext("bitmaprenderer");
-    this.#strokes = new Strokes(worker, {
+    this.strokes = new Strokes(worker, {
       put: (bitmap) => shown?.transferFromImageBitmap(bitmap),
-      onShown: (frame, isDone) => this.#onShown(frame, isDone),
+      onShown: (frame, isDone) => this.onShown(frame, isDone),
       onFault,
     });
-    this.#observer = new ResizeObserver(() => this.#resize());
-    this.#observer.observe(canvases.box);
-    this.#resize();
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(canvases.box);
+    this.resize();
   }
 
   get view(): View {
-    return this.#view;
+    return this.currentView;
   }
 
   /** The preview's size, CSS px. */
   get size(): Size {
-    return this.#size;
+    return this.cssSize;
   }
 
   setView(view: View): void {
-    this.#view = view;
-    this.#isFitted = false;
-    this.#refresh(true);
+    this.currentView = view;
+    this.isFitted = false;
+    this.refresh(true);
   }
 
   fit(): void {
-    this.#isFitted = true;
-    this.#fitNow();
-    this.#refresh(true);
+    this.isFitted = true;
+    this.fitNow();
+    this.refresh(true);
   }
 
   zoomBy(factor: number): void {
-    this.setView(zoomAt(this.#view, factor, this.#size.width / 2, this.#size.height / 2));
+    this.setView(zoomAt(this.currentView, factor, this.cssSize.width / 2, this.cssSize.height / 2));
   }
 
   /** `copy` is passed to the code that draws, which may transfer it. */
   setScene(scene: Picture | null, copy: Picture | null): void {
-    if (scene === this.#scene) return;
-    this.#scene = scene;
-    this.#isSceneNew = true;
-    this.#strokes.setScene(scene, copy);
-    this.#refresh(true);
+    if (scene === this.scene) return;
+    this.scene = scene;
+    this.isSceneNew = true;
+    this.strokes.setScene(scene, copy);
+    this.refresh(true);
   }
 
   setLook(look: FrameLook): void {
     // While another drawing is plotted, the state changes several times a second, and these strokes do not.
-    if (isSameJson(look, this.#look)) return;
-    this.#look = look;
-    this.#refresh(true);
+    if (isSameJson(look, this.look)) return;
+    this.look = look;
+    this.refresh(true);
   }
 
   setDesk(desk: Desk): void {
-    const { width, height } = this.#desk.paperMm;
+    const { width, height } = this.shownDesk.paperMm;
     const isOther = desk.paperMm.width !== width || desk.paperMm.height !== height;
-    this.#desk = desk;
+    this.shownDesk = desk;
     if (isOther) this.fit();
-    else this.#refresh(false);
+    else this.refresh(false);
   }
 
   setMarker(marker: Marker | null): void {
-    this.#marker = marker;
-    this.#refresh(false);
+    this.marker = marker;
+    this.refresh(false);
   }
 
   get desk(): Desk {
-    return this.#desk;
+    return this.shownDesk;
   }
 
   /** Sets what is painted over the strokes in every frame (highlights, handles), and the marked part of the rulers. */
   setPainter(paint: Paint, rulerSpan: Box | null): void {
-    this.#paint = paint;
-    this.#rulerSpan = rulerSpan;
-    this.#refresh(false);
+    this.paint = paint;
+    this.rulerSpan = rulerSpan;
+    this.refresh(false);
   }
 
   /** Reads the colours again, after the theme has changed. */
   recolor(): void {
-    this.#colors = deskColors(this.#canvases.box);
-    this.#refresh(false);
+    this.colors = deskColors(this.canvases.box);
+    this.refresh(false);
   }
 
   close(): void {
-    cancelAnimationFrame(this.#request);
-    this.#observer.disconnect();
-    this.#strokes.close();
+    cancelAnimationFrame(this.request);
+    this.observer.disconnect();
+    this.strokes.close();
   }
 
-  #resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.#canvases.box;
-    this.#size = { width, height };
-    if (this.#isFitted) this.#fitNow();
-    this.#refresh(true);
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvases.box;
+    this.cssSize = { width, height };
+    if (this.isFitted) this.fitNow();
+    this.refresh(true);
     // Draws now, so that the browser does not show the new size with an old picture for one frame.
-    cancelAnimationFrame(this.#request);
-    this.#frame();
+    cancelAnimationFrame(this.request);
+    this.frame();
   }
 
-  #fitNow(): void {
+  private fitNow(): void {
     const insets = {
       top: RULER_PX + INSET_PX,
       left: RULER_PX + INSET_PX,
       right: INSET_PX,
-      bottom: INSET_PX + Math.min(this.#belowPx, MOST_BELOW * this.#size.height),
+      bottom: INSET_PX + Math.min(this.belowPx, MOST_BELOW * this.cssSize.height),
     };
-    this.#view = fitView(this.#desk.paperMm, this.#size, insets);
+    this.currentView = fitView(this.shownDesk.paperMm, this.cssSize, insets);
   }
 
-  #refresh(areStrokesStale: boolean): void {
-    this.#areStrokesStale ||= areStrokesStale;
-    if (areStrokesStale) this.#canvases.strokes.ariaBusy = "true";
-    this.#areSheetsStale = true;
-    this.#schedule();
+  private refresh(areStrokesStale: boolean): void {
+    this.areStrokesStale ||= areStrokesStale;
+    if (areStrokesStale) this.canvases.strokes.ariaBusy = "true";
+    this.areSheetsStale = true;
+    this.schedule();
   }
 
-  #schedule(): void {
-    if (this.#request === 0) this.#request = requestAnimationFrame(this.#frame);
+  private schedule(): void {
+    if (this.request === 0) this.request = requestAnimationFrame(this.frame);
   }
 
-  readonly #frame = (): void => {
-    this.#request = 0;
-    if (this.#size.width === 0 || this.#size.height === 0) return;
+  private readonly frame = (): void => {
+    this.request = 0;
+    if (this.cssSize.width === 0 || this.cssSize.height === 0) return;
     const ratio = Math.min(MAX_RATIO, window.devicePixelRatio || 1);
-    if (this.#areSheetsStale) this.#drawSheets(ratio);
-    if (this.#areStrokesStale) this.#askForStrokes(ratio);
+    if (this.areSheetsStale) this.drawSheets(ratio);
+    if (this.areStrokesStale) this.askForStrokes(ratio);
   };
 
-  #drawSheets(ratio: number): void {
-    const { desk, overlay } = this.#canvases;
-    this.#areSheetsStale = false;
-    const deskContext = beginCanvas(desk, this.#size, ratio);
-    if (deskContext) drawBackdrop(deskContext, this.#view, this.#desk, this.#colors);
-    const overlayContext = beginCanvas(overlay, this.#size, ratio);
+  private drawSheets(ratio: number): void {
+    const { desk, overlay } = this.canvases;
+    this.areSheetsStale = false;
+    const deskContext = beginCanvas(desk, this.cssSize, ratio);
+    if (deskContext) drawBackdrop(deskContext, this.currentView, this.shownDesk, this.colors);
+    const overlayContext = beginCanvas(overlay, this.cssSize, ratio);
     if (overlayContext) {
-      this.#paint?.(overlayContext, this.#view);
-      if (this.#marker) drawMarker(overlayContext, this.#view, this.#marker, this.#colors);
-      drawRulers(overlayContext, this.#view, this.#size, this.#colors, this.#desk.unitMm, this.#rulerSpan);
+      this.paint?.(overlayContext, this.currentView);
+      if (this.marker) drawMarker(overlayContext, this.currentView, this.marker, this.colors);
+      drawRulers(
+        overlayContext,
+        this.currentView,
+        this.cssSize,
+        this.colors,
+        this.shownDesk.unitMm,
+        this.rulerSpan,
+      );
     }
   }
 
-  #askForStrokes(ratio: number): void {
-    this.#areStrokesStale = false;
-    const frame: Frame = { ...this.#look, ...this.#size, ratio, view: this.#view };
-    this.#scenes.set(frame, this.#scene);
-    this.#strokes.show(frame);
-    this.#moveStrokes();
+  private askForStrokes(ratio: number): void {
+    this.areStrokesStale = false;
+    const frame: Frame = { ...this.look, ...this.cssSize, ratio, view: this.currentView };
+    this.scenes.set(frame, this.scene);
+    this.strokes.show(frame);
+    this.moveStrokes();
   }
 
-  #onShown(frame: Frame, isDone: boolean): void {
-    const { strokes } = this.#canvases;
+  private onShown(frame: Frame, isDone: boolean): void {
+    const { strokes } = this.canvases;
     // The picture keeps the size that it was drawn for, because the box may have changed since.
     strokes.style.width = `${frame.width}px`;
     strokes.style.height = `${frame.height}px`;
-    this.#drawnView = frame.view;
-    this.#moveStrokes();
-    if (isDone && !this.#areStrokesStale) strokes.ariaBusy = "false";
-    if (!this.#scene || this.#scenes.get(frame) !== this.#scene) return;
-    if (this.#isSceneNew) markMoment("plotwright-picture");
+    this.drawnView = frame.view;
+    this.moveStrokes();
+    if (isDone && !this.areStrokesStale) strokes.ariaBusy = "false";
+    if (!this.scene || this.scenes.get(frame) !== this.scene) return;
+    if (this.isSceneNew) markMoment("plotwright-picture");
     if (isDone) markMoment("plotwright-whole-picture");
-    this.#isSceneNew = false;
+    this.isSceneNew = false;
   }
 
-  #moveStrokes(): void {
-    const { style } = this.#canvases.strokes;
-    const drawn = this.#drawnView ?? this.#view;
-    style.transform = drawn === this.#view ? "" : transformBetween(drawn, this.#view);
+  private moveStrokes(): void {
+    const { style } = this.canvases.strokes;
+    const drawn = this.drawnView ?? this.currentView;
+    style.transform = drawn === this.currentView ? "" : transformBetween(drawn, this.currentView);
   }
 }
 

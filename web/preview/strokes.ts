@@ -24,42 +24,43 @@ interface StrokesListener {
 }
 
 export class Strokes {
-  readonly #worker: DrawWorkerLike;
   /** Requested frames that are neither shown nor skipped yet. */
-  readonly #frames = new Map<number, Frame>();
-  #newestId = 0;
+  private readonly frames = new Map<number, Frame>();
+  private newestId = 0;
 
-  constructor(worker: DrawWorkerLike, listener: StrokesListener) {
-    this.#worker = worker;
+  constructor(
+    private readonly worker: DrawWorkerLike,
+    listener: StrokesListener,
+  ) {
     worker.onmessage = ({ data: { id, isWhole, bitmap } }) => {
-      const frame = this.#frames.get(id);
-      for (const earlier of this.#frames.keys()) if (earlier < id) this.#frames.delete(earlier);
+      const frame = this.frames.get(id);
+      for (const earlier of this.frames.keys()) if (earlier < id) this.frames.delete(earlier);
       if (!frame) return bitmap.close();
       listener.put(bitmap);
-      listener.onShown(frame, isWhole && id === this.#newestId);
+      listener.onShown(frame, isWhole && id === this.newestId);
     };
     worker.onerror = () => listener.onFault();
   }
 
   /** The scene is drawn with the next frame. `copy` is transferred, unless it was before. */
   setScene(scene: Picture | null, copy: Picture | null): void {
-    if (!scene) return this.#worker.postMessage({ type: "scene", scene: null }, []);
+    if (!scene) return this.worker.postMessage({ type: "scene", scene: null }, []);
     // If the copy was transferred before, to an earlier stage, the page's own pieces are copied.
     const canTransfer = copy !== null && isThere(copy.draw) && isThere(copy.travel);
     const { draw, travel } = canTransfer ? copy : scene;
     const { totalS, asked } = scene;
     const message: DrawRequest = { type: "scene", scene: { draw, travel, totalS, asked } };
-    this.#worker.postMessage(message, canTransfer ? [draw.bytes, travel.bytes] : []);
+    this.worker.postMessage(message, canTransfer ? [draw.bytes, travel.bytes] : []);
   }
 
   /** Only the newest is drawn. */
   show(frame: Frame): void {
-    this.#frames.set(++this.#newestId, frame);
-    this.#worker.postMessage({ type: "show", id: this.#newestId, frame }, []);
+    this.frames.set(++this.newestId, frame);
+    this.worker.postMessage({ type: "show", id: this.newestId, frame }, []);
   }
 
   close(): void {
-    this.#worker.terminate();
+    this.worker.terminate();
   }
 }
 

@@ -20,97 +20,95 @@ export interface PainterClock {
 }
 
 export class Painter {
-  readonly #clock: PainterClock;
-  readonly #onPicture: (frame: Frame, isWhole: boolean) => void;
-  readonly #pace = new Pace();
-  #renderer: SceneRenderer | null = null;
-  #scene: Picture | null = null;
+  private readonly pace = new Pace();
+  private renderer: SceneRenderer | null = null;
+  private scene: Picture | null = null;
   /** The scene was not passed to the renderer yet. */
-  #isSceneNew = false;
-  #wanted: Frame | null = null;
-  #newest: Frame | null = null;
-  #isRunning = false;
+  private isSceneNew = false;
+  private wanted: Frame | null = null;
+  private newest: Frame | null = null;
+  private isRunning = false;
 
   /** `onPicture` is called when a picture is on the canvas. */
-  constructor(clock: PainterClock, onPicture: (frame: Frame, isWhole: boolean) => void) {
-    this.#clock = clock;
-    this.#onPicture = onPicture;
-  }
+  constructor(
+    private readonly clock: PainterClock,
+    private readonly onPicture: (frame: Frame, isWhole: boolean) => void,
+  ) {}
 
   /** The scene is drawn with the next frame. */
   setScene(scene: Picture | null): void {
-    this.#scene = scene;
-    this.#isSceneNew = true;
+    this.scene = scene;
+    this.isSceneNew = true;
   }
 
   show(frame: Frame): void {
-    this.#newest = this.#wanted = frame;
-    if (!this.#isRunning) void this.#run();
+    this.newest = this.wanted = frame;
+    if (!this.isRunning) void this.run();
   }
 
   /** Sets the renderer, which draws the last requested frame; null: none for a while. */
   setRenderer(renderer: SceneRenderer | null): void {
-    this.#renderer = renderer;
-    this.#isSceneNew = true;
-    if (this.#newest && renderer) this.show(this.#newest);
+    this.renderer = renderer;
+    this.isSceneNew = true;
+    if (this.newest && renderer) this.show(this.newest);
   }
 
   close(): void {
-    this.#wanted = null;
-    this.#renderer?.close();
-    this.#renderer = null;
+    this.wanted = null;
+    this.renderer?.close();
+    this.renderer = null;
   }
 
-  async #run(): Promise<void> {
-    this.#isRunning = true;
+  private async run(): Promise<void> {
+    this.isRunning = true;
     try {
-      while (this.#wanted && this.#renderer) {
-        const frame = this.#wanted;
-        this.#wanted = null;
-        if (this.#isSceneNew) this.#renderer.setScene(this.#scene);
-        this.#isSceneNew = false;
-        await this.#paint(this.#renderer, frame);
+      while (this.wanted && this.renderer) {
+        const frame = this.wanted;
+        this.wanted = null;
+        if (this.isSceneNew) this.renderer.setScene(this.scene);
+        this.isSceneNew = false;
+        await this.paint(this.renderer, frame);
       }
     } finally {
-      this.#isRunning = false;
+      this.isRunning = false;
     }
   }
 
-  async #paint(renderer: SceneRenderer, frame: Frame): Promise<void> {
-    const isOver = (): boolean => this.#renderer !== renderer || this.#isSceneNew;
-    const isOld = (): boolean => isOver() || this.#wanted !== null;
+  private async paint(renderer: SceneRenderer, frame: Frame): Promise<void> {
+    const isOver = (): boolean => this.renderer !== renderer || this.isSceneNew;
+    const isOld = (): boolean => isOver() || this.wanted !== null;
     const count = renderer.begin(frame, "whole");
-    if (this.#pace.isQuick(count)) return this.#draw(renderer, frame, "whole", isOver);
-    if (renderer.begin(frame, "coarse") === count) return this.#draw(renderer, frame, "whole", isOver);
-    await this.#draw(renderer, frame, "coarse", isOver);
-    await this.#rest(isOld);
+    if (this.pace.isQuick(count)) return this.draw(renderer, frame, "whole", isOver);
+    if (renderer.begin(frame, "coarse") === count) return this.draw(renderer, frame, "whole", isOver);
+    await this.draw(renderer, frame, "coarse", isOver);
+    await this.rest(isOld);
     if (isOld()) return;
     renderer.begin(frame, "whole");
-    await this.#draw(renderer, frame, "whole", isOld);
+    await this.draw(renderer, frame, "whole", isOld);
   }
 
   /** Draws the picture that the renderer has begun, and shows it unless `isGivenUp`. */
-  async #draw(
+  private async draw(
     renderer: SceneRenderer,
     frame: Frame,
     detail: Detail,
     isGivenUp: () => boolean,
   ): Promise<void> {
     do {
-      const beganMs = this.#clock.nowMs();
-      const drawn = renderer.advance(this.#pace.part);
-      do await this.#clock.wait(0);
+      const beganMs = this.clock.nowMs();
+      const drawn = renderer.advance(this.pace.part);
+      do await this.clock.wait(0);
       while (!renderer.isIdle());
       if (isGivenUp()) return;
-      this.#pace.took(drawn, this.#clock.nowMs() - beganMs);
+      this.pace.took(drawn, this.clock.nowMs() - beganMs);
     } while (!renderer.isFinished);
     renderer.present();
-    this.#onPicture(frame, detail === "whole");
+    this.onPicture(frame, detail === "whole");
   }
 
-  async #rest(isEnded: () => boolean): Promise<void> {
-    const untilMs = this.#clock.nowMs() + REST_MS;
-    while (!isEnded() && this.#clock.nowMs() < untilMs) await this.#clock.wait(16);
+  private async rest(isEnded: () => boolean): Promise<void> {
+    const untilMs = this.clock.nowMs() + REST_MS;
+    while (!isEnded() && this.clock.nowMs() < untilMs) await this.clock.wait(16);
   }
 }
 
@@ -128,15 +126,15 @@ const MAX_STEP = 4;
  * parts are otherwise. Has to be measured, because it varies by a factor of a thousand with the graphics card.
  */
 class Pace {
-  #piecesPerMs = FIRST_GUESS;
+  private piecesPerMs = FIRST_GUESS;
 
   /** The number of pieces for one part. */
   get part(): number {
-    return Math.round(this.#piecesPerMs * PART_MS);
+    return Math.round(this.piecesPerMs * PART_MS);
   }
 
   isQuick(pieceCount: number): boolean {
-    return pieceCount <= this.#piecesPerMs * QUICK_MS;
+    return pieceCount <= this.piecesPerMs * QUICK_MS;
   }
 
   /**
@@ -145,8 +143,8 @@ class Pace {
    */
   took(pieceCount: number, ms: number): void {
     const measured = pieceCount / Math.max(ms, 0.1);
-    if (pieceCount === 0 || (measured < this.#piecesPerMs && ms <= PART_MS)) return;
-    const bounded = Math.min(this.#piecesPerMs * MAX_STEP, Math.max(this.#piecesPerMs / MAX_STEP, measured));
-    this.#piecesPerMs = Math.max(MIN_PIECES_PER_MS, bounded);
+    if (pieceCount === 0 || (measured < this.piecesPerMs && ms <= PART_MS)) return;
+    const bounded = Math.min(this.piecesPerMs * MAX_STEP, Math.max(this.piecesPerMs / MAX_STEP, measured));
+    this.piecesPerMs = Math.max(MIN_PIECES_PER_MS, bounded);
   }
 }

@@ -132,18 +132,19 @@ const pieceCount = (trajectory: Trajectory, b: number, topMmPerS: number): numbe
 
 class PieceWriter {
   readonly bytes: ArrayBuffer;
-  readonly topMmPerS: number;
   /** Subtracted from the carriage's position, mm. */
   shift: Shifts[number] = NO_SHIFT;
-  readonly #floats: Float32Array;
-  readonly #shorts: Uint16Array;
-  #at = 0;
+  private readonly floats: Float32Array;
+  private readonly shorts: Uint16Array;
+  private at = 0;
 
-  constructor(count: number, topMmPerS: number) {
+  constructor(
+    count: number,
+    readonly topMmPerS: number,
+  ) {
     this.bytes = new ArrayBuffer(count * PIECE_BYTES);
-    this.topMmPerS = topMmPerS;
-    this.#floats = new Float32Array(this.bytes);
-    this.#shorts = new Uint16Array(this.bytes);
+    this.floats = new Float32Array(this.bytes);
+    this.shorts = new Uint16Array(this.bytes);
   }
 
   addDot(trajectory: Trajectory, run: number, layer: number): void {
@@ -152,9 +153,9 @@ class PieceWriter {
     const x = (isLast ? trajectory.endX : trajectory.x[next]) - this.shift.x;
     const y = (isLast ? trajectory.endY : trajectory.y[next]) - this.shift.y;
     const startS = trajectory.runs.startS[run];
-    this.#floats.set([x, y, x, y, startS, startS], this.#at * PIECE_FLOATS);
-    this.#shorts[this.#at * PIECE_SHORTS + LAYER_SHORT] = layer;
-    this.#at++;
+    this.floats.set([x, y, x, y, startS, startS], this.at * PIECE_FLOATS);
+    this.shorts[this.at * PIECE_SHORTS + LAYER_SHORT] = layer;
+    this.at++;
   }
 
   addBlock(trajectory: Trajectory, b: number, pieces: number, layer: number): void {
@@ -178,18 +179,18 @@ class PieceWriter {
       const qx = x + t * (vx + t * (ax / 2 + (t * jx) / 6));
       const qy = y + t * (vy + t * (ay / 2 + (t * jy) / 6));
       const qs = Math.hypot(vx + t * (ax + (t * jx) / 2), vy + t * (ay + (t * jy) / 2));
-      const f = this.#at * PIECE_FLOATS;
-      this.#floats[f] = px;
-      this.#floats[f + 1] = py;
-      this.#floats[f + 2] = qx;
-      this.#floats[f + 3] = qy;
-      this.#floats[f + 4] = startS + pt;
-      this.#floats[f + 5] = startS + t;
-      const s = this.#at * PIECE_SHORTS;
-      this.#shorts[s + VALUE_SHORT] = Math.min(65_535, ps * toShort);
-      this.#shorts[s + VALUE_SHORT + 1] = Math.min(65_535, qs * toShort);
-      this.#shorts[s + LAYER_SHORT] = layer;
-      this.#at++;
+      const f = this.at * PIECE_FLOATS;
+      this.floats[f] = px;
+      this.floats[f + 1] = py;
+      this.floats[f + 2] = qx;
+      this.floats[f + 3] = qy;
+      this.floats[f + 4] = startS + pt;
+      this.floats[f + 5] = startS + t;
+      const s = this.at * PIECE_SHORTS;
+      this.shorts[s + VALUE_SHORT] = Math.min(65_535, ps * toShort);
+      this.shorts[s + VALUE_SHORT + 1] = Math.min(65_535, qs * toShort);
+      this.shorts[s + LAYER_SHORT] = layer;
+      this.at++;
       px = qx;
       py = qy;
       pt = t;

@@ -54,42 +54,39 @@ export const createSoftRenderer = (canvas: OffscreenCanvas): SceneRenderer => {
 };
 
 class SoftRenderer implements SceneRenderer {
-  readonly #context: OffscreenCanvasRenderingContext2D;
-  readonly #ramp = rampBytes();
-  #image = new ImageData(1, 1);
-  #sheets: Record<Detail, Sheet<Boxed>> | null = null;
-  #totalS = 1;
-  #frame: Frame | null = null;
-  #tasks: Task<Boxed>[] = [];
+  private readonly ramp = rampBytes();
+  private image = new ImageData(1, 1);
+  private sheets: Record<Detail, Sheet<Boxed>> | null = null;
+  private totalS = 1;
+  private frame: Frame | null = null;
+  private tasks: Task<Boxed>[] = [];
 
-  constructor(context: OffscreenCanvasRenderingContext2D) {
-    this.#context = context;
-  }
+  constructor(private readonly context: OffscreenCanvasRenderingContext2D) {}
 
   get isFinished(): boolean {
-    return this.#tasks.length === 0;
+    return this.tasks.length === 0;
   }
 
   setScene(scene: Picture | null): void {
-    this.#tasks = [];
-    this.#totalS = Math.max(1e-6, scene?.totalS ?? 1);
-    this.#sheets = scene && sheetsOf(scene, (boxed) => boxed);
+    this.tasks = [];
+    this.totalS = Math.max(1e-6, scene?.totalS ?? 1);
+    this.sheets = scene && sheetsOf(scene, (boxed) => boxed);
   }
 
   begin(frame: Frame, detail: Detail): number {
     const [width, height] = pictureSize(frame);
-    if (this.#image.width === width && this.#image.height === height) this.#image.data.fill(0);
-    else this.#image = new ImageData(width, height);
-    this.#frame = frame;
-    this.#tasks = this.#sheets ? tasksOf(frame, this.#sheets[detail]) : [];
-    return piecesOf(this.#tasks);
+    if (this.image.width === width && this.image.height === height) this.image.data.fill(0);
+    else this.image = new ImageData(width, height);
+    this.frame = frame;
+    this.tasks = this.sheets ? tasksOf(frame, this.sheets[detail]) : [];
+    return piecesOf(this.tasks);
   }
 
   advance(pieceCount: number): number {
-    const frame = this.#frame;
+    const frame = this.frame;
     if (!frame) return 0;
-    return drawSome(this.#tasks, pieceCount, (task, to) => {
-      this.#drawRange(frame, task, to);
+    return drawSome(this.tasks, pieceCount, (task, to) => {
+      this.drawRange(frame, task, to);
       return true;
     });
   }
@@ -99,25 +96,25 @@ class SoftRenderer implements SceneRenderer {
   }
 
   present(): void {
-    const { canvas } = this.#context;
-    const { width, height, data } = this.#image;
+    const { canvas } = this.context;
+    const { width, height, data } = this.image;
     if (canvas.width !== width || canvas.height !== height) {
       canvas.width = width;
       canvas.height = height;
     }
     unmultiply(data);
-    this.#context.putImageData(this.#image, 0, 0);
+    this.context.putImageData(this.image, 0, 0);
   }
 
   close(): void {
     this.setScene(null);
   }
 
-  #drawRange(frame: Frame, { of: { pieces }, style, from }: Task<Boxed>, to: number): void {
+  private drawRange(frame: Frame, { of: { pieces }, style, from }: Task<Boxed>, to: number): void {
     const floats = new Float32Array(pieces.bytes);
     const shorts = new Uint16Array(pieces.bytes);
     const look = lookOf(frame, style);
-    const brush = new Brush(this.#image);
+    const brush = new Brush(this.image);
     const scale = frame.view.scale * frame.ratio;
     const offsetX = frame.view.offsetX * frame.ratio;
     const offsetY = frame.view.offsetY * frame.ratio;
@@ -133,10 +130,10 @@ class SoftRenderer implements SceneRenderer {
       if (look.by === "value") {
         const value0 = shorts[s + VALUE_SHORT] / 65_535;
         const value1 = shorts[s + VALUE_SHORT + 1] / 65_535;
-        brush.setRamp(this.#ramp, value0, value0 + part * (value1 - value0));
+        brush.setRamp(this.ramp, value0, value0 + part * (value1 - value0));
       } else if (look.by === "time") {
         const beganS = floats[f + 4];
-        brush.setRamp(this.#ramp, beganS / this.#totalS, (beganS + part * durationS) / this.#totalS);
+        brush.setRamp(this.ramp, beganS / this.totalS, (beganS + part * durationS) / this.totalS);
       } else {
         brush.setPlain(look.colors[layer] ?? look.colors[0]);
       }
@@ -174,38 +171,38 @@ const lookOf = (frame: Frame, style: Style): Look => {
 class Brush {
   reach = 1;
   alpha = 1;
-  readonly #data: Uint8ClampedArray;
-  readonly #width: number;
-  readonly #height: number;
-  #ramp: Uint8Array | null = null;
-  #share0 = 0;
-  #share1 = 0;
-  #r = 0;
-  #g = 0;
-  #b = 0;
+  private readonly data: Uint8ClampedArray;
+  private readonly width: number;
+  private readonly height: number;
+  private ramp: Uint8Array | null = null;
+  private share0 = 0;
+  private share1 = 0;
+  private r = 0;
+  private g = 0;
+  private b = 0;
 
   constructor({ data, width, height }: ImageData) {
-    this.#data = data;
-    this.#width = width;
-    this.#height = height;
+    this.data = data;
+    this.width = width;
+    this.height = height;
   }
 
   setPlain([r, g, b]: readonly [number, number, number]): void {
-    this.#ramp = null;
-    this.#r = r;
-    this.#g = g;
-    this.#b = b;
+    this.ramp = null;
+    this.r = r;
+    this.g = g;
+    this.b = b;
   }
 
   /** Colours the piece by the ramp from `share0` to `share1`, or by one colour if they are close. */
   setRamp(ramp: Uint8Array, share0: number, share1: number): void {
     if (Math.abs(share1 - share0) * RAMP_SIZE > 1) {
-      this.#ramp = ramp;
-      this.#share0 = share0;
-      this.#share1 = share1;
+      this.ramp = ramp;
+      this.share0 = share0;
+      this.share1 = share1;
     } else {
-      this.#ramp = null;
-      this.#pick(ramp, (share0 + share1) / 2);
+      this.ramp = null;
+      this.pick(ramp, (share0 + share1) / 2);
     }
   }
 
@@ -214,9 +211,9 @@ class Brush {
     const reach = this.reach;
     const far = reach + 0.5;
     const top = Math.max(0, Math.ceil(Math.min(ay, by) - far - 0.5));
-    const bottom = Math.min(this.#height - 1, Math.floor(Math.max(ay, by) + far - 0.5));
+    const bottom = Math.min(this.height - 1, Math.floor(Math.max(ay, by) + far - 0.5));
     const left = Math.max(0, Math.ceil(Math.min(ax, bx) - far - 0.5));
-    const right = Math.min(this.#width - 1, Math.floor(Math.max(ax, bx) + far - 0.5));
+    const right = Math.min(this.width - 1, Math.floor(Math.max(ax, bx) + far - 0.5));
     if (top > bottom || left > right) return;
     const length = Math.sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay));
     const ux = length > 1e-4 ? (bx - ax) / length : 1;
@@ -242,30 +239,30 @@ class Brush {
         const side = dy * ux - dx * uy;
         const d2 = beyond * beyond + side * side;
         if (d2 >= far2) continue;
-        if (this.#ramp) this.#pickAlong(this.#ramp, length > 1e-4 ? along / length : 0.5);
-        this.#blend((y * this.#width + x) * 4, d2 <= near2 ? 1 : Math.min(1, far - Math.sqrt(d2)));
+        if (this.ramp) this.pickAlong(this.ramp, length > 1e-4 ? along / length : 0.5);
+        this.blend((y * this.width + x) * 4, d2 <= near2 ? 1 : Math.min(1, far - Math.sqrt(d2)));
       }
     }
   }
 
-  #pickAlong(ramp: Uint8Array, share: number): void {
-    this.#pick(ramp, this.#share0 + (this.#share1 - this.#share0) * share);
+  private pickAlong(ramp: Uint8Array, share: number): void {
+    this.pick(ramp, this.share0 + (this.share1 - this.share0) * share);
   }
 
-  #pick(ramp: Uint8Array, share: number): void {
+  private pick(ramp: Uint8Array, share: number): void {
     const at = 4 * Math.round(Math.min(1, Math.max(0, share)) * (RAMP_SIZE - 1));
-    this.#r = ramp[at];
-    this.#g = ramp[at + 1];
-    this.#b = ramp[at + 2];
+    this.r = ramp[at];
+    this.g = ramp[at + 1];
+    this.b = ramp[at + 2];
   }
 
-  #blend(at: number, cover: number): void {
-    const data = this.#data;
+  private blend(at: number, cover: number): void {
+    const data = this.data;
     const a = cover * this.alpha;
     const rest = 1 - a;
-    data[at] = this.#r * a + data[at] * rest;
-    data[at + 1] = this.#g * a + data[at + 1] * rest;
-    data[at + 2] = this.#b * a + data[at + 2] * rest;
+    data[at] = this.r * a + data[at] * rest;
+    data[at + 1] = this.g * a + data[at + 1] * rest;
+    data[at + 2] = this.b * a + data[at + 2] * rest;
     data[at + 3] = 255 * a + data[at + 3] * rest;
   }
 }

@@ -70,132 +70,130 @@ const dotsOf = ({ runs }: Trajectory): Dot[] => {
 };
 
 class SwingWriter {
-  readonly #strokes: StrokeSet;
-  readonly #shifts: ReturnType<typeof shiftsOf>;
-  #bytes = new ArrayBuffer(FIRST_PIECES * PIECE_BYTES);
-  #floats = new Float32Array(this.#bytes);
-  #shorts = new Uint16Array(this.#bytes);
-  #errors = new Float32Array(2 * FIRST_PIECES);
-  #count = 0;
+  private readonly shifts: ReturnType<typeof shiftsOf>;
+  private bytes = new ArrayBuffer(FIRST_PIECES * PIECE_BYTES);
+  private floats = new Float32Array(this.bytes);
+  private shorts = new Uint16Array(this.bytes);
+  private errors = new Float32Array(2 * FIRST_PIECES);
+  private count = 0;
   /** The open piece: where and when it begins, and the range of angles that it may have. */
-  #isOpen = false;
-  #stroke = -1;
-  #x0 = 0;
-  #y0 = 0;
-  #t0 = 0;
-  #mm0 = 0;
-  #mainAngle = 0;
-  #lowAngle = -Infinity;
-  #highAngle = Infinity;
-  #furthest = 0;
+  private isOpen = false;
+  private stroke = -1;
+  private x0 = 0;
+  private y0 = 0;
+  private t0 = 0;
+  private mm0 = 0;
+  private mainAngle = 0;
+  private lowAngle = -Infinity;
+  private highAngle = Infinity;
+  private furthest = 0;
   /** The last sample. */
-  #x = 0;
-  #y = 0;
-  #t = 0;
-  #mm = 0;
+  private x = 0;
+  private y = 0;
+  private t = 0;
+  private mm = 0;
 
-  constructor(strokes: StrokeSet) {
-    this.#strokes = strokes;
-    this.#shifts = shiftsOf(strokes.layers);
+  constructor(private readonly strokes: StrokeSet) {
+    this.shifts = shiftsOf(strokes.layers);
   }
 
   /** `mm`: the distance from the planned line. */
   add({ tS, x, y, stroke }: PenPoint, mm: number): void {
-    if (stroke !== this.#stroke) {
+    if (stroke !== this.stroke) {
       this.endPiece();
-      this.#stroke = stroke;
+      this.stroke = stroke;
       // A stroke begins where the pen was when it came down.
       if (stroke >= 0) {
-        this.#mm = mm;
-        this.#begin();
+        this.mm = mm;
+        this.begin();
       }
     }
-    if (stroke >= 0 && !this.#fits(x, y, mm)) {
+    if (stroke >= 0 && !this.fits(x, y, mm)) {
       this.endPiece();
-      this.#begin();
-      this.#fits(x, y, mm);
+      this.begin();
+      this.fits(x, y, mm);
     }
-    this.#x = x;
-    this.#y = y;
-    this.#t = tS;
-    this.#mm = mm;
+    this.x = x;
+    this.y = y;
+    this.t = tS;
+    this.mm = mm;
   }
 
   addDot({ tS, stroke }: Dot): void {
     this.endPiece();
-    this.#stroke = -1;
-    const { xy, offsets } = this.#strokes;
+    this.stroke = -1;
+    const { xy, offsets } = this.strokes;
     const first = 2 * offsets[stroke];
-    this.#write(stroke, [xy[first], xy[first + 1], xy[first], xy[first + 1], tS, tS], 0, 0);
+    this.write(stroke, [xy[first], xy[first + 1], xy[first], xy[first + 1], tS, tS], 0, 0);
   }
 
   endPiece(): void {
-    if (!this.#isOpen) return;
-    this.#isOpen = false;
-    const ends = [this.#x0, this.#y0, this.#x, this.#y, this.#t0, this.#t];
-    this.#write(this.#stroke, ends, this.#mm0, this.#mm);
+    if (!this.isOpen) return;
+    this.isOpen = false;
+    const ends = [this.x0, this.y0, this.x, this.y, this.t0, this.t];
+    this.write(this.stroke, ends, this.mm0, this.mm);
   }
 
   pieces(topMm: number): Pieces {
-    for (let i = 0; i < this.#count; i++) {
+    for (let i = 0; i < this.count; i++) {
       for (const end of [0, 1]) {
-        const share = Math.min(1, this.#errors[2 * i + end] / topMm);
-        this.#shorts[i * PIECE_SHORTS + VALUE_SHORT + end] = 65_535 * share;
+        const share = Math.min(1, this.errors[2 * i + end] / topMm);
+        this.shorts[i * PIECE_SHORTS + VALUE_SHORT + end] = 65_535 * share;
       }
     }
-    return { count: this.#count, bytes: this.#bytes.slice(0, this.#count * PIECE_BYTES) };
+    return { count: this.count, bytes: this.bytes.slice(0, this.count * PIECE_BYTES) };
   }
 
-  #begin(): void {
-    this.#isOpen = true;
-    this.#x0 = this.#x;
-    this.#y0 = this.#y;
-    this.#t0 = this.#t;
-    this.#mm0 = this.#mm;
-    this.#lowAngle = -Infinity;
-    this.#highAngle = Infinity;
-    this.#furthest = 0;
+  private begin(): void {
+    this.isOpen = true;
+    this.x0 = this.x;
+    this.y0 = this.y;
+    this.t0 = this.t;
+    this.mm0 = this.mm;
+    this.lowAngle = -Infinity;
+    this.highAngle = Infinity;
+    this.furthest = 0;
   }
 
   /** Whether a straight piece to (x, y) stays within CHORD_MM of all its samples. */
-  #fits(x: number, y: number, mm: number): boolean {
-    if (Math.abs(mm - this.#mm0) > ERROR_STEP_MM && this.#furthest > 0) return false;
-    const dx = x - this.#x0;
-    const dy = y - this.#y0;
+  private fits(x: number, y: number, mm: number): boolean {
+    if (Math.abs(mm - this.mm0) > ERROR_STEP_MM && this.furthest > 0) return false;
+    const dx = x - this.x0;
+    const dy = y - this.y0;
     const distance = Math.sqrt(dx * dx + dy * dy);
-    if (distance < this.#furthest - CHORD_MM) return false;
-    this.#furthest = Math.max(this.#furthest, distance);
+    if (distance < this.furthest - CHORD_MM) return false;
+    this.furthest = Math.max(this.furthest, distance);
     if (distance <= CHORD_MM) return true;
     const width = Math.asin(CHORD_MM / distance);
-    if (this.#lowAngle === -Infinity) this.#mainAngle = Math.atan2(dy, dx);
-    const angle = turned(Math.atan2(dy, dx) - this.#mainAngle);
-    if (angle < this.#lowAngle || angle > this.#highAngle) return false;
-    this.#lowAngle = Math.max(this.#lowAngle, angle - width);
-    this.#highAngle = Math.min(this.#highAngle, angle + width);
+    if (this.lowAngle === -Infinity) this.mainAngle = Math.atan2(dy, dx);
+    const angle = turned(Math.atan2(dy, dx) - this.mainAngle);
+    if (angle < this.lowAngle || angle > this.highAngle) return false;
+    this.lowAngle = Math.max(this.lowAngle, angle - width);
+    this.highAngle = Math.min(this.highAngle, angle + width);
     return true;
   }
 
-  #write(stroke: number, ends: readonly number[], mm0: number, mm1: number): void {
-    if (2 * this.#count === this.#errors.length) this.#grow();
-    const layer = this.#strokes.layer[stroke];
-    const { x, y } = this.#shifts?.[layer] ?? { x: 0, y: 0 };
+  private write(stroke: number, ends: readonly number[], mm0: number, mm1: number): void {
+    if (2 * this.count === this.errors.length) this.grow();
+    const layer = this.strokes.layer[stroke];
+    const { x, y } = this.shifts?.[layer] ?? { x: 0, y: 0 };
     const [x0, y0, x1, y1, t0, t1] = ends;
-    const at = this.#count++;
-    this.#floats.set([x0 - x, y0 - y, x1 - x, y1 - y, t0, t1], at * PIECE_FLOATS);
-    this.#shorts[at * PIECE_SHORTS + LAYER_SHORT] = layer;
-    this.#errors[2 * at] = mm0;
-    this.#errors[2 * at + 1] = mm1;
+    const at = this.count++;
+    this.floats.set([x0 - x, y0 - y, x1 - x, y1 - y, t0, t1], at * PIECE_FLOATS);
+    this.shorts[at * PIECE_SHORTS + LAYER_SHORT] = layer;
+    this.errors[2 * at] = mm0;
+    this.errors[2 * at + 1] = mm1;
   }
 
-  #grow(): void {
-    const bytes = new ArrayBuffer(2 * this.#bytes.byteLength);
-    new Uint8Array(bytes).set(new Uint8Array(this.#bytes));
-    this.#bytes = bytes;
-    this.#floats = new Float32Array(bytes);
-    this.#shorts = new Uint16Array(bytes);
-    const errors = new Float32Array(2 * this.#errors.length);
-    errors.set(this.#errors);
-    this.#errors = errors;
+  private grow(): void {
+    const bytes = new ArrayBuffer(2 * this.bytes.byteLength);
+    new Uint8Array(bytes).set(new Uint8Array(this.bytes));
+    this.bytes = bytes;
+    this.floats = new Float32Array(bytes);
+    this.shorts = new Uint16Array(bytes);
+    const errors = new Float32Array(2 * this.errors.length);
+    errors.set(this.errors);
+    this.errors = errors;
   }
 }
 

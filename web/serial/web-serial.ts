@@ -75,79 +75,73 @@ export function browserClock(): Clock {
 }
 
 class WebSerialTransport implements Transport {
-  readonly #port: WebSerialPort;
-  readonly #reader: ReadableStreamDefaultReader<Uint8Array>;
-  readonly #writer: WritableStreamDefaultWriter<Uint8Array>;
-  readonly #ended: Promise<void>;
-  #onData: (bytes: Uint8Array) => void = () => undefined;
-  #onClose: ((error?: Error) => void) | null = null;
-  #end: { readonly error: Error | undefined } | null = null;
-  #isClosing = false;
+  private readonly ended: Promise<void>;
+  private dataListener: (bytes: Uint8Array) => void = () => undefined;
+  private closeListener: ((error?: Error) => void) | null = null;
+  private end: { readonly error: Error | undefined } | null = null;
+  private isClosing = false;
 
   constructor(
-    port: WebSerialPort,
-    reader: ReadableStreamDefaultReader<Uint8Array>,
-    writer: WritableStreamDefaultWriter<Uint8Array>,
+    private readonly port: WebSerialPort,
+    private readonly reader: ReadableStreamDefaultReader<Uint8Array>,
+    private readonly writer: WritableStreamDefaultWriter<Uint8Array>,
   ) {
-    this.#port = port;
-    this.#reader = reader;
-    this.#writer = writer;
     // `write` reports a failure itself. Without this the loss would also be an unhandled rejection.
     writer.closed.catch(() => undefined);
-    this.#ended = this.#read();
+    this.ended = this.read();
   }
 
   async write(bytes: Uint8Array): Promise<void> {
-    if (this.#end !== null || this.#isClosing) throw lost();
+    if (this.end !== null || this.isClosing) throw lost();
     try {
-      await this.#writer.write(bytes);
+      await this.writer.write(bytes);
     } catch (cause) {
       throw lost(cause);
     }
   }
 
   onData(listener: (bytes: Uint8Array) => void): void {
-    this.#onData = listener;
+    this.dataListener = listener;
   }
 
   onClose(listener: (error?: Error) => void): void {
-    this.#onClose = listener;
-    if (this.#end !== null) this.#reportEnd();
+    this.closeListener = listener;
+    if (this.end !== null) this.reportEnd();
   }
 
   async close(): Promise<void> {
-    if (!this.#isClosing) {
-      this.#isClosing = true;
-      await this.#reader.cancel().catch(() => undefined);
+    if (!this.isClosing) {
+      this.isClosing = true;
+      await this.reader.cancel().catch(() => undefined);
     }
-    await this.#ended;
+    await this.ended;
   }
 
   /** Reads until the port is closed or lost, then releases the streams and the port. */
-  async #read(): Promise<void> {
+  private async read(): Promise<void> {
     let failure: unknown;
     try {
       for (;;) {
-        const { value, done } = await this.#reader.read();
+        const { value, done } = await this.reader.read();
         if (done) break;
-        this.#onData(value);
+        this.dataListener(value);
       }
     } catch (error) {
       failure = error;
     }
-    this.#reader.releaseLock();
-    await this.#writer.abort().catch(() => undefined);
-    this.#writer.releaseLock();
-    await this.#port.close().catch(() => undefined);
-    this.#end = { error: this.#isClosing ? undefined : lost(failure) };
-    this.#reportEnd();
+    this.reader.releaseLock();
+    await this.writer.abort().catch(() => undefined);
+    this.writer.releaseLock();
+    await this.port.close().catch(() => undefined);
+    this.end = { error: this.isClosing ? undefined : lost(failure) };
+    this.reportEnd();
   }
 
-  #reportEnd(): void {
-    const listener = this.#onClose;
-    if (listener === null || this.#end === null) return;
-    this.#onClose = null;
-    listener(this.#end.error);
+  private reportEnd(): void {
+    const listener = this.closeListener;
+    if (listener === null || this.end === null) return;
+    this.closeListener = null;
+    listener(this.end.error);
   }
 }
 

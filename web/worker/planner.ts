@@ -63,70 +63,67 @@ export const openPlanner = (listener: PlannerListener): Planner =>
   );
 
 export class Planner {
-  readonly #start: () => WorkerLike;
-  readonly #timer: PlannerTimer;
-  readonly #listener: PlannerListener;
-  #worker: WorkerLike | null = null;
+  private worker: WorkerLike | null = null;
   /** The drawing whose text the running worker has. */
-  #sentKey: string | null = null;
-  #newestId = 0;
-  #latest: PlannerTask | null = null;
-  #isBusy = false;
-  #takeStrokes: ((strokes: StrokeSet) => void) | null = null;
-  #stopWaiting: (() => void) | null = null;
+  private sentKey: string | null = null;
+  private newestId = 0;
+  private latest: PlannerTask | null = null;
+  private isBusy = false;
+  private takeStrokes: ((strokes: StrokeSet) => void) | null = null;
+  private stopWaiting: (() => void) | null = null;
   /** Set while the worker reads the file. */
-  #stopReading: (() => void) | null = null;
+  private stopReading: (() => void) | null = null;
 
-  constructor(start: () => WorkerLike, timer: PlannerTimer, listener: PlannerListener) {
-    this.#start = start;
-    this.#timer = timer;
-    this.#listener = listener;
-  }
+  constructor(
+    private readonly start: () => WorkerLike,
+    private readonly timer: PlannerTimer,
+    private readonly listener: PlannerListener,
+  ) {}
 
   /** Requests a plan. Earlier requests that are not answered yet are dropped. */
   request(task: PlannerTask): void {
-    this.#latest = task;
-    if (this.#isBusy) this.#stopWaiting ??= this.#timer.after(PATIENCE_MS, () => this.#restart());
-    this.#newestId++;
-    this.#send(task);
+    this.latest = task;
+    if (this.isBusy) this.stopWaiting ??= this.timer.after(PATIENCE_MS, () => this.restart());
+    this.newestId++;
+    this.send(task);
   }
 
   /** Requests the prepared drawing as text, which `onExported` gets. */
   export(format: ExportFormat, firmware: string): void {
-    this.#worker?.postMessage({ type: "export", format, firmware });
+    this.worker?.postMessage({ type: "export", format, firmware });
   }
 
   /** Requests a copy of the last plan's strokes. Not answered while a newer plan is being made. */
   strokes(take: (strokes: StrokeSet) => void): void {
-    this.#takeStrokes = take;
-    if (!this.#isBusy) this.#worker?.postMessage({ type: "strokes", id: this.#newestId });
+    this.takeStrokes = take;
+    if (!this.isBusy) this.worker?.postMessage({ type: "strokes", id: this.newestId });
   }
 
-  #close(): void {
-    this.#stopWaiting?.();
-    this.#stopWaiting = null;
-    this.#stopReading?.();
-    this.#worker?.terminate();
-    this.#worker = null;
-    this.#isBusy = false;
+  private close(): void {
+    this.stopWaiting?.();
+    this.stopWaiting = null;
+    this.stopReading?.();
+    this.worker?.terminate();
+    this.worker = null;
+    this.isBusy = false;
   }
 
-  #send({ drawing, settings, firmware }: PlannerTask): void {
-    const worker = (this.#worker ??= this.#open());
-    const text = this.#sentKey === drawing.key ? null : drawing.text;
-    this.#sentKey = drawing.key;
-    this.#isBusy = true;
-    const id = this.#newestId;
+  private send({ drawing, settings, firmware }: PlannerTask): void {
+    const worker = (this.worker ??= this.open());
+    const text = this.sentKey === drawing.key ? null : drawing.text;
+    this.sentKey = drawing.key;
+    this.isBusy = true;
+    const id = this.newestId;
     worker.postMessage({ type: "plan", id, drawingKey: drawing.key, text, settings, firmware });
   }
 
-  #open(): WorkerLike {
-    const worker = this.#start();
-    this.#sentKey = null;
-    worker.onmessage = ({ data }) => this.#take(data);
+  private open(): WorkerLike {
+    const worker = this.start();
+    this.sentKey = null;
+    worker.onmessage = ({ data }) => this.take(data);
     worker.onerror = (event) => {
-      this.#close();
-      this.#listener.onFault({
+      this.close();
+      this.listener.onFault({
         message:
           event.message || "The planner stopped. The drawing may be too large for this device's memory.",
         stage: "plan",
@@ -135,36 +132,36 @@ export class Planner {
     return worker;
   }
 
-  #take(reply: WorkerReply): void {
-    if (reply.type === "exported") return this.#listener.onExported(reply.format, reply.text);
-    if (reply.type === "export-failed") return this.#listener.onExportFailed(reply.message);
-    if (reply.id !== this.#newestId) return;
-    if (reply.type === "strokes") return this.#takeStrokes?.(reply.strokes);
-    this.#stopWaiting?.();
-    this.#stopWaiting = null;
-    this.#stopReading?.();
-    if (reply.type === "imported") return this.#listener.onImported(reply.drawingKey);
+  private take(reply: WorkerReply): void {
+    if (reply.type === "exported") return this.listener.onExported(reply.format, reply.text);
+    if (reply.type === "export-failed") return this.listener.onExportFailed(reply.message);
+    if (reply.id !== this.newestId) return;
+    if (reply.type === "strokes") return this.takeStrokes?.(reply.strokes);
+    this.stopWaiting?.();
+    this.stopWaiting = null;
+    this.stopReading?.();
+    if (reply.type === "imported") return this.listener.onImported(reply.drawingKey);
     if (reply.type === "started") {
-      this.#stopReading = this.#timer.after(READING_MS, () => this.#endReading());
+      this.stopReading = this.timer.after(READING_MS, () => this.endReading());
       return;
     }
-    this.#isBusy = false;
+    this.isBusy = false;
     if (reply.type === "planned") {
       markMoment("plotwright-planned");
-      this.#listener.onPlanned(reply.planned);
-    } else this.#listener.onFault(reply.fault);
+      this.listener.onPlanned(reply.planned);
+    } else this.listener.onFault(reply.fault);
   }
 
-  #endReading(): void {
-    this.#close();
-    this.#listener.onFault({
+  private endReading(): void {
+    this.close();
+    this.listener.onFault({
       message: "This file takes too long to read. It may be damaged. Simplify it, or export it again.",
       stage: "import",
     });
   }
 
-  #restart(): void {
-    this.#close();
-    if (this.#latest) this.#send(this.#latest);
+  private restart(): void {
+    this.close();
+    if (this.latest) this.send(this.latest);
   }
 }

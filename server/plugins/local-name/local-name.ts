@@ -55,213 +55,211 @@ export interface LocalNameOptions {
 }
 
 export class LocalName {
-  readonly #options: LocalNameOptions;
-  readonly #mdns: MulticastDns;
+  private readonly mdns: MulticastDns;
   /** All addresses this computer has had: an answer with one of them is an old answer of this server. */
-  readonly #addresses = new Set<string>();
-  #label: string;
-  #probeCount = 0;
+  private readonly addresses = new Set<string>();
+  private label: string;
+  private probeCount = 0;
   /** Since the server last had a name. */
-  #conflictCount = 0;
+  private conflictCount = 0;
   /** The announced records; null while the server has no name. */
-  #records: readonly DnsRecord[] | null = null;
+  private records: readonly DnsRecord[] | null = null;
   /** When each of the announced records was last sent, in ms of `performance.now()`. */
-  readonly #sentAtMs = new WeakMap<DnsRecord, number>();
+  private readonly sentAtMs = new WeakMap<DnsRecord, number>();
   /** For the next probe or announcement. */
-  #timer: NodeJS.Timeout | undefined;
-  #isClosed = false;
-  #hasFailed = false;
+  private timer: NodeJS.Timeout | undefined;
+  private isClosed = false;
+  private hasFailed = false;
 
-  constructor(options: LocalNameOptions) {
-    this.#options = options;
-    this.#label = LAST_NAME.exec(options.last ?? "")?.[1] ?? LOCAL_NAME;
-    this.#mdns = multicastDns(options.socket === undefined ? {} : { socket: options.socket });
+  constructor(private readonly options: LocalNameOptions) {
+    this.label = LAST_NAME.exec(options.last ?? "")?.[1] ?? LOCAL_NAME;
+    this.mdns = multicastDns(options.socket === undefined ? {} : { socket: options.socket });
     // An "error" event without a listener would end the process. Send errors are reported by query().
-    this.#mdns.on("error", () => undefined);
-    this.#mdns.on("response", (packet: DnsPacket) => this.#onAnswer(packet));
-    this.#mdns.on("query", (packet: DnsPacket) => this.#onQuestion(packet));
-    this.#mdns.on("networkInterface", () => this.#onNetwork());
-    this.#probe(0);
+    this.mdns.on("error", () => undefined);
+    this.mdns.on("response", (packet: DnsPacket) => this.onAnswer(packet));
+    this.mdns.on("query", (packet: DnsPacket) => this.onQuestion(packet));
+    this.mdns.on("networkInterface", () => this.onNetwork());
+    this.probe(0);
   }
 
   /** The current name, as "plotwright-2.local"; null while the server has none. */
   get name(): string | null {
-    return this.#records === null ? null : this.#host;
+    return this.records === null ? null : this.host;
   }
 
   /** Gives up the name. */
   close(): Promise<void> {
-    this.#isClosed = true;
-    clearTimeout(this.#timer);
+    this.isClosed = true;
+    clearTimeout(this.timer);
     return new Promise((resolve) => {
-      this.#sayGoodbye(() => this.#mdns.destroy(resolve));
+      this.sayGoodbye(() => this.mdns.destroy(resolve));
     });
   }
 
-  get #host(): string {
-    return `${this.#label}.local`;
+  private get host(): string {
+    return `${this.label}.local`;
   }
 
-  get #probeIntervalMs(): number {
-    return this.#options.probeIntervalMs ?? PROBE_INTERVAL_MS;
+  private get probeIntervalMs(): number {
+    return this.options.probeIntervalMs ?? PROBE_INTERVAL_MS;
   }
 
-  get #fullName(): string {
-    return `${this.#label}.${this.#type}`;
+  private get fullName(): string {
+    return `${this.label}.${this.type}`;
   }
 
-  get #type(): string {
-    return `_${this.#scheme}._tcp.local`;
+  private get type(): string {
+    return `_${this.scheme}._tcp.local`;
   }
 
-  get #scheme(): string {
-    return this.#options.isTls ? "https" : "http";
+  private get scheme(): string {
+    return this.options.isTls ? "https" : "http";
   }
 
   /** Starts probing for the name again. */
-  #probe(inMs: number): void {
-    this.#probeCount = 0;
-    this.#schedule(inMs);
+  private probe(inMs: number): void {
+    this.probeCount = 0;
+    this.schedule(inMs);
   }
 
-  #schedule(inMs: number): void {
-    clearTimeout(this.#timer);
-    if (this.#isClosed) return;
-    this.#timer = setTimeout(() => this.#probeOnce(), inMs).unref();
+  private schedule(inMs: number): void {
+    clearTimeout(this.timer);
+    if (this.isClosed) return;
+    this.timer = setTimeout(() => this.probeOnce(), inMs).unref();
   }
 
-  #probeOnce(): void {
-    if (this.#probeCount === PROBES) {
-      this.#announce();
+  private probeOnce(): void {
+    if (this.probeCount === PROBES) {
+      this.announce();
       return;
     }
-    const questions = [this.#host, this.#fullName].map((name) => ({ name, type: "ANY" }));
-    this.#mdns.query({ questions, authorities: this.#claim() }, (error) => {
-      if (error) this.#onNoNetwork(error);
+    const questions = [this.host, this.fullName].map((name) => ({ name, type: "ANY" }));
+    this.mdns.query({ questions, authorities: this.claim() }, (error) => {
+      if (error) this.onNoNetwork(error);
       else {
-        this.#probeCount++;
-        this.#schedule(this.#probeIntervalMs);
+        this.probeCount++;
+        this.schedule(this.probeIntervalMs);
       }
     });
   }
 
   /** The records this server will announce; they decide between two simultaneous probes. */
-  #claim(): DnsRecord[] {
-    for (const address of ownAddresses("IPv4")) this.#addresses.add(address);
-    const service = { port: this.#options.port, target: this.#host, priority: 0, weight: 0 };
+  private claim(): DnsRecord[] {
+    for (const address of ownAddresses("IPv4")) this.addresses.add(address);
+    const service = { port: this.options.port, target: this.host, priority: 0, weight: 0 };
     return [
-      { name: this.#fullName, type: "SRV", ttl: 120, data: service },
-      ...[...this.#addresses].map((data) => ({ name: this.#host, type: "A", ttl: 120, data })),
+      { name: this.fullName, type: "SRV", ttl: 120, data: service },
+      ...[...this.addresses].map((data) => ({ name: this.host, type: "A", ttl: 120, data })),
     ];
   }
 
-  #announce(): void {
-    const { port, log, onName } = this.#options;
-    this.#records = recordsOf({
-      host: this.#host,
-      type: this.#type,
-      fullName: this.#fullName,
+  private announce(): void {
+    const { port, log, onName } = this.options;
+    this.records = recordsOf({
+      host: this.host,
+      type: this.type,
+      fullName: this.fullName,
       port,
       addresses: [...ownAddresses("IPv4"), ...ownAddresses("IPv6")],
     });
-    this.#repeatAnnouncement(0);
-    this.#hasFailed = false;
-    this.#conflictCount = 0;
-    log?.(`the server's address on the network is ${this.#scheme}://${this.#host}:${port}`);
-    onName?.(this.#host);
+    this.repeatAnnouncement(0);
+    this.hasFailed = false;
+    this.conflictCount = 0;
+    log?.(`the server's address on the network is ${this.scheme}://${this.host}:${port}`);
+    onName?.(this.host);
   }
 
-  #repeatAnnouncement(count: number): void {
-    if (this.#records === null) return;
-    this.#respond({ answers: this.#records });
+  private repeatAnnouncement(count: number): void {
+    if (this.records === null) return;
+    this.respond({ answers: this.records });
     const pauseMs = ANNOUNCE_AFTER_MS[count];
     if (pauseMs === undefined) return;
-    this.#timer = setTimeout(() => this.#repeatAnnouncement(count + 1), pauseMs).unref();
+    this.timer = setTimeout(() => this.repeatAnnouncement(count + 1), pauseMs).unref();
   }
 
-  #respond(packet: DnsPacket): void {
+  private respond(packet: DnsPacket): void {
     const nowMs = performance.now();
-    for (const record of recordsIn(packet)) this.#sentAtMs.set(record, nowMs);
-    this.#mdns.respond(packet);
+    for (const record of recordsIn(packet)) this.sentAtMs.set(record, nowMs);
+    this.mdns.respond(packet);
   }
 
   /** Withdraws the name if it was announced. */
-  #withdraw(): void {
-    if (this.#records === null) return;
-    this.#sayGoodbye();
-    this.#options.onName?.(null);
+  private withdraw(): void {
+    if (this.records === null) return;
+    this.sayGoodbye();
+    this.options.onName?.(null);
   }
 
   /** Tells the network that the announced records are no longer valid. */
-  #sayGoodbye(sent: () => void = () => undefined): void {
-    const records = this.#records;
-    this.#records = null;
+  private sayGoodbye(sent: () => void = () => undefined): void {
+    const records = this.records;
+    this.records = null;
     if (records === null) sent();
-    else this.#mdns.respond({ answers: records.map((record) => ({ ...record, ttl: 0 })) }, () => sent());
+    else this.mdns.respond({ answers: records.map((record) => ({ ...record, ttl: 0 })) }, () => sent());
   }
 
-  #onAnswer(packet: DnsPacket): void {
-    if (this.#isClosed || !recordsIn(packet).some((record) => this.#isAnothers(record))) return;
-    if (this.#records === null) {
-      this.#options.log?.(`${this.#host} is in use by another server on this network`);
-      this.#label = nextLabel(this.#label);
+  private onAnswer(packet: DnsPacket): void {
+    if (this.isClosed || !recordsIn(packet).some((record) => this.isAnothers(record))) return;
+    if (this.records === null) {
+      this.options.log?.(`${this.host} is in use by another server on this network`);
+      this.label = nextLabel(this.label);
     }
-    this.#withdraw();
-    this.#conflictCount++;
-    this.#probe(this.#conflictCount < FAST_CONFLICTS ? 0 : CONTESTED_MS);
+    this.withdraw();
+    this.conflictCount++;
+    this.probe(this.conflictCount < FAST_CONFLICTS ? 0 : CONTESTED_MS);
   }
 
-  #onQuestion({ questions = [], authorities = [] }: DnsPacket): void {
-    if (this.#isClosed) return;
-    if (this.#records !== null) {
-      this.#answer(this.#records, questions, authorities.length > 0);
+  private onQuestion({ questions = [], authorities = [] }: DnsPacket): void {
+    if (this.isClosed) return;
+    if (this.records !== null) {
+      this.answer(this.records, questions, authorities.length > 0);
       return;
     }
-    const theirs = authorities.filter((record) => this.#isOfName(record));
-    if (!theirs.some((record) => this.#isAnothers(record))) return;
-    if (inOrder(theirs) > inOrder(this.#claim())) this.#probe(this.#options.yieldMs ?? YIELD_MS);
+    const theirs = authorities.filter((record) => this.isOfName(record));
+    if (!theirs.some((record) => this.isAnothers(record))) return;
+    if (inOrder(theirs) > inOrder(this.claim())) this.probe(this.options.yieldMs ?? YIELD_MS);
   }
 
   /** A record that was just sent is left out: all devices on the network have received it. */
-  #answer(records: readonly DnsRecord[], questions: readonly DnsQuestion[], isProbe: boolean): void {
-    const pauseMs = isProbe ? this.#probeIntervalMs : REPEAT_MS;
+  private answer(records: readonly DnsRecord[], questions: readonly DnsQuestion[], isProbe: boolean): void {
+    const pauseMs = isProbe ? this.probeIntervalMs : REPEAT_MS;
     for (const question of questions) {
       const nowMs = performance.now();
-      const due = records.filter((record) => nowMs - (this.#sentAtMs.get(record) ?? -Infinity) >= pauseMs);
+      const due = records.filter((record) => nowMs - (this.sentAtMs.get(record) ?? -Infinity) >= pauseMs);
       const answer = answerTo(question, due);
-      if (answer !== null) this.#respond(answer);
+      if (answer !== null) this.respond(answer);
     }
   }
 
   /** The announced records lack the addresses of a network that appears later, so announce again. */
-  #onNetwork(): void {
-    if (this.#isClosed || this.#records === null) return;
-    this.#withdraw();
-    this.#probe(0);
+  private onNetwork(): void {
+    if (this.isClosed || this.records === null) return;
+    this.withdraw();
+    this.probe(0);
   }
 
-  #onNoNetwork(error: Error): void {
-    if (!this.#hasFailed) {
-      this.#options.log?.(
-        `${this.#host} cannot be announced on the network (${error.message}); use the server's address until the next try succeeds`,
+  private onNoNetwork(error: Error): void {
+    if (!this.hasFailed) {
+      this.options.log?.(
+        `${this.host} cannot be announced on the network (${error.message}); use the server's address until the next try succeeds`,
       );
     }
-    this.#hasFailed = true;
-    this.#probe(NO_NETWORK_MS);
+    this.hasFailed = true;
+    this.probe(NO_NETWORK_MS);
   }
 
-  #isOfName({ name, type }: DnsRecord): boolean {
-    return (type === "A" && sameName(name, this.#host)) || (type === "SRV" && sameName(name, this.#fullName));
+  private isOfName({ name, type }: DnsRecord): boolean {
+    return (type === "A" && sameName(name, this.host)) || (type === "SRV" && sameName(name, this.fullName));
   }
 
   /**
    * Whether another host claims this name: a record of it that differs from this server's and is not a
    * withdrawal.
    */
-  #isAnothers(record: DnsRecord): boolean {
-    if (record.ttl === 0 || !this.#isOfName(record)) return false;
-    if (record.type === "A") return !this.#addresses.has(String(record.data));
-    return portOf(record) !== this.#options.port;
+  private isAnothers(record: DnsRecord): boolean {
+    if (record.ttl === 0 || !this.isOfName(record)) return false;
+    if (record.type === "A") return !this.addresses.has(String(record.data));
+    return portOf(record) !== this.options.port;
   }
 }
 

@@ -56,43 +56,41 @@ interface SentJob {
 }
 
 export class SharedQueue {
-  readonly #parts: SharedParts;
-  #timer: NodeJS.Timeout | null = null;
-  #running: Promise<void>;
-  #isClosed = false;
+  private timer: NodeJS.Timeout | null = null;
+  private running: Promise<void>;
+  private isClosed = false;
   /** All jobs this server took before a restart or failure are in its queue. */
-  #isCaughtUp = false;
+  private isCaughtUp = false;
   /** Jobs taken but not yet started, also before a restart, by their ids in this server's queue. */
-  readonly #unstarted: Set<string>;
+  private readonly unstarted: Set<string>;
   /** Jobs put back for other servers that were already reported. */
-  readonly #reportedBack = new Set<string>();
+  private readonly reportedBack = new Set<string>();
   /** Jobs on lost servers that were already reported. */
-  readonly #reportedLost = new Set<string>();
+  private readonly reportedLost = new Set<string>();
   /** Plotters without a machine that were already reported. */
-  readonly #reportedNoMachine = new Set<string>();
-  #lastFault: string | null = null;
+  private readonly reportedNoMachine = new Set<string>();
+  private lastFault: string | null = null;
 
-  constructor(parts: SharedParts) {
-    this.#parts = parts;
-    this.#unstarted = new Set(parts.store.unreportedShared().map(({ jobId }) => jobId));
-    this.#running = this.#round();
+  constructor(private readonly parts: SharedParts) {
+    this.unstarted = new Set(parts.store.unreportedShared().map(({ jobId }) => jobId));
+    this.running = this.round();
   }
 
   async send({ name, drawing, settings = {}, target }: SentJob): Promise<string> {
-    return this.#parts.shared.send(name, targetText(target), JSON.stringify({ name, drawing, settings }));
+    return this.parts.shared.send(name, targetText(target), JSON.stringify({ name, drawing, settings }));
   }
 
   list(): Promise<SharedJob[]> {
-    return this.#parts.shared.list();
+    return this.parts.shared.list();
   }
 
   withdraw(id: string): Promise<void> {
-    return this.#parts.shared.withdraw(id);
+    return this.parts.shared.withdraw(id);
   }
 
   /** Puts a job back in the shared queue if a lost server took it but did not start it. Throws `conflict`. */
   giveBack(id: string): Promise<void> {
-    return this.#parts.shared.giveBack(id, this.#lostAfterMs);
+    return this.parts.shared.giveBack(id, this.lostAfterMs);
   }
 
   /**
@@ -100,13 +98,13 @@ export class SharedQueue {
    * why it must not.
    */
   async claim(jobId: string): Promise<string | null> {
-    const { shared, store, serverId, queue, log } = this.#parts;
+    const { shared, store, serverId, queue, log } = this.parts;
     const known = store.unreportedShared().find((one) => one.jobId === jobId);
     if (known === undefined) return null;
     const { name } = queue.get(jobId);
     try {
       if (await shared.claim(known.id, serverId)) return null;
-      return await this.#leave(known);
+      return await this.leave(known);
     } catch (error) {
       log(`shared queue: "${name}" can't start: ${wordsOf(error)}`);
       return `The database of the shared queue can't be reached, so another server may have been given "${name}". Start it when the database is back. Or duplicate it: a duplicate can start at any time.`;
@@ -114,64 +112,64 @@ export class SharedQueue {
   }
 
   async release(jobId: string): Promise<void> {
-    const { shared, store, serverId, log } = this.#parts;
+    const { shared, store, serverId, log } = this.parts;
     const known = store.unreportedShared().find((one) => one.jobId === jobId);
     if (known === undefined) return;
     await shared.release(known.id, serverId).catch((error: unknown) => log(`shared queue: ${String(error)}`));
   }
 
-  get #lostAfterMs(): number {
-    return this.#parts.lostAfterMs ?? SERVER_LOST_AFTER_MS;
+  private get lostAfterMs(): number {
+    return this.parts.lostAfterMs ?? SERVER_LOST_AFTER_MS;
   }
 
   /** Looks for work at once, unless it already does. Call it when a plotter may have become free. */
   wake(): void {
-    if (this.#timer === null || this.#isClosed) return;
-    clearTimeout(this.#timer);
-    this.#timer = null;
-    this.#running = this.#round();
+    if (this.timer === null || this.isClosed) return;
+    clearTimeout(this.timer);
+    this.timer = null;
+    this.running = this.round();
   }
 
   async close(): Promise<void> {
-    this.#isClosed = true;
-    if (this.#timer !== null) clearTimeout(this.#timer);
-    await this.#running;
-    await this.#parts.shared.close();
+    this.isClosed = true;
+    if (this.timer !== null) clearTimeout(this.timer);
+    await this.running;
+    await this.parts.shared.close();
   }
 
   /** One round of polling. Never rejects: without the database a server continues with its own queue. */
-  async #round(): Promise<void> {
-    const { shared, serverId, log } = this.#parts;
+  private async round(): Promise<void> {
+    const { shared, serverId, log } = this.parts;
     try {
       await shared.seen(serverId);
-      if (!this.#isCaughtUp) {
-        await this.#dropLost();
-        for (const job of await shared.unfinished(serverId)) await this.#bringIn(job);
-        this.#isCaughtUp = true;
+      if (!this.isCaughtUp) {
+        await this.dropLost();
+        for (const job of await shared.unfinished(serverId)) await this.bringIn(job);
+        this.isCaughtUp = true;
       }
-      await this.#reportBegun();
-      await this.#startTaken();
-      await this.#reportLost();
-      for (const plotter of this.#parts.plotters.values()) await this.#feed(plotter);
-      if (this.#lastFault !== null) log("shared queue: working again");
-      this.#lastFault = null;
+      await this.reportBegun();
+      await this.startTaken();
+      await this.reportLost();
+      for (const plotter of this.parts.plotters.values()) await this.feed(plotter);
+      if (this.lastFault !== null) log("shared queue: working again");
+      this.lastFault = null;
     } catch (error) {
-      this.#isCaughtUp = false;
+      this.isCaughtUp = false;
       const fault = wordsOf(error);
-      if (fault !== this.#lastFault) log(`shared queue: ${fault}`);
-      this.#lastFault = fault;
+      if (fault !== this.lastFault) log(`shared queue: ${fault}`);
+      this.lastFault = fault;
     }
-    if (this.#isClosed) return;
-    this.#timer = setTimeout(() => this.wake(), this.#parts.pollMs ?? POLL_MS);
-    this.#timer.unref();
+    if (this.isClosed) return;
+    this.timer = setTimeout(() => this.wake(), this.parts.pollMs ?? POLL_MS);
+    this.timer.unref();
   }
 
   /** Drops queued jobs that were given to other servers while this one was away. */
-  async #dropLost(): Promise<void> {
-    const { shared, store, serverId, queue } = this.#parts;
+  private async dropLost(): Promise<void> {
+    const { shared, store, serverId, queue } = this.parts;
     for (const known of store.unreportedShared()) {
       const job = queue.list().find((one) => one.id === known.jobId);
-      if (job?.state === "queued" && !(await shared.isStill(known.id, serverId))) await this.#leave(known);
+      if (job?.state === "queued" && !(await shared.isStill(known.id, serverId))) await this.leave(known);
     }
   }
 
@@ -180,8 +178,8 @@ export class SharedQueue {
    * The message is stored before the job is removed: after a crash between the two it is shown twice rather than
    * never.
    */
-  async #leave({ id, jobId }: { readonly id: string; readonly jobId: string }): Promise<string> {
-    const { store, queue, log, notice } = this.#parts;
+  private async leave({ id, jobId }: { readonly id: string; readonly jobId: string }): Promise<string> {
+    const { store, queue, log, notice } = this.parts;
     const message = `"${queue.get(jobId).name}" was given to another server while this one was away.`;
     log(`shared queue: ${message}`);
     notice(message);
@@ -191,8 +189,8 @@ export class SharedQueue {
   }
 
   /** Marks jobs that have begun here in the database, so that they can't be given to other servers. */
-  async #reportBegun(): Promise<void> {
-    const { shared, store, serverId, queue, notice } = this.#parts;
+  private async reportBegun(): Promise<void> {
+    const { shared, store, serverId, queue, notice } = this.parts;
     for (const { id, jobId } of store.unreportedShared()) {
       const job = queue.list().find((one) => one.id === jobId);
       if (job?.state === "queued") continue;
@@ -204,11 +202,11 @@ export class SharedQueue {
   }
 
   /** Notifies once per job on a lost server: the user has to decide whether it should wait. */
-  async #reportLost(): Promise<void> {
-    const { shared, notice } = this.#parts;
-    for (const { id, name, server } of await shared.lost(this.#lostAfterMs)) {
-      if (this.#reportedLost.has(id)) continue;
-      this.#reportedLost.add(id);
+  private async reportLost(): Promise<void> {
+    const { shared, notice } = this.parts;
+    for (const { id, name, server } of await shared.lost(this.lostAfterMs)) {
+      if (this.reportedLost.has(id)) continue;
+      this.reportedLost.add(id);
       notice(
         `"${name}" was taken by ${server}, which can't be reached. It waits there until that server is back. To give it to another server, open Sharing, Servers.`,
       );
@@ -218,11 +216,11 @@ export class SharedQueue {
   /**
    * Starts taken jobs if the plotter's queue runs automatically. Each round tries again: the board may have been missing.
    */
-  async #startTaken(): Promise<void> {
-    const { queue } = this.#parts;
-    for (const id of this.#unstarted) {
+  private async startTaken(): Promise<void> {
+    const { queue } = this.parts;
+    for (const id of this.unstarted) {
       const job = queue.list().find((one) => one.id === id);
-      if (job?.state !== "queued") this.#unstarted.delete(id);
+      if (job?.state !== "queued") this.unstarted.delete(id);
       else if (queue.settings(job.plotterId).runOn) await startIfFree(queue, id);
     }
   }
@@ -231,12 +229,12 @@ export class SharedQueue {
    * Takes a job for a plotter that is connected and idle. On any other plotter the job would wait, although
    * another server's plotter may be free.
    */
-  async #feed(plotter: PlotterPort): Promise<void> {
-    const { shared, serverId, serverName, queue, log } = this.#parts;
+  private async feed(plotter: PlotterPort): Promise<void> {
+    const { shared, serverId, serverName, queue, log } = this.parts;
     const { name, machine, connection } = plotter.snapshot();
-    if (this.#isClosed || connection !== "idle" || queue.liveJobCount(plotter.id) > 0) return;
-    if (machine === null && !this.#reportedNoMachine.has(plotter.id)) {
-      this.#reportedNoMachine.add(plotter.id);
+    if (this.isClosed || connection !== "idle" || queue.liveJobCount(plotter.id) > 0) return;
+    if (machine === null && !this.reportedNoMachine.has(plotter.id)) {
+      this.reportedNoMachine.add(plotter.id);
       log(`shared queue: ${name} takes only jobs sent to ${name} by name, because its machine is not set`);
     }
     const targets: SharedTarget[] = [{ plotter: name }, ...(machine === null ? [] : [{ machine }])];
@@ -244,13 +242,13 @@ export class SharedQueue {
       const taker = { serverId, server: serverName, plotterId: plotter.id };
       const job = await shared.take(targetText(target), taker);
       if (job === null) continue;
-      await this.#bringIn(job);
+      await this.bringIn(job);
       return;
     }
   }
 
-  async #bringIn({ id, plotterId, payload }: TakenJob): Promise<void> {
-    const { shared, store, queue, files, log, notice } = this.#parts;
+  private async bringIn({ id, plotterId, payload }: TakenJob): Promise<void> {
+    const { shared, store, queue, files, log, notice } = this.parts;
     if (store.isShared(id)) {
       await shared.finish(id, "stored", null);
       return;
@@ -261,12 +259,12 @@ export class SharedQueue {
       const job = await queue.add({ name, settings, drawing: stored, sharedId: id, plotterId });
       log(`shared queue: took "${name}" as ${job.id}`);
       await shared.finish(id, "stored", null);
-      this.#unstarted.add(job.id);
-      await this.#startTaken();
+      this.unstarted.add(job.id);
+      await this.startTaken();
     } catch (error) {
       if (store.isShared(id)) throw error;
       const reason = isDiskFault(error) ? "The disk is full or can't be written to." : wordsOf(error);
-      if (!isDrawingFault(error)) return this.#putBack(id, reason);
+      if (!isDrawingFault(error)) return this.putBack(id, reason);
       const message = `A job of the shared queue can't be plotted: ${reason}`;
       log(message);
       notice(message);
@@ -275,11 +273,11 @@ export class SharedQueue {
   }
 
   /** Another server may have more memory, for example. Notifies once per job, since this server may get it again. */
-  async #putBack(id: string, reason: string): Promise<void> {
-    const { shared, serverId, log, notice } = this.#parts;
+  private async putBack(id: string, reason: string): Promise<void> {
+    const { shared, serverId, log, notice } = this.parts;
     await shared.putBack(id, serverId);
-    if (this.#reportedBack.has(id)) return;
-    this.#reportedBack.add(id);
+    if (this.reportedBack.has(id)) return;
+    this.reportedBack.add(id);
     const message = `A job of the shared queue was put back, because it can't be plotted here now: ${reason}`;
     log(message);
     notice(message);

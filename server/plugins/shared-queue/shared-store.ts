@@ -62,16 +62,13 @@ type Row = Record<string, unknown>;
 const jobIdSchema = z.object({ id: z.string() });
 
 export class SharedStore {
-  readonly #boss: PgBoss;
-  readonly #pool: Pool;
-  readonly #timeoutMs: number;
-  readonly #queues = new Set<string>();
+  private readonly queues = new Set<string>();
 
-  private constructor(boss: PgBoss, pool: Pool, timeoutMs: number) {
-    this.#boss = boss;
-    this.#pool = pool;
-    this.#timeoutMs = timeoutMs;
-  }
+  private constructor(
+    private readonly boss: PgBoss,
+    private readonly pool: Pool,
+    private readonly timeoutMs: number,
+  ) {}
 
   /**
    * Imports pg and pg-boss here, so that only servers with a shared queue need them. Throws `bad-setting`.
@@ -113,15 +110,15 @@ export class SharedStore {
   /** Returns the job's id. */
   async send(name: string, target: string, payload: string): Promise<string> {
     const id = randomUUID();
-    const queue = await this.#queueOf(target);
-    await this.#transaction(async (client) => {
+    const queue = await this.queueOf(target);
+    await this.transaction(async (client) => {
       await client.query("INSERT INTO plotwright_jobs (id, name, target, payload) VALUES ($1, $2, $3, $4)", [
         id,
         name,
         target,
         payload,
       ]);
-      await this.#boss.send(queue, { id }, { db: plainDb(client), retentionDays: RETENTION_DAYS });
+      await this.boss.send(queue, { id }, { db: plainDb(client), retentionDays: RETENTION_DAYS });
     });
     return id;
   }
@@ -129,10 +126,10 @@ export class SharedStore {
   /** Takes the next job for the target, which then belongs to this server; null if there is none. */
   async take(target: string, taker: Taker): Promise<TakenJob | null> {
     const { serverId, server, plotterId } = taker;
-    const queue = await this.#queueOf(target);
-    return this.#transaction(async (client) => {
+    const queue = await this.queueOf(target);
+    return this.transaction(async (client) => {
       const db = plainDb(client);
-      const [next] = await this.#boss.fetch<unknown>(queue, { db });
+      const [next] = await this.boss.fetch<unknown>(queue, { db });
       if (next === undefined) return null;
       // What is no job's id matches no row. It is completed all the same, or it would be fetched endlessly.
       const id = jobIdSchema.safeParse(next.data).data?.id ?? null;
@@ -141,14 +138,14 @@ export class SharedStore {
          WHERE id = $1 AND state = 'waiting' RETURNING id, plotter_id, payload`,
         [id, serverId, server, plotterId],
       );
-      await this.#boss.complete(queue, next.id, { server }, { db });
+      await this.boss.complete(queue, next.id, { server }, { db });
       return rows[0] === undefined ? null : takenFrom(rows[0]);
     });
   }
 
   /** Jobs taken by this server that may be missing in its own queue, because it was killed in between. */
   async unfinished(serverId: string): Promise<TakenJob[]> {
-    const { rows } = await this.#pool.query<Row>(
+    const { rows } = await this.pool.query<Row>(
       "SELECT id, plotter_id, payload FROM plotwright_jobs WHERE server_id = $1 AND state = 'taken' ORDER BY created_at",
       [serverId],
     );
@@ -160,7 +157,7 @@ export class SharedStore {
    * since the job may be given back.
    */
   async finish(id: string, state: "stored" | "refused", message: string | null): Promise<void> {
-    await this.#pool.query(
+    await this.pool.query(
       `UPDATE plotwright_jobs SET state = $2, message = $3,
        payload = CASE WHEN $2 = 'refused' THEN NULL ELSE payload END WHERE id = $1`,
       [id, state, message],
@@ -169,17 +166,17 @@ export class SharedStore {
 
   /** Marks a job as begun before it starts. False: it belongs to another server or to none. */
   async claim(id: string, serverId: string): Promise<boolean> {
-    const { rowCount } = await this.#pool.query({
+    const { rowCount } = await this.pool.query({
       text: "UPDATE plotwright_jobs SET has_begun = true WHERE id = $1 AND server_id = $2",
       values: [id, serverId],
-      query_timeout: this.#timeoutMs,
+      query_timeout: this.timeoutMs,
     } as QueryConfig);
     return rowCount !== 0;
   }
 
   /** Undoes claim() for a job that did not start. */
   async release(id: string, serverId: string): Promise<void> {
-    await this.#pool.query(
+    await this.pool.query(
       "UPDATE plotwright_jobs SET has_begun = false WHERE id = $1 AND server_id = $2 AND payload IS NOT NULL",
       [id, serverId],
     );
@@ -190,7 +187,7 @@ export class SharedStore {
    * to another server.
    */
   async begun(id: string, serverId: string): Promise<boolean> {
-    const { rowCount } = await this.#pool.query(
+    const { rowCount } = await this.pool.query(
       "UPDATE plotwright_jobs SET has_begun = true, payload = NULL WHERE id = $1 AND server_id = $2",
       [id, serverId],
     );
@@ -199,7 +196,7 @@ export class SharedStore {
 
   /** Whether the job still belongs to this server. */
   async isStill(id: string, serverId: string): Promise<boolean> {
-    const { rowCount } = await this.#pool.query(
+    const { rowCount } = await this.pool.query(
       "SELECT 1 FROM plotwright_jobs WHERE id = $1 AND server_id = $2",
       [id, serverId],
     );
@@ -208,7 +205,7 @@ export class SharedStore {
 
   /** Records a sign of life of this server. */
   async seen(serverId: string): Promise<void> {
-    await this.#pool.query(
+    await this.pool.query(
       `INSERT INTO plotwright_servers (id, seen_at) VALUES ($1, now())
        ON CONFLICT (id) DO UPDATE SET seen_at = now()`,
       [serverId],
@@ -217,23 +214,23 @@ export class SharedStore {
 
   /** Makes a job available again. Throws `conflict` if it has begun or its server is not lost. */
   async giveBack(id: string, lostAfterMs: number): Promise<void> {
-    if (await this.#makeWaiting(id, LOST, lostAfterMs)) return;
+    if (await this.makeWaiting(id, LOST, lostAfterMs)) return;
     const job = (await this.list()).find((one) => one.id === id);
     throw new PlotwrightError("conflict", whyNot(job));
   }
 
   /** Makes a job that this server took but can't add to its queue available again, after a pause. */
   async putBack(id: string, serverId: string): Promise<void> {
-    await this.#makeWaiting(id, "state = 'taken' AND server_id = $1", serverId, PUT_BACK_PAUSE_S);
+    await this.makeWaiting(id, "state = 'taken' AND server_id = $1", serverId, PUT_BACK_PAUSE_S);
   }
 
   /** False: the job does not meet the SQL condition, in which $1 is `value`. */
-  async #makeWaiting(id: string, condition: string, value: unknown, startAfter = 0): Promise<boolean> {
-    const { rows } = await this.#pool.query<Row>("SELECT target FROM plotwright_jobs WHERE id = $1", [id]);
+  private async makeWaiting(id: string, condition: string, value: unknown, startAfter = 0): Promise<boolean> {
+    const { rows } = await this.pool.query<Row>("SELECT target FROM plotwright_jobs WHERE id = $1", [id]);
     if (rows[0] === undefined) return false;
     // Before the transaction: within it, this would need a second connection from the pool and could block.
-    const queue = await this.#queueOf(String(rows[0]["target"]));
-    return this.#transaction(async (client) => {
+    const queue = await this.queueOf(String(rows[0]["target"]));
+    return this.transaction(async (client) => {
       const { rowCount } = await client.query(
         `UPDATE plotwright_jobs job SET state = 'waiting', server_id = NULL, server = NULL, plotter_id = NULL
          WHERE ${condition} AND job.id = $2`,
@@ -241,7 +238,7 @@ export class SharedStore {
       );
       if (rowCount === 0) return false;
       const options = { db: plainDb(client), retentionDays: RETENTION_DAYS, startAfter };
-      await this.#boss.send(queue, { id }, options);
+      await this.boss.send(queue, { id }, options);
       return true;
     });
   }
@@ -250,7 +247,7 @@ export class SharedStore {
   async lost(
     lostAfterMs: number,
   ): Promise<{ readonly id: string; readonly name: string; readonly server: string }[]> {
-    const { rows } = await this.#pool.query<Row>(
+    const { rows } = await this.pool.query<Row>(
       `SELECT id, name, server FROM plotwright_jobs job WHERE ${LOST} ORDER BY created_at LIMIT ${MAX_LISTED}`,
       [lostAfterMs],
     );
@@ -263,7 +260,7 @@ export class SharedStore {
 
   /** Withdraws a waiting job; throws `conflict` if a server has taken it. */
   async withdraw(id: string): Promise<void> {
-    const { rowCount } = await this.#pool.query(
+    const { rowCount } = await this.pool.query(
       "UPDATE plotwright_jobs SET state = 'withdrawn', payload = NULL WHERE id = $1 AND state = 'waiting'",
       [id],
     );
@@ -274,7 +271,7 @@ export class SharedStore {
 
   /** Newest first, without those that this version doesn't understand. */
   async list(): Promise<SharedJob[]> {
-    const { rows } = await this.#pool.query<Row>(
+    const { rows } = await this.pool.query<Row>(
       `SELECT job.id, name, target, state, server, message, has_begun, seen_at, created_at
        FROM plotwright_jobs job LEFT JOIN plotwright_servers ON plotwright_servers.id = job.server_id
        ORDER BY created_at DESC LIMIT ${MAX_LISTED}`,
@@ -283,22 +280,22 @@ export class SharedStore {
   }
 
   async close(): Promise<void> {
-    await this.#boss.stop({ graceful: false, wait: true }).catch(() => undefined);
-    await this.#pool.end();
+    await this.boss.stop({ graceful: false, wait: true }).catch(() => undefined);
+    await this.pool.end();
   }
 
-  async #queueOf(target: string): Promise<string> {
+  private async queueOf(target: string): Promise<string> {
     // Hashed, because names of plotters may contain characters that queue names can't.
     const queue = `plotwright_${createHash("sha256").update(target).digest("hex").slice(0, 24)}`;
-    if (!this.#queues.has(queue)) {
-      await this.#boss.createQueue(queue);
-      this.#queues.add(queue);
+    if (!this.queues.has(queue)) {
+      await this.boss.createQueue(queue);
+      this.queues.add(queue);
     }
     return queue;
   }
 
-  async #transaction<T>(work: (client: PoolClient) => Promise<T>): Promise<T> {
-    const client = await this.#pool.connect();
+  private async transaction<T>(work: (client: PoolClient) => Promise<T>): Promise<T> {
+    const client = await this.pool.connect();
     try {
       await client.query("BEGIN");
       const result = await work(client);

@@ -45,13 +45,12 @@ const STABLE_MS = 2_000;
 const SETTINGS_FAULTS: readonly ErrorCode[] = ["bad-setting", "out-of-bounds"];
 
 export class WatchFolder {
-  readonly #parts: WatchParts;
-  readonly #watcher: FSWatcher;
-  readonly #abort = new AbortController();
+  private readonly watcher: FSWatcher;
+  private readonly abort = new AbortController();
   /** Paths of the drawings whose settings are at fault. */
-  readonly #refused = new Set<string>();
+  private readonly refused = new Set<string>();
   /** Files are handled one after the other, in the order of their events. */
-  #last: Promise<void> = Promise.resolve();
+  private last: Promise<void> = Promise.resolve();
 
   /** Throws `bad-setting` if there is no such folder. */
   static async open(dir: string, parts: WatchParts): Promise<WatchFolder> {
@@ -65,64 +64,66 @@ export class WatchFolder {
     return new WatchFolder(dir, parts);
   }
 
-  private constructor(dir: string, parts: WatchParts) {
-    this.#parts = parts;
+  private constructor(
+    dir: string,
+    private readonly parts: WatchParts,
+  ) {
     const stableMs = parts.stableMs ?? STABLE_MS;
-    this.#watcher = watch(dir, {
+    this.watcher = watch(dir, {
       depth: 0,
       followSymlinks: false,
       ignored: (path, stats) => stats?.isFile() === true && !isDrawing(path) && !isSettings(path),
       awaitWriteFinish: { stabilityThreshold: stableMs, pollInterval: Math.min(200, stableMs / 2) },
     });
     const later = (work: () => Promise<void>): void => {
-      this.#last = this.#last
+      this.last = this.last
         .then(work)
         .catch((error: unknown) => parts.log(`watched folder: ${words(error)}`));
     };
     const changed = (path: string): void => {
-      if (isSettings(path)) later(() => this.#takeRefused());
-      else later(() => this.#take(path));
+      if (isSettings(path)) later(() => this.takeRefused());
+      else later(() => this.take(path));
     };
-    this.#watcher.on("add", changed).on("change", changed);
+    this.watcher.on("add", changed).on("change", changed);
     const removed = (path: string): void => {
       if (isSettings(path)) changed(path);
     };
-    this.#watcher.on("unlink", removed).on("unlinkDir", removed);
-    this.#watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
+    this.watcher.on("unlink", removed).on("unlinkDir", removed);
+    this.watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
   }
 
   async close(): Promise<void> {
-    this.#abort.abort();
-    await this.#watcher.close();
-    await this.#last;
+    this.abort.abort();
+    await this.watcher.close();
+    await this.last;
   }
 
-  async #takeRefused(): Promise<void> {
-    for (const path of [...this.#refused]) await this.#take(path);
+  private async takeRefused(): Promise<void> {
+    for (const path of [...this.refused]) await this.take(path);
   }
 
   /** Rejects only if the error itself can't be stored. */
-  async #take(path: string): Promise<void> {
-    if (this.#abort.signal.aborted) return;
-    this.#refused.delete(path);
+  private async take(path: string): Promise<void> {
+    if (this.abort.signal.aborted) return;
+    this.refused.delete(path);
     const name = basename(path);
-    const { files, store, log, notices } = this.#parts;
+    const { files, store, log, notices } = this.parts;
     let sha256: string | null = null;
     try {
       await withDrawing(path, async (drawing) => {
         files.mustFit(drawing.bytes);
-        sha256 = await drawing.sha256(this.#abort.signal);
+        sha256 = await drawing.sha256(this.abort.signal);
         if (store.isSeen({ name, sha256 })) return;
-        const job = await this.#add(path, name, sha256, drawing);
+        const job = await this.add(path, name, sha256, drawing);
         log(`watched folder: "${job.name}" is queued as ${job.id}`);
       });
     } catch (error) {
       const isGone = (error as NodeJS.ErrnoException).code === "ENOENT";
-      if (isGone || this.#abort.signal.aborted) return;
+      if (isGone || this.abort.signal.aborted) return;
       const message = `"${cleanName(name)}" in the watched folder can't be plotted: ${words(error)}`;
       log(message);
       const code = error instanceof PlotwrightError ? error.code : null;
-      if (code !== null && SETTINGS_FAULTS.includes(code)) this.#refused.add(path);
+      if (code !== null && SETTINGS_FAULTS.includes(code)) this.refused.add(path);
       const isFinal = code === "bad-file";
       // What is tried again may fail again while its notice is still shown.
       if (isFinal || !notices.list().some((shown) => shown.message === message)) notices.add(message);
@@ -131,8 +132,8 @@ export class WatchFolder {
     }
   }
 
-  async #add(path: string, name: string, sha256: string, file: WatchedDrawing): Promise<Job> {
-    const { queue, files } = this.#parts;
+  private async add(path: string, name: string, sha256: string, file: WatchedDrawing): Promise<Job> {
+    const { queue, files } = this.parts;
     const settings = withGiven(lookOfLast(queue), await settingsBeside(path));
     const drawing = await files.add(file.chunks());
     if (drawing.bytes === 0) {
@@ -141,7 +142,7 @@ export class WatchFolder {
     }
     return queue.add(
       { name: cleanName(name.slice(0, 200)), settings, drawing, watched: { name, sha256 } },
-      { signal: this.#abort.signal },
+      { signal: this.abort.signal },
     );
   }
 }

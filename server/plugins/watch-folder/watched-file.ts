@@ -34,19 +34,15 @@ export async function withDrawing<T>(
 }
 
 export class WatchedDrawing {
-  readonly #file: FileHandle;
-
   constructor(
-    file: FileHandle,
+    private readonly file: FileHandle,
     readonly bytes: number,
-  ) {
-    this.#file = file;
-  }
+  ) {}
 
   /** Its bytes at this time, from the beginning: a file that grows has an end all the same. */
   chunks(): AsyncIterable<Buffer> {
     if (this.bytes === 0) return (async function* () {})();
-    return this.#file.createReadStream({ start: 0, end: this.bytes - 1, autoClose: false });
+    return this.file.createReadStream({ start: 0, end: this.bytes - 1, autoClose: false });
   }
 
   /** Rejects when the signal is aborted. */

@@ -21,14 +21,10 @@ export interface Delivery {
 }
 
 export class WebhookStore {
-  readonly #db: Database;
-
-  constructor(db: Database) {
-    this.#db = db;
-  }
+  constructor(private readonly db: Database) {}
 
   list(): Webhook[] {
-    return this.#all(
+    return this.all(
       `SELECT w.*, (SELECT COUNT(*) FROM deliveries d WHERE d.webhook_id = w.id) AS pending
        FROM webhooks w ORDER BY created_at`,
     ).map((row) =>
@@ -45,12 +41,12 @@ export class WebhookStore {
   }
 
   secretOf(id: string): string | null {
-    const row = this.#db.get("SELECT secret FROM webhooks WHERE id = ?", [id]) as Row | null;
+    const row = this.db.get("SELECT secret FROM webhooks WHERE id = ?", [id]) as Row | null;
     return row === null ? null : String(row["secret"]);
   }
 
   add({ id, name, url, events, createdAt }: Webhook, secret: string): void {
-    this.#db.run(
+    this.db.run(
       "INSERT INTO webhooks (id, name, url, events, created_at, secret) VALUES (?, ?, ?, ?, ?, ?)",
       [id, name, url, JSON.stringify(events), createdAt, secret],
     );
@@ -58,17 +54,17 @@ export class WebhookStore {
 
   /** Removes the webhook with its pending deliveries. False if there is no such webhook. */
   remove(id: string): boolean {
-    this.#db.run("DELETE FROM deliveries WHERE webhook_id = ?", [id]);
-    this.#db.run("DELETE FROM webhooks WHERE id = ?", [id]);
-    return Number((this.#db.get("SELECT changes() AS n") as Row)["n"]) > 0;
+    this.db.run("DELETE FROM deliveries WHERE webhook_id = ?", [id]);
+    this.db.run("DELETE FROM webhooks WHERE id = ?", [id]);
+    return Number((this.db.get("SELECT changes() AS n") as Row)["n"]) > 0;
   }
 
   saveLast(id: string, last: Webhook["last"]): void {
-    this.#db.run("UPDATE webhooks SET last = ? WHERE id = ?", [JSON.stringify(last), id]);
+    this.db.run("UPDATE webhooks SET last = ? WHERE id = ?", [JSON.stringify(last), id]);
   }
 
   addDelivery({ id, webhookId, event, body, tryCount, nextAtMs }: Delivery): void {
-    this.#db.run(
+    this.db.run(
       "INSERT INTO deliveries (id, webhook_id, event, body, try_count, next_at_ms) VALUES (?, ?, ?, ?, ?, ?)",
       [id, webhookId, event, body, tryCount, nextAtMs],
     );
@@ -76,7 +72,7 @@ export class WebhookStore {
 
   /** Oldest first: deliveries are made in order. */
   deliveries(webhookId: string): Delivery[] {
-    return this.#all("SELECT * FROM deliveries WHERE webhook_id = ? ORDER BY rowid", [webhookId]).map(
+    return this.all("SELECT * FROM deliveries WHERE webhook_id = ? ORDER BY rowid", [webhookId]).map(
       (row) => ({
         id: String(row["id"]),
         webhookId,
@@ -89,19 +85,15 @@ export class WebhookStore {
   }
 
   delay(id: string, tryCount: number, nextAtMs: number): void {
-    this.#db.run("UPDATE deliveries SET try_count = ?, next_at_ms = ? WHERE id = ?", [
-      tryCount,
-      nextAtMs,
-      id,
-    ]);
+    this.db.run("UPDATE deliveries SET try_count = ?, next_at_ms = ? WHERE id = ?", [tryCount, nextAtMs, id]);
   }
 
   removeDelivery(id: string): void {
-    this.#db.run("DELETE FROM deliveries WHERE id = ?", [id]);
+    this.db.run("DELETE FROM deliveries WHERE id = ?", [id]);
   }
 
-  #all(sql: string, values: (string | number)[] = []): Row[] {
-    return this.#db.all(sql, values) as Row[];
+  private all(sql: string, values: (string | number)[] = []): Row[] {
+    return this.db.all(sql, values) as Row[];
   }
 }
 

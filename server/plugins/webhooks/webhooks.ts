@@ -38,25 +38,23 @@ interface Try {
 }
 
 export class Webhooks {
-  readonly #parts: WebhookParts;
-  readonly #nowMs: () => number;
+  private readonly nowMs: () => number;
   /** By webhook id: the timer of the next delivery, or null during a delivery. */
-  readonly #busy = new Map<string, NodeJS.Timeout | null>();
-  readonly #abort = new AbortController();
-  readonly #running = new Set<Promise<void>>();
+  private readonly busy = new Map<string, NodeJS.Timeout | null>();
+  private readonly abort = new AbortController();
+  private readonly running = new Set<Promise<void>>();
 
-  constructor(parts: WebhookParts) {
-    this.#parts = parts;
-    this.#nowMs = parts.nowMs ?? Date.now;
+  constructor(private readonly parts: WebhookParts) {
+    this.nowMs = parts.nowMs ?? Date.now;
   }
 
   /** Resumes deliveries left by an earlier run of the server. */
   start(): void {
-    for (const { id } of this.list()) this.#next(id);
+    for (const { id } of this.list()) this.next(id);
   }
 
   list(): Webhook[] {
-    return this.#parts.store.list();
+    return this.parts.store.list();
   }
 
   /** The secret is returned only here and never shown again. */
@@ -66,21 +64,21 @@ export class Webhooks {
       name,
       url,
       events: [...new Set(events)],
-      createdAt: new Date(this.#nowMs()).toISOString(),
+      createdAt: new Date(this.nowMs()).toISOString(),
       pendingCount: 0,
       last: null,
     };
     const secret = randomBytes(32).toString("base64url");
-    this.#parts.store.add(webhook, secret);
+    this.parts.store.add(webhook, secret);
     return { webhook, secret };
   }
 
   /** Throws `not-found`. */
   remove(id: string): void {
-    if (!this.#parts.store.remove(id)) throw new PlotwrightError("not-found", `There is no webhook ${id}.`);
-    const timer = this.#busy.get(id) ?? null;
+    if (!this.parts.store.remove(id)) throw new PlotwrightError("not-found", `There is no webhook ${id}.`);
+    const timer = this.busy.get(id) ?? null;
     if (timer !== null) clearTimeout(timer);
-    if (timer !== null) this.#busy.delete(id);
+    if (timer !== null) this.busy.delete(id);
   }
 
   /** Call inside the transaction that stores the job; stores the messages without sending them. */
@@ -90,30 +88,30 @@ export class Webhooks {
     for (const webhook of this.list()) {
       if (!webhook.events.includes(event)) continue;
       const id = randomUUID();
-      const body = JSON.stringify(this.#message(id, event, after));
-      const nextAtMs = this.#nowMs();
-      this.#parts.store.addDelivery({ id, webhookId: webhook.id, event, body, tryCount: 0, nextAtMs });
+      const body = JSON.stringify(this.message(id, event, after));
+      const nextAtMs = this.nowMs();
+      this.parts.store.addDelivery({ id, webhookId: webhook.id, event, body, tryCount: 0, nextAtMs });
     }
   }
 
   /** Call after that transaction; starts sending. */
   wake(): void {
-    for (const { id, pendingCount } of this.list()) if (pendingCount > 0) this.#next(id);
+    for (const { id, pendingCount } of this.list()) if (pendingCount > 0) this.next(id);
   }
 
   /** Undelivered messages remain stored for the next start. */
   async close(): Promise<void> {
-    this.#abort.abort();
-    for (const timer of this.#busy.values()) if (timer !== null) clearTimeout(timer);
-    await Promise.all(this.#running);
+    this.abort.abort();
+    for (const timer of this.busy.values()) if (timer !== null) clearTimeout(timer);
+    await Promise.all(this.running);
   }
 
-  #message(id: string, event: WebhookEvent, job: Job): WebhookMessage {
+  private message(id: string, event: WebhookEvent, job: Job): WebhookMessage {
     const { wait, plotterId } = job;
     return {
       id,
       event,
-      at: new Date(this.#nowMs()).toISOString(),
+      at: new Date(this.nowMs()).toISOString(),
       job: {
         id: job.id,
         name: job.name,
@@ -121,41 +119,41 @@ export class Webhooks {
         message: job.message,
         wait: wait === null ? null : `${wait.penName ?? "pen"} for ${wait.layerName}`,
       },
-      plotter: { id: plotterId, name: this.#parts.plotterName(plotterId) },
+      plotter: { id: plotterId, name: this.parts.plotterName(plotterId) },
     };
   }
 
-  #next(webhookId: string): void {
-    if (this.#busy.has(webhookId) || this.#abort.signal.aborted) return;
-    const [first] = this.#parts.store.deliveries(webhookId);
+  private next(webhookId: string): void {
+    if (this.busy.has(webhookId) || this.abort.signal.aborted) return;
+    const [first] = this.parts.store.deliveries(webhookId);
     if (first === undefined) return;
-    const pauseMs = Math.max(0, first.nextAtMs - this.#nowMs());
+    const pauseMs = Math.max(0, first.nextAtMs - this.nowMs());
     const timer = setTimeout(() => {
-      this.#busy.set(webhookId, null);
-      const run = this.#deliver(first)
+      this.busy.set(webhookId, null);
+      const run = this.deliver(first)
         .finally(() => {
-          this.#running.delete(run);
-          this.#busy.delete(webhookId);
+          this.running.delete(run);
+          this.busy.delete(webhookId);
         })
-        .then(() => this.#next(webhookId))
+        .then(() => this.next(webhookId))
         // The cause may be a full disk, so an immediate retry would loop. The next change of a job tries again.
-        .catch((error: unknown) => this.#parts.log(`webhooks: ${String(error)}`));
-      this.#running.add(run);
+        .catch((error: unknown) => this.parts.log(`webhooks: ${String(error)}`));
+      this.running.add(run);
     }, pauseMs);
     timer.unref();
-    this.#busy.set(webhookId, timer);
+    this.busy.set(webhookId, timer);
   }
 
-  async #deliver(delivery: Delivery): Promise<void> {
-    const { store, log, pausesS = PAUSES_S } = this.#parts;
+  private async deliver(delivery: Delivery): Promise<void> {
+    const { store, log, pausesS = PAUSES_S } = this.parts;
     const webhook = this.list().find(({ id }) => id === delivery.webhookId);
     const secret = store.secretOf(delivery.webhookId);
     if (webhook === undefined || secret === null) return;
-    const { isDelivered, isGone, message } = await this.#post(webhook.url, secret, delivery);
+    const { isDelivered, isGone, message } = await this.post(webhook.url, secret, delivery);
     // Stopped during the request: it is unknown whether the message arrived, so it is sent again after a
     // restart.
-    if (this.#abort.signal.aborted) return;
-    const at = new Date(this.#nowMs()).toISOString();
+    if (this.abort.signal.aborted) return;
+    const at = new Date(this.nowMs()).toISOString();
     store.saveLast(webhook.id, { at, isDelivered, message });
     if (isDelivered) {
       store.removeDelivery(delivery.id);
@@ -168,18 +166,18 @@ export class Webhooks {
       store.removeDelivery(delivery.id);
     } else {
       log(`${who}: ${message}; next try in ${pauseS} s`);
-      store.delay(delivery.id, delivery.tryCount + 1, this.#nowMs() + pauseS * 1000);
+      store.delay(delivery.id, delivery.tryCount + 1, this.nowMs() + pauseS * 1000);
     }
   }
 
-  async #post(url: string, secret: string, { id, event, body }: Delivery): Promise<Try> {
-    const timeS = Math.floor(this.#nowMs() / 1000);
+  private async post(url: string, secret: string, { id, event, body }: Delivery): Promise<Try> {
+    const timeS = Math.floor(this.nowMs() / 1000);
     try {
       const response = await fetch(url, {
         method: "POST",
         body,
         redirect: "manual",
-        signal: AbortSignal.any([this.#abort.signal, AbortSignal.timeout(TIMEOUT_MS)]),
+        signal: AbortSignal.any([this.abort.signal, AbortSignal.timeout(TIMEOUT_MS)]),
         headers: {
           "Content-Type": "application/json",
           "User-Agent": "plotwright",

@@ -3,16 +3,16 @@ import { serverEventSchema, type ServerEvent } from "../../../src/schema/index.j
 
 export class EventStream {
   readonly seen: ServerEvent[] = [];
-  readonly #abort = new AbortController();
-  #wake: (() => void)[] = [];
+  private readonly abort = new AbortController();
+  private wake: (() => void)[] = [];
   /** Resolves when the server has ended the stream. */
   ended: Promise<void> = Promise.resolve();
 
   static async open(url: string, headers: Record<string, string> = {}): Promise<EventStream> {
     const stream = new EventStream();
-    const response = await fetch(`${url}/api/v1/events`, { headers, signal: stream.#abort.signal });
+    const response = await fetch(`${url}/api/v1/events`, { headers, signal: stream.abort.signal });
     if (response.status !== 200 || response.body === null) throw new Error(`status ${response.status}`);
-    stream.ended = stream.#read(response.body).catch(() => undefined);
+    stream.ended = stream.read(response.body).catch(() => undefined);
     return stream;
   }
 
@@ -27,15 +27,15 @@ export class EventStream {
           event.type === type && fits(event as Extract<ServerEvent, { type: T }>),
       );
       if (found !== undefined) return found;
-      await new Promise<void>((resolve) => this.#wake.push(resolve));
+      await new Promise<void>((resolve) => this.wake.push(resolve));
     }
   }
 
   close(): void {
-    this.#abort.abort();
+    this.abort.abort();
   }
 
-  async #read(body: ReadableStream<Uint8Array>): Promise<void> {
+  private async read(body: ReadableStream<Uint8Array>): Promise<void> {
     const decoder = new TextDecoder();
     let text = "";
     for await (const chunk of body) {
@@ -45,7 +45,7 @@ export class EventStream {
       for (const block of blocks) {
         if (block.startsWith("data: ")) this.seen.push(serverEventSchema.parse(JSON.parse(block.slice(6))));
       }
-      this.#wake.splice(0).forEach((wake) => wake());
+      this.wake.splice(0).forEach((wake) => wake());
     }
   }
 }

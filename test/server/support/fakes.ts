@@ -22,10 +22,8 @@ export class LedRun implements LivePlotRun {
   held: (held: boolean, wait?: PlotWait | null) => void = () => undefined;
   readonly asked: string[] = [];
   holdPlace: Place | null;
-  readonly start: PlotStart;
 
-  constructor(start: PlotStart) {
-    this.start = start;
+  constructor(readonly start: PlotStart) {
     this.holdPlace = start.from ?? null;
     if (start.held === true) this.asked.push("begin held");
     this.finished = new Promise((resolve, reject) => {
@@ -108,18 +106,18 @@ export class LedPlotter implements ManagedPlotter {
   connection: Plotter["connection"] = "idle";
   firmware: string | null = "2.8.1";
   readonly asked: string[] = [];
-  #onRun: (() => void)[] = [];
+  private onRun: (() => void)[] = [];
 
-  #name: string;
+  private name: string;
 
   constructor(id = "virtual", name = "Virtual plotter") {
     this.id = id;
-    this.#name = name;
+    this.name = name;
   }
 
   snapshot(): Plotter {
     const { connection, firmware } = this;
-    return makePlotter(this.id, { name: this.#name, connection, firmware });
+    return makePlotter(this.id, { name: this.name, connection, firmware });
   }
 
   settled(): Promise<void> {
@@ -129,7 +127,7 @@ export class LedPlotter implements ManagedPlotter {
   onChange(): void {}
 
   rename(name: string): void {
-    this.#name = name;
+    this.name = name;
   }
 
   useMachine(machine: string | null): void {
@@ -139,14 +137,14 @@ export class LedPlotter implements ManagedPlotter {
   plot(_planner: PlotPlanner, _settings: PlotSettings, start: PlotStart = {}): LedRun {
     const run = new LedRun(start);
     this.runs.push(run);
-    this.#onRun.splice(0).forEach((tell) => tell());
+    this.onRun.splice(0).forEach((tell) => tell());
     return run;
   }
 
   /** The current run, or the next one. */
   async nextRun(): Promise<LedRun> {
     const count = this.runs.length;
-    if (count === 0) await new Promise<void>((resolve) => this.#onRun.push(resolve));
+    if (count === 0) await new Promise<void>((resolve) => this.onRun.push(resolve));
     return this.runs.shift()!;
   }
 

@@ -20,45 +20,42 @@ const IDLE = "I".charCodeAt(0);
 const READY_BYTES = 6;
 
 export class PgliteServer {
-  readonly #database: PGlite;
-  readonly #server = createServer((socket) => void this.#serve(socket));
-  readonly #sockets = new Set<Socket>();
-  #turn: Promise<void> = Promise.resolve();
+  private readonly server = createServer((socket) => void this.serve(socket));
+  private readonly sockets = new Set<Socket>();
+  private turn: Promise<void> = Promise.resolve();
 
-  private constructor(database: PGlite) {
-    this.#database = database;
-  }
+  private constructor(private readonly database: PGlite) {}
 
   /** On 127.0.0.1; `port` 0: a free one, see `server.port`. */
   static async listen(database: PGlite, port: number): Promise<PgliteServer> {
     const server = new PgliteServer(database);
-    server.#server.listen(port, "127.0.0.1");
-    await once(server.#server, "listening");
+    server.server.listen(port, "127.0.0.1");
+    await once(server.server, "listening");
     return server;
   }
 
   get port(): number {
-    return (this.#server.address() as AddressInfo).port;
+    return (this.server.address() as AddressInfo).port;
   }
 
   /** Cuts all connections. */
   async stop(): Promise<void> {
-    const closed = once(this.#server, "close");
-    this.#server.close();
-    for (const socket of this.#sockets) socket.destroy();
+    const closed = once(this.server, "close");
+    this.server.close();
+    for (const socket of this.sockets) socket.destroy();
     await closed;
-    await this.#turn;
+    await this.turn;
   }
 
-  async #serve(socket: Socket): Promise<void> {
-    this.#sockets.add(socket.setNoDelay(true));
+  private async serve(socket: Socket): Promise<void> {
+    this.sockets.add(socket.setNoDelay(true));
     let end: (() => void) | null = null;
     try {
       for await (const batch of batchesOf(socket)) {
-        end ??= await this.#begin();
+        end ??= await this.begin();
         let answer: Uint8Array = new Uint8Array();
         for (const message of batch) {
-          answer = await this.#database.execProtocolRaw(message);
+          answer = await this.database.execProtocolRaw(message);
           // A copy: PGlite may use its memory again.
           socket.write(Buffer.from(answer));
         }
@@ -71,19 +68,19 @@ export class PgliteServer {
       if (!socket.destroyed) throw error;
     } finally {
       if (end !== null) {
-        await this.#database.exec("ROLLBACK");
+        await this.database.exec("ROLLBACK");
         end();
       }
-      this.#sockets.delete(socket);
+      this.sockets.delete(socket);
       socket.destroy();
     }
   }
 
   /** Waits for earlier turns; returns the function that ends its own turn. */
-  async #begin(): Promise<() => void> {
-    const before = this.#turn;
+  private async begin(): Promise<() => void> {
+    const before = this.turn;
     let end!: () => void;
-    this.#turn = new Promise((resolve) => (end = resolve));
+    this.turn = new Promise((resolve) => (end = resolve));
     await before;
     return end;
   }

@@ -88,14 +88,13 @@ export async function shareAndTake(server: AtUrl, name: string, target: SharedTa
 }
 
 export class SharedDatabase {
-  readonly #database: PGlite;
-  #server: PgliteServer;
-  readonly #port: number;
+  private readonly port: number;
 
-  private constructor(database: PGlite, server: PgliteServer) {
-    this.#database = database;
-    this.#server = server;
-    this.#port = server.port;
+  private constructor(
+    private readonly database: PGlite,
+    private server: PgliteServer,
+  ) {
+    this.port = server.port;
   }
 
   static async open(): Promise<SharedDatabase> {
@@ -104,16 +103,16 @@ export class SharedDatabase {
   }
 
   get url(): string {
-    return `postgres://postgres:postgres@127.0.0.1:${this.#port}/postgres`;
+    return `postgres://postgres:postgres@127.0.0.1:${this.port}/postgres`;
   }
 
   /** Cuts the connection to it until `restore`. */
   async cut(): Promise<void> {
-    await this.#server.stop();
+    await this.server.stop();
   }
 
   async restore(): Promise<void> {
-    this.#server = await PgliteServer.listen(this.#database, this.#port);
+    this.server = await PgliteServer.listen(this.database, this.port);
   }
 
   /** A separate client, never in another client's transaction. */
@@ -136,8 +135,8 @@ export class SharedDatabase {
   }
 
   async close(): Promise<void> {
-    await this.#server.stop();
-    await this.#database.close();
+    await this.server.stop();
+    await this.database.close();
   }
 
   serve(dataDir: string, options: ServerOptions = {}): Promise<PlotwrightServer> {

@@ -44,132 +44,130 @@ export interface DatabaseEvents {
 }
 
 export class Database implements Records {
-  #db!: IDBPDatabase;
-  readonly #name: string;
-  readonly #events: DatabaseEvents;
+  private db!: IDBPDatabase;
   /** The latest of each record but the drawings, by store and key, to be stored again if the user clears the site's data. */
-  readonly #known = new Map<string, Change>();
+  private readonly known = new Map<string, Change>();
   /** Changes that no transaction has taken yet, by store and key. */
-  #queued = new Map<string, Change>();
-  #running: Promise<void> = Promise.resolve();
+  private queued = new Map<string, Change>();
+  private running: Promise<void> = Promise.resolve();
   /** The transaction after the running one. When it begins, it takes all queued changes. */
-  #next: Promise<void> | null = null;
-  #last: Promise<void> = Promise.resolve();
+  private next: Promise<void> | null = null;
+  private last: Promise<void> = Promise.resolve();
 
-  private constructor(name: string, events: DatabaseEvents) {
-    this.#name = name;
-    this.#events = events;
-  }
+  private constructor(
+    private readonly name: string,
+    private readonly events: DatabaseEvents,
+  ) {}
 
   /** Rejects if the browser stores nothing for this site, as some do in private windows. */
   static async open(name: string, events: DatabaseEvents): Promise<Database> {
     const database = new Database(name, events);
-    await database.#connect();
+    await database.connect();
     return database;
   }
 
-  async #connect(): Promise<void> {
-    this.#db = await openDB(this.#name, VERSION, {
+  private async connect(): Promise<void> {
+    this.db = await openDB(this.name, VERSION, {
       upgrade: (db) => {
         for (const store of STORES) {
           if (!db.objectStoreNames.contains(store)) db.createObjectStore(store);
         }
       },
       // Not called for `close`: only if the browser closes it, when the user clears the site's data.
-      terminated: () => void this.#connectAgain(),
+      terminated: () => void this.connectAgain(),
     });
   }
 
-  async #connectAgain(): Promise<void> {
+  private async connectAgain(): Promise<void> {
     try {
-      await this.#connect();
+      await this.connect();
     } catch (error) {
-      this.#events.onFault(error);
-      setTimeout(() => void this.#connectAgain(), RETRY_MS);
+      this.events.onFault(error);
+      setTimeout(() => void this.connectAgain(), RETRY_MS);
       return;
     }
-    for (const change of this.#known.values()) this.#change(change);
-    this.#events.onCleared();
+    for (const change of this.known.values()) this.change(change);
+    this.events.onCleared();
   }
 
   async read(store: Exclude<StoreName, "drawings">): Promise<Map<string, unknown>> {
-    const found = this.#db.transaction(store).store;
+    const found = this.db.transaction(store).store;
     const [keys, values] = await Promise.all([found.getAllKeys(), found.getAll() as Promise<unknown[]>]);
     const records = new Map(keys.map((key, index) => [String(key), values[index]]));
-    for (const [key, value] of records) this.#remember({ store, key, value });
+    for (const [key, value] of records) this.remember({ store, key, value });
     return records;
   }
 
   async readDrawing(id: string): Promise<unknown> {
-    return this.#db.get("drawings", id);
+    return this.db.get("drawings", id);
   }
 
   async drawingIds(): Promise<string[]> {
-    return (await this.#db.getAllKeys("drawings")).map(String);
+    return (await this.db.getAllKeys("drawings")).map(String);
   }
 
   put(store: StoreName, key: string, value: unknown): void {
-    this.#change({ store, key, value });
+    this.change({ store, key, value });
   }
 
   remove(store: StoreName, key: string): void {
-    this.#change({ store, key, value: undefined });
+    this.change({ store, key, value: undefined });
   }
 
   written(): Promise<void> {
-    return this.#last;
+    return this.last;
   }
 
   async close(): Promise<void> {
     await this.written().catch(() => undefined);
-    this.#db.close();
+    this.db.close();
   }
 
-  #remember(change: Change): void {
+  private remember(change: Change): void {
     if (change.store === "drawings") return;
     const id = `${change.store}/${change.key}`;
-    if (change.value === undefined) this.#known.delete(id);
-    else this.#known.set(id, change);
+    if (change.value === undefined) this.known.delete(id);
+    else this.known.set(id, change);
   }
 
-  #change(change: Change): void {
-    this.#remember(change);
-    this.#queued.set(`${change.store}/${change.key}`, change);
-    this.#last = this.#nextWrite();
+  private change(change: Change): void {
+    this.remember(change);
+    this.queued.set(`${change.store}/${change.key}`, change);
+    this.last = this.nextWrite();
     // Not an unhandled rejection: `events` and every caller of `written` get the error.
-    this.#last.catch(() => undefined);
+    this.last.catch(() => undefined);
   }
 
-  #nextWrite(): Promise<void> {
-    this.#next ??= this.#running
+  private nextWrite(): Promise<void> {
+    this.next ??= this.running
       .catch(() => undefined)
       .then(() => {
-        this.#next = null;
-        this.#running = this.#write();
-        return this.#running;
+        this.next = null;
+        this.running = this.write();
+        return this.running;
       });
-    return this.#next;
+    return this.next;
   }
 
-  async #write(): Promise<void> {
-    const changes = this.#queued;
-    this.#queued = new Map();
+  private async write(): Promise<void> {
+    const changes = this.queued;
+    this.queued = new Map();
     if (changes.size === 0) return;
     try {
-      await this.#transact([...changes.values()]);
-      this.#events.onWritten();
+      await this.transact([...changes.values()]);
+      this.events.onWritten();
     } catch (error) {
       // Newer changes of the same records win.
-      this.#queued = new Map([...changes, ...this.#queued]);
-      setTimeout(() => void this.#nextWrite().catch(() => undefined), RETRY_MS);
-      this.#events.onFault(error);
+      this.queued = new Map([...changes, ...this.queued]);
+      setTimeout(() => void this.nextWrite().catch(() => undefined), RETRY_MS);
+      this.events.onFault(error);
       throw error;
     }
   }
 
-  async #transact(changes: readonly Change[]): Promise<void> {
+  private async transact(changes: readonly Change[]): Promise<void> {
     const isJournal = changes.every(({ store }) => store === "journals");
-    const transaction = this.#db.transaction(STORES, "readwrite", {
+    const transaction = this.db.transaction(STORES, "readwrite", {
       durability: isJournal ? "relaxed" : "strict",
     });
     const requests = changes.map(({ store, key, value }): Promise<unknown> => {

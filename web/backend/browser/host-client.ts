@@ -24,19 +24,19 @@ interface Waiting {
 
 export class HostClient {
   readonly tab: string;
-  readonly #channel: BroadcastChannel;
-  readonly #listeners = new Set<BackendListener>();
-  readonly #calls = new Map<number, Waiting>();
-  readonly #hostWaiters = new Set<() => void>();
+  private readonly channel: BroadcastChannel;
+  private readonly listeners = new Set<BackendListener>();
+  private readonly calls = new Map<number, Waiting>();
+  private readonly hostWaiters = new Set<() => void>();
   /** The page whose worker is the host; null while none is known. */
-  #host: string | null = null;
-  #nextId = 1;
+  private host: string | null = null;
+  private nextId = 1;
 
   constructor(virtualSpeed: number) {
     provideRandomIds();
     this.tab = crypto.randomUUID();
     const channel = hasLocks() ? CHANNEL : `${CHANNEL}-${this.tab}`;
-    this.#channel = new BroadcastChannel(channel);
+    this.channel = new BroadcastChannel(channel);
     const start: WorkerStart = { tab: this.tab, channel, virtualSpeed };
     const worker = new Worker(new URL("./host.worker.ts", import.meta.url), {
       type: "module",
@@ -48,27 +48,27 @@ export class HostClient {
     };
     document.addEventListener("visibilitychange", sendVisibility);
     sendVisibility();
-    worker.onerror = (event) => this.#failed(reasonOf(event));
-    this.#channel.onmessage = ({ data }: MessageEvent<Message>) => {
-      if (data.to === "pages") this.#receive(data);
+    worker.onerror = (event) => this.failed(reasonOf(event));
+    this.channel.onmessage = ({ data }: MessageEvent<Message>) => {
+      if (data.to === "pages") this.receive(data);
     };
   }
 
   get isHost(): boolean {
-    return this.#host === this.tab;
+    return this.host === this.tab;
   }
 
   /** The first event of a host is a snapshot. This asks a host that is already running for another one. */
   listen(listener: BackendListener): void {
-    this.#listeners.add(listener);
-    this.#send({ to: "host", type: "hello", tab: this.tab });
+    this.listeners.add(listener);
+    this.send({ to: "host", type: "hello", tab: this.tab });
   }
 
   /** Makes this page's worker the host. Rejects with `busy` while another host is plotting. */
   async takeOver(): Promise<void> {
     if (this.isHost) return;
     await this.callOwn("handOver");
-    await this.#untilHost(() => this.isHost);
+    await this.untilHost(() => this.isHost);
   }
 
   /** Calls a method that only this host has. */
@@ -80,61 +80,60 @@ export class HostClient {
   }
 
   async call(call: HostCall): Promise<unknown> {
-    await this.#untilHost(() => this.#host !== null);
-    const id = this.#nextId++;
-    this.#send({ to: "host", type: "call", tab: this.tab, id, call });
-    return new Promise((resolve, reject) => this.#calls.set(id, { resolve, reject }));
+    await this.untilHost(() => this.host !== null);
+    const id = this.nextId++;
+    this.send({ to: "host", type: "call", tab: this.tab, id, call });
+    return new Promise((resolve, reject) => this.calls.set(id, { resolve, reject }));
   }
 
-  #receive(message: FromHost): void {
+  private receive(message: FromHost): void {
     switch (message.type) {
       case "event":
         if (message.tab !== undefined && message.tab !== this.tab) return;
-        if (message.event.type === "snapshot") this.#setHost(message.host);
+        if (message.event.type === "snapshot") this.setHost(message.host);
         // A host that has handed over still sends events while it closes its plotters.
-        if (message.host !== this.#host) return;
-        for (const listener of this.#listeners) {
+        if (message.host !== this.host) return;
+        for (const listener of this.listeners) {
           if (message.event.type === "snapshot") listener.onLink(true);
           listener.onEvent(message.event);
         }
         return;
       case "answer": {
         if (message.tab !== this.tab) return;
-        const call = this.#calls.get(message.id);
-        this.#calls.delete(message.id);
+        const call = this.calls.get(message.id);
+        this.calls.delete(message.id);
         const { answer } = message;
         if (answer.ok) call?.resolve(answer.value);
         else call?.reject(new BackendFault(answer.code, answer.message));
         return;
       }
       case "handed-over":
-        this.#setHost(null);
+        this.setHost(null);
         return;
       case "failed":
-        if (message.host === this.tab) this.#failed(message.message);
+        if (message.host === this.tab) this.failed(message.message);
     }
   }
 
   /** Sets the host. Calls to the previous one fail, because it no longer answers. */
-  #setHost(host: string | null): void {
-    if (host === this.#host) return;
-    this.#host = host;
-    for (const { reject } of this.#calls.values())
-      reject(new BackendFault("unreachable", browserText.closed));
-    this.#calls.clear();
-    for (const check of this.#hostWaiters) check();
+  private setHost(host: string | null): void {
+    if (host === this.host) return;
+    this.host = host;
+    for (const { reject } of this.calls.values()) reject(new BackendFault("unreachable", browserText.closed));
+    this.calls.clear();
+    for (const check of this.hostWaiters) check();
   }
 
-  #failed(message: string): void {
+  private failed(message: string): void {
     const notice = { id: "host", at: new Date().toISOString(), message: browserText.failed(message) };
-    for (const listener of this.#listeners) listener.onEvent({ type: "notice", notice });
+    for (const listener of this.listeners) listener.onEvent({ type: "notice", notice });
   }
 
-  #untilHost(isReady: () => boolean): Promise<void> {
+  private untilHost(isReady: () => boolean): Promise<void> {
     return new Promise((resolve, reject) => {
       const end = (): void => {
         clearTimeout(timer);
-        this.#hostWaiters.delete(check);
+        this.hostWaiters.delete(check);
       };
       const check = (): void => {
         if (!isReady()) return;
@@ -145,12 +144,12 @@ export class HostClient {
         end();
         reject(new BackendFault("unreachable", browserText.noHost));
       }, NO_HOST_MS);
-      this.#hostWaiters.add(check);
+      this.hostWaiters.add(check);
       check();
     });
   }
 
-  #send(message: ToHost): void {
-    this.#channel.postMessage(message);
+  private send(message: ToHost): void {
+    this.channel.postMessage(message);
   }
 }
