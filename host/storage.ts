@@ -41,7 +41,7 @@ export interface JobStore extends SettingStore {
   /** The id of the job's drawing; throws `not-found`. */
   drawingOf(id: string): string;
   /** Stores everything `work` writes, or nothing. A nested call joins the outer transaction. */
-  together(work: () => void): void;
+  transaction(work: () => void): void;
   /** Adds a job before another job of the queue, or last. */
   addJob(job: Job, drawing: StoredDrawing, beforeId?: string | null): void;
   saveJob(job: Job): void;

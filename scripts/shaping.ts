@@ -28,7 +28,7 @@ import {
   type Springs,
 } from "../src/internal.js";
 import { shaperKernel } from "../src/plan/shapers.js";
-import type { WritesRuns } from "../src/plan/run-writer.js";
+import type { RunPlanner } from "../src/plan/run-writer.js";
 import { inverseMotion } from "../test/support/inverse-motion.js";
 import { referenceRuns, shapedRuns } from "../test/support/reference-planners/motion.js";
 import { REFERENCE_PLANNERS } from "../test/support/reference-planners/systems.js";
@@ -55,7 +55,7 @@ interface Variant {
   /** u = q + (2ζ/ω) q′ + q″/ω² of the plan. */
   readonly isInverse?: boolean;
   /** Another system's rules, instead of plotwright's. */
-  readonly runs?: WritesRuns;
+  readonly runs?: RunPlanner;
 }
 
 function rowOf(springs: Springs, { name, motion, isInverse, runs }: Variant): string[] {

@@ -27,7 +27,7 @@ export { toSvg } from "./export/strokes-to-svg.js";
 export { plan, type PlanOptions } from "./plan/plan.js";
 export { DEFAULT_MOTION, type MotionSettings } from "./settings/motion.js";
 export { DEFAULT_PEN, type PenSettings } from "./settings/pen.js";
-export { stateAt, type Place, type Trajectory } from "./plan/trajectory.js";
+export { stateAt, type StrokePosition, type Trajectory } from "./plan/trajectory.js";
 export { trajectoryStats } from "./plan/stats.js";
 
 // Jobs: strokes to motion and commands for a machine

@@ -88,7 +88,7 @@ export {
   quarterTurnedBox,
 } from "./prepare/files-page.js";
 export { meanScaleOf, sizeInWords, type DrawnSize, type OutsidePaper } from "./prepare/on-paper.js";
-export { orientedPaper, placeDrawing, type Placement } from "./prepare/place.js";
+export { orientedPaper, layOutDrawing, type Layout } from "./prepare/place.js";
 export { cutOffLines } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { parseLayerName, shownLayerName } from "./prepare/layer-codes.js";
@@ -104,17 +104,23 @@ export {
 } from "./prepare/pens.js";
 
 // plan
-export { PlaceTimes } from "./position/on-plan.js";
+export { PositionTimes } from "./position/on-plan.js";
 export type { TrajectoryStats } from "./plan/stats.js";
-export { landingMm } from "./plan/pen-flight.js";
+export { lowerAheadMm } from "./plan/pen-flight.js";
 export { penOfLayer } from "./plan/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
-export { motionForSprings, motionOfQuality, plannable, qualityOf, withQuality } from "./plan/quality.js";
+export {
+  motionForSprings,
+  motionOfQuality,
+  withoutShaperIfUnmeasured,
+  qualityOf,
+  withQuality,
+} from "./plan/quality.js";
 export { penError, type PenError } from "./plan/pen-error.js";
 export { swingPen, type PenPoint } from "./plan/spring-pen.js";
 export { comeToRest } from "./plan/come-to-rest.js";
-export { movedPlace, pointOfPlace } from "./position/on-drawing.js";
-export { leavesDrawingMm, reportedPosition } from "./position/reported.js";
+export { movedPosition, pointAt } from "./position/on-drawing.js";
+export { maxOffDrawingMm, reportedPosition } from "./position/reported.js";
 
 // machines
 export type { Springs } from "./machines/profile.js";
@@ -151,7 +157,7 @@ export type {
   Driver,
   Machine,
   MachineEvents,
-  MachineRun,
+  Playback,
   PenBefore,
   SupplyState,
   UsbId,

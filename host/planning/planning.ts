@@ -1,7 +1,7 @@
 /** The planner, as the queue uses it, and a prepared drawing, as a plotter uses it. */
 import type { JobStats, PlotSettings } from "../../src/schema/index.js";
 import type { Requester } from "./lane.js";
-import type { Place, StrokeSet } from "../../src/index.js";
+import type { StrokePosition, StrokeSet } from "../../src/index.js";
 import type { MachineState, PlannedPlot } from "../../src/internal.js";
 
 export interface Measured {
@@ -25,7 +25,7 @@ export type { PlannedPlot } from "../../src/internal.js";
 
 export interface PlanRequest {
   /** Where in the drawing to start; null: at its beginning. */
-  readonly from: Place | null;
+  readonly from: StrokePosition | null;
   /** Stroke before which to stop and go home; null: at the end of the drawing. */
   readonly until: number | null;
   /** Position of the carriage, mm from home. */

@@ -28,7 +28,7 @@ interface PlotterConnectOptions {
   readonly events: MachineEvents;
 }
 
-export interface Connection {
+export interface ConnectedMachine {
   readonly machine: Machine;
   readonly kind: "virtual" | "serial";
   /** Serial path; null for the built-in virtual machine. */
@@ -41,7 +41,7 @@ export interface Connection {
  * Rejects with `no-board`, `not-allowed`, `busy`, `board-timeout` or `disconnected`, and a message for the
  * user.
  */
-export async function connect(options: PlotterConnectOptions): Promise<Connection> {
+export async function connect(options: PlotterConnectOptions): Promise<ConnectedMachine> {
   const path = options.device === "auto" ? await firstBoard(options) : options.device;
   if (path === null && !options.virtualIfNone) throw notFound(options);
   if (path === null || path === "virtual") {

@@ -1,7 +1,7 @@
 /** A plotter that is stored: a plotter driver with an id, a name and a machine. */
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";
-import { PlotterDriver } from "./plotter-driver.js";
+import { PlotterConnection } from "./plotter-driver.js";
 import type { PlotterOptions } from "./plotter-state.js";
 import type { ManagedPlotter } from "./plotter-port.js";
 import type { PlotterRow } from "../storage.js";
@@ -41,7 +41,7 @@ export function openNamedPlotter(row: PlotterRow, options: NamedPlotterOptions):
 }
 
 /** The connection itself, with what is stored about the plotter. */
-export class NamedPlotter extends PlotterDriver implements ManagedPlotter {
+export class NamedPlotter extends PlotterConnection implements ManagedPlotter {
   readonly id: string;
   private name: string | null;
   private machineId: string | null;

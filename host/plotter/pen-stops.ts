@@ -4,7 +4,7 @@
  * The drawing is planned from stop to stop, so that each part ends at home with the pen up. A stop is due
  * when the plot is about to start or resume at or after its stroke. It is answered when the user resumes.
  */
-import type { Place, StrokeSet } from "../../src/index.js";
+import type { StrokePosition, StrokeSet } from "../../src/index.js";
 import { penStopsOf, type PenStop } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 
@@ -14,7 +14,7 @@ export class PenStops {
   private answered: PenStop | undefined;
 
   /** `from`: where an interrupted plot continues. Continuing answers the stop that the plot had reached. */
-  constructor(strokes: StrokeSet, settings: PlotSettings, from: Place | null) {
+  constructor(strokes: StrokeSet, settings: PlotSettings, from: StrokePosition | null) {
     this.stops = penStopsOf(strokes, settings);
     if (from !== null) this.answer(from);
   }
@@ -25,7 +25,7 @@ export class PenStops {
   }
 
   /** The pen to insert before the plot continues at a place; null if none. */
-  due(place: Place | null): PlotWait | null {
+  due(place: StrokePosition | null): PlotWait | null {
     const stop = this.reached(place);
     if (stop === undefined || stop === this.answered) return null;
     const { layerName, penName, color } = stop;
@@ -33,7 +33,7 @@ export class PenStops {
   }
 
   /** The user has inserted the pen that was due at a place. */
-  answer(place: Place | null): void {
+  answer(place: StrokePosition | null): void {
     this.answered = this.reached(place);
   }
 
@@ -41,20 +41,20 @@ export class PenStops {
    * The user has moved the place. If it moved back past a stop, that stop becomes due again when the plot reaches it,
    * and the pen of the stop before it is due now, unless it is in the holder.
    */
-  moved(place: Place): void {
+  moved(place: StrokePosition): void {
     const [stop, answered] = [this.reached(place), this.answered];
     if (answered === undefined || place.stroke >= answered.strokeIndex) return;
     if (stop === undefined || hasSamePen(stop, answered)) this.answered = stop;
   }
 
   /** The next stroke at which a plot from a place will wait; null if it runs to the end. */
-  nextAfter(place: Place | null): number | null {
+  nextAfter(place: StrokePosition | null): number | null {
     const stroke = place?.stroke ?? 0;
     return this.stops.find(({ strokeIndex }) => strokeIndex > stroke)?.strokeIndex ?? null;
   }
 
   /** The last stop at or before a place. */
-  private reached(place: Place | null): PenStop | undefined {
+  private reached(place: StrokePosition | null): PenStop | undefined {
     const stroke = place?.stroke ?? 0;
     return this.stops.filter(({ strokeIndex }) => strokeIndex <= stroke).at(-1);
   }

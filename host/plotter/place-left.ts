@@ -1,7 +1,13 @@
 /** Where an interrupted plot stopped: the journal's place, or what the board still knows about the time after it. */
 import { z } from "zod";
-import type { Place, StrokeSet } from "../../src/index.js";
-import { landingMm, leavesDrawingMm, machineOf, reportedPosition, type Machine } from "../../src/internal.js";
+import type { StrokePosition, StrokeSet } from "../../src/index.js";
+import {
+  lowerAheadMm,
+  maxOffDrawingMm,
+  machineOf,
+  reportedPosition,
+  type Machine,
+} from "../../src/internal.js";
 import { boardIdSchema, type PlotSettings } from "../../src/schema/index.js";
 import type { JournalEntry } from "./plotter-port.js";
 
@@ -13,7 +19,7 @@ export const PROGRESS_S = 0.06;
  * Max time from the place that the board had received at the last journal entry to the end of what was sent, beside the
  * motion that is always sent ahead. In real seconds, also for a host that is busy for a while.
  */
-const LEFT_S = 1.5;
+const SENT_SINCE_S = 1.5;
 
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
 
@@ -25,25 +31,25 @@ export const journalSchema = z.object({
 });
 
 /** `penStops`: the strokes before which the plot goes home and waits. */
-export function placeLeft(
+export function resumePosition(
   machine: Pick<Machine, "foundMidPlot" | "speed" | "positionMm">,
   strokes: StrokeSet,
   settings: PlotSettings,
   penStops: readonly number[],
-  { from, received }: { readonly from: Place } & Pick<JournalEntry, "received">,
-): Place {
+  { from, received }: { readonly from: StrokePosition } & Pick<JournalEntry, "received">,
+): StrokePosition {
   const profile = machineOf(settings);
   const { foundMidPlot, speed } = machine;
   const at = machine.positionMm(profile);
   if (!received || !foundMidPlot || !at) return from;
   const { motion, pen, sendAheadMs } = settings;
   const { draw, travel } = motion;
-  const aheadS = (LEFT_S + sendAheadMs / 1_000) * speed;
+  const aheadS = (SENT_SINCE_S + sendAheadMs / 1_000) * speed;
   const since = {
     aheadMm: aheadS * Math.max(draw.speedMmPerS, travel.speedMmPerS),
-    nearMm: leavesDrawingMm(motion, profile),
+    nearMm: maxOffDrawingMm(motion, profile),
     stops: penStops,
-    landingMm: landingMm(pen, travel.accelMmPerS2),
+    lowerAheadMm: lowerAheadMm(pen, travel.accelMmPerS2),
   };
   return reportedPosition(strokes, received, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

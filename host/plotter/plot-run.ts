@@ -10,19 +10,19 @@
  *
  * A drawing with pen changes is planned and streamed in parts, each from one change to the next.
  */
-import { PlotwrightError, type Place, type StrokeSet } from "../../src/index.js";
+import { PlotwrightError, type StrokePosition, type StrokeSet } from "../../src/index.js";
 import {
-  movedPlace,
-  pointOfPlace,
+  movedPosition,
+  pointAt,
   type Machine,
-  type MachineRun,
+  type Playback,
   type MachineState,
   machineOf,
-  PlaceTimes,
+  PositionTimes,
   strokeCount,
 } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
-import { JOURNAL_S, placeLeft, PROGRESS_S } from "./place-left.js";
+import { JOURNAL_S, resumePosition, PROGRESS_S } from "./place-left.js";
 import { PenStops } from "./pen-stops.js";
 import { BLOT_S, restedWhileStalled } from "./plotter-state.js";
 import { RunSettings } from "./run-settings.js";
@@ -48,13 +48,13 @@ type HeldListener = (held: boolean, wait?: PlotWait | null) => void;
 export class MachinePlot implements LivePlotRun {
   readonly finished: Promise<PlotOutcome>;
   /** While held, the place from which the plot resumes; before that, the place where it starts. */
-  holdPlace: Place | null;
+  holdPlace: StrokePosition | null;
 
   private requested: RequestedState = "run";
   private held = false;
   /** What the plot waits for, if it was not held by the user. */
   private wait: PlotWait | null = null;
-  private readonly stream: MachineRun;
+  private readonly stream: Playback;
   private readonly settings: RunSettings;
   private readonly stops: PenStops;
   private readonly strokes: StrokeSet;
@@ -62,7 +62,7 @@ export class MachinePlot implements LivePlotRun {
   /** Planned time of the plot after the part being drawn. */
   private afterPartS = 0;
   /** Times of the whole plot, if it is drawn in several parts. */
-  private whole: Promise<PlaceTimes> | null = null;
+  private whole: Promise<PositionTimes> | null = null;
   private planningS = 0;
   private changing: Promise<void> | null = null;
   /** Moves to the hold place; nothing else may move until they have finished. */
@@ -72,7 +72,7 @@ export class MachinePlot implements LivePlotRun {
   private wakeHold: (() => void) | null = null;
   private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
   /** The carriage stays where it is until the next request: after an emergency stop, or when a held plot is left. */
-  private staysPut = false;
+  private holdsPosition = false;
   private readonly heldListeners: HeldListener[] = [];
   private readonly progressListeners: ((progress: PlotProgress) => void)[] = [];
   private readonly waiters = new Waiters();
@@ -98,7 +98,7 @@ export class MachinePlot implements LivePlotRun {
     });
     const { from = null, received } = start;
     this.holdPlace =
-      from && placeLeft(machine, this.strokes, settings, this.stops.strokes, { from, received });
+      from && resumePosition(machine, this.strokes, settings, this.stops.strokes, { from, received });
     if (start.held ?? this.holdPlace !== null) this.requested = "hold";
     this.finished = this.run();
     // Callers await `finished`. If none does, its rejection must not end the process, so it is handled here.
@@ -140,9 +140,9 @@ export class MachinePlot implements LivePlotRun {
   }
 
   leave(): Promise<void> {
-    const staysPut = this.requested === "hold" || this.staysPut;
+    const holds = this.requested === "hold" || this.holdsPosition;
     const ended = this.cancel();
-    this.staysPut = staysPut;
+    this.holdsPosition = holds;
     return ended;
   }
 
@@ -155,7 +155,7 @@ export class MachinePlot implements LivePlotRun {
 
   emergencyStop(): Promise<void> {
     if (this.requested === "run") this.requested = "hold";
-    this.staysPut = true;
+    this.holdsPosition = true;
     if (this.stream.playing) {
       this.stream.stopAtOnce();
       // The board no longer draws everything that it had received.
@@ -179,8 +179,11 @@ export class MachinePlot implements LivePlotRun {
     await this.changing;
   }
 
-  moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place {
-    this.holdPlace = movedPlace(this.strokes, this.heldPlace(), by);
+  moveHoldPlace(by: {
+    readonly strokes?: number | undefined;
+    readonly mm?: number | undefined;
+  }): StrokePosition {
+    this.holdPlace = movedPosition(this.strokes, this.heldPlace(), by);
     this.stops.moved(this.holdPlace);
     const wait = this.stops.due(this.holdPlace);
     const moved = this.stream.progress.movedTo(this.holdPlace, this.initialProgress());
@@ -191,7 +194,7 @@ export class MachinePlot implements LivePlotRun {
   }
 
   async checkHoldPlace(): Promise<void> {
-    const { x, y } = pointOfPlace(this.strokes, this.heldPlace());
+    const { x, y } = pointAt(this.strokes, this.heldPlace());
     const { stopSignal } = this.machine;
     const check = this.checking.then(() => {
       stopSignal.throwIfAborted();
@@ -204,7 +207,7 @@ export class MachinePlot implements LivePlotRun {
     await check;
   }
 
-  private heldPlace(): Place {
+  private heldPlace(): StrokePosition {
     if (!this.held || !this.holdPlace) {
       throw new PlotwrightError("conflict", "The plot is not held: pause it first.");
     }
@@ -213,7 +216,7 @@ export class MachinePlot implements LivePlotRun {
 
   private request(state: RequestedState): void {
     this.requested = state;
-    this.staysPut = false;
+    this.holdsPosition = false;
     if (state !== "run") this.stream.slowToRest();
     this.wakeHold?.();
   }
@@ -225,7 +228,7 @@ export class MachinePlot implements LivePlotRun {
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
       );
     }
-    await this.liftWhatWasLeft();
+    await this.liftPenIfDown();
     for (;;) {
       if (this.requested === "run" && this.stops.due(this.holdPlace)) this.requested = "hold";
       if (this.requested === "hold") await this.hold();
@@ -249,7 +252,7 @@ export class MachinePlot implements LivePlotRun {
   }
 
   /** Lifts a pen that an interrupted plot may have left on the paper. */
-  private async liftWhatWasLeft(): Promise<void> {
+  private async liftPenIfDown(): Promise<void> {
     if (!this.start.from) return;
     // Plan now, while the user checks pen and paper.
     this.timesOfWhole().catch(() => undefined);
@@ -277,7 +280,12 @@ export class MachinePlot implements LivePlotRun {
   }
 
   /** Plans from a place to the next pen change. */
-  private async plan(from: Place | null, x: number, y: number, board: MachineState): Promise<PlannedPlot> {
+  private async plan(
+    from: StrokePosition | null,
+    x: number,
+    y: number,
+    board: MachineState,
+  ): Promise<PlannedPlot> {
     const until = this.stops.nextAfter(from);
     const times = until === null && !this.start.from ? null : await this.timesOfWhole();
     this.afterPartS = until === null ? 0 : times!.leftFrom({ stroke: until, alongMm: 0 });
@@ -297,7 +305,7 @@ export class MachinePlot implements LivePlotRun {
   }
 
   /** Times of the whole plot, since progress refers to the whole even if only a part is being drawn. */
-  private timesOfWhole(): Promise<PlaceTimes> {
+  private timesOfWhole(): Promise<PositionTimes> {
     const request = {
       from: null,
       until: null,
@@ -307,8 +315,8 @@ export class MachinePlot implements LivePlotRun {
       firmware: this.machine.firmware,
     };
     this.whole ??= this.planner.plan(request).then(({ trajectory }) => {
-      const times = new PlaceTimes(trajectory);
-      this.stream.progress.isPartOf(trajectory, times, this.start.from ?? null);
+      const times = new PositionTimes(trajectory);
+      this.stream.progress.setWhole(trajectory, times, this.start.from ?? null);
       return times;
     });
     return this.whole;
@@ -363,7 +371,7 @@ export class MachinePlot implements LivePlotRun {
 
   private async goHome(): Promise<PlotOutcome> {
     if (this.failure) throw this.failure;
-    if (this.staysPut) return { kind: "cancelled" };
+    if (this.holdsPosition) return { kind: "cancelled" };
     try {
       await this.machine.moveTo(0, 0, this.settings.current);
     } catch (error) {
@@ -390,7 +398,7 @@ export class MachinePlot implements LivePlotRun {
     this.stopTicking = this.tick();
   }
 
-  private streamEnded(place: Place | null): void {
+  private streamEnded(place: StrokePosition | null): void {
     this.stopTicking();
     const left = place ?? this.stream.progress.place;
     // A board that still knows its position is at rest there.
@@ -428,7 +436,7 @@ export class MachinePlot implements LivePlotRun {
     for (const listener of this.progressListeners) listener(progress);
   }
 
-  private writeJournal(left: Place | null, received?: Place): void {
+  private writeJournal(left: StrokePosition | null, received?: StrokePosition): void {
     const { latest } = this.stream.progress;
     const { clock, speed } = this.machine;
     this.journalDueS = clock.nowS() + JOURNAL_S * speed;

@@ -26,7 +26,7 @@ import {
 } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/planning.js";
 import { isOtherBoard, startOn } from "./board-id.js";
-import { connect, connectFailed, type Connection } from "./connection.js";
+import { connect, connectFailed, type ConnectedMachine } from "./connection.js";
 import { moveByHand } from "./hand-moves.js";
 import { MachinePlot } from "./plot-run.js";
 import {
@@ -45,12 +45,12 @@ import type { LivePlotRun, PlotProgress, PlotStart } from "./plotter-port.js";
 
 const RECONNECT_S = 2;
 
-export class PlotterDriver {
+export class PlotterConnection {
   private readonly clock: Clock;
   private settings: PlotSettings;
   private current: PlotterState;
   private readonly listeners: ((state: PlotterState) => void)[] = [];
-  private connection: Connection | null = null;
+  private connection: ConnectedMachine | null = null;
   private machine: Machine | null = null;
   /** The pen when the connection was lost. */
   private penBefore: PenBefore | null = null;
@@ -296,7 +296,7 @@ export class PlotterDriver {
     return this.virtual;
   }
 
-  private async adopt(connection: Connection): Promise<void> {
+  private async adopt(connection: ConnectedMachine): Promise<void> {
     if (this.closed) {
       await connection.machine.close();
       return;

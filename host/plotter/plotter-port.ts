@@ -13,7 +13,7 @@ import type {
   PlotWait,
 } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/planning.js";
-import type { MotionSettings, PenSettings, Place } from "../../src/index.js";
+import type { MotionSettings, PenSettings, StrokePosition } from "../../src/index.js";
 import type { PlotProgress } from "../../src/internal.js";
 
 interface PenTarget {
@@ -96,12 +96,15 @@ export interface LivePlotRun extends PlotRun {
    */
   change(change: PlotChange): Promise<void>;
   /** While held: the place from which the plot will resume. */
-  readonly holdPlace: Place | null;
+  readonly holdPlace: StrokePosition | null;
   /**
    * While held: moves the hold point along the drawing, forward or back; mm may continue into the next
    * stroke.
    */
-  moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place;
+  moveHoldPlace(by: {
+    readonly strokes?: number | undefined;
+    readonly mm?: number | undefined;
+  }): StrokePosition;
   /** While held: moves to the hold point with the pen up, so that the user can check it. */
   checkHoldPlace(): Promise<void>;
 }
@@ -111,12 +114,12 @@ export interface LivePlotRun extends PlotRun {
  */
 export interface JournalEntry {
   /** The first place not yet drawn, at most half a second old. */
-  readonly place: Place;
+  readonly place: StrokePosition;
   /**
    * The end of what the board had received, and draws even if this program ends. Undefined if the plot is at rest, or is
    * still on its way to `place`: then it has drawn nothing after `place`.
    */
-  readonly received?: Place | undefined;
+  readonly received?: StrokePosition | undefined;
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
@@ -131,9 +134,9 @@ interface PlotJournal {
 
 export interface PlotStart {
   /** Where in the drawing to start; after a crash, the journal's place. Default: the beginning. */
-  readonly from?: Place | null | undefined;
+  readonly from?: StrokePosition | null | undefined;
   /** `received` of the same journal entry. Default: nothing was drawn after `from`. */
-  readonly received?: Place | undefined;
+  readonly received?: StrokePosition | undefined;
   /** `board` of the same journal entry. The position of any other board says nothing about this plot. */
   readonly board?: BoardId | undefined;
   /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */

@@ -94,7 +94,7 @@ export class JobList {
     const { store, announce } = this.parts;
     const jobs = [job];
     while (jobs.length < copies) jobs.push({ ...job, id: crypto.randomUUID() });
-    store.together(() => {
+    store.transaction(() => {
       for (const each of jobs) store.addJob(each, drawing, beforeId);
       if (watched !== undefined) store.saveSeen(watched);
       if (sharedId !== undefined) store.saveShared(sharedId, job.id);
@@ -150,7 +150,7 @@ export class JobList {
   private write(job: Job): Job {
     const { store, announce, withChange, afterChange } = this.parts;
     const before = this.unsaved.get(job.id) ?? this.jobs.get(job.id) ?? null;
-    store.together(() => {
+    store.transaction(() => {
       store.saveJob(job);
       withChange?.(before, job);
     });

@@ -3,7 +3,7 @@
  * reports of the run to the job, and passes requests for the job to the run.
  */
 import { z } from "zod";
-import { PlotwrightError, type Place } from "../../src/index.js";
+import { PlotwrightError, type StrokePosition } from "../../src/index.js";
 import {
   ENDED_STATES,
   type Job,
@@ -244,7 +244,7 @@ export class RunningPlots {
   }
 
   /** What the plotter gets besides the place where the run starts. */
-  private startOf({ job: { id }, notes }: Running, from: Place | null): PlotStart {
+  private startOf({ job: { id }, notes }: Running, from: StrokePosition | null): PlotStart {
     const entry = this.journal(id);
     // `received` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
@@ -433,7 +433,7 @@ function penWords({ penName, layerName }: PlotWait): string {
   return penName === null ? `Put in the pen for "${layerName}".` : `Put in "${penName}" for "${layerName}".`;
 }
 
-const jobPlace = ({ stroke, alongMm }: Place): JobPlace => ({ strokeIndex: stroke, alongMm });
+const jobPlace = ({ stroke, alongMm }: StrokePosition): JobPlace => ({ strokeIndex: stroke, alongMm });
 
 const journalProgressSchema = z.object({
   progress: z.number().min(0).max(1),

@@ -43,7 +43,7 @@ const STRUCTURED: readonly SettingOption[] = [
   },
   {
     flags: "--place <x,y[,w,h]>",
-    path: "prepare.place",
+    path: "prepare.layout",
     about: "the drawing's own box, mm from the paper's corner (default: see --fit)",
     parse: place,
   },

@@ -1,7 +1,7 @@
 /** The plotter driver on Node, with the computer's clock and serial ports: for programs, and for a command. */
 import { type Clock, PlotwrightError } from "../../src/index.js";
 import type { Devices } from "../../host/plotter/connection.js";
-import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection as HostDriver } from "../../host/plotter/plotter-driver.js";
 import type { PlotterOptions as HostOptions } from "../../host/plotter/plotter-state.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { findBoards } from "../serial/find-boards.js";
@@ -18,13 +18,13 @@ const serialDevices: Devices = { find: findBoards, open: openSerial };
 /** The clock and the serial ports of this computer. */
 export const NODE_PARTS = { clock: nodeClock, devices: serialDevices } as const;
 
-export interface PlotterOptions extends Omit<HostOptions, "clock" | "devices"> {
+export interface NodePlotterOptions extends Omit<HostOptions, "clock" | "devices"> {
   readonly clock?: Clock | undefined;
 }
 
 /** For programs: the manual moves by name. */
-export class PlotterDriver extends HostDriver {
-  constructor(options: PlotterOptions) {
+export class NodePlotter extends HostDriver {
+  constructor(options: NodePlotterOptions) {
     super({ ...options, clock: options.clock ?? nodeClock, devices: serialDevices });
   }
 

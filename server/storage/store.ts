@@ -80,8 +80,8 @@ export class Store implements JobStore, PlotterStore {
   }
 
   /** Stores everything `work` writes, or nothing. A nested call joins the outer transaction. */
-  together(work: () => void): void {
-    this.transaction(work);
+  transaction(work: () => void): void {
+    this.inOneTransaction(work);
   }
 
   /** Whether a file of the watched folder has been handled. */
@@ -121,7 +121,7 @@ export class Store implements JobStore, PlotterStore {
 
   /** Adds a job before another job of the queue, or last. */
   addJob(job: Job, drawing: StoredDrawing, beforeId: string | null = null): void {
-    this.transaction(() => {
+    this.inOneTransaction(() => {
       this.run("INSERT OR IGNORE INTO drawings (id, bytes) VALUES (?, ?)", [drawing.id, drawing.bytes]);
       this.run(
         `INSERT INTO jobs (position, drawing, ${COLUMNS})
@@ -153,7 +153,7 @@ export class Store implements JobStore, PlotterStore {
 
   /** Moves a job before another job of the queue; null: to the end. */
   moveJob(id: string, beforeId: string | null): void {
-    this.transaction(() => this.place(id, beforeId));
+    this.inOneTransaction(() => this.place(id, beforeId));
   }
 
   private place(id: string, beforeId: string | null): void {
@@ -208,7 +208,7 @@ export class Store implements JobStore, PlotterStore {
   /** Removes the job; returns its drawing's id if no other job uses it, else null. */
   removeJob(id: string): string | null {
     const drawing = this.drawingOf(id);
-    this.transaction(() => {
+    this.inOneTransaction(() => {
       this.run("DELETE FROM jobs WHERE id = ?", [id]);
       if (!this.isUsed(drawing)) this.run("DELETE FROM drawings WHERE id = ?", [drawing]);
     });
@@ -267,7 +267,7 @@ export class Store implements JobStore, PlotterStore {
     this.db.run(sql, values);
   }
 
-  private transaction(work: () => void): void {
+  private inOneTransaction(work: () => void): void {
     if (this.db.inTransaction) {
       work();
       return;

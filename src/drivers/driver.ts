@@ -5,7 +5,7 @@
  *   ControllerDescription    the fields in a machine's profile, USB ids, versions
  *   PlanForMachine ──────> MachineJob   the motion and its commands; needs no connected machine
  *   Driver ──identify──> Machine      a connected machine: pen, manual moves, and optional parts such as a console
- *                          └──startRun──> MachineRun   one plot: play, hold, stop, switch to another plan
+ *                          └──startRun──> Playback   one plot: play, hold, stop, switch to another plan
  *
  * A controller either follows our plan (EBB) or plans by itself (Grbl). In the second case the trajectory is a model of
  * the controller's own planning.
@@ -13,7 +13,7 @@
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
 import type { Controller, ControllerFields, MachineProfile, Springs } from "../machines/profile.js";
-import type { Place } from "../plan/trajectory.js";
+import type { StrokePosition } from "../plan/trajectory.js";
 import type { Cancellation } from "../prepare/work.js";
 import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
 import type { PlotProgress, RunProgress } from "./run-progress.js";
@@ -120,7 +120,7 @@ export interface Machine extends MachineParts {
   moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
   /** Plays a job that ends with the pen up, outside any run. */
   perform(plot: PlannedPlot, settings: MachineSettings): Promise<void>;
-  startRun(request: RunRequest): MachineRun;
+  startRun(request: RunRequest): Playback;
   /** Makes the current position home. */
   setHome(settings: MachineSettings): Promise<void>;
   /** Switches the motors off, so that the carriage can be pushed by hand. Its position is then unknown. */
@@ -211,22 +211,22 @@ export interface RunRequest {
 export interface RunEvents {
   progressed(progress: PlotProgress): void;
   /** A play has ended, for any reason; `place`: the first place still to be drawn, null if unknown. */
-  ended(place: Place | null): void;
+  ended(place: StrokePosition | null): void;
 }
 
 /** One plot on a machine. The caller decides what is drawn, and when. */
-export interface MachineRun {
+export interface Playback {
   readonly progress: RunProgress;
   /** Identifies the current play: a new object for each; null at rest. */
   readonly playing: object | null;
   /** Set when a play was stopped on purpose: the first place still to be drawn, null if everything is drawn. */
-  readonly stopped: { readonly place: Place | null } | null;
+  readonly stopped: { readonly place: StrokePosition | null } | null;
   /**
    * The machine has acknowledged everything before this place, and draws it even if nothing more is sent. Still known when
    * a play ends because the connection is lost. Undefined before the first stroke of a play, and if the machine may have
    * been stopped on the way to the place.
    */
-  readonly receivedPlace: Place | undefined;
+  readonly receivedPlace: StrokePosition | undefined;
   /** Plays a plan to its end, or to a hold; the pen must be up. `afterS`: time of the plot after the end of this plan. */
   play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void>;
   /** Current position of the pen; null at rest. */
@@ -248,7 +248,7 @@ export interface MachineRun {
 
 /** Where another plan can take over: plan from `from`, at `x`, `y` in mm. */
 export interface PlaceAhead {
-  readonly from: Place;
+  readonly from: StrokePosition;
   readonly x: number;
   readonly y: number;
   /** The machine's state there. */

@@ -3,7 +3,7 @@ import type { Cancellation } from "../prepare/work.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { MachineChoice } from "../machines/profiles.js";
-import type { Place, Trajectory } from "../plan/trajectory.js";
+import type { StrokePosition, Trajectory } from "../plan/trajectory.js";
 import type { MotionSettings } from "../settings/motion.js";
 import type { PenSettings } from "../settings/pen.js";
 
@@ -57,7 +57,7 @@ export interface PlannedPlot {
 
 export interface DriverPlanOptions {
   /** Where in the drawing to begin, possibly within a stroke; default: the start of the drawing. */
-  readonly from?: Place | null | undefined;
+  readonly from?: StrokePosition | null | undefined;
   /** Where the carriage is, mm from home; default 0, 0. The pen is up there. */
   readonly startXMm?: number | undefined;
   readonly startYMm?: number | undefined;

@@ -1,10 +1,10 @@
 /** Progress of a plot: translates the position in the current stream into a position in the whole plot. */
-import { PlaceTimes, nextPlace } from "../position/on-plan.js";
+import { PositionTimes, nextPosition } from "../position/on-plan.js";
 import {
   newMotionState,
   stateAt,
   type MotionState,
-  type Place,
+  type StrokePosition,
   type Trajectory,
 } from "../plan/trajectory.js";
 import type { MachineCommands } from "./machine-job.js";
@@ -24,28 +24,28 @@ export interface PlotProgress {
 }
 
 /** A section of motion that is or will be streamed, and its plan. */
-export interface Part {
+export interface PlanPart {
   readonly commands: MachineCommands;
   readonly trajectory: Trajectory;
   /** Time of the plot after the end of this part. Not 0 for a path to rest, which ends in the middle of the drawing. */
   readonly afterS: number;
   /** Where the next part of the same stream begins to draw; left out: no part follows. */
-  readonly next?: Place | null;
+  readonly next?: StrokePosition | null;
 }
 
 /** Number of past parts to keep: a plan, the path to rest in it, and a change of heights. */
 const PAST_PARTS = 3;
 
 /** `P`: what a driver stores with each part. */
-export class RunProgress<P extends Part = Part> {
+export class RunProgress<P extends PlanPart = PlanPart> {
   latest: PlotProgress | null = null;
   /** The first place that is still to be drawn. */
-  place: Place | null = null;
+  place: StrokePosition | null = null;
 
   private parts: P[] = [];
   private part: P | null = null;
   private firstTrajectory: Trajectory | null = null;
-  private times: PlaceTimes | null = null;
+  private times: PositionTimes | null = null;
   /** Elapsed time of the finished parts. */
   private doneS = 0;
   /** Elapsed time of the current part. */
@@ -57,23 +57,23 @@ export class RunProgress<P extends Part = Part> {
    * Sets the plan that the page shows; all parts that are streamed belong to it. `from`: an earlier run drew everything
    * before this place.
    */
-  isPartOf(whole: Trajectory, times: PlaceTimes, from: Place | null): void {
+  setWhole(whole: Trajectory, times: PositionTimes, from: StrokePosition | null): void {
     this.firstTrajectory = whole;
     this.times = times;
     if (from) this.doneS = times.timeOf(from) ?? 0;
   }
 
-  /** Adds a part that will be streamed. Without `isPartOf`, the first part is the plan that the page shows. */
+  /** Adds a part that will be streamed. Without `setWhole`, the first part is the plan that the page shows. */
   add(part: P): void {
     if (!this.firstTrajectory) {
       this.firstTrajectory = part.trajectory;
-      this.times = new PlaceTimes(part.trajectory);
+      this.times = new PositionTimes(part.trajectory);
     }
     this.parts.push(part);
   }
 
   /** False for parts long past, which are forgotten. */
-  knows(commands: MachineCommands): boolean {
+  includes(commands: MachineCommands): boolean {
     return this.parts.some((part) => part.commands === commands);
   }
 
@@ -90,7 +90,9 @@ export class RunProgress<P extends Part = Part> {
     this.partS = Math.max(this.partS, at.planS - this.partStartS);
     const now = stateAt(part.trajectory, at.planS, this.motion);
     const left =
-      now.stroke >= 0 ? { stroke: now.stroke, alongMm: now.alongMm } : nextPlace(part.trajectory, at.planS);
+      now.stroke >= 0
+        ? { stroke: now.stroke, alongMm: now.alongMm }
+        : nextPosition(part.trajectory, at.planS);
     if (left) this.place = left;
     const elapsedS = this.doneS + this.partS;
     const remainingS = Math.max(0, part.trajectory.totalS - at.planS) + part.afterS;
@@ -109,7 +111,7 @@ export class RunProgress<P extends Part = Part> {
   }
 
   /** For a held plot that will resume from another place. Null while the plan's times are unknown. */
-  movedTo(place: Place, at: Pick<PlotProgress, "xMm" | "yMm" | "penUp">): PlotProgress | null {
+  movedTo(place: StrokePosition, at: Pick<PlotProgress, "xMm" | "yMm" | "penUp">): PlotProgress | null {
     const doneS = this.times?.timeOf(place) ?? null;
     if (doneS === null || !this.firstTrajectory) return null;
     const { totalS } = this.firstTrajectory;
@@ -133,7 +135,7 @@ export class RunProgress<P extends Part = Part> {
   }
 
   /** The time of the same place in the first plan. */
-  private firstPlanS({ trajectory, afterS }: Part, planS: number, now: MotionState): number {
+  private firstPlanS({ trajectory, afterS }: PlanPart, planS: number, now: MotionState): number {
     if (!this.firstTrajectory || trajectory === this.firstTrajectory) return planS;
     const timeS = now.stroke >= 0 ? this.times!.timeOf(now) : null;
     const leftS = trajectory.totalS - planS + afterS;

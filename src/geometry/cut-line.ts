@@ -6,7 +6,7 @@
 import { boxContains, boxesTouch, grownBox, insideRange, type Box } from "./box.js";
 import { LineBuilder, clamp, isClosedLine, lineBox, lineCount, mix, type Lines } from "./polyline.js";
 import { regionContains, type Region } from "./region.js";
-import { onEdgeFor, type Part } from "./region-edges.js";
+import { onEdgeFor, type SegmentPart } from "./region-edges.js";
 
 /** The parts of lines inside a box, in order. */
 export function clipLinesToBox(lines: Lines, box: Box): Lines {
@@ -16,7 +16,7 @@ export function clipLinesToBox(lines: Lines, box: Box): Lines {
     const bounds = lineBox(lines, i);
     if (boxContains(box, bounds)) builder.copy(lines, i, tag[i]);
     else if (boxesTouch(box, bounds)) {
-      const kept: Part[] = [];
+      const kept: SegmentPart[] = [];
       for (let p = offsets[i]; p + 1 < offsets[i + 1]; p++) {
         const range = insideRange(xy[2 * p], xy[2 * p + 1], xy[2 * p + 2], xy[2 * p + 3], box);
         if (range !== null) addParts([range], p - offsets[i], kept);
@@ -64,7 +64,7 @@ export function cutLine(
     return;
   }
   const edges = region.edges();
-  const kept: Part[] = [];
+  const kept: SegmentPart[] = [];
   let winding: number | null = null;
   for (let p = offsets[i]; p + 1 < offsets[i + 1]; p++) {
     const cut = edges.partsOf(lines, i, p, keepOutside, onEdge, winding);
@@ -75,7 +75,11 @@ export function cutLine(
 }
 
 /** Adds parts of segment number `segment` to those of its line, which count its segments: 2.5 is the middle of the third. */
-export function addParts(parts: readonly Readonly<Part>[], segment: number, toLine: Part[]): void {
+export function addParts(
+  parts: readonly Readonly<SegmentPart>[],
+  segment: number,
+  toLine: SegmentPart[],
+): void {
   for (const [from, to] of parts) {
     const last = toLine.at(-1);
     if (last !== undefined && from === 0 && last[1] === segment) last[1] = segment + to;
@@ -89,7 +93,7 @@ const ANYWHERE: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infinity
 export function addPieces(
   lines: Lines,
   i: number,
-  parts: readonly Part[],
+  parts: readonly SegmentPart[],
   builder: LineBuilder,
   box = ANYWHERE,
 ): void {

@@ -17,7 +17,7 @@ export interface Lines {
 }
 
 /** Points closer than this, mm, are the same point. Far below any machine's step, far above rounding errors. */
-export const SAME_POINT = 1e-6;
+export const SAME_POINT_MM = 1e-6;
 
 export const lineCount = (lines: Lines): number => lines.tag.length;
 
@@ -46,7 +46,7 @@ export class LineBuilder {
     if (length > 2 * this.first) {
       const dx = x - data[length - 2];
       const dy = y - data[length - 1];
-      if (dx * dx + dy * dy <= SAME_POINT * SAME_POINT) {
+      if (dx * dx + dy * dy <= SAME_POINT_MM * SAME_POINT_MM) {
         this.skippedX = x;
         this.skippedY = y;
         this.skipped = true;

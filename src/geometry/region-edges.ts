@@ -17,7 +17,7 @@
 import Flatbush from "flatbush";
 import type { Paths64 } from "clipper2-ts";
 import { boxOfPoints, insideRange } from "./box.js";
-import { SAME_POINT, isClosedLine, mix, type Lines } from "./polyline.js";
+import { SAME_POINT_MM, isClosedLine, mix, type Lines } from "./polyline.js";
 
 /** A line this close to an edge lies on it, mm: far below any pen width, above all rounding. */
 const ON_EDGE = 0.002;
@@ -39,7 +39,7 @@ export const onEdgeFor = (gapOfLine: number, gapOfEdges: number): number =>
 export const longRun = (onEdge: number): number => LONG_RUN * onEdge;
 
 /** A part of a segment, from and to a share of its length. */
-export type Part = [from: number, to: number];
+export type SegmentPart = [from: number, to: number];
 
 interface Crossing {
   readonly t: number;
@@ -48,7 +48,7 @@ interface Crossing {
 }
 
 /** Where a run ends. */
-interface RunEnd {
+interface EdgeRunEnd {
   /** Its length up to there, beyond the segment, mm. */
   readonly length: number;
   /** Whether the line continues where it is kept. */
@@ -124,13 +124,13 @@ export class RegionEdges {
     keepOutside: boolean,
     onEdge: number,
     known: number | null,
-  ): { readonly parts: readonly Part[]; readonly windingAtEnd: number | null } {
+  ): { readonly parts: readonly SegmentPart[]; readonly windingAtEnd: number | null } {
     const { length, crossings, runs } = this.meet(lines, p, onEdge);
     const isKept = (winding: number): boolean => (winding === 0) === keepOutside;
     let start = known;
     const windingAtStart = (): number => (start ??= this.windingAtStart(lines, p, crossings, runs));
     const turnsBefore = turnsAlong(crossings);
-    const endOfRun = (t: number): RunEnd => {
+    const endOfRun = (t: number): EdgeRunEnd => {
       if (t === 0) return this.follow(lines, i, p, -1, isKept, onEdge);
       if (t === 1) return this.follow(lines, i, p, 1, isKept, onEdge);
       return { length: 0, isKept: isKept(windingAtStart() + turnsBefore(t)) };
@@ -146,7 +146,7 @@ export class RegionEdges {
     if (parts.length === 1 && isWhole(parts[0])) return { parts, windingAtEnd: null };
     const windingAtEnd = addCrossed(crossings, windingAtStart(), isKept, parts);
     const isEndFree = runs.at(-1)?.[1] !== 1;
-    return { parts: merged(parts, SAME_POINT / length), windingAtEnd: isEndFree ? windingAtEnd : null };
+    return { parts: merged(parts, SAME_POINT_MM / length), windingAtEnd: isEndFree ? windingAtEnd : null };
   }
 
   /** The edges that cross segment `p`, and its parts within `onEdge` mm of edges. Both ascend. */
@@ -154,14 +154,14 @@ export class RegionEdges {
     { xy }: Lines,
     p: number,
     onEdge: number,
-  ): { readonly length: number; readonly crossings: readonly Crossing[]; readonly runs: Part[] } {
+  ): { readonly length: number; readonly crossings: readonly Crossing[]; readonly runs: SegmentPart[] } {
     const [x0, y0, x1, y1] = [xy[2 * p], xy[2 * p + 1], xy[2 * p + 2], xy[2 * p + 3]];
     const dx = x1 - x0;
     const dy = y1 - y0;
     const length = Math.sqrt(dx * dx + dy * dy);
-    const rounding = SAME_POINT / length;
+    const rounding = SAME_POINT_MM / length;
     const crossings: Crossing[] = [];
-    const near: Part[] = [];
+    const near: SegmentPart[] = [];
     for (const e of this.near(
       Math.min(x0, x1) - onEdge,
       Math.min(y0, y1) - onEdge,
@@ -201,7 +201,7 @@ export class RegionEdges {
     step: 1 | -1,
     isKept: (winding: number) => boolean,
     onEdge: number,
-  ): RunEnd {
+  ): EdgeRunEnd {
     const first = lines.offsets[i];
     const last = lines.offsets[i + 1] - 2;
     const isClosed = isClosedLine(lines, i);
@@ -229,10 +229,10 @@ export class RegionEdges {
     lines: Lines,
     p: number,
     crossings: readonly Crossing[],
-    runs: readonly Part[],
+    runs: readonly SegmentPart[],
   ): number {
     const isNearAll = runs.length === 1 && isWhole(runs[0]);
-    const stops = isNearAll ? crossings.map(({ t }): Part => [t, t]) : runs;
+    const stops = isNearAll ? crossings.map(({ t }): SegmentPart => [t, t]) : runs;
     let [middle, longest, from] = [0.5, 0, 0];
     for (const stop of [...stops, [1, 1]]) {
       if (stop[0] - from > longest) [middle, longest] = [(from + stop[0]) / 2, stop[0] - from];
@@ -270,7 +270,7 @@ function partAround(
   dx: number,
   dy: number,
   onEdge: number,
-): Part | null {
+): SegmentPart | null {
   const ex = bx - ax;
   const ey = by - ay;
   const length = Math.sqrt(ex * ex + ey * ey);
@@ -284,7 +284,7 @@ function partAround(
   return insideRange(u, v, u + du, v + dv, around);
 }
 
-const isWhole = ([from, to]: Part): boolean => from === 0 && to === 1;
+const isWhole = ([from, to]: SegmentPart): boolean => from === 0 && to === 1;
 
 const pointAt = ({ xy }: Lines, p: number, t: number): [x: number, y: number] => [
   mix(xy[2 * p], xy[2 * p + 2], t),
@@ -306,7 +306,7 @@ function addCrossed(
   crossings: readonly Crossing[],
   windingAtStart: number,
   isKept: (winding: number) => boolean,
-  parts: Part[],
+  parts: SegmentPart[],
 ): number {
   let winding = windingAtStart;
   let from = 0;
@@ -320,9 +320,9 @@ function addCrossed(
 }
 
 /** The union of the parts, ascending. Parts and gaps up to `rounding` do not count, and ends this near to 0 or 1 are there. */
-export function merged(parts: readonly Part[], rounding: number): Part[] {
+export function merged(parts: readonly SegmentPart[], rounding: number): SegmentPart[] {
   const sorted = parts.filter(([from, to]) => to - from > 0).sort((p, q) => p[0] - q[0]);
-  const united: Part[] = [];
+  const united: SegmentPart[] = [];
   for (const [from, to] of sorted) {
     const last = united.at(-1);
     if (last !== undefined && from - last[1] <= rounding) last[1] = Math.max(last[1], to);

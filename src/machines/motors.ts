@@ -50,7 +50,7 @@ const vFromMotors = (machine: MachineProfile, steps1: number, steps2: number): n
   (machine.motors === "mixed" ? (steps1 - steps2) / 2 : steps2) / machine.stepsPerMm;
 
 /** Position in mm from home; the motor steps may be fractional. */
-export const placeFromMotors = (
+export const positionFromMotors = (
   machine: MachineProfile,
   steps1: number,
   steps2: number,

@@ -80,7 +80,7 @@ export function comeToRest(
   // Drops planned for after the stop are not sent. A pen that was lifted only for a short travel goes to full height.
   const last = penMoveBefore(trajectory, tS);
   const needsLift = pen !== null && last !== null && (!last.up || last.heightPct < pen.upPct);
-  const lift: Lift | null = needsLift ? { pen, atOnce: isLowering } : null;
+  const lift: RestLift | null = needsLift ? { pen, atOnce: isLowering } : null;
   if (trajectory.planned) return shapedRest(trajectory, trajectory.planned, tS, accel, lift);
   const pieces = new BlockColumns(0, false);
   const speed = Math.hypot(state.vx, state.vy);
@@ -91,7 +91,7 @@ export function comeToRest(
 }
 
 /** How the pen lifts: at the end of the stop, or `atOnce`; then the carriage still waits for the lift at the end. */
-interface Lift {
+interface RestLift {
   readonly pen: PenSettings;
   readonly atOnce: boolean;
 }
@@ -106,7 +106,7 @@ function shapedRest(
   { trajectory: planned, kernel }: PlannedMotion,
   tS: number,
   accel: number,
-  lift: Lift | null,
+  lift: RestLift | null,
 ): RestPlan {
   const run = runOfBlock(trajectory, Math.max(0, blockAt(trajectory, tS)));
   const endS = runEndS(trajectory, run);
@@ -251,7 +251,7 @@ function finish(
   end: { readonly x: number; readonly y: number },
   planS: number,
   stroke: number,
-  lift: Lift | null,
+  lift: RestLift | null,
   planned?: { readonly rest: BlockColumns; readonly kernel: Kernel },
 ): RestPlan {
   const heightPct = lift ? lift.pen.upPct : 0;

@@ -82,7 +82,7 @@ export function runLimits(
 }
 
 /** The limits of a stroke drawn at `factor` times its layer's speed. */
-export const slower = (limits: RunLimits, factor: number): RunLimits =>
+export const scaledLimits = (limits: RunLimits, factor: number): RunLimits =>
   factor === 1 ? limits : { ...limits, speed: limits.speed * factor };
 
 /**
@@ -120,13 +120,17 @@ export const isStretched = ({ stretchX, stretchY }: RunLimits): boolean => stret
  * Whether V is allowed in every direction: the frame is not stretched, and no axis or motor is slower. In the
  * worst direction a motor runs at √2 (mixed) or 1 (direct) times the carriage's speed.
  */
-const isSameEverywhere = (limits: RunLimits): boolean =>
+const isIsotropic = (limits: RunLimits): boolean =>
   !isStretched(limits) &&
   limits.speed <= Math.min(limits.speedX, limits.speedY) &&
   limits.speed <= limits.motorSpeed / (limits.mixed ? Math.SQRT2 : 1);
 
 /** Whether the axes and motors can reach velocity (vx, vy) in the machine frame, with the slack of a merged block. */
-export function canReach({ speedX, speedY, motorSpeed, mixed }: RunLimits, vx: number, vy: number): boolean {
+export function isVelocityAllowed(
+  { speedX, speedY, motorSpeed, mixed }: RunLimits,
+  vx: number,
+  vy: number,
+): boolean {
   const ax = Math.abs(vx);
   const ay = Math.abs(vy);
   return (
@@ -152,7 +156,7 @@ export function capSegments(path: RunPath, limits: RunLimits): void {
     if (path.easeFrom < n) cap2.fill(limits.easeSpeed ** 2, path.easeFrom, n);
   }
   // With most settings the loop below changes nothing. It takes 20 ms for a million segments.
-  if (isSameEverywhere(limits)) return;
+  if (isIsotropic(limits)) return;
   for (let i = 0; i < n; i++) {
     const ax = Math.abs(ux[i]) / stretchX;
     const ay = Math.abs(uy[i]) / stretchY;

@@ -21,7 +21,7 @@
  * arc, so on an arc drawn at V or A almost no pair would be allowed without extra time.
  */
 import type { BlockColumns } from "./block-columns.js";
-import { canReach, SLACK, type RunLimits } from "./limits.js";
+import { isVelocityAllowed, SLACK, type RunLimits } from "./limits.js";
 import type { RunEnd } from "./run-path.js";
 
 /** A pair may take longer than the blocks that it replaces by this share. */
@@ -161,7 +161,7 @@ function allowedTime(
       isShorter(wx / stretchX, wy / stretchY, limits.speed * SLACK, isShaped) &&
       vx0 * wx + vy0 * wy >= 0 &&
       wx * vx1 + wy * vy1 >= 0 &&
-      canReach(limits, wx / stretchX, wy / stretchY)
+      isVelocityAllowed(limits, wx / stretchX, wy / stretchY)
     ) {
       return wholeS;
     }

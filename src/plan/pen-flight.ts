@@ -18,7 +18,7 @@
  *
  * With "safe" the tip counts as clear at the hop height, with "fast" already at the contact height.
  *
- * So with "fast" the drop begins up to `landingMm` before the stroke. A machine that loses its connection may then lack
+ * So with "fast" the drop begins up to `lowerAheadMm` before the stroke. A machine that loses its connection may then lack
  * the end of the travel, and would put the pen down there. For such a machine (`dropsAtStroke`) "fast" lifts the pen as
  * above, but begins the drop only within `NEAR_MM`.
  */
@@ -118,7 +118,7 @@ export function lowerDuring(
  * Max distance of the carriage from the stroke when the drop begins, mm; 0 if the carriage waits for the whole drop. With
  * `dropsAtStroke` it is less.
  */
-export function landingMm(pen: PenSettings, accel: number): number {
+export function lowerAheadMm(pen: PenSettings, accel: number): number {
   const layers = Object.keys(pen.layers ?? {}).map((id) => penOfLayer(pen, id));
   return Math.max(...[pen, ...layers].map((one) => (dropsInFlight(one) ? landingOf(one, accel) : 0)));
 }

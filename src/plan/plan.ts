@@ -20,24 +20,24 @@ import type { Cancellation } from "../prepare/work.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
 import type { Kernel } from "./impulse-filter.js";
-import { drawLimitsOf, runLimits, slower, type RunLimits } from "./limits.js";
+import { drawLimitsOf, runLimits, scaledLimits, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen-moves.js";
 import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen-flight.js";
 import { dropTime, liftTime, penOfLayer } from "./pen-times.js";
 import { Resampler } from "./resample.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
-import { RunWriter, type WritesRuns } from "./run-writer.js";
+import { RunWriter, type RunPlanner } from "./run-writer.js";
 import { fillAlong } from "./shaped-along.js";
 import { shaperKernel } from "./shapers.js";
 import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { withGiven, type DeepPartial } from "../settings/partial.js";
 import { DEFAULT_PEN, type PenSettings } from "../settings/pen.js";
-import type { Place, Trajectory } from "./trajectory.js";
+import type { StrokePosition, Trajectory } from "./trajectory.js";
 
 /** Where a plan begins and ends. Every option has a default. */
 export interface PlanOptions {
   /** Where in the drawing to begin, possibly in the middle of a stroke; default: the start of the drawing. */
-  readonly from?: Place | undefined;
+  readonly from?: StrokePosition | undefined;
   /** Position of the carriage, mm in the machine frame; default 0, 0. The pen is up there. */
   readonly startX?: number | undefined;
   readonly startY?: number | undefined;
@@ -45,7 +45,7 @@ export interface PlanOptions {
    * If the carriage is closer than this to `from`, mm, the line continues from the carriage without a travel;
    * default 0.
    */
-  readonly penBesideMm?: number | undefined;
+  readonly penOffsetMm?: number | undefined;
   /** Begin with a lift, because the pen's height is unknown. Default false: the pen is up. */
   readonly liftFirst?: boolean | undefined;
   /**
@@ -63,7 +63,7 @@ export interface PlanOptions {
    *
    * @internal
    */
-  readonly runs?: WritesRuns | undefined;
+  readonly runs?: RunPlanner | undefined;
   /**
    * Lower the pen only at the stroke, also with "fast" (pen-flight.ts): for a machine that may lose the end of a travel
    * with its connection. Default false.
@@ -93,12 +93,12 @@ export function plan(
   const pen = withGiven(DEFAULT_PEN, givenPen);
   checkSettings(motion, pen, options.machine);
   const from = checkPlace(options.from, strokeCount(strokes));
-  const { machine, startX = 0, startY = 0, penBesideMm = 0 } = options;
+  const { machine, startX = 0, startY = 0, penOffsetMm = 0 } = options;
   const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, options);
   if (options.liftFirst) builder.liftFirst();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
-    builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0, penBesideMm);
+    builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0, penOffsetMm);
   }
   builder.lift(Infinity);
   if (options.returnHome ?? true) builder.travel(options.endX ?? 0, options.endY ?? 0);
@@ -115,7 +115,7 @@ class PlanBuilder {
   private readonly path = new RunPath();
   private readonly resampler = new Resampler();
   private readonly travelPath = new RunPath();
-  private readonly writer: WritesRuns;
+  private readonly writer: RunPlanner;
   private readonly penMoves: PenMoveWriter;
   private runCount = 0;
   private readonly firstBlock: Uint32Array;
@@ -177,17 +177,17 @@ class PlanBuilder {
   }
 
   /**
-   * @param penBesideMm if a stroke begins in the middle and the carriage is closer than this, the line continues from
+   * @param penOffsetMm if a stroke begins in the middle and the carriage is closer than this, the line continues from
    *   the carriage
    */
-  draw(stroke: number, fromAlong: number, penBesideMm: number): void {
+  draw(stroke: number, fromAlong: number, penOffsetMm: number): void {
     const { path, strokes, motion } = this;
     path.load(strokes.xy, strokes.offsets[stroke], strokes.offsets[stroke + 1], fromAlong);
     this.resampler.resample(path);
     if (fromAlong > 0 && path.segmentCount === 0) return;
     const layer = strokes.layer[stroke];
     const awayMm = Math.hypot(path.x[0] - this.x, path.y[0] - this.y);
-    if (fromAlong > 0 && awayMm >= SHORTEST_MM && awayMm < penBesideMm) path.prependPoint(this.x, this.y);
+    if (fromAlong > 0 && awayMm >= SHORTEST_MM && awayMm < penOffsetMm) path.prependPoint(this.x, this.y);
     const x = path.x[0];
     const y = path.y[0];
     const gap = Math.hypot(x - this.x, y - this.y);
@@ -202,7 +202,7 @@ class PlanBuilder {
     this.drop(waitS > 0 ? null : travelS);
     this.beginRun(stroke);
     if (motion.ease) path.ease(motion.ease.lengthMm);
-    const limits = slower(this.drawLimits[layer], strokes.speedFactor?.[stroke] ?? 1);
+    const limits = scaledLimits(this.drawLimits[layer], strokes.speedFactor?.[stroke] ?? 1);
     this.writer.write(path, limits, this.blocks, this.planned);
     this.x = path.x[path.segmentCount];
     this.y = path.y[path.segmentCount];
@@ -303,7 +303,7 @@ class PlanBuilder {
   }
 }
 
-function checkPlace(place: Place | undefined, strokes: number): Place {
+function checkPlace(place: StrokePosition | undefined, strokes: number): StrokePosition {
   if (place === undefined) return { stroke: 0, alongMm: 0 };
   const { stroke, alongMm } = place;
   if (!(Number.isInteger(stroke) && stroke >= 0 && stroke <= strokes && alongMm >= 0 && alongMm < Infinity)) {

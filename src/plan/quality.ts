@@ -95,14 +95,14 @@ export const motionForSprings = (
   before: Springs | null,
   now: Springs | null,
 ): MotionSettings => {
-  if (isSame(before, now)) return plannable(motion, now);
+  if (isSame(before, now)) return withoutShaperIfUnmeasured(motion, now);
   const quality = qualityOf(motion, before);
-  if (quality === null) return plannable(motion, now);
+  if (quality === null) return withoutShaperIfUnmeasured(motion, now);
   return withQuality(motion, now === null ? "normal" : quality, now);
 };
 
 /** Shaping needs a measured machine. */
-export const plannable = (motion: MotionSettings, springs: Springs | null): MotionSettings =>
+export const withoutShaperIfUnmeasured = (motion: MotionSettings, springs: Springs | null): MotionSettings =>
   springs === null && (motion.shaper ?? "none") !== "none" ? { ...motion, shaper: "none" } : motion;
 
 const isSame = (a: Springs | null, b: Springs | null): boolean =>

@@ -21,7 +21,7 @@ import { filteredPlan, stopsAreFaster } from "./scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
 
 /** Writes the blocks of one run, from rest to rest. Called once for each run, in order. */
-export interface WritesRuns {
+export interface RunPlanner {
   /** @param planned gets the motion before the shaper, if there is one */
   write(path: RunPath, limits: RunLimits, out: BlockColumns, planned: BlockColumns): void;
 }
@@ -36,7 +36,7 @@ const CORNER_RULES: Readonly<Record<MotionMode, CornerRule>> = {
   scurve: limitBlends,
 };
 
-export class RunWriter implements WritesRuns {
+export class RunWriter implements RunPlanner {
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
   private readonly shaper: ImpulseFilter | null;

@@ -50,7 +50,7 @@ export function shaperKernel(shaper: Shaper, springs: Springs | null): Kernel | 
  * Max deviation of the carriage from the planned line, mm: |u(t) − q(t − D)| ≤ A σ²/2, where D is the mean delay and σ²
  * the variance of the impulses. A is the acceleration limit with the pen down.
  */
-export function leavesLineMm({ shaper, draw, layers }: MotionSettings, springs: Springs | null): number {
+export function maxShapingErrorMm({ shaper, draw, layers }: MotionSettings, springs: Springs | null): number {
   if (shaper === undefined || shaper === "none" || springs === null) return 0;
   const variances = [springs.xHz, springs.yHz].map((hz) =>
     varianceOf(shaperImpulses(shaper, hz, springs.damping)),

@@ -94,7 +94,7 @@ export interface PenMove {
 }
 
 /** A place in the drawing from which a plan can resume: a stroke, and mm along its polyline. */
-export interface Place {
+export interface StrokePosition {
   /** Index of the stroke. */
   readonly stroke: number;
   /** mm along the stroke's polyline. */

@@ -1,14 +1,14 @@
 /** Positions in the drawing: a stroke, and mm along it. Their points on the paper, and the nearest one to a point. */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { likeliestPass, passesOf } from "../geometry/passes.js";
-import type { Place } from "../plan/trajectory.js";
+import type { StrokePosition } from "../plan/trajectory.js";
 
 /** A place moved along the drawing by whole strokes or by mm; it stays within the drawing. */
-export function movedPlace(
+export function movedPosition(
   strokes: StrokeSet,
-  place: Place,
+  place: StrokePosition,
   by: { readonly strokes?: number | undefined; readonly mm?: number | undefined },
-): Place {
+): StrokePosition {
   const last = strokes.offsets.length - 2;
   let { stroke, alongMm } = place;
   if (by.strokes) {
@@ -39,7 +39,7 @@ export function strokeLengthMm({ xy, offsets }: StrokeSet, stroke: number): numb
 }
 
 /** The point of the drawing at a place, mm. */
-export function pointOfPlace({ xy, offsets }: StrokeSet, place: Place): { x: number; y: number } {
+export function pointAt({ xy, offsets }: StrokeSet, place: StrokePosition): { x: number; y: number } {
   let leftMm = place.alongMm;
   const end = offsets[place.stroke + 1] - 1;
   for (let i = offsets[place.stroke]; i < end; i++) {
@@ -70,11 +70,11 @@ export const pointsOf = ({ xy, offsets }: StrokeSet, stroke: number): Float64Arr
  */
 export function nearestOnStroke(
   strokes: StrokeSet,
-  { stroke, alongMm }: Place,
+  { stroke, alongMm }: StrokePosition,
   { x, y }: Point,
   withinMm: number,
   heading: Point = STILL,
-): { readonly place: Place; readonly awayMm: number } | null {
+): { readonly place: StrokePosition; readonly awayMm: number } | null {
   const xy = pointsOf(strokes, stroke);
   const runsAgainst = (from: number): boolean => {
     const i = Math.min(Math.max(0, from), xy.length / 2 - 2);

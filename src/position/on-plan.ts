@@ -1,10 +1,16 @@
 /** Positions and times of a plan: what is drawn at a time, when a position is drawn, when the carriage is at a point. */
 import { firstWhere } from "../geometry/binary-search.js";
 import { likeliestPass, passesOf } from "../geometry/passes.js";
-import { newMotionState, SAME_TIME_S, stateAt, type Place, type Trajectory } from "../plan/trajectory.js";
+import {
+  newMotionState,
+  SAME_TIME_S,
+  stateAt,
+  type StrokePosition,
+  type Trajectory,
+} from "../plan/trajectory.js";
 
 /** The first place still to be drawn at `planS`, where the carriage is at rest; null if everything is drawn. */
-export function nextPlace(trajectory: Trajectory, planS: number): Place | null {
+export function nextPosition(trajectory: Trajectory, planS: number): StrokePosition | null {
   const { runs } = trajectory;
   for (let run = 0; run < runs.count; run++) {
     if (runs.stroke[run] < 0 || runs.startS[run] < planS - SAME_TIME_S) continue;
@@ -63,7 +69,7 @@ export function passOf<S extends PlanSpan>(
 }
 
 /** Finds the time of a place in a trajectory, fast enough for frequent progress reports. */
-export class PlaceTimes {
+export class PositionTimes {
   private readonly runOfStroke = new Map<number, number>();
 
   constructor(private readonly trajectory: Trajectory) {
@@ -74,13 +80,13 @@ export class PlaceTimes {
   }
 
   /** Seconds from a place to the end; 0 if this trajectory does not draw the stroke. */
-  leftFrom(place: Place): number {
+  leftFrom(place: StrokePosition): number {
     const atS = this.timeOf(place);
     return atS === null ? 0 : this.trajectory.totalS - atS;
   }
 
   /** The time at which the pen is at a place, s; null if this trajectory does not draw the stroke. */
-  timeOf(place: Place): number | null {
+  timeOf(place: StrokePosition): number | null {
     const run = this.runOfStroke.get(place.stroke);
     if (run === undefined) return null;
     const { alongMm, startS, durationS, runs } = this.trajectory;

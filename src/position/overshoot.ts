@@ -16,7 +16,7 @@ import {
   drawnAt,
   newMotionState,
   stateAt,
-  type Place,
+  type StrokePosition,
   type Trajectory,
 } from "../plan/trajectory.js";
 import { nearestOnStroke } from "./on-drawing.js";
@@ -30,7 +30,7 @@ export interface SuddenStop {
   /** When, in time of the trajectory. */
   readonly planS: number;
   /** The place that the pen was drawing. */
-  readonly place: Place;
+  readonly place: StrokePosition;
   /** Where the carriage stopped, mm. Whole steps put it beside the trajectory. */
   readonly x: number;
   readonly y: number;
@@ -41,7 +41,7 @@ export function overshotPosition(
   trajectory: Trajectory,
   { planS, place, x: stopX, y: stopY }: SuddenStop,
   springs: Springs,
-): Place {
+): StrokePosition {
   const carriage = stateAt(trajectory, planS);
   if (carriage.stroke !== place.stroke) return place;
   const [axisX, axisY] = swingAt(trajectory, planS, springs);

@@ -20,9 +20,9 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { Springs } from "../machines/profile.js";
-import { drawnAt, stateAt, type Place, type Trajectory } from "../plan/trajectory.js";
+import { drawnAt, stateAt, type StrokePosition, type Trajectory } from "../plan/trajectory.js";
 import { nearestOnStroke } from "./on-drawing.js";
-import { nextPlace, passOf, type PlanPass, type PlanSpan } from "./on-plan.js";
+import { nextPosition, passOf, type PlanPass, type PlanSpan } from "./on-plan.js";
 import { overshotPosition } from "./overshoot.js";
 
 /** Max difference between mm along the plan and mm along the drawing, where the plan rounds a corner. */
@@ -36,9 +36,9 @@ interface Point {
 }
 
 /** The position being drawn at a time of a plan; between strokes, the next one to be drawn. Null: nothing is left. */
-export function estimatedPosition(trajectory: Trajectory, planS: number): Place | null {
+export function estimatedPosition(trajectory: Trajectory, planS: number): StrokePosition | null {
   const { stroke, alongMm } = stateAt(trajectory, planS);
-  return stroke >= 0 ? { stroke, alongMm } : nextPlace(trajectory, planS);
+  return stroke >= 0 ? { stroke, alongMm } : nextPosition(trajectory, planS);
 }
 
 /** The same for a known point of the carriage: within a stroke, the position nearest to the pen. */
@@ -47,10 +47,10 @@ export function drawnPosition(
   trajectory: Trajectory,
   planS: number,
   { x, y }: Point,
-): Place | null {
+): StrokePosition | null {
   const state = drawnAt(trajectory, planS);
   const { stroke, alongMm } = state;
-  if (stroke < 0) return nextPlace(trajectory, planS);
+  if (stroke < 0) return nextPosition(trajectory, planS);
   const place = { stroke, alongMm };
   // At the beginning there is no corner before it.
   if (alongMm === 0) return place;
@@ -64,7 +64,7 @@ export function drawnPosition(
 export interface StoppedPosition<S extends PlanSpan> {
   readonly pass: PlanPass<S>;
   /** Null: nothing is left of that plan. */
-  readonly place: Place | null;
+  readonly place: StrokePosition | null;
 }
 
 /**

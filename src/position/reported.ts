@@ -13,10 +13,10 @@
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { passesOf } from "../geometry/passes.js";
 import type { MachineProfile } from "../machines/profile.js";
-import { leavesLineMm } from "../plan/shapers.js";
-import type { Place } from "../plan/trajectory.js";
+import { maxShapingErrorMm } from "../plan/shapers.js";
+import type { StrokePosition } from "../plan/trajectory.js";
 import type { MotionSettings } from "../settings/motion.js";
-import { pointOfPlace, pointsOf, strokeLengthMm } from "./on-drawing.js";
+import { pointAt, pointsOf, strokeLengthMm } from "./on-drawing.js";
 
 /**
  * If the pen is down this close to a stroke's start, the carriage may still be on its way to it, because of rounding or
@@ -34,13 +34,13 @@ const ROUNDED_STEPS = 2;
 const SLACK_MM = 0.02;
 
 /** Max distance of the carriage from the drawing while the pen is down: rounding, merged blocks, steps and shaping; mm. */
-export function leavesDrawingMm(
+export function maxOffDrawingMm(
   motion: MotionSettings,
   { springs, stepsPerMm }: Pick<MachineProfile, "springs" | "stepsPerMm">,
 ): number {
   const ownCornersMm = Object.values(motion.layers ?? {}).map(({ cornerMm }) => cornerMm ?? 0);
   const roundedMm = Math.max(motion.draw.cornerMm, ...ownCornersMm) + ROUNDED_STEPS / stepsPerMm;
-  return roundedMm + (motion.fit?.toleranceMm ?? 0) + leavesLineMm(motion, springs ?? null) + SLACK_MM;
+  return roundedMm + (motion.fit?.toleranceMm ?? 0) + maxShapingErrorMm(motion, springs ?? null) + SLACK_MM;
 }
 
 interface Point {
@@ -59,24 +59,24 @@ export interface ReportedPen extends Point {
 export interface MotionSince {
   /** How far, mm, including travel. */
   readonly aheadMm: number;
-  /** Max distance of the carriage from the drawing (`leavesDrawingMm`). */
+  /** Max distance of the carriage from the drawing (`maxOffDrawingMm`). */
   readonly nearMm: number;
   /** Strokes before which it goes home. */
   readonly stops?: readonly number[];
-  /** How far before a stroke the pen may begin to come down (`landingMm`). */
-  readonly landingMm?: number;
+  /** How far before a stroke the pen may begin to come down (`lowerAheadMm`). */
+  readonly lowerAheadMm?: number;
 }
 
 /** The first position from `received` on that fits the pen; if everything is drawn, the end. Null if there is none. */
 export function reportedPosition(
   strokes: StrokeSet,
-  received: Place,
+  received: StrokePosition,
   pen: ReportedPen,
-  { aheadMm, nearMm, stops = [], landingMm = 0 }: MotionSince,
-): Place | null {
+  { aheadMm, nearMm, stops = [], lowerAheadMm = 0 }: MotionSince,
+): StrokePosition | null {
   const count = strokes.offsets.length - 1;
-  const startOf = (stroke: number): Point => pointOfPlace(strokes, { stroke, alongMm: 0 });
-  const endOf = (stroke: number): Point => pointOfPlace(strokes, { stroke, alongMm: Infinity });
+  const startOf = (stroke: number): Point => pointAt(strokes, { stroke, alongMm: 0 });
+  const endOf = (stroke: number): Point => pointAt(strokes, { stroke, alongMm: Infinity });
   const goesHomeBefore = (stroke: number): boolean => stroke === count || stops.includes(stroke);
   const isBetween = (from: Point, to: Point): boolean => awayFromLine(from, to, pen) <= nearMm;
 
@@ -86,7 +86,7 @@ export function reportedPosition(
   const start = { stroke: received.stroke, alongMm: 0 };
   const cameFromHome = received.stroke === 0 || goesHomeBefore(received.stroke);
   const cameFrom = cameFromHome ? HOME : endOf(received.stroke - 1);
-  if (fromMm < 0 && isBetween(cameFrom, pointOfPlace(strokes, start))) return start;
+  if (fromMm < 0 && isBetween(cameFrom, pointAt(strokes, start))) return start;
 
   let leftMm = received.alongMm + aheadMm;
   for (let stroke = received.stroke; stroke < count && leftMm > 0; stroke++) {
@@ -97,7 +97,7 @@ export function reportedPosition(
     );
     const onStroke = pass ? { stroke, alongMm: pass.alongMm } : null;
     const mayBeLowering = !pen.up && fromMm < 0;
-    if (mayBeLowering && isLoweringBefore(strokes, stroke, pen, { landingMm, nearMm, onStroke })) {
+    if (mayBeLowering && isLoweringBefore(strokes, stroke, pen, { lowerAheadMm, nearMm, onStroke })) {
       return { stroke, alongMm: 0 };
     }
     // A pen that is up at the end of a stroke was lifted to travel on.
@@ -124,15 +124,19 @@ function isLoweringBefore(
   strokes: StrokeSet,
   stroke: number,
   pen: ReportedPen,
-  { landingMm, nearMm, onStroke }: { landingMm: number; nearMm: number; onStroke: Place | null },
+  {
+    lowerAheadMm,
+    nearMm,
+    onStroke,
+  }: { lowerAheadMm: number; nearMm: number; onStroke: StrokePosition | null },
 ): boolean {
-  const start = pointOfPlace(strokes, { stroke, alongMm: 0 });
+  const start = pointAt(strokes, { stroke, alongMm: 0 });
   const awayMm = distance(start, pen);
-  const before = stroke === 0 ? null : pointOfPlace(strokes, { stroke: stroke - 1, alongMm: Infinity });
+  const before = stroke === 0 ? null : pointAt(strokes, { stroke: stroke - 1, alongMm: Infinity });
   const travelMm = before ? awayFromLine(before, start, pen) : Infinity;
-  if (awayMm > LOWERING_MM) return awayMm <= landingMm && travelMm <= nearMm;
+  if (awayMm > LOWERING_MM) return awayMm <= lowerAheadMm && travelMm <= nearMm;
   if (!onStroke) return true;
-  return travelMm <= distance(pointOfPlace(strokes, onStroke), pen) + STEP_MM;
+  return travelMm <= distance(pointAt(strokes, onStroke), pen) + STEP_MM;
 }
 
 const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);

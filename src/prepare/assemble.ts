@@ -21,7 +21,7 @@ export interface PreparedLayer extends FileLayer {
  * Sorts lines by part of a layer (layers.ts), with the file's order within a part, and tags them with their part and
  * colour (`partOfTag`).
  */
-export function byLayer(lines: Lines, parts: SpeedParts, drawing: Drawing): Lines {
+export function sortedByLayer(lines: Lines, parts: SpeedParts, drawing: Drawing): Lines {
   const { stroke, fill } = drawing.paths;
   const part = Uint32Array.from(lines.tag, (shape) => parts.ofShape[shape]);
   const tag = Uint32Array.from(lines.tag, (shape, i) => {

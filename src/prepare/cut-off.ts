@@ -6,7 +6,7 @@ import type { PrepareSettings } from "../settings/prepare.js";
 import { clipRegions, clipLines } from "./clips.js";
 import { flattenShapes, gapsOfShapes, cropBox, strokedOnly } from "./shapes.js";
 import { layersOf, visibleLayers } from "./layers.js";
-import { isFarAway, type Placement } from "./place.js";
+import { isFarAway, type Layout } from "./place.js";
 
 interface CutOff {
   /** Lines outside this box are not drawn, mm. */
@@ -23,7 +23,7 @@ const UNNOTICED_MM = 0.1;
 const FLATTEN_MM = 0.1;
 
 /** Null if nothing is cut off. Only shapes that leave the limit are flattened. `place`: from the same settings. */
-export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: Placement): CutOff | null {
+export function cutOffLines(drawing: Drawing, settings: PrepareSettings, place: Layout): CutOff | null {
   const limit = cropBox(settings, place);
   if (limit === null) return null;
   const widened = grownBox(limit, UNNOTICED_MM);

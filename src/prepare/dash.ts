@@ -3,7 +3,7 @@ import type { DashPattern } from "../drawing/drawing.js";
 import { PlotwrightError } from "../errors.js";
 import { insideRange, type Box } from "../geometry/box.js";
 import { compose, meanScale, scaling, type Affine, inverse } from "../geometry/affine.js";
-import { LineBuilder, SAME_POINT, lineCount, mix, type Lines } from "../geometry/polyline.js";
+import { LineBuilder, SAME_POINT_MM, lineCount, mix, type Lines } from "../geometry/polyline.js";
 
 /** A pattern with a shorter period than this is drawn as a solid line, because no pen resolves it, mm. */
 const FINEST_PERIOD = 0.05;
@@ -109,7 +109,7 @@ class Dasher {
     if (this.isDrawing) this.builder.point(x0, y0);
     let along = 0;
     // If the pattern divides the line evenly, a rounding error must not begin another dash at the very end.
-    const last = isEnd ? length - SAME_POINT : length;
+    const last = isEnd ? length - SAME_POINT_MM : length;
     while (last - along > this.left) {
       along += this.left;
       // A dash ends or begins here. A dash of zero length becomes a dot.
@@ -133,7 +133,7 @@ class Dasher {
 
   private endDash(): void {
     // A dash of which only a rounding error is inside the box, or after the offset, is not a dot.
-    const isRemainder = this.builder.openPoints === 1 && this.pattern.lengths[this.index] > SAME_POINT;
+    const isRemainder = this.builder.openPoints === 1 && this.pattern.lengths[this.index] > SAME_POINT_MM;
     if (this.isDrawing && !isRemainder) this.builder.end(this.tag);
     else this.builder.drop();
   }

@@ -2,7 +2,7 @@
 import { PAPER_SIZES, type PaperSize } from "../drawing/paper.js";
 import type { Box } from "../geometry/box.js";
 import { PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
-import { orientedPaper, type Layout, type Placement } from "./place.js";
+import { orientedPaper, type LayoutChoice, type Layout } from "./place.js";
 
 /** Width along x and height along y, unlike `PaperSize`, which is portrait. */
 type Size = PaperSize;
@@ -25,8 +25,8 @@ export const canBePaper = ({ widthMm, heightMm }: Size): boolean =>
   [widthMm, heightMm].every((mm) => mm >= PAPER_TABLE.widthMm.min && mm <= PAPER_TABLE.widthMm.max);
 
 /** Whether the paper is the file's page, at true size. */
-export const isOnFilesPage = ({ paper, fit, place }: PrepareSettings, page: Size): boolean =>
-  fit !== true && place === null && isSameSheet(paper, page);
+export const isOnFilesPage = ({ paper, fit, layout }: PrepareSettings, page: Size): boolean =>
+  fit !== true && layout === null && isSameSheet(paper, page);
 
 /**
  * Makes the paper the file's page, at true size. The paper lies as the page does, unless the machine reaches it only
@@ -42,7 +42,7 @@ export function onFilesPage<S extends PrepareSettings>(settings: S, page: Size, 
     paper: sheets.find((sheet) => isSameSheet(sheet, page)) ?? portrait,
     landscape: widthMm > heightMm !== isTurned,
     fit: "auto",
-    place: null,
+    layout: null,
     rotateDeg: "auto",
   };
 }
@@ -53,28 +53,32 @@ export function onFilesPage<S extends PrepareSettings>(settings: S, page: Size, 
  */
 export function quarterTurned<S extends PrepareSettings>(
   settings: S,
-  { frame, layout }: Pick<Placement, "frame" | "layout">,
+  { frame, choice }: Pick<Layout, "frame" | "choice">,
   page: Size,
 ): S {
-  const { paper, landscape, margins, place } = settings;
+  const { paper, landscape, margins, layout } = settings;
   const { heightMm } = orientedPaper(paper, landscape);
   return {
     ...settings,
     landscape: !landscape,
-    rotateDeg: turnsByItself(settings, layout, page) ? "auto" : (layout.rotateDeg + 90) % 360,
+    rotateDeg: turnsByItself(settings, choice, page) ? "auto" : (choice.rotateDeg + 90) % 360,
     margins: margins && turnedMargins(margins),
-    place: place && {
-      ...place,
+    layout: layout && {
+      ...layout,
       xMm: heightMm - frame.y1,
       yMm: frame.x0,
-      widthMm: place.heightMm,
-      heightMm: place.widthMm,
+      widthMm: layout.heightMm,
+      heightMm: layout.widthMm,
     },
   };
 }
 
 /** Whether the drawing turns with the paper because its page fits only that way. */
-const turnsByItself = ({ rotateDeg, paper, landscape }: PrepareSettings, now: Layout, page: Size): boolean =>
+const turnsByItself = (
+  { rotateDeg, paper, landscape }: PrepareSettings,
+  now: LayoutChoice,
+  page: Size,
+): boolean =>
   rotateDeg === "auto" &&
   now.rotateDeg === 0 &&
   now.how === "corner" &&

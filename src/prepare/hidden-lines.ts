@@ -10,9 +10,9 @@ import { FillRule, type Paths64 } from "clipper2-ts";
 import { PlotwrightError } from "../errors.js";
 import { boxContains, boxOfPoints, boxesTouch, grownBox, insideRange, type Box } from "../geometry/box.js";
 import { addParts, addPieces } from "../geometry/cut-line.js";
-import { LineBuilder, SAME_POINT, distance, lineCount, mix, type Lines } from "../geometry/polyline.js";
+import { LineBuilder, SAME_POINT_MM, distance, lineCount, mix, type Lines } from "../geometry/polyline.js";
 import { SCALE, cleanRings, regionContains, regionOf, ringsInBox, type Region } from "../geometry/region.js";
-import { longRun, merged, onEdgeFor, type Part } from "../geometry/region-edges.js";
+import { longRun, merged, onEdgeFor, type SegmentPart } from "../geometry/region-edges.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** A tile with fewer pairs of an edge and a segment is not divided. */
@@ -35,7 +35,7 @@ interface Cover {
   readonly points: number;
 }
 
-const WHOLE: readonly Part[] = [[0, 1]];
+const WHOLE: readonly SegmentPart[] = [[0, 1]];
 
 interface Tile {
   readonly box: Box;
@@ -72,7 +72,7 @@ export function hideCovered(
 
 class Hiding {
   /** The hidden parts of each segment that has any, by the number of its first point. */
-  private readonly hidden: (Part[] | undefined)[];
+  private readonly hidden: (SegmentPart[] | undefined)[];
   /** The line of each point. */
   private readonly lineOf: Uint32Array;
   private readonly maxGap: number;
@@ -115,15 +115,15 @@ class Hiding {
     for (let p = first; p < end && isWhole; p++) isWhole = hidden[p] === undefined;
     if (isWhole) return builder.copy(lines, i, lines.tag[i]);
     if (isDot[first] === 1) return;
-    const visible: Part[] = [];
+    const visible: SegmentPart[] = [];
     for (let p = first; p < end - 1; p++) addParts(this.visibleOf(p), p - first, visible);
     addPieces(lines, i, visible, builder);
   }
 
-  private visibleOf(p: number): readonly Part[] {
+  private visibleOf(p: number): readonly SegmentPart[] {
     const parts = this.hidden[p];
     if (parts === undefined) return WHOLE;
-    const rounding = SAME_POINT / distance(...this.endsOf(p));
+    const rounding = SAME_POINT_MM / distance(...this.endsOf(p));
     return merged(outsideOf(merged(parts, rounding)), rounding);
   }
 
@@ -173,7 +173,7 @@ class Hiding {
     this.spend(segments.length + covers.length);
   }
 
-  private cut(p: number, range: Part, covers: readonly Cover[]): void {
+  private cut(p: number, range: SegmentPart, covers: readonly Cover[]): void {
     const [x0, y0, x1, y1] = this.endsOf(p);
     let [enter, leave] = range;
     for (const { region } of covers) {
@@ -205,7 +205,7 @@ class Hiding {
     return this.lines.tag[this.lineOf[p]];
   }
 
-  private hide(p: number, part: Part): void {
+  private hide(p: number, part: SegmentPart): void {
     (this.hidden[p] ??= []).push(part);
   }
 
@@ -222,7 +222,7 @@ class Hiding {
   }
 
   /** The part of a segment in a box; an empty one if it misses the box. */
-  private rangeIn(p: number, box: Box): Part {
+  private rangeIn(p: number, box: Box): SegmentPart {
     return insideRange(...this.endsOf(p), box) ?? [0, 0];
   }
 
@@ -309,8 +309,8 @@ function quartersOf({ x0, y0, x1, y1 }: Box): Box[] {
 }
 
 /** What these parts, which ascend, leave of 0 to 1. */
-function outsideOf(parts: readonly Part[]): Part[] {
-  const outside: Part[] = [];
+function outsideOf(parts: readonly SegmentPart[]): SegmentPart[] {
+  const outside: SegmentPart[] = [];
   let at = 0;
   for (const [from, to] of parts) {
     if (from > at) outside.push([at, from]);

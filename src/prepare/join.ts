@@ -13,7 +13,7 @@
 import { NearestPoints, PointGrid } from "../geometry/point-grid.js";
 import {
   LineBuilder,
-  SAME_POINT,
+  SAME_POINT_MM,
   isClosedLine,
   lineLength,
   rangesBy,
@@ -35,9 +35,9 @@ const UNPAIRED = -1;
 export function joinLines(lines: Lines, radius: number, rangeOf: (tag: number) => number): Lines {
   const builder = new LineBuilder();
   for (const [first, end] of rangesBy(lines, rangeOf)) {
-    const pairing = new Pairing(lines, first, end, Math.max(radius, SAME_POINT));
-    pairing.run(SAME_POINT);
-    if (radius > SAME_POINT) pairing.run(radius);
+    const pairing = new EndPairing(lines, first, end, Math.max(radius, SAME_POINT_MM));
+    pairing.run(SAME_POINT_MM);
+    if (radius > SAME_POINT_MM) pairing.run(radius);
     pairing.write(builder);
   }
   return builder.finish();
@@ -57,14 +57,14 @@ export function joinInFileOrder(lines: Lines, radius: number): Lines {
       tag[next] === tag[i] &&
       isJoinable(i) &&
       isJoinable(next) &&
-      Math.hypot(xy[end + 2] - xy[end], xy[end + 3] - xy[end + 1]) <= Math.max(radius, SAME_POINT);
+      Math.hypot(xy[end + 2] - xy[end], xy[end + 3] - xy[end + 1]) <= Math.max(radius, SAME_POINT_MM);
     if (!meets) builder.end(tag[i]);
   }
   return builder.finish();
 }
 
 /** Pairs the ends of the lines [first, end), except those of dots and closed lines. */
-class Pairing {
+class EndPairing {
   private readonly partner: Int32Array;
   private readonly far: Int32Array;
   private readonly length: Float64Array;
@@ -158,7 +158,7 @@ class Pairing {
       if (other === e || !this.mayPair(e, other)) continue;
       const gap = Math.hypot(xy[2 * other] - x, xy[2 * other + 1] - y);
       if (gap > farthest) break;
-      farthest = Math.min(farthest, Math.max(FARTHER * gap, SAME_POINT));
+      farthest = Math.min(farthest, Math.max(FARTHER * gap, SAME_POINT_MM));
       const turn = this.turn(e, other, gap);
       if (turn < bestTurn) {
         bestTurn = turn;
@@ -173,7 +173,7 @@ class Pairing {
     const { out, xy } = this;
     const [ux, uy] = [out[2 * e], out[2 * e + 1]];
     const [vx, vy] = [-out[2 * other], -out[2 * other + 1]];
-    if (gap <= SAME_POINT) return 1 - (ux * vx + uy * vy);
+    if (gap <= SAME_POINT_MM) return 1 - (ux * vx + uy * vy);
     const dx = (xy[2 * other] - xy[2 * e]) / gap;
     const dy = (xy[2 * other + 1] - xy[2 * e + 1]) / gap;
     return 2 - (ux * dx + uy * dy) - (dx * vx + dy * vy);

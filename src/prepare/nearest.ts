@@ -8,7 +8,7 @@ import type { Tour } from "./tour.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** The pen's position, mm. */
-interface PenPlace {
+interface PenPosition {
   readonly x: number;
   readonly y: number;
 }
@@ -21,11 +21,11 @@ export function nearestOrder(
   lines: Lines,
   first: number,
   end: number,
-  from: PenPlace,
+  from: PenPosition,
   freeStart: boolean,
   tour: Tour,
   work: Work,
-): PenPlace {
+): PenPosition {
   const entries = entriesOf(lines, first, end, freeStart);
   const points = new PointGrid(entries.xy);
   const nearest = new NearestPoints(1);

@@ -4,7 +4,7 @@ import { boxContains, boxOfPoints, grownBox, hasRoom, isEmptyBox, type Box } fro
 import { lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import { mmInWords } from "../units.js";
 import type { OutsideMode } from "../settings/prepare.js";
-import { ROUNDING_MM, withTolerance, type Placement } from "./place.js";
+import { ROUNDING_MM, withTolerance, type Layout } from "./place.js";
 import { checkObject } from "../check-arguments.js";
 import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";
@@ -35,7 +35,7 @@ export interface OutsidePaper {
 }
 
 /** `lines`: where the ink lies, without the offsets of pens. */
-export function drawnSizeOf(lines: Lines, { map, layout }: Placement, isTurnChosen: boolean): DrawnSize {
+export function drawnSizeOf(lines: Lines, { map, choice }: Layout, isTurnChosen: boolean): DrawnSize {
   const box = boxOfPoints(lines.xy);
   const isEmpty = isEmptyBox(box);
   return {
@@ -43,12 +43,12 @@ export function drawnSizeOf(lines: Lines, { map, layout }: Placement, isTurnChos
     heightMm: isEmpty ? 0 : box.y1 - box.y0,
     scaleX: Math.hypot(map.a, map.b),
     scaleY: Math.hypot(map.c, map.d),
-    turnedDeg: isTurnChosen ? 0 : layout.rotateDeg,
+    turnedDeg: isTurnChosen ? 0 : choice.rotateDeg,
   };
 }
 
 /** Null if all lines are on the paper. `lines` as for `drawnSizeOf`. */
-export function outsidePaper(lines: Lines, { paper, content }: Placement): OutsidePaper | null {
+export function outsidePaper(lines: Lines, { paper, content }: Layout): OutsidePaper | null {
   const box = boxOfPoints(lines.xy);
   const sheet = withTolerance(paper);
   if (isEmptyBox(box) || boxContains(sheet, box)) return null;

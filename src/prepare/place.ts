@@ -6,7 +6,7 @@
  *        │  │  inside   │           fit      the drawing's content fills `inside`, centred
  *        y  └───────────┘           corner   true size, page corner on paper corner
  *                                   middle   true size, centred: a file without a page
- *                                   place    the content in the given box, then turned about its centre
+ *                                   box      the content in the given box, then turned about its centre
  *
  * The setting `fit` chooses between fit and corner; "auto" chooses by the file's page. A drawing that leaves the paper is
  * moved or fitted if the setting `outside` asks for it.
@@ -37,13 +37,13 @@ import {
 } from "../geometry/box.js";
 import type { MirrorMode, PlacedBox, PrepareSettings } from "../settings/prepare.js";
 
-export interface Placement {
+export interface Layout {
   /** Page mm to machine mm. */
   readonly map: Affine;
   readonly paper: Box;
   readonly inside: Box;
   /** How the drawing is laid out: settings that are "auto" are decided. */
-  readonly layout: Layout;
+  readonly choice: LayoutChoice;
   /** Box of the content on the paper; empty for an empty drawing. */
   readonly content: Box;
   /** The same before a placed box is turned. */
@@ -55,8 +55,8 @@ export interface Placement {
 }
 
 /** See the picture above. */
-export interface Layout {
-  readonly how: "fit" | "corner" | "middle" | "place";
+export interface LayoutChoice {
+  readonly how: "fit" | "corner" | "middle" | "box";
   readonly rotateDeg: number;
 }
 
@@ -80,48 +80,48 @@ export const withTolerance = ({ x0, y0, x1, y1 }: Box): Box => ({
 });
 
 /** Throws `bad-setting` if the margins leave no room. */
-export function placeDrawing(drawing: Drawing, settings: PrepareSettings): Placement {
-  const placement = laidOut(drawing, settings);
-  const { paper, inside, content, layout } = placement;
-  if (isEmptyBox(content) || boxContains(withTolerance(paper), content)) return placement;
-  if (settings.outside === "move") return movedBy(placement, shiftOnto(content, inside, paper));
-  if (settings.outside !== "fit") return placement;
-  const turnDeg = settings.place?.turnDeg ?? 0;
-  return laidOut(drawing, { ...settings, fit: true, place: null, rotateDeg: layout.rotateDeg + turnDeg });
+export function layOutDrawing(drawing: Drawing, settings: PrepareSettings): Layout {
+  const layout = laidOut(drawing, settings);
+  const { paper, inside, content, choice } = layout;
+  if (isEmptyBox(content) || boxContains(withTolerance(paper), content)) return layout;
+  if (settings.outside === "move") return movedBy(layout, shiftOnto(content, inside, paper));
+  if (settings.outside !== "fit") return layout;
+  const turnDeg = settings.layout?.turnDeg ?? 0;
+  return laidOut(drawing, { ...settings, fit: true, layout: null, rotateDeg: choice.rotateDeg + turnDeg });
 }
 
-/** A placement by the settings, whether or not it leaves the paper. */
-function laidOut(drawing: Drawing, settings: PrepareSettings): Placement {
+/** The layout by the settings, whether or not it leaves the paper. */
+function laidOut(drawing: Drawing, settings: PrepareSettings): Layout {
   const { widthMm, heightMm } = orientedPaper(settings.paper, settings.landscape);
   const paper = { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
   const inside = insideMargins(paper, settings);
-  const layout = layoutOf(drawing, settings, paper, inside);
-  const turn = turnOf(layout.rotateDeg, settings.mirror);
+  const choice = choiceOf(drawing, settings, paper, inside);
+  const turn = turnOf(choice.rotateDeg, settings.mirror);
   const { boxes: turned, whole } = shapeBoxes(drawing, turn);
   const content = contentBox(drawing, turned, whole, turn, settings.cropToPage);
-  const after = settings.place
-    ? placed(content, settings.place)
-    : layout.how === "fit"
+  const after = settings.layout
+    ? placed(content, settings.layout)
+    : choice.how === "fit"
       ? fitted(content, inside)
-      : layout.how === "middle"
+      : choice.how === "middle"
         ? toMiddle(content, inside, 1)
         : onCorner(pageBox(drawing, turn));
   const frame = isEmptyBox(content) ? content : movedBox(content, after);
-  const place = { paper, inside, layout, frame };
-  const turnInPlace = aboutCentre(frame, settings.place?.turnDeg ?? 0);
-  if (turnInPlace === null) {
+  const common = { paper, inside, choice, frame };
+  const turnInBox = aboutCentre(frame, settings.layout?.turnDeg ?? 0);
+  if (turnInBox === null) {
     return {
-      ...place,
+      ...common,
       map: compose(after, turn),
       content: frame,
       whole: movedBox(whole, after),
       shapeBoxes: () => turned.map((box) => movedBox(box, after)),
     };
   }
-  const map = compose(turnInPlace, compose(after, turn));
+  const map = compose(turnInBox, compose(after, turn));
   const moved = shapeBoxes(drawing, map);
   return {
-    ...place,
+    ...common,
     map,
     content: contentBox(drawing, moved.boxes, moved.whole, map, settings.cropToPage),
     whole: moved.whole,
@@ -129,11 +129,11 @@ function laidOut(drawing: Drawing, settings: PrepareSettings): Placement {
   };
 }
 
-function layoutOf(drawing: Drawing, settings: PrepareSettings, paper: Box, inside: Box): Layout {
-  const { fit, rotateDeg, mirror, place } = settings;
+function choiceOf(drawing: Drawing, settings: PrepareSettings, paper: Box, inside: Box): LayoutChoice {
+  const { fit, rotateDeg, mirror, layout } = settings;
   const turns = rotateDeg === "auto" ? [0, 90] : [rotateDeg];
   const [unturned] = turns;
-  if (place !== null) return { how: "place", rotateDeg: unturned };
+  if (layout !== null) return { how: "box", rotateDeg: unturned };
   if (fit === true) return { how: "fit", rotateDeg: unturned };
   // Such a page has no margins of its own.
   const isExtent = drawing.pageFrom === "extent" && fit === "auto";
@@ -160,15 +160,15 @@ function shiftOnto(content: Box, inside: Box, paper: Box): { readonly x: number;
   };
 }
 
-function movedBy(placement: Placement, { x, y }: { readonly x: number; readonly y: number }): Placement {
+function movedBy(layout: Layout, { x, y }: { readonly x: number; readonly y: number }): Layout {
   const by = translation(x, y);
   return {
-    ...placement,
-    map: compose(by, placement.map),
-    content: movedBox(placement.content, by),
-    frame: movedBox(placement.frame, by),
-    whole: movedBox(placement.whole, by),
-    shapeBoxes: () => placement.shapeBoxes().map((box) => movedBox(box, by)),
+    ...layout,
+    map: compose(by, layout.map),
+    content: movedBox(layout.content, by),
+    frame: movedBox(layout.frame, by),
+    whole: movedBox(layout.whole, by),
+    shapeBoxes: () => layout.shapeBoxes().map((box) => movedBox(box, by)),
   };
 }
 
@@ -203,7 +203,7 @@ function insideMargins(paper: Box, settings: PrepareSettings): Box {
 
 const EVERYTHING: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infinity };
 
-/** Boxes for `Placement`. */
+/** Boxes for `Layout`. */
 function shapeBoxes(drawing: Drawing, map: Affine): { readonly boxes: readonly Box[]; readonly whole: Box } {
   const boxes: Box[] = [];
   let whole = EMPTY_BOX;

@@ -11,7 +11,7 @@ import { type StrokeSet, setFor } from "../drawing/stroke-set.js";
 import { lineCount, totalLength } from "../geometry/polyline.js";
 import { cropAreas, filledAreas, filledOnly } from "./areas.js";
 import {
-  byLayer,
+  sortedByLayer,
   countLayers,
   dropShort,
   emptyWarning,
@@ -28,7 +28,7 @@ import {
   flattenShapes,
   gapsOfShapes,
   addHatch,
-  areaToFill,
+  areaOfHatches,
   cropBox,
   cropLines,
   cropToPage,
@@ -46,7 +46,7 @@ import { joinInFileOrder, joinLines } from "./join.js";
 import { inOrder, layersOf, visibleLayers, speedPartsOf } from "./layers.js";
 import { inDrawingOrder } from "./order.js";
 import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
-import { placeDrawing } from "./place.js";
+import { layOutDrawing } from "./place.js";
 import { dropRepeats } from "./repeats.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { simplifyLines, reloopLines, smoothLines } from "./points.js";
@@ -102,10 +102,10 @@ export function prepare(
   const warnings: string[] = [];
 
   progress(0, "placing");
-  const place = placeDrawing(drawing, settings);
+  const place = layOutDrawing(drawing, settings);
   const limit = cropBox(settings, place);
   const edge = edgeName(settings);
-  const area = areaToFill(settings, place, limit);
+  const area = areaOfHatches(settings, place, limit);
   const table = inOrder(layersOf(drawing, settings.layers), settings.layerOrder);
   const isVisible = visibleLayers(table, settings);
   const wanted = shapesOnPaper(drawing, place, limit, edge, warnings);
@@ -158,7 +158,7 @@ export function prepare(
   progress(0.45, "joining");
   const parts = speedPartsOf(drawing, table);
   const partOf = partOfTag(drawing);
-  lines = byLayer(lines, parts, drawing);
+  lines = sortedByLayer(lines, parts, drawing);
   lines = dropRepeats(lines, settings.dropRepeatsMm, partOf, options);
   if (settings.joinMm > 0) {
     lines =

@@ -11,7 +11,7 @@
  */
 import Flatbush from "flatbush";
 import { LineBuilder, distance, lineCount, mix, type Lines } from "../geometry/polyline.js";
-import { merged, type Part } from "../geometry/region-edges.js";
+import { merged, type SegmentPart } from "../geometry/region-edges.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /**
@@ -26,7 +26,7 @@ export const dropRepeats = (
 ): Lines =>
   tolerance > 0 && lineCount(lines) > 0 ? new Repeats(lines, tolerance, partOf).dropped(work) : lines;
 
-const WHOLE: readonly Part[] = [[0, 1]];
+const WHOLE: readonly SegmentPart[] = [[0, 1]];
 
 class Repeats {
   private readonly builder = new LineBuilder();
@@ -35,7 +35,7 @@ class Repeats {
   private readonly point: number[] = [];
   private readonly line: number[] = [];
   /** The drawn parts of each piece so far. */
-  private readonly drawn: (readonly Part[])[] = [];
+  private readonly drawn: (readonly SegmentPart[])[] = [];
 
   constructor(
     private readonly lines: Lines,
@@ -117,11 +117,11 @@ class Repeats {
   }
 
   /** Adds the new parts of the piece to the line under construction, ending the line before each gap. Returns the parts. */
-  private addNewParts(piece: number): readonly Part[] {
+  private addNewParts(piece: number): readonly SegmentPart[] {
     const { builder, tolerance } = this;
     const [x0, y0, x1, y1] = this.endsOf(piece);
     const covered = this.coveredRanges(piece);
-    const drawn: Part[] = [];
+    const drawn: SegmentPart[] = [];
     const length = distance(x0, y0, x1, y1);
     const addNew = (from: number, to: number): void => {
       // A remainder shorter than the tolerance is dropped too, to save a pen lift.
@@ -142,8 +142,8 @@ class Repeats {
   }
 
   /** Ranges of t where the piece runs along drawn parts of earlier ones, ascending and apart. */
-  private coveredRanges(piece: number): Part[] {
-    const ranges: Part[] = [];
+  private coveredRanges(piece: number): SegmentPart[] {
+    const ranges: SegmentPart[] = [];
     for (const k of this.drawnNear(piece)) {
       for (const part of this.drawn[k]) {
         const range = sharedRange(this.lines.xy, this.point[piece], this.point[k], part, this.tolerance);
@@ -155,7 +155,13 @@ class Repeats {
 }
 
 /** The range of t on segment p where the part of segment q is within the tolerance; null if there is none. */
-function sharedRange(xy: Float64Array, p: number, q: number, part: Part, tolerance: number): Part | null {
+function sharedRange(
+  xy: Float64Array,
+  p: number,
+  q: number,
+  part: SegmentPart,
+  tolerance: number,
+): SegmentPart | null {
   const x0 = xy[2 * p];
   const y0 = xy[2 * p + 1];
   const dx = xy[2 * p + 2] - x0;

@@ -29,14 +29,14 @@ import { regionOf, ringOf, type Region } from "../geometry/region.js";
 import { patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "./layers.js";
-import { isFarAway, pageCorners, withTolerance, type Placement } from "./place.js";
+import { isFarAway, pageCorners, withTolerance, type Layout } from "./place.js";
 import type { HatchSettings, PrepareSettings } from "../settings/prepare.js";
 import { stopIfCancelled, type Work } from "./work.js";
 import { flattenVerbs, gapOf } from "../drawing/flatten.js";
 import type { Affine } from "../geometry/affine.js";
 
 /** The box to which lines are cropped; null if nothing is cropped. */
-export function cropBox({ clipToMargins, outside, reach }: PrepareSettings, place: Placement): Box | null {
+export function cropBox({ clipToMargins, outside, reach }: PrepareSettings, place: Layout): Box | null {
   const boxes = [
     ...(clipToMargins ? [place.inside] : []),
     ...(outside === "cut" ? [withTolerance(place.paper)] : []),
@@ -52,7 +52,7 @@ export const edgeName = ({ clipToMargins, outside }: PrepareSettings): string =>
 /** Marks the shapes to flatten: those that touch `limit` and are not extremely far away. */
 export function shapesOnPaper(
   drawing: Drawing,
-  place: Placement,
+  place: Layout,
   limit: Box | null,
   edge: string,
   warnings: string[],
@@ -114,11 +114,11 @@ const BESIDE_PAPER_MM = 1_000;
  * The area for dashes and hatches. A drawing that leaves the paper is not plotted unless that is allowed, so it needs
  * only so many of them there that this is noticed.
  */
-export const areaToFill = ({ outside }: PrepareSettings, { paper }: Placement, limit: Box | null): Box =>
+export const areaOfHatches = ({ outside }: PrepareSettings, { paper }: Layout, limit: Box | null): Box =>
   limit ?? (outside === "allow" ? ANYWHERE : grownBox(paper, BESIDE_PAPER_MM));
 
 /** The dash pattern of each shape on the paper; null for solid lines. */
-export function dashesOf(drawing: Drawing, place: Placement): (shape: number) => DashPattern | null {
+export function dashesOf(drawing: Drawing, place: Layout): (shape: number) => DashPattern | null {
   const patterns = drawing.dashes.map((pattern) => patternOnPaper(pattern, place.map));
   return (shape) => {
     const dash = drawing.paths.dash[shape];
@@ -171,7 +171,7 @@ export function cutsAreas(
 }
 
 /** Crops to the file's own page, which may be rotated. */
-export function cropToPage(lines: Lines, drawing: Drawing, place: Placement): Lines {
+export function cropToPage(lines: Lines, drawing: Drawing, place: Layout): Lines {
   const corners = pageCorners(drawing, place.map);
   const page = regionOf([ringOf(corners)]);
   // Most drawings are within their page. Check that first, because cutting a large drawing by a region is slow.

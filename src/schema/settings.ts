@@ -67,7 +67,7 @@ export const prepareSettingsSchema = z.object({
     })
     .nullable()
     .default(null),
-  place: z
+  layout: z
     .object({
       xMm: anywhere.default(0),
       yMm: anywhere.default(0),

@@ -385,7 +385,7 @@ export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
   /** One margin per side; null: `marginMm` on all sides. */
   readonly margins: FourMargins | null;
   /** Position and size, after rotating and mirroring; overrides `fit`. Null: `fit` applies. */
-  readonly place: PlacedBox | null;
+  readonly layout: PlacedBox | null;
   /** The machine's travel from home: lines outside are cut off. Null: nothing is cut off. */
   readonly reach: PaperSize | null;
   /** How areas are filled with lines. */
@@ -403,7 +403,7 @@ export const DEFAULT_PREPARE: PrepareSettings = {
   layerOrder: [],
   layerRepeats: {},
   margins: null,
-  place: null,
+  layout: null,
   reach: null,
   hatch: defaultsOf(HATCH_TABLE),
   layerHatches: [],

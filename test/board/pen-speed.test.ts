@@ -3,7 +3,7 @@
  * starts.
  */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type PenSettings } from "../../src/index.js";
 import { penCommand, penMoveOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -24,13 +24,13 @@ const FRAME_S = 0.024;
 async function driverOf(machine: string, pen: PenSettings) {
   const world = new ManualClock();
   const settings = { ...DEFAULT_PLOT_SETTINGS, machine, pen };
-  const driver = new PlotterDriver({ device: "virtual", clock: world, settings });
+  const driver = new NodePlotter({ device: "virtual", clock: world, settings });
   await world.run(driver.start());
   return { world, driver, settings, board: virtualBoardOf(driver) };
 }
 
 /** After power-on the pen may be at any height. */
-async function atTop(world: ManualClock, driver: PlotterDriver): Promise<void> {
+async function atTop(world: ManualClock, driver: NodePlotter): Promise<void> {
   await world.run(driver.pen({ up: true }));
   await world.advance(5);
 }

@@ -130,8 +130,8 @@ describe("a stream on a healthy host", () => {
     const played = streamer.play(makeStream(wavyRows(200, 25)));
     await rig.world.advance(2);
     // 2 s in: a millisecond or two for the connection.
-    expect(streamer.place().planS).toBeCloseTo(2, 2);
-    expect(streamer.place().commandIndex).toBe(79);
+    expect(streamer.position().planS).toBeCloseTo(2, 2);
+    expect(streamer.position().commandIndex).toBe(79);
     await rig.world.run(played);
     expect(rig.board.state().boardS).toBeGreaterThan(5);
   });

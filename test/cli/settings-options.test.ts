@@ -120,7 +120,7 @@ describe("the settings' options", () => {
       outlineFills: false,
       mirror: "leftRight",
       margins: { topMm: 10, rightMm: 20, bottomMm: 30, leftMm: 40 },
-      place: { xMm: 5, yMm: 6, widthMm: 70, heightMm: null },
+      layout: { xMm: 5, yMm: 6, widthMm: 70, heightMm: null },
       spread: "shuffle",
       order: "best",
       orderS: 3,

@@ -3,7 +3,7 @@
  * read before the board counts as silent.
  */
 import { expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
 import { openSerial } from "../../server/serial/serial-transport.js";
 import { BoardSession } from "../../src/index.js";
@@ -36,7 +36,7 @@ it.each([1.6, 4])("a busy host does not take a board for silent after %f s of wo
 
 it("a busy host finishes a plot although it works for seconds in between", async () => {
   const board = await PtyBoard.open();
-  const driver = new PlotterDriver({ device: board.path });
+  const driver = new NodePlotter({ device: board.path });
   try {
     await driver.start();
     const strokes = strokesOf([10, 10, 120, 10], [120, 20, 10, 20]);

@@ -6,7 +6,7 @@ import { fork } from "node:child_process";
 import { once } from "node:events";
 import { chmodSync } from "node:fs";
 import { describe, expect, it, type TestContext } from "vitest";
-import { PlotterDriver, type PlotterState } from "../../server/plotter/node-plotter.js";
+import { NodePlotter, type PlotterState } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -31,7 +31,7 @@ function closeAfter<T extends { close(): Promise<void> }>({ onTestFinished }: Te
 
 interface Plot {
   readonly board: PtyBoard;
-  readonly driver: PlotterDriver;
+  readonly driver: NodePlotter;
   readonly run: LivePlotRun;
   readonly journal: JournalEntry[];
   /** How `finished` ended, and the seconds for which this process ran until then. */
@@ -41,7 +41,7 @@ interface Plot {
 /** A plot at real speed that is drawing a line. */
 async function drawing(test: TestContext, firmware = "2.8.1"): Promise<Plot> {
   const board = closeAfter(test, await PtyBoard.open({ firmware }));
-  const driver = closeAfter(test, new PlotterDriver({ device: board.path }));
+  const driver = closeAfter(test, new NodePlotter({ device: board.path }));
   await driver.start();
   const journal: JournalEntry[] = [];
   const run = await driver.plot(new LocalPlanner(LONG), DEFAULT_PLOT_SETTINGS, {
@@ -114,7 +114,7 @@ describe.concurrent("in mid-plot", () => {
 
 describe.concurrent("when connecting", () => {
   const connected = async (test: TestContext, path: string): Promise<PlotterState> => {
-    const driver = closeAfter(test, new PlotterDriver({ device: path }));
+    const driver = closeAfter(test, new NodePlotter({ device: path }));
     const from = clock.nowS();
     await driver.start();
     expect(clock.nowS() - from).toBeLessThan(WITHIN_S);

@@ -5,7 +5,7 @@
 import { fork } from "node:child_process";
 import { once } from "node:events";
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import { JOURNAL_S, PROGRESS_S } from "../../host/plotter/place-left.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -94,7 +94,7 @@ async function killed(board: PtyBoard, line: readonly number[], afterS: number):
 }
 
 async function unplugged(board: PtyBoard, line: readonly number[], afterS: number): Promise<JournalEntry> {
-  const driver = new PlotterDriver({ device: board.path });
+  const driver = new NodePlotter({ device: board.path });
   try {
     await driver.start();
     const journal: JournalEntry[] = [];
@@ -123,7 +123,7 @@ async function resumedAfter(
   const board = await PtyBoard.open({ firmware, wakeful: true });
   try {
     const { place: from, received } = await interrupt(board, line, afterS);
-    const driver = new PlotterDriver({ device: board.path });
+    const driver = new NodePlotter({ device: board.path });
     try {
       await driver.start();
       await untilIdle(driver);

@@ -5,7 +5,7 @@
 import { fork } from "node:child_process";
 import { once } from "node:events";
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { machineById, planJob } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";
@@ -63,7 +63,7 @@ const kill: Interrupt = async (board, overlap, afterS) => {
 };
 
 const unplug: Interrupt = async (board, overlap, afterS) => {
-  const driver = new PlotterDriver({ device: board.path });
+  const driver = new NodePlotter({ device: board.path });
   try {
     await driver.start();
     const journal: JournalEntry[] = [];
@@ -86,7 +86,7 @@ async function resumed(interrupt: Interrupt, { overlap, firmware, servo }: Case,
   const board = await PtyBoard.open({ firmware, wakeful: true, servo: virtualServo(servo) });
   try {
     const { place: from, received } = await interrupt(board, overlap, afterS);
-    const driver = new PlotterDriver({ device: board.path });
+    const driver = new NodePlotter({ device: board.path });
     try {
       await driver.start();
       await untilIdle(driver);

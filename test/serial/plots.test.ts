@@ -4,7 +4,7 @@
  */
 import { readFileSync } from "node:fs";
 import { afterEach, describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import { importSvg, prepare, type Prepared } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { LocalPlanner } from "../support/local-planner.js";
@@ -60,7 +60,7 @@ describe("a drawing on a board behind a pseudo-terminal", () => {
   it.each(SAMPLES)("%s matches the file, and the motors end where they should", async (name) => {
     const board = await PtyBoard.open({ speed: SPEED });
     open.push(board);
-    const driver = new PlotterDriver({ device: board.path, virtualSpeed: SPEED });
+    const driver = new NodePlotter({ device: board.path, virtualSpeed: SPEED });
     open.push(driver);
     await driver.start();
     expect(driver.state).toMatchObject({ connection: "idle", kind: "serial", firmware: "2.8.1" });

@@ -1,6 +1,13 @@
 /** A stop in the middle of a stroke uses the acceleration of that stroke's layer, not of other layers. */
 import { describe, expect, it } from "vitest";
-import { DEFAULT_PEN, plan, stateAt, type Place, type StrokeSet, type Trajectory } from "../../src/index.js";
+import {
+  DEFAULT_PEN,
+  plan,
+  stateAt,
+  type StrokePosition,
+  type StrokeSet,
+  type Trajectory,
+} from "../../src/index.js";
 import { comeToRest } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { brakingAt } from "../../src/drivers/ebb/machine/braking.js";
@@ -68,7 +75,7 @@ describe("a stop in the middle of a stroke", () => {
   );
 
   it("is as gentle as the plan on firmware with constant speeds only", () => {
-    const old = (place: Place | null) => brakingAt(settings, STROKES, place, "2.4.4").limits;
+    const old = (place: StrokePosition | null) => brakingAt(settings, STROKES, place, "2.4.4").limits;
     const drawAccels = SHAPES.map((_, stroke) => old({ stroke, alongMm: 1 }).drawAccel);
     expect(drawAccels).toEqual([ACCEL.slow, ACCEL.slow, ACCEL.plain, ACCEL.plain, 500, 500]);
     expect(old(null).travelAccel).toBe(500);

@@ -1,6 +1,6 @@
 /** A plotter whose machine is changed to one with another controller, while its board is off or moves. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection } from "../../host/plotter/plotter-driver.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { PlotwrightError, type Transport } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
@@ -20,7 +20,7 @@ async function newPlotter() {
       ? Promise.reject(new PlotwrightError("no-board", "There is no such port."))
       : Promise.resolve(board.transport());
   const devices = { find: () => Promise.resolve([]), open };
-  const driver = new PlotterDriver({ device: "a port", clock: world, devices });
+  const driver = new PlotterConnection({ device: "a port", clock: world, devices });
   await world.run(driver.start());
   return { world, driver, port };
 }
@@ -50,7 +50,7 @@ describe("a machine with another controller, chosen while the board is off", () 
 
 it("a machine with another controller, chosen during a move, is used after it", async () => {
   const world = new ManualClock();
-  const driver = new PlotterDriver({
+  const driver = new PlotterConnection({
     device: "virtual",
     clock: world,
     devices: { find: () => Promise.resolve([]), open: () => Promise.reject(new Error("no port")) },

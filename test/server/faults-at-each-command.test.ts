@@ -6,7 +6,7 @@ import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { VirtualBoard } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection as HostDriver } from "../../host/plotter/plotter-driver.js";
 import { StallingHost } from "../support/stalling-host.js";
 import { compareDrawn } from "../support/drawn-truth.js";
 import { IS_FULL } from "../support/full-run.js";

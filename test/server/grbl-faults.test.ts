@@ -2,8 +2,8 @@
 import { describe, expect, it } from "vitest";
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
-import type { Place } from "../../src/index.js";
-import { pointOfPlace } from "../../src/internal.js";
+import type { StrokePosition } from "../../src/index.js";
+import { pointAt } from "../../src/internal.js";
 import { LIMIT_S, newMachine, newPlotter, SETTINGS, RefusedPlanner } from "../support/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../support/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/local-planner.js";
@@ -87,7 +87,7 @@ describe("a plot ends", () => {
 describe("after an error", () => {
   it("a refused line leaves the pen up, the position known and the plotter free", async () => {
     const { board, driver, begin, within, mustWork } = await newPlotter();
-    const places: Place[] = [];
+    const places: StrokePosition[] = [];
     const journal = { record: ({ place }: JournalEntry) => void places.push(place) };
     const run = await begin(new RefusedPlanner(DRAWING, 60), { journal });
     expect(await within(run.finished)).toMatch(/^board-error: The Grbl refused G5X1 with error:20/);
@@ -97,7 +97,7 @@ describe("after an error", () => {
     const { state } = driver;
     expect(state).toMatchObject({ connection: "idle", penUp: true });
     expect(Math.hypot(state.xMm! - xMm, state.yMm! - yMm)).toBeLessThan(0.002);
-    const left = pointOfPlace(DRAWING, places[places.length - 1]);
+    const left = pointAt(DRAWING, places[places.length - 1]);
     expect(Math.hypot(left.x - xMm, left.y - yMm)).toBeLessThan(0.05);
     // It slowed down along the path.
     expect(driver.log()).not.toContain("ALARM");

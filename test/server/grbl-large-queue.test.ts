@@ -1,6 +1,6 @@
 /** A Grbl on a board with more memory: its queue holds more moves than an Arduino's. */
 import { expect, it } from "vitest";
-import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection } from "../../host/plotter/plotter-driver.js";
 import { asciiBytes, LineSplitter } from "../../src/drivers/line-splitter.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { Transport } from "../../src/index.js";
@@ -96,7 +96,7 @@ it("an emergency stop on a board with a large queue leaves no gap", async () => 
     const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
     const open = (): Promise<Transport> => Promise.resolve(new LargeQueue(board.transport()));
     const devices = { find: () => Promise.resolve([]), open };
-    const driver = new PlotterDriver({ device: "a port", clock: world, settings: SETTINGS, devices });
+    const driver = new PlotterConnection({ device: "a port", clock: world, settings: SETTINGS, devices });
     await world.run(driver.start());
     const run = await world.run(driver.plot(new LocalPlanner(DRAWING), SETTINGS));
     await world.advance(afterS);

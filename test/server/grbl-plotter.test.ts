@@ -1,6 +1,6 @@
 /** A plotter whose machine has a Grbl, virtual, on a manual clock. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import { planJob, type StrokeSet } from "../../src/index.js";
 import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
@@ -16,7 +16,7 @@ const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, cus
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
 async function newPlotter() {
   const world = new ManualClock();
-  const driver = new PlotterDriver({ device: "virtual", clock: world, settings: SETTINGS });
+  const driver = new NodePlotter({ device: "virtual", clock: world, settings: SETTINGS });
   await world.run(driver.start());
   const board = driver.virtualMachine;
   if (!(board instanceof VirtualGrbl)) throw new TypeError("it is not a virtual Grbl");

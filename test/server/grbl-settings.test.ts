@@ -1,6 +1,6 @@
 /** A Grbl's own settings, its locks, and its pen after a reconnection. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection } from "../../host/plotter/plotter-driver.js";
 import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { planJob } from "../../src/index.js";
@@ -232,7 +232,7 @@ describe("the pen at the first connection", () => {
     await board.transport().write(new TextEncoder().encode(`G1X20Z${zMm}F6000\n`));
     await world.advance(2);
     if (restarts) board.restart();
-    const driver = new PlotterDriver({
+    const driver = new PlotterConnection({
       device: "a port",
       clock: world,
       settings: SETTINGS,

@@ -7,7 +7,7 @@ import { describe, expect, it } from "vitest";
 import { JOURNAL_S, PROGRESS_S } from "../../host/plotter/place-left.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import type { StrokeSet } from "../../src/index.js";
-import { leavesDrawingMm, machineOf } from "../../src/internal.js";
+import { maxOffDrawingMm, machineOf } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { cases, IS_FULL } from "../support/full-run.js";
 import { compareDrawn } from "../support/drawn-truth.js";
@@ -75,7 +75,7 @@ function check(found: readonly Resumption[], settings: PlotSettings, unseenMm: n
   const unsureS = sendAheadMs / 1_000 + JOURNAL_S + PROGRESS_S;
   const mostMm = motion.draw.speedMmPerS * unsureS + unseenMm;
   // Two passes as near to each other as the carriage may leave the line count as one.
-  const alikeMm = unseenMm + 2 * leavesDrawingMm(motion, machineOf(settings));
+  const alikeMm = unseenMm + 2 * maxOffDrawingMm(motion, machineOf(settings));
   expect(found.length).toBeGreaterThanOrEqual(INSTANTS);
   expect(found.filter(({ missingMm }) => missingMm > unseenMm)).toEqual([]);
   expect(found.filter((one) => overlapOf(one) > one.unsureMm + alikeMm)).toEqual([]);

@@ -23,7 +23,7 @@ async function endOfPlot(waitingCount: number): Promise<{ asked: string[]; annou
   const dir = folderOfTest();
   prepareDataDir(dir);
   const store = Store.open(dir);
-  store.together(() => {
+  store.transaction(() => {
     for (let i = 0; i <= waitingCount; i++) store.addJob(makeJob(`job-${i}`), drawingOf(`job-${i}`));
   });
   const plotter = new LedPlotter();

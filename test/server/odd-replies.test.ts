@@ -1,6 +1,6 @@
 /** Boards whose replies are not in the form of the factory setting: the plot ends, once, or the board is refused at connecting. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection } from "../../host/plotter/plotter-driver.js";
 import { VirtualBoard, type PlotwrightError, type Transport } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { compareDrawn } from "../support/drawn-truth.js";
@@ -41,7 +41,7 @@ async function plotterWith(
   const world = new ManualClock();
   const board = new VirtualBoard({ clock: world, firmware, servo: {} });
   for (const line of before) board.receive(ascii(`${line}\r`));
-  const driver = new PlotterDriver({
+  const driver = new PlotterConnection({
     device: "/dev/board",
     clock: world,
     devices: {

@@ -1,6 +1,6 @@
 /** A plot that is interrupted and resumed on another board, which was used before and so knows a position of its own. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection } from "../../host/plotter/plotter-driver.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { VirtualBoard } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -28,7 +28,7 @@ async function continuedOn(first: Kind, second: Kind, isSame = false) {
   };
   const boards = [boardOf(first), boardOf(second)];
   let plugged = 1;
-  const driver = new PlotterDriver({
+  const driver = new PlotterConnection({
     device: PATH,
     clock: world,
     devices: {

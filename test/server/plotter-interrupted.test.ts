@@ -5,7 +5,7 @@
 import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import type { Devices } from "../../host/plotter/connection.js";
-import { PlotterDriver as HostDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection as HostDriver } from "../../host/plotter/plotter-driver.js";
 import { VirtualBoard, type PlotwrightError, type StrokeSet, type Transport } from "../../src/index.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";

@@ -1,6 +1,6 @@
 /** Closing a plotter: in the middle of an action, with its board lost, or with two requests at once. */
 import { describe, expect, it } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { DRAWING, expectDrawn, plotting, settingsOf } from "../support/live-plot.js";
 import { LocalPlanner } from "../support/local-planner.js";
@@ -59,7 +59,7 @@ describe("a plotter that is closed", () => {
 
   it("does not become idle if it is closed while it connects", async () => {
     const world = new ManualClock();
-    const driver = new PlotterDriver({ device: "virtual", clock: world });
+    const driver = new NodePlotter({ device: "virtual", clock: world });
     const states: string[] = [];
     const started = driver.start();
     // The board has answered, and is being taken over.

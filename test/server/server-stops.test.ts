@@ -5,7 +5,7 @@
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { JobQueue } from "../../host/queue/job-queue.js";
 import type { PlotPlanner } from "../../host/planning/planning.js";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import { prepareDataDir } from "../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../server/storage/drawing-files.js";
 import { Store } from "../../server/storage/store.js";
@@ -39,7 +39,7 @@ const WINDOW_MM = 40;
 
 let dir: string;
 let world: ManualClock;
-let driver: PlotterDriver;
+let driver: NodePlotter;
 let board: VirtualBoard;
 let store: Store;
 let queue: JobQueue;
@@ -129,7 +129,7 @@ const INSTANTS_S = [1.5, 6.5, 10];
 
 describe.each(["2.8.1", "3.0.3"])("on firmware %s", (firmware) => {
   beforeEach(async () => {
-    driver = new PlotterDriver({ device: "virtual", clock: world, firmware });
+    driver = new NodePlotter({ device: "virtual", clock: world, firmware });
     await world.run(driver.start());
     board = virtualBoardOf(driver);
     openQueue();

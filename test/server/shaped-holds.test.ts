@@ -3,7 +3,7 @@
  * swinging-stops.test.ts tests the marks on the paper.
  */
 import { describe, expect, it } from "vitest";
-import type { Place } from "../../src/index.js";
+import type { StrokePosition } from "../../src/index.js";
 import { SpringAxis } from "../../src/plan/spring-pen.js";
 import { firmwareFeatures } from "../../src/drivers/ebb/protocol/firmware.js";
 import { comeToRest } from "../../src/plan/come-to-rest.js";
@@ -85,7 +85,7 @@ describe("a hold in shaped motion", () => {
       let held = 0;
       for (let i = 0; i < PLOTS; i++) {
         const { world, board, run } = await plotting(firmware);
-        const holds: Place[] = [];
+        const holds: StrokePosition[] = [];
         let done = false;
         void run.finished.then(() => (done = true));
         const isDone = (): boolean => done;

@@ -121,7 +121,7 @@ describe("the state", () => {
   const SMALL = { version: "", plotters: [], jobs: [makeJob("a"), makeJob("b", { settings: LARGE })] };
 
   it("has the whole queue and the last 50 of the history; the rest is fetched in parts", async () => {
-    app.store.together(() => {
+    app.store.transaction(() => {
       for (let i = 0; i < 120; i++) {
         const endedAt = new Date(Date.parse("2026-01-01") + 1_000 * i).toISOString();
         app.store.addJob(makeJob(`ended-${i}`, { state: "done", endedAt }), drawingOf("a"));

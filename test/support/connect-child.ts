@@ -1,7 +1,7 @@
 /** Connects to a port under the account that runs it, and sends the result to its parent. */
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 
-const driver = new PlotterDriver({ device: process.argv[2] });
+const driver = new NodePlotter({ device: process.argv[2] });
 await driver.start();
 process.send!(driver.state);
 await driver.close();

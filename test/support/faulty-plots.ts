@@ -3,7 +3,7 @@
  * resumed after each interruption, as a user would do by Recover and Resume. Then what the board drew is
  * compared with the drawing.
  */
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError, StrokeSet } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
@@ -51,7 +51,7 @@ export async function plotWithFault(
   random: () => number,
 ): Promise<FaultyPlotResult> {
   const board = await PtyBoard.open({ firmware, wakeful: true });
-  const driver = new PlotterDriver({ device: board.path });
+  const driver = new NodePlotter({ device: board.path });
   try {
     await driver.start();
     const journal: JournalEntry[] = [];
@@ -95,7 +95,7 @@ const outcomeOf = (run: LivePlotRun): Promise<string> =>
     (error: PlotwrightError) => `${error.code}: ${error.message}`,
   );
 
-export async function untilIdle(driver: PlotterDriver): Promise<void> {
+export async function untilIdle(driver: NodePlotter): Promise<void> {
   const untilMs = Date.now() + 1_000 * IDLE_WITHIN_S;
   while (driver.state.connection !== "idle") {
     if (Date.now() > untilMs) throw new Error(`the plotter is not idle again: ${driver.state.message}`);

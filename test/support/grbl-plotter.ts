@@ -1,6 +1,6 @@
 /** A plotter whose machine has a virtual Grbl, on a manual clock and over a connection that a test can disturb. */
 import { expect } from "vitest";
-import { PlotterDriver } from "../../host/plotter/plotter-driver.js";
+import { PlotterConnection } from "../../host/plotter/plotter-driver.js";
 import type { PlotStart } from "../../host/plotter/plotter-port.js";
 import { driver as grblDriver } from "../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../src/drivers/grbl/virtual/virtual-grbl.js";
@@ -78,7 +78,7 @@ export async function newPlotter(options: VirtualGrblOptions = {}, machine: Mach
     lines.push(new WeakLine(board.transport(), world));
     return Promise.resolve(lines[lines.length - 1]);
   };
-  const driver = new PlotterDriver({
+  const driver = new PlotterConnection({
     device: "a port",
     clock: world,
     settings: { ...SETTINGS, customMachine: machine },

@@ -2,17 +2,23 @@
  * A plot on a virtual board that can be interrupted, in thought, at any instant: from what its host has stored and the
  * board can have received, where it would resume, and where the board would really have stopped.
  */
-import { placeLeft } from "../../host/plotter/place-left.js";
+import { resumePosition } from "../../host/plotter/place-left.js";
 import { MachinePlot } from "../../host/plotter/plot-run.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { streamOf } from "../../src/drivers/ebb/compile/command-stream.js";
 import { driver as ebbDriver } from "../../src/drivers/ebb/controller.js";
-import { commandLine, VirtualBoard, type Place, type StrokeSet, type Transport } from "../../src/index.js";
-import { machineOf, type MachineRun } from "../../src/internal.js";
-import { placeFromMotors } from "../../src/machines/motors.js";
+import {
+  commandLine,
+  VirtualBoard,
+  type StrokePosition,
+  type StrokeSet,
+  type Transport,
+} from "../../src/index.js";
+import { machineOf, type Playback } from "../../src/internal.js";
+import { positionFromMotors } from "../../src/machines/motors.js";
 import { isPenUpBefore } from "../../src/plan/pen-moves.js";
 import { strokeLengthMm } from "../../src/position/on-drawing.js";
-import { nextPlace } from "../../src/position/on-plan.js";
+import { nextPosition } from "../../src/position/on-plan.js";
 import { stateAt } from "../../src/plan/trajectory.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { ManualClock } from "./manual-clock.js";
@@ -41,7 +47,7 @@ export class InterruptiblePlot {
   private readonly journal: JournalEntry[] = [];
   private readonly planner: KeepingPlanner;
   private readonly board: VirtualBoard;
-  private run: MachineRun | null = null;
+  private run: Playback | null = null;
   /** Commands of the plan that were written. */
   private writtenCount = 0;
 
@@ -145,14 +151,14 @@ export class InterruptiblePlot {
     const { trajectory, commands } = this.planner.plots[0];
     const stream = streamOf(commands);
     const last = count - 1;
-    const at = placeFromMotors(machineOf(settings), stream.steps1[last], stream.steps2[last]);
+    const at = positionFromMotors(machineOf(settings), stream.steps1[last], stream.steps2[last]);
     const penUp = isPenUpBefore(trajectory, stream.planS[count]);
     // A carriage at home may have been brought there by hand.
     const foundMidPlot = penUp && at.x === 0 && at.y === 0 ? null : { penUp };
     const machine = { foundMidPlot, speed: 1, positionMm: () => at };
-    const found = placeLeft(machine, strokes, settings, [], { from, received });
+    const found = resumePosition(machine, strokes, settings, [], { from, received });
     const drawnMm = this.drawnMm(count);
-    const sure: Place = foundMidPlot && received ? received : from;
+    const sure: StrokePosition = foundMidPlot && received ? received : from;
     return { missingMm: mmOf(strokes, found) - drawnMm, unsureMm: drawnMm - mmOf(strokes, sure) };
   }
 
@@ -163,7 +169,7 @@ export class InterruptiblePlot {
     const planS = streamOf(commands).planS[count];
     const { stroke, alongMm } = stateAt(trajectory, planS);
     const last = strokes.offsets.length - 2;
-    const end: Place = { stroke: last, alongMm: strokeLengthMm(strokes, last) };
-    return mmOf(strokes, stroke >= 0 ? { stroke, alongMm } : (nextPlace(trajectory, planS) ?? end));
+    const end: StrokePosition = { stroke: last, alongMm: strokeLengthMm(strokes, last) };
+    return mmOf(strokes, stroke >= 0 ? { stroke, alongMm } : (nextPosition(trajectory, planS) ?? end));
   }
 }

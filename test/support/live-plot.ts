@@ -1,7 +1,7 @@
 /** A plot on the virtual board with a manual clock, and checks of the line that it drew. */
 import { simplifyLines } from "../../src/prepare/points.js";
 import { expect } from "vitest";
-import { PlotterDriver } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import type { LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { StrokeSet, VirtualBoard } from "../../src/index.js";
 import type { MotionMode } from "../../src/internal.js";
@@ -24,7 +24,7 @@ export const DRAWING: StrokeSet = strokesOf(
 
 export interface LivePlot {
   readonly world: ManualClock;
-  readonly driver: PlotterDriver;
+  readonly driver: NodePlotter;
   readonly board: VirtualBoard;
   readonly run: LivePlotRun;
 }

@@ -6,7 +6,13 @@ import { streamOf } from "../../src/drivers/ebb/compile/command-stream.js";
 import type { MachineCommands } from "../../src/drivers/machine-job.js";
 import { strokeLengthMm } from "../../src/position/on-drawing.js";
 import type { PlannedPlot, PlanRequest } from "../../host/planning/planning.js";
-import { commandLine, stateAt, type Place, type StrokeSet, type VirtualBoard } from "../../src/index.js";
+import {
+  commandLine,
+  stateAt,
+  type StrokePosition,
+  type StrokeSet,
+  type VirtualBoard,
+} from "../../src/index.js";
 import { TICKS_PER_S } from "../../src/units.js";
 import { LocalPlanner, strokesOf } from "./local-planner.js";
 
@@ -56,7 +62,7 @@ export function drawnUntilMm(strokes: StrokeSet, { trajectory }: PlannedPlot, pl
 }
 
 /** mm of the drawing before a place. */
-export function mmOf(strokes: StrokeSet, place: Place): number {
+export function mmOf(strokes: StrokeSet, place: StrokePosition): number {
   let sum = place.alongMm;
   for (let stroke = 0; stroke < place.stroke; stroke++) sum += strokeLengthMm(strokes, stroke);
   return sum;

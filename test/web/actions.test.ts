@@ -171,7 +171,7 @@ describe("a drawing that is opened", () => {
     store.setState({ planned: {} as Planned });
     const { drawing, settings } = store.getState();
     actions.openDrawing("torn", "<svg");
-    expect(actions.wentBack(fault)).toBe(true);
+    expect(actions.revertedAfterFault(fault)).toBe(true);
     expect(store.getState().drawing).toBe(drawing);
     expect(store.getState().settings).toBe(settings);
     expect(store.getState().notices.map(({ text }) => text)).toEqual([
@@ -182,9 +182,9 @@ describe("a drawing that is opened", () => {
   it("has no previous one to return to on an empty sheet, or after it was read", () => {
     const { store, actions } = makePage();
     actions.openDrawing("torn", "<svg");
-    expect(actions.wentBack(fault)).toBe(false);
+    expect(actions.revertedAfterFault(fault)).toBe(false);
     actions.noteRead(store.getState().drawing?.key ?? "");
-    expect(actions.wentBack(fault)).toBe(false);
+    expect(actions.revertedAfterFault(fault)).toBe(false);
   });
 
   it("asks again what happens outside the paper, and keeps its own place", () => {
@@ -247,7 +247,7 @@ describe("a drawing that is opened", () => {
     hideLayer1(actions);
     store.setState({ planned: {} as Planned });
     actions.openDrawing("torn", "<svg");
-    actions.wentBack(fault);
+    actions.revertedAfterFault(fault);
     actions.undo();
     expect(store.getState().settings.prepare.hiddenLayers).toEqual([]);
   });

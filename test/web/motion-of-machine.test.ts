@@ -1,7 +1,13 @@
 /** Motion settings that depend on the machine: the quality stays the same when the machine's springs change. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, machineById } from "../../src/index.js";
-import { motionForSprings, motionOfQuality, plannable, qualityOf, withQuality } from "../../src/internal.js";
+import {
+  motionForSprings,
+  motionOfQuality,
+  withoutShaperIfUnmeasured,
+  qualityOf,
+  withQuality,
+} from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { withMachine } from "../../web/state/plotter-sync.js";
 import { fromPreset, withPreset } from "../../web/state/presets.js";
@@ -23,7 +29,7 @@ describe("a quality", () => {
     const custom = { ...fast, draw: { ...fast.draw, speedMmPerS: 33 } };
     expect(motionForSprings(custom, STIFF, SOFT)).toBe(custom);
     expect(motionForSprings(custom, STIFF, null)).toEqual({ ...custom, shaper: "none" });
-    expect(plannable(custom, STIFF)).toBe(custom);
+    expect(withoutShaperIfUnmeasured(custom, STIFF)).toBe(custom);
   });
 
   it("replaces the scurve mode, which is a filter too", () => {

@@ -4,7 +4,7 @@ import { Planner, type PlannerDrawing, type PlannerTask, type WorkerLike } from 
 import type {
   PlanFault,
   Planned,
-  PlanRequest,
+  WorkerPlanRequest,
   WorkerReply,
   WorkerRequest,
 } from "../../web/worker/protocol.js";
@@ -16,7 +16,7 @@ const taskOf = (drawing: PlannerDrawing, firmware: string | null = null): Planne
 const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
 
 class WorkerByHand implements WorkerLike {
-  readonly asked: PlanRequest[] = [];
+  readonly asked: WorkerPlanRequest[] = [];
   readonly exports: string[] = [];
   readonly strokesAsked: number[] = [];
   isEnded = false;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { placeAfterMove, placeOfDrop } from "../../web/ui/row-drag.js";
+import { placeAfterMove, slotOfDrop } from "../../web/ui/row-drag.js";
 
 /** The server's result for "put id before that one". */
 const moved = (ids: readonly string[], id: string, beforeId: string | null): string[] => {
@@ -27,8 +27,8 @@ describe("a row of the queue", () => {
   });
 
   it("a row that is dropped between two others lands between them", () => {
-    expect(placeOfDrop([10, 30, 50], 0)).toBe(0);
-    expect(placeOfDrop([10, 30, 50], 40)).toBe(2);
-    expect(placeOfDrop([10, 30, 50], 90)).toBe(3);
+    expect(slotOfDrop([10, 30, 50], 0)).toBe(0);
+    expect(slotOfDrop([10, 30, 50], 40)).toBe(2);
+    expect(slotOfDrop([10, 30, 50], 90)).toBe(3);
   });
 });

@@ -47,7 +47,7 @@ describe("Watch", () => {
   it("does not open for a mark that is plotted beside a drawing", () => {
     const store = makeStore();
     openWatch(store);
-    store.setState({ sideJobIds: ["mark"], jobs: [makeJob("mark", { state: "plotting" })] });
+    store.setState({ utilityJobIds: ["mark"], jobs: [makeJob("mark", { state: "plotting" })] });
     expect(shownView(store.getState())).toBe("prepare");
   });
 

@@ -41,7 +41,7 @@ export function openPage(): Page {
     },
     onExportFailed: (message) => actions.notify("error", message),
     onFault: (fault) => {
-      if (!actions.wentBack(fault)) actions.showFault(fault);
+      if (!actions.revertedAfterFault(fault)) actions.showFault(fault);
     },
   });
   const backend = createPageBackend();
@@ -68,14 +68,14 @@ export function openPage(): Page {
     onEvent: (event) => store.setState((state) => applyServerEvent(state, event)),
     onLink: (isConnected) => {
       store.setState({ link: isConnected ? "connected" : "lost" });
-      if (isConnected || !store.getState().isUnpaired) void actions.meet();
+      if (isConnected || !store.getState().isUnpaired) void actions.loadServerState();
       if (isConnected) void lookForUpdate();
     },
   });
   replanForBoard(store, actions.replan);
   openWatch(store);
   followPlotter(page);
-  void greet(page, drawings);
+  void restoreSession(page, drawings);
   return page;
 }
 
@@ -115,7 +115,10 @@ function followPlotter({ store, actions }: Page): void {
 }
 
 /** Restores the last drawing, if there is one, and loads the rest once the server has answered. */
-async function greet({ store, actions }: Page, drawings: ReturnType<typeof browserDrawings>): Promise<void> {
+async function restoreSession(
+  { store, actions }: Page,
+  drawings: ReturnType<typeof browserDrawings>,
+): Promise<void> {
   const kept = await readKeptDrawing(drawings);
   if (kept && store.getState().drawing === null) actions.restoreDrawing(kept);
   store.setState({ isStarting: false });

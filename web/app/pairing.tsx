@@ -6,7 +6,7 @@ import "./pairing.css";
 
 /** Shown instead of the page on a device that the server does not know. */
 export const Pairing = () => {
-  const { meet } = useActions();
+  const { loadServerState } = useActions();
   return (
     <main className="pairing">
       <p className="pairing-brand">{appName}</p>
@@ -18,7 +18,7 @@ export const Pairing = () => {
         ))}
       </ol>
       <p className="note">{words.terminal}</p>
-      <Button kind="primary" onClick={() => void meet()}>
+      <Button kind="primary" onClick={() => void loadServerState()}>
         {words.retry}
       </Button>
     </main>

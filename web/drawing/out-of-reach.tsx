@@ -26,9 +26,9 @@ export const isOutOfReach = ({ planned, settings }: PageState): boolean => {
 };
 
 /** The height of what is turned: the paper, or at true size the file's page. */
-const turningHeightMm = ({ settings, layout, pageToPaper, pageWidthMm, pageHeightMm }: Planned): number => {
+const turningHeightMm = ({ settings, choice, pageToPaper, pageWidthMm, pageHeightMm }: Planned): number => {
   const { paper, landscape } = settings.prepare;
-  if (layout.how !== "corner") return orientedPaper(paper, landscape).heightMm;
+  if (choice.how !== "corner") return orientedPaper(paper, landscape).heightMm;
   const page = paperBoxOf([0, 0, pageWidthMm, pageHeightMm], pageToPaper);
   return page.yMm + page.heightMm;
 };
@@ -62,7 +62,7 @@ export const OutOfReach = () => {
               ...settings,
               prepare: quarterTurned(
                 settings.prepare,
-                { frame, layout: planned.layout },
+                { frame, choice: planned.choice },
                 { widthMm: planned.pageWidthMm, heightMm: planned.pageHeightMm },
               ),
             }));

@@ -50,17 +50,17 @@ const movedOnto = (
   { settings }: Planned,
   { leftMm, topMm, rightMm, bottomMm }: Outside,
 ): Partial<Prepare> => {
-  const { place } = settings.prepare;
-  if (!place) return { outside: "move" };
-  return { place: { ...place, xMm: place.xMm + leftMm - rightMm, yMm: place.yMm + topMm - bottomMm } };
+  const { layout } = settings.prepare;
+  if (!layout) return { outside: "move" };
+  return { layout: { ...layout, xMm: layout.xMm + leftMm - rightMm, yMm: layout.yMm + topMm - bottomMm } };
 };
 
 /** Keeps the angle of a drawing that was placed by hand. */
-const fittedTo = ({ settings, layout }: Planned): Partial<Prepare> => {
-  const { place } = settings.prepare;
+const fittedTo = ({ settings, choice }: Planned): Partial<Prepare> => {
+  const { layout } = settings.prepare;
   return {
     fit: true,
-    place: null,
-    ...(place ? { rotateDeg: wholeTurn(layout.rotateDeg + (place.turnDeg ?? 0)) } : {}),
+    layout: null,
+    ...(layout ? { rotateDeg: wholeTurn(choice.rotateDeg + (layout.turnDeg ?? 0)) } : {}),
   };
 };

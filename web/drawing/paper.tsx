@@ -14,12 +14,12 @@ import { Button, IconButton } from "../ui/button.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { formatSize } from "../ui/format.js";
 import { SettingField } from "../ui/setting-field.js";
-import { placeOfFrame, wholeTurn } from "../scene/placing.js";
+import { layoutOfFrame, wholeTurn } from "../scene/placing.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/settings-group.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
-const PlaceFields = lazyPart(async () => (await import("./place-fields.js")).PlaceFields);
+const LayoutFields = lazyPart(async () => (await import("./place-fields.js")).LayoutFields);
 type PrepareSettings = PlotSettings["prepare"];
 const PAPER_NAMES = Object.keys(PAPER_SIZES) as PaperName[];
 const FIT_NAMES = { auto: "auto", true: "fit", false: "true" } as const;
@@ -47,19 +47,19 @@ export const PaperPanel = () => {
   const change = usePrepareChange();
   const { changeView } = useActions();
   const { paper, landscape, marginMm } = prepare;
-  const layoutDeg = usePageState((state) => state.planned?.layout.rotateDeg ?? 0);
-  const rotateDeg = prepare.rotateDeg === "auto" ? layoutDeg : prepare.rotateDeg;
+  const choiceDeg = usePageState((state) => state.planned?.choice.rotateDeg ?? 0);
+  const rotateDeg = prepare.rotateDeg === "auto" ? choiceDeg : prepare.rotateDeg;
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
-  const firstPlace = placeOfFrame(
+  const firstLayout = layoutOfFrame(
     frame ?? { xMm: marginMm, yMm: marginMm, widthMm: 100, heightMm: 100, turnDeg: 0 },
   );
-  const angleDeg = wholeTurn(rotateDeg + (prepare.place?.turnDeg ?? 0));
+  const angleDeg = wholeTurn(rotateDeg + (prepare.layout?.turnDeg ?? 0));
   // A drawing placed by hand turns around its centre and keeps its size.
   const turnTo = (what: string, deg: number): void =>
     change(
       what,
-      prepare.place
-        ? { place: { ...prepare.place, turnDeg: wholeTurn(deg - rotateDeg) } }
+      prepare.layout
+        ? { layout: { ...prepare.layout, turnDeg: wholeTurn(deg - rotateDeg) } }
         : { rotateDeg: wholeTurn(deg) },
     );
   const store = usePageStore();
@@ -103,19 +103,19 @@ export const PaperPanel = () => {
       )}
       <Segments
         label={words.placement}
-        value={prepare.place ? "place" : FIT_NAMES[`${prepare.fit}`]}
+        value={prepare.layout ? "box" : FIT_NAMES[`${prepare.fit}`]}
         hint={words.autoHint}
         options={[
           { value: "auto", label: words.auto },
           { value: "fit", label: words.fit },
           { value: "true", label: words.trueSize },
-          { value: "place", label: words.byNumbers },
+          { value: "box", label: words.byNumbers },
         ]}
         onChange={(value) =>
-          change("fit", value === "place" ? { place: firstPlace } : { ...FITS[value], place: null })
+          change("fit", value === "box" ? { layout: firstLayout } : { ...FITS[value], layout: null })
         }
       />
-      {prepare.place && <PlaceFields place={prepare.place} />}
+      {prepare.layout && <LayoutFields layout={prepare.layout} />}
       <Resolution prepare={prepare} />
       <div className="field-with-button">
         <SettingField
@@ -130,7 +130,7 @@ export const PaperPanel = () => {
           onClick={() => turnTo("quarter", angleDeg + 90)}
         />
       </div>
-      {prepare.rotateDeg !== "auto" && !prepare.place && prepare.fit !== true && (
+      {prepare.rotateDeg !== "auto" && !prepare.layout && prepare.fit !== true && (
         <Button kind="link" onClick={() => change("rotate", { rotateDeg: "auto" })}>
           {words.autoTurn}
         </Button>

@@ -1,27 +1,27 @@
-import "./place.css";
+import "./layout.css";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { boxAround, snapLinesOf } from "../scene/placing.js";
 import { deskOf } from "../preview/desk.js";
 import { frameNow } from "../preview/frame.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { placeText as words } from "./text.js";
+import { layoutText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { NumberField } from "../ui/number-field.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
-type Place = NonNullable<PlotSettings["prepare"]["place"]>;
+type LayoutBox = NonNullable<PlotSettings["prepare"]["layout"]>;
 
 /** Position and size of the drawing. Its proportions stay, so setting one size sets the other. */
-export const PlaceFields = ({ place }: { place: Place }) => {
+export const LayoutFields = ({ layout }: { layout: LayoutBox }) => {
   const frame = usePageState((state) => state.planned?.frameMm ?? null);
   const change = usePrepareChange();
-  const set = (part: Partial<Place>): void =>
-    change(`place ${Object.keys(part).join()}`, { place: { ...place, ...part } });
+  const set = (part: Partial<LayoutBox>): void =>
+    change(`layout ${Object.keys(part).join()}`, { layout: { ...layout, ...part } });
   const fields = [
-    ["xMm", words.x, place.xMm, -10_000],
-    ["yMm", words.y, place.yMm, -10_000],
-    ["widthMm", words.width, place.widthMm ?? frame?.widthMm ?? 0, 0.1],
-    ["heightMm", words.height, place.heightMm ?? frame?.heightMm ?? 0, 0.1],
+    ["xMm", words.x, layout.xMm, -10_000],
+    ["yMm", words.y, layout.yMm, -10_000],
+    ["widthMm", words.width, layout.widthMm ?? frame?.widthMm ?? 0, 0.1],
+    ["heightMm", words.height, layout.heightMm ?? frame?.heightMm ?? 0, 0.1],
   ] as const;
   return (
     <>
@@ -43,19 +43,19 @@ export const PlaceFields = ({ place }: { place: Place }) => {
           />
         ))}
       </div>
-      <Aligning set={set} place={place} />
+      <Aligning set={set} layout={layout} />
       <p className="note">{words.hint}</p>
     </>
   );
 };
 
 interface AligningProps {
-  readonly place: Place;
-  set(part: Partial<Place>): void;
+  readonly layout: LayoutBox;
+  set(part: Partial<LayoutBox>): void;
 }
 
 /** Centres the drawing on the paper, or fits it into the margins. */
-const Aligning = ({ place, set }: AligningProps) => {
+const Aligning = ({ layout, set }: AligningProps) => {
   const store = usePageStore();
   const align = (where: "across" | "down" | "fill"): void => {
     const state = store.getState();
@@ -65,8 +65,8 @@ const Aligning = ({ place, set }: AligningProps) => {
     const { xs, ys } = snapLinesOf(paperMm, margins);
     const { x0, y0, x1, y1 } = boxAround(frame);
     const [left, right, top, bottom] = [xs[1], xs[3], ys[1], ys[3]];
-    if (where === "across") return set({ xMm: rounded(place.xMm + (paperMm.width - x0 - x1) / 2) });
-    if (where === "down") return set({ yMm: rounded(place.yMm + (paperMm.height - y0 - y1) / 2) });
+    if (where === "across") return set({ xMm: rounded(layout.xMm + (paperMm.width - x0 - x1) / 2) });
+    if (where === "down") return set({ yMm: rounded(layout.yMm + (paperMm.height - y0 - y1) / 2) });
     const factor = Math.min((right - left) / (x1 - x0), (bottom - top) / (y1 - y0));
     if (!Number.isFinite(factor)) return;
     const widthMm = frame.widthMm * factor;

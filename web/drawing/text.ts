@@ -126,7 +126,7 @@ export const emptyPaperText = {
   samples: "Or try a sample",
 };
 
-export const placeText = {
+export const layoutText = {
   x: "From the left",
   y: "From the top",
   width: "Width",

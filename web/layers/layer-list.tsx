@@ -12,7 +12,7 @@ import { Icon } from "../ui/icon.js";
 import { usePrepareChange } from "../ui/use-change.js";
 import { LayerRow } from "./layer-row.js";
 
-type PenStop = Planned["penStops"][number];
+type ShownPenStop = Planned["penStops"][number];
 
 /** The layers in drawing order, each with its switch and pen, and the stops between them. */
 export const LayerList = () => {
@@ -72,7 +72,7 @@ export const LayerList = () => {
 };
 
 /** The planned stop before this layer, if any. */
-const StopsBefore = ({ stops, layerId }: { stops: readonly PenStop[]; layerId: string }) => {
+const StopsBefore = ({ stops, layerId }: { stops: readonly ShownPenStop[]; layerId: string }) => {
   const stop = stops.find((one) => one.layerId === layerId);
   if (!stop) return null;
   return (

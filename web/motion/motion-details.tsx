@@ -37,7 +37,7 @@ export const MotionDetails = () => {
     <>
       <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
-      <AxisLimits motion={motion} />
+      <AxisLimitFields motion={motion} />
       <ShaperSelect motion={motion} />
       <ModeChoice mode={motion.mode} />
       <Refinements motion={motion} />
@@ -135,7 +135,7 @@ const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
 const AXIS_KEYS = Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[];
 
 /** For a machine that is heavier along one axis; an empty field is no limit besides those above. */
-const AxisLimits = ({ motion }: { motion: MotionSettings }) => {
+const AxisLimitFields = ({ motion }: { motion: MotionSettings }) => {
   const change = useMotionChange();
   return (
     <fieldset className="subgroup">

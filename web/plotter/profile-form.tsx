@@ -4,7 +4,7 @@ import { profileText as words } from "./machines-text.js";
 import { Segments, Select, Switch } from "../ui/choice.js";
 import { MmPair, NumberField } from "../ui/number-field.js";
 import { TextField } from "../ui/text-field.js";
-import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
+import { isEbbMachine, withController, type EbbProfile } from "./profile.js";
 
 interface ProfileFormProps {
   readonly profile: MachineProfile;
@@ -12,8 +12,8 @@ interface ProfileFormProps {
 }
 
 interface EbbFieldsProps {
-  readonly profile: EbbMachine;
-  onChange(profile: EbbMachine): void;
+  readonly profile: EbbProfile;
+  onChange(profile: EbbProfile): void;
 }
 
 /** Every field of a machine's profile, within the limits of its schema. */
@@ -138,8 +138,8 @@ export const ServoPin = ({ profile, onChange }: EbbFieldsProps) => (
   />
 );
 
-type SwitchInput = NonNullable<EbbController["homing"]>["x"];
-const PORTS: readonly SwitchInput["port"][] = ["A", "B", "C", "D", "E"];
+type HomingInput = NonNullable<EbbController["homing"]>["x"];
+const PORTS: readonly HomingInput["port"][] = ["A", "B", "C", "D", "E"];
 const FIRST_SWITCHES: NonNullable<EbbController["homing"]> = {
   x: { port: "B", pin: 0, pressed: 0 },
   y: { port: "B", pin: 2, pressed: 0 },
@@ -170,8 +170,8 @@ const HomingFields = ({ profile, onChange }: EbbFieldsProps) => {
 
 interface SwitchFieldsProps {
   readonly label: string;
-  readonly input: SwitchInput;
-  onChange(input: SwitchInput): void;
+  readonly input: HomingInput;
+  onChange(input: HomingInput): void;
 }
 
 const SwitchFields = ({ label, input, onChange }: SwitchFieldsProps) => (

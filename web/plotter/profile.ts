@@ -35,13 +35,13 @@ export const copyOf = (
 });
 
 /** A machine whose controller the form and the wizard can set up. */
-export type EbbMachine = MachineProfile<EbbController>;
+export type EbbProfile = MachineProfile<EbbController>;
 
-export const isEbbMachine = (profile: MachineProfile): profile is EbbMachine =>
+export const isEbbMachine = (profile: MachineProfile): profile is EbbProfile =>
   profile.controller.kind === "ebb";
 
 /** The profile with some fields of its controller changed. */
-export const withController = (profile: EbbMachine, part: Partial<EbbController>): EbbMachine => ({
+export const withController = (profile: EbbProfile, part: Partial<EbbController>): EbbProfile => ({
   ...profile,
   controller: { ...profile.controller, ...part },
 });

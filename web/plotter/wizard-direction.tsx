@@ -8,11 +8,11 @@ import { Button } from "../ui/button.js";
 
 const MOVE_MM = 20;
 
-type Asked = "middle" | "x" | "y" | "check" | "home";
+type Question = "middle" | "x" | "y" | "check" | "home";
 
 /** Makes two short moves and asks which way the carriage went, to find out how the motors are wired. */
 export const DirectionStep = ({ profile, onNext }: StepProps) => {
-  const [asked, setAsked] = useState<Asked>("middle");
+  const [asked, setAsked] = useState<Question>("middle");
   const [draft, setDraft] = useState(profile);
   const [xWent, setXWent] = useState<Direction>("right");
   const [fault, setFault] = useState<string | null>(null);

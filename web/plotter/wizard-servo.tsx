@@ -1,6 +1,6 @@
 import { useId, useMemo, useState } from "react";
 import { useActions } from "../state/use-store.js";
-import { isEbbMachine, withController, type EbbMachine } from "./profile.js";
+import { isEbbMachine, withController, type EbbProfile } from "./profile.js";
 import { wizardText as words } from "./wizard-text.js";
 import { ServoPin } from "./profile-form.js";
 import { servoFollower } from "./servo-follow.js";
@@ -18,12 +18,12 @@ export const ServoStep = ({ profile, ...props }: StepProps) =>
   );
 
 /** The pen follows two sliders, which set the ends of the servo's range. */
-const EbbServoStep = ({ profile, onNext }: StepProps & { readonly profile: EbbMachine }) => {
+const EbbServoStep = ({ profile, onNext }: StepProps & { readonly profile: EbbProfile }) => {
   const { moveByHand } = useActions();
   const [draft, setDraft] = useState(profile);
   const follow = useMemo(
     () =>
-      servoFollower((to: { pos: number; profile: EbbMachine }) =>
+      servoFollower((to: { pos: number; profile: EbbProfile }) =>
         moveByHand({ kind: "servo", pos: to.pos }, to.profile),
       ),
     [moveByHand],

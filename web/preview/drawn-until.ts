@@ -1,11 +1,11 @@
 /** How far a drawing has been plotted. The page shows the rest pale. */
 import type { Trajectory } from "../../src/index.js";
-import { PlaceTimes } from "../../src/internal.js";
+import { PositionTimes } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import { ACTIVE_STATES, type PageState } from "../state/store.js";
 
 /** Created once for each plan, because it is used several times for each change of the page's state. */
-const timesOf = new WeakMap<Trajectory, PlaceTimes>();
+const timesOf = new WeakMap<Trajectory, PositionTimes>();
 
 /** The time in the plan, s; null if its job has not begun or has ended, so that the whole drawing is shown. */
 export const drawnUntilS = ({ jobs, drawing, planned, live }: PageState): number | null => {
@@ -18,7 +18,7 @@ export const drawnUntilS = ({ jobs, drawing, planned, live }: PageState): number
 export const jobUntilS = (job: Job, trajectory: Trajectory, live: PageState["live"]): number | null => {
   if (job.state === "done") return null;
   if (job.place) {
-    const times = timesOf.get(trajectory) ?? new PlaceTimes(trajectory);
+    const times = timesOf.get(trajectory) ?? new PositionTimes(trajectory);
     timesOf.set(trajectory, times);
     const atS = times.timeOf({ stroke: job.place.strokeIndex, alongMm: job.place.alongMm });
     if (atS !== null) return atS;

@@ -12,13 +12,13 @@ import {
   draggedFrame,
   framePartAt,
   knobOf,
-  placeOfFrame,
+  layoutOfFrame,
   snapFrame,
   snapLinesOf,
   type FrameMm,
   type SnapLines,
 } from "../scene/placing.js";
-import type { Paint, Stage } from "./stage.js";
+import type { OverlayPainter, Stage } from "./stage.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
 const HANDLE_PX = 10;
@@ -30,7 +30,7 @@ const BELOW_LABEL_PX = 88;
 /** The drawing's frame by the current settings, which may be newer than the plan. Null: not placed by hand. */
 export const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm | null => {
   const frame = planned?.frameMm ?? null;
-  const place = prepare.place;
+  const place = prepare.layout;
   if (!frame || !place) return null;
   const widthMm =
     place.widthMm ??
@@ -42,7 +42,7 @@ export const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm
 const setFrame = (actions: Actions, what: string, frame: FrameMm): void =>
   actions.changeSettings(what, (settings) => ({
     ...settings,
-    prepare: { ...settings.prepare, place: placeOfFrame(frame) },
+    prepare: { ...settings.prepare, layout: layoutOfFrame(frame) },
   }));
 
 /** Begins a drag of the frame. Null: there is none, or it is not under the pointer. */
@@ -75,7 +75,7 @@ export const nudgeFrame = (store: PageStore, actions: Actions, dxMm: number, dyM
 };
 
 /** Paints the frame with its handles, and the places of the shown warning. */
-export const painterOf = (state: PageState): Paint | null => {
+export const painterOf = (state: PageState): OverlayPainter | null => {
   const frame = frameNow(state);
   const { noteBoxes, planned, snapLines } = state;
   const { lengthUnit } = state.view;

@@ -1,5 +1,5 @@
 /** Actions on the preview and the place of the drawing. */
-import { placeOfFrame } from "../scene/placing.js";
+import { layoutOfFrame } from "../scene/placing.js";
 import { isForOperator, type PageAction } from "../state/page-action.js";
 import { previewText, timeLineText } from "./text.js";
 
@@ -42,8 +42,8 @@ export const PLACE: PageAction = {
   perform: ({ store, actions }) => {
     const { planned, settings } = store.getState();
     const frame = planned?.frameMm ?? null;
-    const place = settings.prepare.place !== null || !frame ? null : placeOfFrame(frame);
-    actions.changeSettings("place by hand", (now) => ({ ...now, prepare: { ...now.prepare, place } }));
+    const layout = settings.prepare.layout !== null || !frame ? null : layoutOfFrame(frame);
+    actions.changeSettings("place by hand", (now) => ({ ...now, prepare: { ...now.prepare, layout } }));
   },
 };
 

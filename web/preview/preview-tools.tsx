@@ -53,7 +53,7 @@ export const PreviewTools = ({ stage }: { stage: RefObject<Stage | null> }) => {
 };
 
 const PlaceTool = () => {
-  const isPlaced = usePageState(({ settings }) => settings.prepare.place !== null);
+  const isPlaced = usePageState(({ settings }) => settings.prepare.layout !== null);
   return <ActionButton action={PLACE} kind="tool" icon="place" isPressed={isPlaced} />;
 };
 

@@ -20,7 +20,7 @@ interface StageCanvases {
 }
 
 /** Paints over the strokes. */
-export type Paint = (context: CanvasRenderingContext2D, view: View) => void;
+export type OverlayPainter = (context: CanvasRenderingContext2D, view: View) => void;
 
 export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
@@ -35,7 +35,7 @@ export class Stage {
   private scene: Picture | null = null;
   private shownDesk: Desk;
   private marker: Marker | null = null;
-  private paint: Paint | null = null;
+  private paint: OverlayPainter | null = null;
   private rulerSpan: Box | null = null;
   private colors: DeskColors;
   private cssSize: Size = { width: 0, height: 0 };
@@ -134,7 +134,7 @@ export class Stage {
   }
 
   /** Sets what is painted over the strokes in every frame (highlights, handles), and the marked part of the rulers. */
-  setPainter(paint: Paint, rulerSpan: Box | null): void {
+  setPainter(paint: OverlayPainter, rulerSpan: Box | null): void {
     this.paint = paint;
     this.rulerSpan = rulerSpan;
     this.refresh(false);

@@ -4,7 +4,7 @@ import { PIECE_FLOATS } from "../scene/pieces.js";
 import { piecesBefore, type Scene } from "../scene/scene.js";
 import { selectedStroke, type PageState } from "../state/store.js";
 import { penLooks } from "./view-modes.js";
-import type { Paint } from "./stage.js";
+import type { OverlayPainter } from "./stage.js";
 
 interface StrokeFigures {
   readonly lengthMm: number;
@@ -61,7 +61,7 @@ const CASING_PX = 2.5;
 const MIN_PX = 2;
 
 /** Paints the selected stroke over the others, as wide as its pen's line. */
-export const selectionPainter = (state: PageState): Paint | null => {
+export const selectionPainter = (state: PageState): OverlayPainter | null => {
   const selected = selectedStroke(state);
   if (!selected) return null;
   const { of: planned, hover } = selected;

@@ -1,6 +1,6 @@
 /** Which requests the service worker answers, and how. Separate from it, for tests. */
 
-interface Asked {
+interface ShellRequest {
   readonly method: string;
   readonly url: string;
   /** "navigate": a page is opened. */
@@ -14,7 +14,7 @@ interface Asked {
  *
  * `page`: the page's address, which ends with "/".
  */
-export const ruleFor = ({ method, url, mode }: Asked, page: string): "page" | "cached" | null => {
+export const ruleFor = ({ method, url, mode }: ShellRequest, page: string): "page" | "cached" | null => {
   const { origin, pathname } = new URL(url);
   if (method !== "GET" || !`${origin}${pathname}`.startsWith(page)) return null;
   const file = `${origin}${pathname}`.slice(page.length);
@@ -36,11 +36,11 @@ export const cachesToDrop = (
   return before.slice(0, -1);
 };
 
-interface Searched {
+interface Lookup {
   match(request: Request): Promise<Response | undefined>;
 }
-interface Caches extends Searched {
-  open(name: string): Promise<Searched>;
+interface Caches extends Lookup {
+  open(name: string): Promise<Lookup>;
 }
 
 /**

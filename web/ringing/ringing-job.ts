@@ -95,7 +95,7 @@ const placed = (settings: PlotSettings, xMm: number, yMm: number): PlotSettings 
     fit: false,
     clipToMargins: false,
     order: "none",
-    place: { xMm, yMm, widthMm: null, heightMm: null },
+    layout: { xMm, yMm, widthMm: null, heightMm: null },
   },
   pen: plotterPartOf(settings).pen,
   pens: [],

@@ -33,7 +33,7 @@ import {
   tasksOf,
   type Boxed,
   type Sheet,
-  type Style,
+  type PieceStyle,
   type Task,
 } from "./tasks.js";
 
@@ -72,7 +72,7 @@ class GlRenderer implements SceneRenderer {
   private sheets: Record<Detail, Sheet<Loaded>> | null = null;
   private frame: Frame | null = null;
   private tasks: Task<Loaded>[] = [];
-  private style: Style | null = null;
+  private style: PieceStyle | null = null;
   private fence: WebGLSync | null = null;
 
   constructor(
@@ -232,7 +232,7 @@ class GlRenderer implements SceneRenderer {
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, count, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
   }
 
-  private setStyle(frame: Frame, style: Style): void {
+  private setStyle(frame: Frame, style: PieceStyle): void {
     const gl = this.gl;
     this.style = style;
     const isThin = style === "travel" || style === "asked";

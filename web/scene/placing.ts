@@ -212,7 +212,7 @@ const round = (mm: number): number => Math.round(mm * 100) / 100;
  * The frame as prepare settings, rounded to 0.01 mm and 0.1°, which is finer than any pen and readable in the fields.
  * The width is set, and the height follows from the proportions.
  */
-export const placeOfFrame = ({
+export const layoutOfFrame = ({
   xMm,
   yMm,
   widthMm,

@@ -32,7 +32,7 @@ import {
   tasksOf,
   type Boxed,
   type Sheet,
-  type Style,
+  type PieceStyle,
   type Task,
 } from "./tasks.js";
 
@@ -147,7 +147,7 @@ class SoftRenderer implements SceneRenderer {
   }
 }
 
-const lookOf = (frame: Frame, style: Style): Look => {
+const lookOf = (frame: Frame, style: PieceStyle): Look => {
   const reachOf = (widthPx: number): number => (widthPx * frame.ratio) / 2;
   if (style === "travel") {
     const colors = [bytesFromHex(TRAVEL_COLOR)];

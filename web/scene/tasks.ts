@@ -17,12 +17,12 @@ export interface Sheet<B extends Boxed> {
 }
 
 /** "ghost": not drawn yet at the shown moment. */
-export type Style = "asked" | "ghost" | "drawn" | "travel";
+export type PieceStyle = "asked" | "ghost" | "drawn" | "travel";
 
 /** A range of pieces that are still to be drawn. */
 export interface Task<B extends Boxed> {
   readonly of: B;
-  readonly style: Style;
+  readonly style: PieceStyle;
   readonly to: number;
   from: number;
 }
@@ -55,7 +55,7 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: 
   const done = until(draw);
   // The piece under the pen is drawn up to the pen's position, and pale from there.
   const pale = frame.untilS === null ? done : Math.max(0, done - 1);
-  const inSight = (of: B, range: PieceRange, style: Style): Task<B>[] =>
+  const inSight = (of: B, range: PieceRange, style: PieceStyle): Task<B>[] =>
     rangesInSight(of.boxes, range, frame, reachPx).map(([from, to]) => ({ of, style, from, to }));
   return [
     ...(asked ? inSight(asked, [0, asked.pieces.count], "asked") : []),
@@ -66,7 +66,7 @@ export const tasksOf = <B extends Boxed>(frame: Frame, { draw, travel, asked }: 
 };
 
 /** The moment, s, at which pieces of this style are cut off; Infinity: they are drawn to their ends. */
-export const cutOffS = ({ untilS }: Frame, style: Style): number =>
+export const cutOffS = ({ untilS }: Frame, style: PieceStyle): number =>
   style === "drawn" || style === "travel" ? (untilS ?? Infinity) : Infinity;
 
 /**

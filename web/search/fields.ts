@@ -42,7 +42,7 @@ interface Panel {
 export const NO_LEGEND = "";
 
 /** A control on the page. */
-export interface Place {
+export interface FieldLocation {
   readonly panel: Panel;
   /** Its label; null: the panel's own heading. */
   readonly control: string | null;
@@ -54,9 +54,9 @@ export interface Field {
   readonly id: string;
   readonly label: string;
   readonly words: string;
-  readonly place: Place;
+  readonly place: FieldLocation;
   /** The control that makes the field appear, while it is not on the page. */
-  instead?(state: PageState): Place | null;
+  instead?(state: PageState): FieldLocation | null;
   /** Why the field can't be used now; null: it can. Left out: it always can. */
   whyOff?(state: PageState): string | null;
 }
@@ -104,9 +104,9 @@ const row = (where: PanelName, setting: Setting, more: Partial<Named> = {}, lege
   );
 };
 
-const at = (where: PanelName, control: string): Place => ({ panel: PANELS[where], control });
+const at = (where: PanelName, control: string): FieldLocation => ({ panel: PANELS[where], control });
 const unless =
-  (isThere: (state: PageState) => boolean, place: Place): NonNullable<Field["instead"]> =>
+  (isThere: (state: PageState) => boolean, place: FieldLocation): NonNullable<Field["instead"]> =>
   (state) =>
     isThere(state) ? null : place;
 

@@ -1,6 +1,6 @@
 /** Opens the panel of a field and gives the field the focus. */
 import type { Page } from "../state/page-action.js";
-import { NO_LEGEND, type Field, type Place } from "./fields.js";
+import { NO_LEGEND, type Field, type FieldLocation } from "./fields.js";
 
 /** A panel that is opened for the first time may be loaded first. */
 const WAIT_MS = 10_000;
@@ -35,7 +35,7 @@ function show(control: HTMLElement): void {
 
 const textOf = (element: Element | null | undefined): string => element?.textContent.trim() ?? "";
 
-function controlAt({ panel: { groups }, control, legend }: Place): HTMLElement | null {
+function controlAt({ panel: { groups }, control, legend }: FieldLocation): HTMLElement | null {
   const id = groups.at(-1);
   const root =
     id === undefined ? document.querySelector(".pen-at-hand") : document.getElementById(`group-${id}`);

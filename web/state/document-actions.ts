@@ -84,7 +84,7 @@ export const createDocumentActions = (parts: DocumentParts) => {
   };
 
   /** Returns to the previous drawing if the one just opened can't be read. False: there is none to return to. */
-  const wentBack = ({ stage, message }: PlanFault): boolean => {
+  const revertedAfterFault = ({ stage, message }: PlanFault): boolean => {
     const { drawing: unread } = store.getState();
     if (stage !== "import" || !lastGood || !unread) return false;
     store.setState({ ...lastGood, planned: null, fault: null });
@@ -110,7 +110,7 @@ export const createDocumentActions = (parts: DocumentParts) => {
   return {
     openDrawing,
     noteRead,
-    wentBack,
+    revertedAfterFault,
     restoreDrawing,
     /**
      * If the restored drawing is a job's, its settings come from the job: another tab may have stored others meanwhile.

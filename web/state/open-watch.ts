@@ -5,7 +5,7 @@ export const openWatch = (store: PageStore): void => {
   store.subscribe((state, before) => {
     if (state.jobs === before.jobs && state.plotterId === before.plotterId) return;
     const job = unfinishedJob(state);
-    if (!job || job.id === unfinishedJob(before)?.id || state.sideJobIds.includes(job.id)) return;
+    if (!job || job.id === unfinishedJob(before)?.id || state.utilityJobIds.includes(job.id)) return;
     store.setState({ pageView: "watch", watchedId: job.id });
   });
 };

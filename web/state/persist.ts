@@ -2,7 +2,7 @@
  * What the page remembers between visits. It is parsed by the schema: a stored value that does not fit is replaced by its default. The rest stays.
  */
 import { z } from "zod";
-import { findMachine, LENGTH_UNITS, plannable } from "../../src/internal.js";
+import { findMachine, LENGTH_UNITS, withoutShaperIfUnmeasured } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 
 const PAGE_KEY = "plotwright.page.v1";
@@ -71,7 +71,7 @@ const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
   if (!result.success) return DEFAULT_PLOT_SETTINGS;
   // A custom machine whose profile no longer parses is replaced by the default machine.
   const machine = findMachine(result.data);
-  const motion = plannable(result.data.motion, machine?.springs ?? null);
+  const motion = withoutShaperIfUnmeasured(result.data.motion, machine?.springs ?? null);
   return { ...result.data, machine: machine?.id ?? DEFAULT_PLOT_SETTINGS.machine, motion };
 };
 

@@ -1,12 +1,12 @@
 /**
  * Presets: named settings, for example for a pen or a paper. They belong to the plotter and are stored on the server.
  */
-import { findMachine, plannable } from "../../src/internal.js";
+import { findMachine, withoutShaperIfUnmeasured } from "../../src/internal.js";
 import { MAX_PRESETS, type PlotSettings, type Preset } from "../../src/schema/index.js";
 
 export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }: Preset): PlotSettings => ({
   ...settings,
-  motion: plannable(motion, findMachine(settings)?.springs ?? null),
+  motion: withoutShaperIfUnmeasured(motion, findMachine(settings)?.springs ?? null),
   pen,
   ...pens,
   prepare: { ...settings.prepare, ...layers },

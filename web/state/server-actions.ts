@@ -17,7 +17,7 @@ import {
   type QueueSettings,
 } from "../../src/schema/index.js";
 import { addJob, BackendFault, type Backend, type JobAction } from "../backend/backend.js";
-import { activeJob, currentPlotter, penOf, type Notice, type PageStore } from "./store.js";
+import { activeJob, currentPlotter, penOf, type PageNotice, type PageStore } from "./store.js";
 import { stateText } from "./text.js";
 
 interface ServerActionDeps {
@@ -25,7 +25,7 @@ interface ServerActionDeps {
   readonly backend: Backend;
   /** Sends a request. A failure becomes a notice, and the result is null. `name` names the button to disable meanwhile. */
   attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
-  notify(kind: Notice["kind"], text: string): void;
+  notify(kind: PageNotice["kind"], text: string): void;
 }
 
 export const createServerActions = ({ store, backend, attempt, notify }: ServerActionDeps) => {
@@ -78,7 +78,7 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
   return {
     takeOver: () => attempt("take-over", () => backend.operator.take()),
     /** Gets this browser's identity. Called on each connection, because a restarted server may have forgotten it. */
-    meet: async (): Promise<void> => {
+    loadServerState: async (): Promise<void> => {
       try {
         store.setState({ me: await backend.state.me(), isUnpaired: false });
       } catch (error) {
@@ -177,7 +177,7 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
         addJob(backend, { ...newJob, ...(plotterId ? { plotterId } : {}) }, drawing),
       );
       if (!job) return null;
-      store.setState(({ sideJobIds }) => ({ sideJobIds: [...sideJobIds, job.id] }));
+      store.setState(({ utilityJobIds }) => ({ utilityJobIds: [...utilityJobIds, job.id] }));
       if (activeJob(store.getState()) === null) await attempt("plot", () => backend.jobs.start(job.id));
       else notify("info", stateText.added(job.name));
       return job;

@@ -1,6 +1,6 @@
 /** What the page shows: its views, panels, dialogs and messages to the user. */
 import type { ViewSettings } from "./persist.js";
-import type { DialogName, Notice, PageStore, PageView, Tab } from "./store.js";
+import type { DialogName, PageNotice, PageStore, PageView, Tab } from "./store.js";
 
 const INFO_MS = 5_000;
 const MAX_NOTICES = 4;
@@ -11,7 +11,7 @@ export const createUiActions = (store: PageStore, after: (delayMs: number, callb
     store.setState(({ notices }) => ({ notices: notices.filter((notice) => notice.id !== id) }));
   return {
     /** Errors stay until they are closed or an action succeeds. */
-    notify: (kind: Notice["kind"], text: string): void => {
+    notify: (kind: PageNotice["kind"], text: string): void => {
       const notice = { id: nextId++, kind, text };
       store.setState(({ notices }) => ({
         notices: [...notices.filter((other) => other.text !== text), notice].slice(-MAX_NOTICES),

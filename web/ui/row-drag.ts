@@ -2,7 +2,7 @@
 import { useEffect, useRef, type KeyboardEvent, type PointerEvent, type RefObject } from "react";
 
 /** The new index of a row dropped at `yPx`, given the centres of the other rows from top to bottom. */
-export const placeOfDrop = (middlesPx: readonly number[], yPx: number): number =>
+export const slotOfDrop = (middlesPx: readonly number[], yPx: number): number =>
   middlesPx.filter((middlePx) => middlePx < yPx).length;
 
 /**
@@ -12,14 +12,14 @@ export const placeOfDrop = (middlesPx: readonly number[], yPx: number): number =
 export const placeAfterMove = (
   ids: readonly string[],
   id: string,
-  place: number,
+  slot: number,
 ): string | null | undefined => {
-  if (place < 0 || place >= ids.length || ids[place] === id) return undefined;
+  if (slot < 0 || slot >= ids.length || ids[slot] === id) return undefined;
   const others = ids.filter((other) => other !== id);
-  return others[place] ?? null;
+  return others[slot] ?? null;
 };
 
-interface Drag {
+interface RowDrag {
   readonly fromPx: number;
   readonly row: HTMLElement;
   readonly others: readonly HTMLElement[];
@@ -33,7 +33,7 @@ export const useRowDrag = (
   index: number,
   onMove: (place: number) => void,
 ) => {
-  const drag = useRef<Drag | null>(null);
+  const drag = useRef<RowDrag | null>(null);
   const end = (): void => {
     if (drag.current) showDrop(drag.current, null);
     drag.current = null;
@@ -59,7 +59,7 @@ export const useRowDrag = (
     onPointerUp: (event: PointerEvent<HTMLElement>): void => {
       const was = drag.current;
       end();
-      if (was && event.clientY !== was.fromPx) onMove(placeOfDrop(was.middlesPx, event.clientY));
+      if (was && event.clientY !== was.fromPx) onMove(slotOfDrop(was.middlesPx, event.clientY));
     },
     onPointerCancel: end,
     onKeyDown: (event: KeyboardEvent): void => {
@@ -72,8 +72,8 @@ export const useRowDrag = (
 };
 
 /** Moves the row with the pointer and marks where it would be dropped; null: resets both. */
-const showDrop = ({ fromPx, row, others, middlesPx }: Drag, yPx: number | null): void => {
-  const place = yPx === null ? -1 : placeOfDrop(middlesPx, yPx);
+const showDrop = ({ fromPx, row, others, middlesPx }: RowDrag, yPx: number | null): void => {
+  const place = yPx === null ? -1 : slotOfDrop(middlesPx, yPx);
   row.style.transform = yPx === null ? "" : `translateY(${yPx - fromPx}px)`;
   row.toggleAttribute("data-dragged", yPx !== null);
   others.forEach((other, index) => {

@@ -19,12 +19,12 @@ import {
   machineOf,
   otherPapers,
   penStopsOf,
-  placeDrawing,
+  layOutDrawing,
   prepareSettingsOf,
   strokeCount,
   unusedSettings,
   withPxPerInch,
-  type Placement,
+  type Layout,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
@@ -38,7 +38,7 @@ import type {
   Planned,
   PlannedReply,
   PlanFault,
-  PlanRequest,
+  WorkerPlanRequest,
   StrokesRequest,
   WorkerReply,
   WorkerRequest,
@@ -50,7 +50,7 @@ interface WorkerScope {
 }
 const scope = self as unknown as WorkerScope;
 
-let newest: PlanRequest | null = null;
+let newest: WorkerPlanRequest | null = null;
 let isRunning = false;
 /** The last text received, until it has been imported. */
 let received: { key: string; text: DrawingText } | null = null;
@@ -58,7 +58,7 @@ let imported: { key: string; drawing: Drawing } | null = null;
 let prepared: {
   key: string;
   result: Prepared;
-  placement: Placement;
+  placement: Layout;
   cutOff: CutOffPicture | null;
   besidePaper: CutOffPicture | null;
   settings: PlotSettings;
@@ -88,7 +88,7 @@ async function run(): Promise<void> {
 }
 
 /** Null if there is a newer request. */
-async function answer(request: PlanRequest): Promise<WorkerReply | null> {
+async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
   const { id, drawingKey, settings, firmware } = request;
   let stage: PlanFault["stage"] = "import";
   try {
@@ -111,7 +111,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
       pxPerInch: drawing.pxPerInch ?? null,
       otherPapers: otherPapers(drawing),
       pageToPaper: placement.map,
-      layout: placement.layout,
+      choice: placement.choice,
       size: ready.size,
       outside: ready.outside,
       hasFills: drawing.paths.fill.some((color) => color >= 0),
@@ -139,7 +139,7 @@ async function answer(request: PlanRequest): Promise<WorkerReply | null> {
   }
 }
 
-async function drawingOf({ drawingKey }: PlanRequest): Promise<Drawing> {
+async function drawingOf({ drawingKey }: WorkerPlanRequest): Promise<Drawing> {
   if (imported?.key !== drawingKey) {
     if (received?.key !== drawingKey)
       throw new Error("the worker was asked for a drawing whose text it does not have");
@@ -158,13 +158,13 @@ async function drawingIn(content: DrawingText): Promise<Drawing> {
 function preparedOf(
   drawingKey: string,
   drawing: Drawing,
-  { settings }: PlanRequest,
+  { settings }: WorkerPlanRequest,
 ): NonNullable<typeof prepared> {
   const wanted = prepareSettingsOf(settings);
   const key = `${drawingKey} ${JSON.stringify(wanted)}`;
   if (prepared?.key !== key) {
     const result = prepare(drawing, wanted);
-    const placement = placeDrawing(drawing, wanted);
+    const placement = layOutDrawing(drawing, wanted);
     const cutOff = cutOffOf(drawing, wanted, placement);
     const isBeside = result.outside !== null;
     const besidePaper = isBeside ? cutOffOf(drawing, { ...wanted, outside: "cut" }, placement) : null;
@@ -176,13 +176,13 @@ function preparedOf(
 
 /** The box that keeps the drawing where it is when it becomes its place. A turn made by itself is the box's then. */
 function frameOf(
-  { frame: { x0, y0, x1, y1 }, layout }: Placement,
-  { place, rotateDeg }: PlotSettings["prepare"],
+  { frame: { x0, y0, x1, y1 }, choice }: Layout,
+  { layout, rotateDeg }: PlotSettings["prepare"],
 ): FrameMm | null {
   if (!(x1 >= x0 && y1 >= y0)) return null;
   const [widthMm, heightMm] = [x1 - x0, y1 - y0];
-  const turnDeg = rotateDeg === "auto" ? layout.rotateDeg : 0;
-  if (turnDeg === 0) return { xMm: x0, yMm: y0, widthMm, heightMm, turnDeg: place?.turnDeg ?? 0 };
+  const turnDeg = rotateDeg === "auto" ? choice.rotateDeg : 0;
+  if (turnDeg === 0) return { xMm: x0, yMm: y0, widthMm, heightMm, turnDeg: layout?.turnDeg ?? 0 };
   const inset = (widthMm - heightMm) / 2;
   return { xMm: x0 + inset, yMm: y0 - inset, widthMm: heightMm, heightMm: widthMm, turnDeg };
 }

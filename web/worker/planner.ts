@@ -27,7 +27,7 @@ interface PlannerTimer {
   after(delayMs: number, callback: () => void): () => void;
 }
 
-interface PlannerListener {
+interface PlanListener {
   /** Called before each plan. */
   onImported(drawingKey: string): void;
   onPlanned(planned: Planned): void;
@@ -50,7 +50,7 @@ export interface PlannerTask {
 }
 
 /** A planner with a worker of this page. */
-export const openPlanner = (listener: PlannerListener): Planner =>
+export const openPlanner = (listener: PlanListener): Planner =>
   new Planner(
     () => new Worker(new URL("./plan.worker.ts", import.meta.url), { type: "module" }),
     {
@@ -77,7 +77,7 @@ export class Planner {
   constructor(
     private readonly start: () => WorkerLike,
     private readonly timer: PlannerTimer,
-    private readonly listener: PlannerListener,
+    private readonly listener: PlanListener,
   ) {}
 
   /** Requests a plan. Earlier requests that are not answered yet are dropped. */

@@ -7,7 +7,7 @@ import type {
   OutsidePaper,
   PaperInPx,
   PenStop,
-  Placement,
+  Layout,
   PreparedLayer,
   Springs,
   StrokeLayer,
@@ -22,7 +22,7 @@ import type { CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "./drawing-text.js";
 
 /** `drawingKey` identifies the text. The worker stores the last drawing, so the text is sent once. */
-export interface PlanRequest {
+export interface WorkerPlanRequest {
   readonly type: "plan";
   readonly id: number;
   readonly drawingKey: string;
@@ -50,7 +50,7 @@ export interface StrokesRequest {
   readonly id: number;
 }
 
-export type WorkerRequest = PlanRequest | ExportRequest | StrokesRequest;
+export type WorkerRequest = WorkerPlanRequest | ExportRequest | StrokesRequest;
 
 /** The data that the page shows for one drawing with one set of settings. */
 export interface Planned {
@@ -63,10 +63,10 @@ export interface Planned {
   /** The papers that the page would be with other px per inch. */
   readonly otherPapers: readonly PaperInPx[];
   /** Maps the file's page to the paper, both in mm: x′ = a x + c y + e, y′ = b x + d y + f. */
-  readonly pageToPaper: Placement["map"];
+  readonly pageToPaper: Layout["map"];
   /** The drawing's box on the paper, before anything is cut off; null for an empty drawing. */
   readonly frameMm: FrameMm | null;
-  readonly layout: Placement["layout"];
+  readonly choice: Layout["choice"];
   readonly size: DrawnSize;
   /** Strokes that leave the paper. */
   readonly outside: OutsidePaper | null;

@@ -165,7 +165,7 @@ function lookOfLast(queue: WatchParts["queue"]): GivenSettings {
     .reduce<Job | null>((best, job) => (best === null || job.createdAt > best.createdAt ? job : best), null);
   if (newest === null) return {};
   const { prepare, motion, pen, penStops, sendAheadMs } = newest.settings;
-  const { place, rotateDeg, outside } = DEFAULT_PLOT_SETTINGS.prepare;
+  const { layout, rotateDeg, outside } = DEFAULT_PLOT_SETTINGS.prepare;
   return {
     ...(queue.settingsOf(plotter).hasPen ? {} : { pen: { ...pen, layers: {} } }),
     prepare: {
@@ -175,7 +175,7 @@ function lookOfLast(queue: WatchParts["queue"]): GivenSettings {
       layerHatches: [],
       layerOrder: [],
       layerRepeats: {},
-      place,
+      layout,
       rotateDeg,
       outside,
     },

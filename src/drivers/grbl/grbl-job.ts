@@ -42,7 +42,7 @@ export function planGrblJob(
     startY: options.startYMm,
     endX: options.endXMm,
     endY: options.endYMm,
-    penBesideMm: 2 / machine.stepsPerMm,
+    penOffsetMm: 2 / machine.stepsPerMm,
     liftFirst: options.liftFirst,
     cancel: options.cancel,
     runs,

@@ -108,7 +108,7 @@ function named(code: number | null): string {
   return `ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}`;
 }
 
-export const restarted = (): PlotwrightError =>
+export const boardRestartedError = (): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The Grbl has restarted: its reset button was pressed, or its supply failed. Its pen is lifted first. " +

@@ -15,7 +15,7 @@ import { clamp } from "../../geometry/polyline.js";
 
 const STEPS = 64;
 
-export interface PathPlace {
+export interface PathPosition {
   readonly x: number;
   readonly y: number;
   /** Direction of travel, rad; +x towards +y. */
@@ -50,7 +50,7 @@ export class MeasuredPath {
   }
 
   /** The position at length `along`, clamped to the path's ends; null if the path has no length. */
-  placeAt(along: number): PathPlace | null {
+  positionAt(along: number): PathPosition | null {
     const { chords } = this;
     if (chords.length === 0) return null;
     const at = firstWhere(0, chords.length - 1, (i) => chords[i].end >= along);

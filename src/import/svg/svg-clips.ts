@@ -16,7 +16,7 @@ import { getOrAdd } from "../../get-or-add.js";
 import { elementTransform } from "./transform.js";
 import { lengthPx } from "./length.js";
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
-import { withStyle, type Context, placeKey } from "./svg-context.js";
+import { withStyle, type Context, contentKey } from "./svg-context.js";
 import type { SvgFile } from "./svg-file.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, childrenOf, HREF, tagOf } from "./svg-tree.js";
@@ -121,7 +121,7 @@ export class SvgClips {
 
   /** The clip to the shapes inside `target`, each filled by its own rule, and to `outside`. */
   private contentClip(target: number, inner: Context, outside: ClipNode | null): ClipNode | "empty" {
-    const built = getOrAdd(this.built, placeKey(target, inner), () => this.build(target, inner));
+    const built = getOrAdd(this.built, contentKey(target, inner), () => this.build(target, inner));
     if (built === null) return "empty";
     return getOrAdd(built.nodes, outside, () => new ClipNode(outside, built.shapes));
   }

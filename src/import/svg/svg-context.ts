@@ -80,5 +80,5 @@ export const isMarked = (tag: string, { style }: Context): boolean =>
   MARKED.has(tag) && (style.markerStart !== null || style.markerMid !== null || style.markerEnd !== null);
 
 /** For results that depend only on an element and where its content is drawn. */
-export const placeKey = (element: number, { map }: Context): string =>
+export const contentKey = (element: number, { map }: Context): string =>
   [element, map.a, map.b, map.c, map.d, map.e, map.f].join(" ");

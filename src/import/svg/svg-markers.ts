@@ -26,7 +26,7 @@ import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../drawing/draw
 import type { ShapeBuffer } from "../shape-buffer.js";
 import { rectangleClip } from "../clip-node.js";
 
-interface MarkerPlace {
+interface MarkerPosition {
   readonly kind: "start" | "mid" | "end";
   readonly x: number;
   readonly y: number;
@@ -43,7 +43,7 @@ interface Vertex {
   leave: readonly [number, number] | null;
 }
 
-export function markerPlaces(shape: ShapeBuffer): MarkerPlace[] {
+export function markerPlaces(shape: ShapeBuffer): MarkerPosition[] {
   const vertices = verticesOf(shape);
   // A path that only moves draws no line, but its markers are drawn.
   if (vertices.length === 0 && shape.lonePoints > 0) {
@@ -160,7 +160,7 @@ function refPosition(text: string, start: number, length: number, basis: LengthB
 export function insideMarker(
   file: SvgFile,
   marker: number,
-  place: MarkerPlace,
+  place: MarkerPosition,
   context: Context,
 ): Context | null {
   const { tree } = file;

@@ -10,7 +10,7 @@ import { ClipNode, type ClipShapes, rectangleClip } from "../clip-node.js";
 import { getOrAdd } from "../../get-or-add.js";
 import { basisOfBox, lengthPx, type Side } from "./length.js";
 import { boxUnits, type SvgClips } from "./svg-clips.js";
-import { withStyle, type Context, placeKey } from "./svg-context.js";
+import { withStyle, type Context, contentKey } from "./svg-context.js";
 import { effectsOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
 import { attribute, tagOf } from "./svg-tree.js";
@@ -70,7 +70,7 @@ export class SvgMasks {
   }
 
   private contentOf(target: number, context: Context, isAlpha: boolean): MaskRegion | null {
-    return getOrAdd(this.regions, placeKey(target, context), () => {
+    return getOrAdd(this.regions, contentKey(target, context), () => {
       this.open.add(target);
       const content = this.drawApart(target, context, this.work);
       this.open.delete(target);

@@ -3,7 +3,7 @@ import { SHAPE_TAGS, type SvgGeometry } from "./basic-shapes.js";
 import { drawPathData } from "../path-data.js";
 import { elementTransform } from "./transform.js";
 import { splitLength, lengthPx } from "./length.js";
-import { MeasuredPath, type PathPlace } from "./measured-path.js";
+import { MeasuredPath, type PathPosition } from "./measured-path.js";
 import { curveBox, ShapeBuffer } from "../shape-buffer.js";
 import type { Context } from "./svg-context.js";
 import type { SvgFile } from "./svg-file.js";
@@ -28,17 +28,17 @@ export class TextPath {
   ) {}
 
   /** The position of a letter whose middle is this far along; null if it falls off the path and is not drawn. */
-  placeOf(middle: number, anchor: Anchor): PathPlace | null {
+  placeOf(middle: number, anchor: Anchor): PathPosition | null {
     const { length, isClosed } = this.path;
-    if (!isClosed) return middle < 0 || middle > length ? null : this.path.placeAt(middle);
+    if (!isClosed) return middle < 0 || middle > length ? null : this.path.positionAt(middle);
     const first = this.startOffset + FIRST_OF_LOOP[anchor] * length;
     if (middle < first || middle > first + length) return null;
-    return this.path.placeAt(((middle % length) + length) % length);
+    return this.path.positionAt(((middle % length) + length) % length);
   }
 
   /** Where text after the path continues. */
-  end(): PathPlace | null {
-    return this.path.placeAt(this.path.length);
+  end(): PathPosition | null {
+    return this.path.positionAt(this.path.length);
   }
 }
 

@@ -89,7 +89,7 @@ describe("the closed form of the accumulator", () => {
             counted.acc,
           ]);
           for (const tick of [0, 1, ticks >> 1, ticks]) {
-            expect(motion.placeAt(tick)).toEqual(counted.history[tick]);
+            expect(motion.stateAfterTicks(tick)).toEqual(counted.history[tick]);
           }
         }),
         { numRuns: cases() },
@@ -114,6 +114,6 @@ describe("the closed form of the accumulator", () => {
   it("never ends for a motor with steps to make and no rate", () => {
     const motion = new AxisMotion("signed", registersFor("signed", 0, 0), 5, 10, Infinity);
     expect(motion.ticks).toBe(Infinity);
-    expect(motion.placeAt(1e9)).toEqual({ net: 0, acc: 5 });
+    expect(motion.stateAfterTicks(1e9)).toEqual({ net: 0, acc: 5 });
   });
 });

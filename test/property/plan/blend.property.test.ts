@@ -58,7 +58,7 @@ describe("a plan that resumes with the pen beside its line", () => {
         const from = { stroke: 0, alongMm: share * whole };
         const [x, y] = placeOn(points, steps, from.alongMm);
         const [startX, startY] = [x + DELTA * Math.cos(way), y + DELTA * Math.sin(way)];
-        const options = { from, startX, startY, penBesideMm: 1.01 * DELTA, returnHome: false };
+        const options = { from, startX, startY, penOffsetMm: 1.01 * DELTA, returnHome: false };
         for (const mode of ["junction", "blend", "scurve"] as const) {
           const t = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, options);
           expect(Array.from(t.runs.stroke)).toEqual([0]);
@@ -70,7 +70,7 @@ describe("a plan that resumes with the pen beside its line", () => {
           expect(worst.distance).toBeLessThanOrEqual(draw.cornerMm * 1.0001 + DELTA + MAX_MOVED_MM);
           const away = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, {
             ...options,
-            penBesideMm: 0.99 * DELTA,
+            penOffsetMm: 0.99 * DELTA,
           });
           expect(Array.from(away.runs.stroke)).toEqual([-1, 0]);
         }

@@ -2,7 +2,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type Trajectory } from "../../../src/index.js";
-import { leavesLineMm } from "../../../src/plan/shapers.js";
+import { maxShapingErrorMm } from "../../../src/plan/shapers.js";
 import { SpringAxis } from "../../../src/plan/spring-pen.js";
 import { blockState, newMotionState } from "../../../src/plan/trajectory.js";
 import { SHAPERS, type Shaper } from "../../../src/settings/motion.js";
@@ -120,7 +120,7 @@ describe("a shaped motion", () => {
           const t = plan(strokeSetOf(strokes), motion, DEFAULT_PEN, { machine: swinging(springs) });
           const { trajectory: planned, kernel } = t.planned!;
           // The limit applies to each axis, so both together may deviate by √2 as much.
-          const allowed = Math.SQRT2 * leavesLineMm(motion, springs) + SHORT_MM;
+          const allowed = Math.SQRT2 * maxShapingErrorMm(motion, springs) + SHORT_MM;
           let last = { run: -1, alongMm: 0 };
           walk(t, [new SpringAxis(20, 0), new SpringAxis(20, 0)], (run, tS, x, y) => {
             if (t.runs.stroke[run] < 0) return;

@@ -10,7 +10,7 @@ import type {
 } from "../../../host/plotter/plotter-port.js";
 import type { Planning } from "../../../host/planning/planning.js";
 import type { PlotPlanner } from "../../../host/planning/planning.js";
-import type { Place } from "../../../src/index.js";
+import type { StrokePosition } from "../../../src/index.js";
 import type { CommandAnswer, HandMove, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
 import { makePlotter, STATS } from "./jobs.js";
 
@@ -21,7 +21,7 @@ export class LedRun implements LivePlotRun {
   progress: (progress: PlotProgress) => void = () => undefined;
   held: (held: boolean, wait?: PlotWait | null) => void = () => undefined;
   readonly asked: string[] = [];
-  holdPlace: Place | null;
+  holdPlace: StrokePosition | null;
 
   constructor(readonly start: PlotStart) {
     this.holdPlace = start.from ?? null;
@@ -64,7 +64,10 @@ export class LedRun implements LivePlotRun {
     return Promise.resolve();
   }
 
-  moveHoldPlace(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }): Place {
+  moveHoldPlace(by: {
+    readonly strokes?: number | undefined;
+    readonly mm?: number | undefined;
+  }): StrokePosition {
     const { stroke = 0, alongMm = 0 } = this.holdPlace ?? {};
     this.holdPlace = { stroke: stroke + (by.strokes ?? 0), alongMm: alongMm + (by.mm ?? 0) };
     return this.holdPlace;

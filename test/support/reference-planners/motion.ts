@@ -5,7 +5,7 @@
 import { BlockColumns } from "../../../src/plan/block-columns.js";
 import { ImpulseFilter, type Kernel } from "../../../src/plan/impulse-filter.js";
 import type { RunPath } from "../../../src/plan/run-path.js";
-import type { WritesRuns } from "../../../src/plan/run-writer.js";
+import type { RunPlanner } from "../../../src/plan/run-writer.js";
 import { newStraight, writeStraight } from "../../../src/plan/trapezoid.js";
 import { distance, type Point, type ReferencePlanner } from "./polyline.js";
 
@@ -13,7 +13,7 @@ import { distance, type Point, type ReferencePlanner } from "./polyline.js";
 const NO_LENGTH_MM = 1e-9;
 
 /** Writes runs by a reference planner, for `plan`. */
-export const referenceRuns = (reference: ReferencePlanner): WritesRuns => ({
+export const referenceRuns = (reference: ReferencePlanner): RunPlanner => ({
   write(path, { speed, accel, corner }, out) {
     const points = pointsOf(path);
     const { speeds } = reference.plan(points, { speed, accel, deviation: corner });
@@ -58,7 +58,7 @@ export const referenceRuns = (reference: ReferencePlanner): WritesRuns => ({
 });
 
 /** The same runs through an input shaper. */
-export function shapedRuns(runs: WritesRuns, kernel: Kernel): WritesRuns {
+export function shapedRuns(runs: RunPlanner, kernel: Kernel): RunPlanner {
   const filter = new ImpulseFilter(kernel);
   const planned = new BlockColumns(0, false);
   return {

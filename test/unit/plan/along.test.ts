@@ -5,7 +5,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt } from "../../../src/index.js";
 import { MOTION_MODES } from "../../../src/internal.js";
-import { pointOfPlace } from "../../../src/position/on-drawing.js";
+import { pointAt } from "../../../src/position/on-drawing.js";
 import { strokesOf } from "../../support/local-planner.js";
 import { RETRACED } from "../../support/stop-truth.js";
 
@@ -40,7 +40,7 @@ describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
     for (let tS = 0; tS < trajectory.totalS; tS += 0.002) {
       const { stroke, alongMm, x, y } = stateAt(trajectory, tS);
       if (stroke < 0) continue;
-      const point = pointOfPlace(RETRACED, { stroke, alongMm });
+      const point = pointAt(RETRACED, { stroke, alongMm });
       farthestMm = Math.max(farthestMm, Math.hypot(point.x - x, point.y - y));
     }
     expect(farthestMm).toBeLessThan(WITHIN_MM);

@@ -9,7 +9,7 @@ import {
   type Trajectory,
 } from "../../../src/index.js";
 import { comeToRest } from "../../../src/plan/come-to-rest.js";
-import { landingMm } from "../../../src/plan/pen-flight.js";
+import { lowerAheadMm } from "../../../src/plan/pen-flight.js";
 import { penMovesOf } from "../../../src/plan/pen-moves.js";
 import { estimatedPosition } from "../../../src/position/pen-position.js";
 import { strokeSetOf } from "../../support/arbitraries.js";
@@ -75,16 +75,16 @@ describe("a pen in flight", () => {
     }
   });
 
-  it("begins to come down at most landingMm before a stroke", () => {
+  it("begins to come down at most lowerAheadMm before a stroke", () => {
     for (const pen of [SAFE, FAST, { ...FAST, dropMs: 500 }]) {
       const t = planned(pen);
       const { accelMmPerS2 } = DEFAULT_MOTION.travel;
       const awayMm = dropsMm(t);
-      expect(Math.max(...awayMm)).toBeLessThanOrEqual(landingMm(pen, accelMmPerS2) + 1e-9);
-      expect(Math.max(...awayMm)).toBeGreaterThan(0.9 * landingMm(pen, accelMmPerS2));
+      expect(Math.max(...awayMm)).toBeLessThanOrEqual(lowerAheadMm(pen, accelMmPerS2) + 1e-9);
+      expect(Math.max(...awayMm)).toBeGreaterThan(0.9 * lowerAheadMm(pen, accelMmPerS2));
     }
-    expect(landingMm(SAFE, 1_000)).toBeCloseTo(0.1, 9);
-    expect(landingMm({ ...FAST, overlap: "off" }, 1_000)).toBe(0);
+    expect(lowerAheadMm(SAFE, 1_000)).toBeCloseTo(0.1, 9);
+    expect(lowerAheadMm({ ...FAST, overlap: "off" }, 1_000)).toBe(0);
   });
 
   it("begins to come down only at the stroke if the machine may lose the end of a travel", () => {

@@ -1,7 +1,7 @@
 /** Input shapers, and the pen at the end of a swinging gantry, both checked by other means than their formulas. */
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan } from "../../../src/index.js";
-import { leavesLineMm } from "../../../src/plan/shapers.js";
+import { maxShapingErrorMm } from "../../../src/plan/shapers.js";
 import { shaperImpulses } from "../../../src/plan/shapers.js";
 import { SpringAxis } from "../../../src/plan/spring-pen.js";
 import { SHAPERS } from "../../../src/settings/motion.js";
@@ -97,7 +97,7 @@ describe("a shaped plan", () => {
   it("keeps a straight line straight for axes with different frequencies, except for the swing that it removes", () => {
     const motion = { ...DEFAULT_MOTION, shaper: "zv" as const };
     const { x, y, blockCount, runs } = plan(line, motion, DEFAULT_PEN, { machine });
-    const allowed = leavesLineMm(motion, springs);
+    const allowed = maxShapingErrorMm(motion, springs);
     for (let k = runs.firstBlock[1]; k < Math.min(runs.firstBlock[2], blockCount); k++) {
       const away = Math.abs((x[k] - 20) * 0.6 - (y[k] - 20) * 0.8);
       expect(away).toBeLessThan(allowed);

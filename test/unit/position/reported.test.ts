@@ -1,8 +1,8 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { machineById, type Place, type StrokeSet } from "../../../src/index.js";
-import { pointOfPlace, strokeLengthMm } from "../../../src/position/on-drawing.js";
-import { leavesDrawingMm, reportedPosition } from "../../../src/position/reported.js";
+import { machineById, type StrokePosition, type StrokeSet } from "../../../src/index.js";
+import { pointAt, strokeLengthMm } from "../../../src/position/on-drawing.js";
+import { maxOffDrawingMm, reportedPosition } from "../../../src/position/reported.js";
 import { DEFAULT_MOTION } from "../../../src/settings/motion.js";
 import { cases } from "../../support/full-run.js";
 import { strokesOf } from "../../support/local-planner.js";
@@ -41,7 +41,7 @@ const share = fc.double({ min: 0, max: 1, noNaN: true });
 const jitter = fc.double({ min: -0.012, max: 0.012, noNaN: true });
 
 /** The place that many mm from the drawing's beginning. */
-function placeAtMm(strokes: StrokeSet, mm: number): Place {
+function placeAtMm(strokes: StrokeSet, mm: number): StrokePosition {
   let stroke = 0;
   let leftMm = mm;
   while (stroke + 2 < strokes.offsets.length && leftMm >= strokeLengthMm(strokes, stroke)) {
@@ -66,7 +66,7 @@ describe("the place where a plot was interrupted", () => {
           const received = placeAtMm(strokes, from * wholeMm);
           const receivedMm = mmOf(strokes, received);
           const pen = placeAtMm(strokes, receivedMm + to * (wholeMm - receivedMm));
-          const { x, y } = pointOfPlace(strokes, pen);
+          const { x, y } = pointAt(strokes, pen);
           const found = reportedPosition(strokes, received, { x: x + dx, y: y + dy, up }, FAR);
           expect(found).not.toBeNull();
           const foundMm = mmOf(strokes, found!);
@@ -87,8 +87,8 @@ describe("the place where a plot was interrupted", () => {
         const last = strokes.offsets.length - 2;
         const next = Math.min(last, received.stroke + 1 + Math.floor(3 * to));
         fc.pre(next > received.stroke);
-        const start = pointOfPlace(strokes, { stroke: next - 1, alongMm: Infinity });
-        const end = pointOfPlace(strokes, { stroke: next, alongMm: 0 });
+        const start = pointAt(strokes, { stroke: next - 1, alongMm: Infinity });
+        const end = pointAt(strokes, { stroke: next, alongMm: 0 });
         const pen = {
           x: start.x + way * (end.x - start.x),
           y: start.y + way * (end.y - start.y),
@@ -142,7 +142,7 @@ describe("the place where a plot was interrupted", () => {
     for (let pass = 0; pass < 8; pass++) {
       const from = { stroke: 0, alongMm: (pass + 0.3) * onceMm };
       const place = { stroke: 0, alongMm: (pass + 1.2) * onceMm };
-      const found = reportedPosition(circles, from, { ...pointOfPlace(circles, place), up: false }, since);
+      const found = reportedPosition(circles, from, { ...pointAt(circles, place), up: false }, since);
       expect(found?.alongMm).toBeCloseTo(place.alongMm, 6);
     }
   });
@@ -184,7 +184,7 @@ describe("the place where a plot was interrupted", () => {
   it("is the start of a stroke that leads back if the carriage is still on its way to it", () => {
     // The travel from (78, 30) and the stroke enclose 18 degrees.
     const leadsBack = strokesOf([60, 12, 78, 12, 78, 30], [60, 36, 63, 36]);
-    const landing = { ...since, landingMm: 1 };
+    const landing = { ...since, lowerAheadMm: 1 };
     const before = { stroke: 0, alongMm: 30 };
     const onTravel = { x: 60.094, y: 35.969, up: false };
     expect(reportedPosition(leadsBack, before, onTravel, landing)).toEqual({ stroke: 1, alongMm: 0 });
@@ -202,7 +202,7 @@ describe("the place where a plot was interrupted", () => {
 
   it("is the next stroke where the pen comes down fast, further before it but on the way to it", () => {
     const landing = { x: 100, y: 47, up: false };
-    const fast = { ...since, landingMm: 3.5 };
+    const fast = { ...since, lowerAheadMm: 3.5 };
     expect(reportedPosition(two, received, landing, fast)).toEqual({ stroke: 1, alongMm: 0 });
     expect(reportedPosition(two, received, { ...landing, y: 46 }, fast)).toBeNull();
     expect(reportedPosition(two, received, { ...landing, x: 99 }, fast)).toBeNull();
@@ -261,12 +261,12 @@ describe("the place where a plot was interrupted", () => {
 
   it("counts as near what corners, merged commands, steps and shaping move the carriage away", () => {
     const machine = machineById("axidraw-v3");
-    const nearMm = leavesDrawingMm(DEFAULT_MOTION, machine);
+    const nearMm = maxOffDrawingMm(DEFAULT_MOTION, machine);
     expect(nearMm).toBeCloseTo(0.025 + 0.02 + 2 / machine.stepsPerMm + 0.02, 9);
     const rounded = { ...DEFAULT_MOTION, layers: { a: { cornerMm: 1 } } };
-    expect(leavesDrawingMm(rounded, machine) - nearMm).toBeCloseTo(0.975, 9);
+    expect(maxOffDrawingMm(rounded, machine) - nearMm).toBeCloseTo(0.975, 9);
     const springs = { xHz: 15, yHz: 25, damping: 0.05 };
     const shaped = { ...DEFAULT_MOTION, shaper: "zv" } as const;
-    expect(leavesDrawingMm(shaped, { ...machine, springs })).toBeGreaterThan(nearMm + 0.05);
+    expect(maxOffDrawingMm(shaped, { ...machine, springs })).toBeGreaterThan(nearMm + 0.05);
   });
 });

@@ -4,7 +4,7 @@ import { commandLine, compile, DEFAULT_MOTION, DEFAULT_PEN, machineById, plan } 
 import type { CommandStream } from "../../../src/drivers/ebb/compile/command-stream.js";
 import { waitingCount } from "../../../src/drivers/ebb/protocol/replies.js";
 import { BoardTimeline, type RefusedCommand } from "../../../src/drivers/ebb/stream/timeline.js";
-import { placeFromMotors } from "../../../src/machines/motors.js";
+import { positionFromMotors } from "../../../src/machines/motors.js";
 import { stateAt } from "../../../src/plan/trajectory.js";
 import { stoppedPosition } from "../../../src/position/pen-position.js";
 import { strokeSetOf, type Point } from "../../support/arbitraries.js";
@@ -43,7 +43,7 @@ describe("the position of an emergency stop", () => {
           { stream, fromS: stream.planS[i], toS: stream.planS[Math.min(i + 2, stream.count)] },
         ]);
         // It has just ended: then its counters are known.
-        const at = placeFromMotors(machine, stream.steps1[i], stream.steps2[i]);
+        const at = positionFromMotors(machine, stream.steps1[i], stream.steps2[i]);
         const { pass, place } = stoppedPosition(AGAIN, [{ ...spans[0], trajectory }], at, null)!;
         // Where the line turns, it is as near a little later, when the motors have made no step yet.
         expect(Math.abs(pass.planS - stream.planS[i + 1])).toBeLessThan(OFF_S);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { cutOffLines } from "../../../src/prepare/cut-off.js";
-import { placeDrawing } from "../../../src/prepare/place.js";
+import { layOutDrawing } from "../../../src/prepare/place.js";
 import { drawingOf } from "../../support/drawings.js";
 
 /** Paper of 100 mm with margins of 10, true size. */
@@ -14,7 +14,7 @@ const BASE: PrepareSettings = {
 };
 const cutOf = (drawing: ReturnType<typeof drawingOf>, settings: Partial<PrepareSettings> = {}) => {
   const all = { ...BASE, ...settings };
-  return cutOffLines(drawing, all, placeDrawing(drawing, all));
+  return cutOffLines(drawing, all, layOutDrawing(drawing, all));
 };
 
 /** Inside; across the margin; outside. */

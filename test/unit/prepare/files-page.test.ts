@@ -11,7 +11,7 @@ import {
   boxOfPoints,
   isOnFilesPage,
   onFilesPage,
-  placeDrawing,
+  layOutDrawing,
   quarterTurned,
   quarterTurnedBox,
 } from "../../../src/internal.js";
@@ -82,22 +82,22 @@ describe("a quarter turn of paper and drawing", () => {
     ["at true size", { fit: false }],
     ["on the file's page", onFilesPage(DEFAULT_PREPARE, page(60, 40), null)],
     ["with four margins", { margins: { topMm: 5, rightMm: 10, bottomMm: 30, leftMm: 50 } }],
-    ["placed", { place: { xMm: 20, yMm: 30, widthMm: 80, heightMm: null } }],
-    ["placed and turned", { place: { xMm: 20, yMm: 60, widthMm: null, heightMm: 40, turnDeg: 30 } }],
+    ["placed", { layout: { xMm: 20, yMm: 30, widthMm: 80, heightMm: null } }],
+    ["placed and turned", { layout: { xMm: 20, yMm: 60, widthMm: null, heightMm: 40, turnDeg: 30 } }],
     ["mirrored", { fit: true, mirror: "leftRight", rotateDeg: 30 }],
   ])("leaves the same plot on the sheet: %s", (_how, change) => {
     const settings = { ...DEFAULT_PREPARE, landscape: false, ...change };
-    const placement = placeDrawing(importSvg(svg), settings);
+    const placement = layOutDrawing(importSvg(svg), settings);
     const after = drawn(svg, quarterTurned(settings, placement, page(60, 40)));
     // At true size the page is at the paper's corner before and after.
-    const heightMm = placement.layout.how === "corner" ? 40 : 297;
+    const heightMm = placement.choice.how === "corner" ? 40 : 297;
     const expected = quarterTurnedBox(drawn(svg, settings), heightMm);
     for (const side of ["x0", "y0", "x1", "y1"] as const) expect(after[side]).toBeCloseTo(expected[side], 3);
   });
 
   it("leaves a drawing that follows the paper by itself so", () => {
     const portrait = { ...DEFAULT_PREPARE, landscape: false };
-    const placement = placeDrawing(importSvg(svgOf(210, 297, "M20 10V200")), portrait);
+    const placement = layOutDrawing(importSvg(svgOf(210, 297, "M20 10V200")), portrait);
     const turned = quarterTurned(portrait, placement, page(210, 297));
     expect([turned.landscape, turned.rotateDeg]).toEqual([true, "auto"]);
   });

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { strokeCount, type StrokeSet } from "../../../src/drawing/stroke-set.js";
-import { placeDrawing } from "../../../src/prepare/place.js";
+import { layOutDrawing } from "../../../src/prepare/place.js";
 import { prepare } from "../../../src/prepare/prepare.js";
 import { DEFAULT_PREPARE, type PrepareSettings } from "../../../src/settings/prepare.js";
 import { prepareSettingsSchema } from "../../../src/schema/index.js";
@@ -32,22 +32,25 @@ describe("place by numbers", () => {
 
   it("puts the drawing's box at the given place, in the given size", () => {
     const at = { xMm: 5, yMm: 6 };
-    expect(draw(drawing, { place: { ...at, widthMm: null, heightMm: null } })).toEqual([[5, 6, 25, 16]]);
-    expect(draw(drawing, { place: { ...at, widthMm: 40, heightMm: null } })).toEqual([[5, 6, 45, 26]]);
-    expect(draw(drawing, { place: { ...at, widthMm: null, heightMm: 20 } })).toEqual([[5, 6, 45, 26]]);
-    expect(draw(drawing, { place: { ...at, widthMm: 30, heightMm: 30 } })).toEqual([[5, 6, 35, 36]]);
+    expect(draw(drawing, { layout: { ...at, widthMm: null, heightMm: null } })).toEqual([[5, 6, 25, 16]]);
+    expect(draw(drawing, { layout: { ...at, widthMm: 40, heightMm: null } })).toEqual([[5, 6, 45, 26]]);
+    expect(draw(drawing, { layout: { ...at, widthMm: null, heightMm: 20 } })).toEqual([[5, 6, 45, 26]]);
+    expect(draw(drawing, { layout: { ...at, widthMm: 30, heightMm: 30 } })).toEqual([[5, 6, 35, 36]]);
   });
 
   it("overrides the fit, and is applied after turning", () => {
-    const place = { xMm: 0, yMm: 0, widthMm: null, heightMm: null };
-    expect(draw(drawing, { place, fit: true, rotateDeg: 90 })).toEqual([[10, 0, 0, 20]]);
+    const layout = { xMm: 0, yMm: 0, widthMm: null, heightMm: null };
+    expect(draw(drawing, { layout, fit: true, rotateDeg: 90 })).toEqual([[10, 0, 0, 20]]);
   });
 
   it("turns a placed box about its centre, and keeps its size", () => {
-    const place = { xMm: 5, yMm: 16, widthMm: 40, heightMm: null };
-    expect(draw(drawing, { place: { ...place, turnDeg: 90 } })).toEqual([[35, 6, 15, 46]]);
-    expect(draw(drawing, { place: { ...place, turnDeg: 0 } })).toEqual(draw(drawing, { place }));
-    const { frame, shapeBoxes } = placeDrawing(drawing, { ...TRUE_SIZE, place: { ...place, turnDeg: 90 } });
+    const layout = { xMm: 5, yMm: 16, widthMm: 40, heightMm: null };
+    expect(draw(drawing, { layout: { ...layout, turnDeg: 90 } })).toEqual([[35, 6, 15, 46]]);
+    expect(draw(drawing, { layout: { ...layout, turnDeg: 0 } })).toEqual(draw(drawing, { layout }));
+    const { frame, shapeBoxes } = layOutDrawing(drawing, {
+      ...TRUE_SIZE,
+      layout: { ...layout, turnDeg: 90 },
+    });
     expect(frame).toEqual({ x0: 5, y0: 16, x1: 45, y1: 36 });
     const [{ x0, y0, x1, y1 }] = shapeBoxes();
     expect([x0, y0, x1, y1].map((v) => Math.round(v * 1e6) / 1e6)).toEqual([15, 6, 35, 46]);
@@ -72,9 +75,9 @@ describe("place by numbers", () => {
 describe("cropping", () => {
   it("cuts off what lies outside the file's page on request, also when it is turned", () => {
     const drawing = drawingOf(["M-50 50L150 50"]);
-    const place = { xMm: 10, yMm: 10, widthMm: null, heightMm: null };
-    expect(draw(drawing, { place })).toEqual([[10, 10, 210, 10]]);
-    expect(draw(drawing, { place, cropToPage: true })).toEqual([[10, 10, 110, 10]]);
+    const layout = { xMm: 10, yMm: 10, widthMm: null, heightMm: null };
+    expect(draw(drawing, { layout })).toEqual([[10, 10, 210, 10]]);
+    expect(draw(drawing, { layout, cropToPage: true })).toEqual([[10, 10, 110, 10]]);
     const turned = prepare(drawing, { ...TRUE_SIZE, rotateDeg: 30, cropToPage: true });
     expect(turned.drawMm).toBeCloseTo(100 / Math.cos(Math.PI / 6) - 100 / Math.cos(Math.PI / 6) + 100, 2);
   });

@@ -70,7 +70,7 @@ export class StoredModel implements JobStore, PlotterStore {
   }
 
   /** Nothing here throws after its first change, so there is nothing to undo. */
-  together(work: () => void): void {
+  transaction(work: () => void): void {
     work();
   }
 

@@ -59,7 +59,7 @@ export interface ServerSlice {
   /** The name of the request that is running: its button is disabled meanwhile. */
   readonly busyAction: string | null;
   /** Small jobs besides the drawing, such as alignment marks. Watch does not open for them. */
-  readonly sideJobIds: readonly string[];
+  readonly utilityJobIds: readonly string[];
 }
 
 export const SERVER_AT_FIRST = {
@@ -83,7 +83,7 @@ export const SERVER_AT_FIRST = {
   live: null,
   wantedPen: null,
   busyAction: null,
-  sideJobIds: [],
+  utilityJobIds: [],
 } as const satisfies Partial<ServerSlice>;
 
 /** The plotter that the page shows and sends to. */

@@ -2,7 +2,7 @@
 import type { Planned } from "../../worker/protocol.js";
 import type { ViewSettings } from "../persist.js";
 
-export interface Notice {
+export interface PageNotice {
   readonly id: number;
   readonly kind: "info" | "error";
   readonly text: string;
@@ -43,7 +43,7 @@ export interface UiSlice {
   readonly isFullScreen: boolean;
   readonly openDialog: DialogName | null;
   readonly takeOverQuestion: TakeOverQuestion | null;
-  readonly notices: readonly Notice[];
+  readonly notices: readonly PageNotice[];
 }
 
 /** Without what the last visit left. */

@@ -22,7 +22,7 @@ import {
 import { AT_HOME, type BoardState, type CommandStream } from "./command-stream.js";
 import { checkEbbProfile } from "../protocol/ebb-controller.js";
 import { firmwareFeatures } from "../protocol/firmware.js";
-import type { LegWriter, RunWriter } from "./leg.js";
+import type { LegWriter, RunCommandWriter } from "./leg.js";
 import { LegRuns } from "./leg-runs.js";
 import { RunWalk } from "./run-walk.js";
 import { StreamColumns } from "./stream-columns.js";
@@ -82,7 +82,7 @@ export function commandLine(stream: CommandStream, index: number): string {
 
 class Compiler {
   private readonly columns: StreamColumns;
-  private readonly runs: RunWriter;
+  private readonly runs: RunCommandWriter;
   /** The current pen heights of the board, percent. */
   private readonly heights: { up: number; down: number };
   /** The current set-up lines, by "SC,number". */
@@ -123,11 +123,11 @@ class Compiler {
     return this.columns.finish(trajectory.totalS);
   }
 
-  private runWriter(): RunWriter {
+  private runWriter(): RunCommandWriter {
     const { trajectory, columns } = this;
     const features = firmwareFeatures(this.options.firmware);
     const walk = new RunWalk(trajectory, this.options.machine);
-    const legs = (writer: LegWriter): RunWriter => new LegRuns(trajectory, walk, writer, columns);
+    const legs = (writer: LegWriter): RunCommandWriter => new LegRuns(trajectory, walk, writer, columns);
     switch (features.motion) {
       case "jerk":
         return legs(new SignedWriter(features));

@@ -28,7 +28,7 @@ export function planEbbJob(
     startY: options.startYMm,
     endX: options.endXMm,
     endY: options.endYMm,
-    penBesideMm: penBesideMmOf(motion, machine),
+    penOffsetMm: penBesideMmOf(motion, machine),
     liftFirst: options.liftFirst,
     dropsAtStroke: dropsAtStroke(firmware),
     cancel: options.cancel,

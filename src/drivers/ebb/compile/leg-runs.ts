@@ -17,9 +17,9 @@ import {
   TOO_FAST,
   type Leg,
   type LegWriter,
-  type Midway,
+  type PenEvent,
   type MotorLeg,
-  type RunWriter,
+  type RunCommandWriter,
 } from "./leg.js";
 import type { MotorPoint, RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
@@ -50,10 +50,10 @@ interface Cut {
   readonly isRunEnd: boolean;
 }
 
-export class LegRuns implements RunWriter {
+export class LegRuns implements RunCommandWriter {
   private runIndex = 0;
   /** Pen moves still to be written during the run, in order of time. */
-  private midway: readonly Midway[] = [];
+  private midway: readonly PenEvent[] = [];
 
   constructor(
     private readonly trajectory: Trajectory,
@@ -67,7 +67,7 @@ export class LegRuns implements RunWriter {
     return this.trajectory.planned ? SHAPED_TURN_TICKS : this.writer.turnTicks;
   }
 
-  write(run: number, midway: readonly Midway[]): void {
+  write(run: number, midway: readonly PenEvent[]): void {
     const { walk, columns } = this;
     walk.begin(run, columns.boardTicks);
     if (walk.first === walk.end) return;
@@ -201,8 +201,8 @@ export class LegRuns implements RunWriter {
     const { walk, writer } = this;
     if (writer.turnTicks === 0) return null;
     const { ticks, m1, m2 } = leg;
-    const motor = backwards(m1) > backwards(m2) ? m1 : m2;
-    if (backwards(motor) * ticks <= 4 * MAX_DEVIATION_RATE || ticks < 2 * writer.minTicks) return null;
+    const motor = reverseTravel(m1) > reverseTravel(m2) ? m1 : m2;
+    if (reverseTravel(motor) * ticks <= 4 * MAX_DEVIATION_RATE || ticks < 2 * writer.minTicks) return null;
     const soonest = Math.max(tick + writer.minTicks, notBefore);
     const isAtStart = Math.abs(motor.v0) < Math.abs(motor.v1);
     const end = isAtStart ? soonest : Math.max(soonest, cut.tick - writer.minTicks);
@@ -290,7 +290,8 @@ const peakRate = (motor: MotorLeg, ticks: number): number =>
 const meanRate = ({ p0, p1 }: MotorLeg, ticks: number): number => ((p1 - p0) / ticks) * ACCUMULATOR_RANGE;
 
 /** The smaller of the end speeds if they have opposite signs, otherwise 0. */
-const backwards = ({ v0, v1 }: MotorLeg): number => (v0 * v1 < 0 ? Math.min(Math.abs(v0), Math.abs(v1)) : 0);
+const reverseTravel = ({ v0, v1 }: MotorLeg): number =>
+  v0 * v1 < 0 ? Math.min(Math.abs(v0), Math.abs(v1)) : 0;
 
 /** True if one acceleration from v0 to v1 would miss the leg's distance. */
 const isBent = (motor: MotorLeg, ticks: number): boolean =>

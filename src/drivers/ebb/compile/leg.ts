@@ -42,7 +42,7 @@ export interface MotorState {
 }
 
 /** A pen move to be written during a run. */
-export interface Midway {
+export interface PenEvent {
   /** Trajectory seconds. */
   readonly atS: number;
   /** `planS`: the plan time at which it is written, at most a few ms after `atS`. */
@@ -53,8 +53,8 @@ export interface Midway {
  * Writes the commands for one run of the trajectory, from the motors' current positions to its end. Each pen move in
  * `midway` is written at the first end of a command at or after its time.
  */
-export interface RunWriter {
-  write(run: number, midway: readonly Midway[]): void;
+export interface RunCommandWriter {
+  write(run: number, midway: readonly PenEvent[]): void;
 }
 
 /** A command, and the board ticks from its start to the next one's. */

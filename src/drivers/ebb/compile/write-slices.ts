@@ -8,7 +8,7 @@
 import { ACCUMULATOR_RANGE, TICKS_PER_MS } from "../../../units.js";
 import { slowRate } from "../model/slow-rate.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
-import { TOO_FAST, type Midway, type MotorState, type RunWriter } from "./leg.js";
+import { TOO_FAST, type PenEvent, type MotorState, type RunCommandWriter } from "./leg.js";
 import type { RunWalk } from "./run-walk.js";
 import type { StreamColumns } from "./stream-columns.js";
 
@@ -30,7 +30,7 @@ const MAX_STEPS_PER_MS = (HIGHEST_SLICE_RATE / ACCUMULATOR_RANGE) * TICKS_PER_MS
 const OLD_FIRMWARE =
   "This board's firmware is older than 2.5.3 and cannot accelerate within a command, so lines may be slightly uneven. Update the firmware.";
 
-export class SliceRuns implements RunWriter {
+export class SliceRuns implements RunCommandWriter {
   /** Ticks by which the last run ended later than planned. */
   private lateTicks = 0;
 
@@ -40,7 +40,7 @@ export class SliceRuns implements RunWriter {
     private readonly columns: StreamColumns,
   ) {}
 
-  write(run: number, midway: readonly Midway[]): void {
+  write(run: number, midway: readonly PenEvent[]): void {
     const { walk, columns, features } = this;
     walk.begin(run, columns.boardTicks - this.lateTicks);
     if (walk.first === walk.end) return;

@@ -4,7 +4,7 @@
  */
 import { parseSteps } from "../protocol/replies.js";
 import type { PollTime } from "../stream/stream-types.js";
-import type { StreamPlace } from "../stream/timeline.js";
+import type { StreamPosition } from "../stream/timeline.js";
 import type { Clock } from "../../transport.js";
 
 /** Seconds of this computer without a step although motion is planned. */
@@ -31,7 +31,7 @@ export class AdvanceWatch {
    * A busy host reads a reply long after the board sent it. So the first of two equal replies counts from when it was
    * read, and the second until it was asked for: the time between them is certain.
    */
-  isStalled(reply: string, asked: PollTime, now: StreamPlace): boolean {
+  isStalled(reply: string, asked: PollTime, now: StreamPosition): boolean {
     const steps = parseSteps(reply).join();
     if (this.lastChange?.steps !== steps) {
       this.lastChange = { steps, sinceS: this.clock.nowS(), planned: plannedSteps(now) };
@@ -45,7 +45,7 @@ export class AdvanceWatch {
 }
 
 /** Step counts at a time of a stream, interpolated linearly within a command. */
-function plannedSteps({ stream, commandIndex, planS }: StreamPlace): readonly [number, number] {
+function plannedSteps({ stream, commandIndex, planS }: StreamPosition): readonly [number, number] {
   const before = Math.max(0, commandIndex - 1);
   const [fromS, toS] = [stream.planS[commandIndex], stream.planS[commandIndex + 1]];
   const share = toS > fromS ? Math.min(1, Math.max(0, (planS - fromS) / (toS - fromS))) : 1;

@@ -3,7 +3,7 @@ import { settingsIdOf, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { withLayerCodes } from "../../../plan/coded-layers.js";
 import { accelEverywhere, drawLimitsOf } from "../../../plan/limits.js";
 import { penOfLayer } from "../../../plan/pen-times.js";
-import type { Place } from "../../../plan/trajectory.js";
+import type { StrokePosition } from "../../../plan/trajectory.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import type { JobSettings } from "../../machine-job.js";
 import { motionForFirmware } from "../protocol/firmware-motion.js";
@@ -12,7 +12,7 @@ import { motionForFirmware } from "../protocol/firmware-motion.js";
 export function brakingAt(
   settings: JobSettings,
   { layer, layers }: StrokeSet,
-  place: Place | null,
+  place: StrokePosition | null,
   firmware: string,
 ): { limits: { drawAccel: number; travelAccel: number }; pen: PenSettings } {
   const { motion: coded, pen } = withLayerCodes(settings, layers);

@@ -1,7 +1,7 @@
 /** One connected EiBotBoard as a `Machine`: its carriage, and the parts that this board has. */
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { ConsoleAnswer, Machine, MachineRun, RunRequest } from "../../driver.js";
+import type { ConsoleAnswer, Machine, Playback, RunRequest } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
 import { moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
@@ -85,7 +85,7 @@ export class EbbMachine extends Carriage implements Machine {
     return this.upkeep.emergencyStopMs(settings);
   }
 
-  startRun(request: RunRequest): MachineRun {
+  startRun(request: RunRequest): Playback {
     return new EbbRun(this, request);
   }
 

@@ -7,18 +7,18 @@
  */
 import type { StrokeSet } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
-import { placeFromMotors } from "../../../machines/motors.js";
+import { positionFromMotors } from "../../../machines/motors.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { comeToRest } from "../../../plan/come-to-rest.js";
 import { isPenUpBefore, penMoveBefore, penMoveColumns } from "../../../plan/pen-moves.js";
 import { reseatWaitS } from "../../../plan/pen-times.js";
-import type { Place, Trajectory } from "../../../plan/trajectory.js";
+import type { StrokePosition, Trajectory } from "../../../plan/trajectory.js";
 import { strokeLengthMm } from "../../../position/on-drawing.js";
 import { passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition, stoppedPosition } from "../../../position/pen-position.js";
-import type { MachineRun, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
+import type { Playback, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
-import { RunProgress, type Part, type PlotProgress } from "../../run-progress.js";
+import { RunProgress, type PlanPart, type PlotProgress } from "../../run-progress.js";
 import { streamOf, type BoardState, type CommandStream } from "../compile/command-stream.js";
 import { compile } from "../compile/compile.js";
 import { penCommand } from "../protocol/commands.js";
@@ -35,7 +35,7 @@ const ON_PLAN_MM = 0.05;
 const EDGE_MM = 0.05;
 
 /** A part of a run, in the form that the board receives. */
-interface EbbPart extends Part {
+interface EbbPart extends PlanPart {
   readonly commands: CommandStream;
   /** The board's state before its first command. */
   readonly start: BoardState;
@@ -48,13 +48,13 @@ type TimedLine = readonly [line: string, durationS: number];
 interface Rest {
   readonly part: EbbPart;
   /** The first place still to be drawn; null if everything is drawn. */
-  readonly place: Place | null;
+  readonly place: StrokePosition | null;
   readonly state: BoardState;
 }
 
-export class EbbRun implements MachineRun {
+export class EbbRun implements Playback {
   /** Set when the stream was stopped on purpose: the first place still to be drawn. */
-  stopped: { readonly place: Place | null } | null = null;
+  stopped: { readonly place: StrokePosition | null } | null = null;
   readonly progress = new RunProgress<EbbPart>();
 
   private streamer: Streamer | null = null;
@@ -65,7 +65,7 @@ export class EbbRun implements MachineRun {
   /** The error with which an emergency stop ends the current play. */
   private emergency: PlotwrightError | null = null;
   /** The last place that the board certainly reached with its motors powered. */
-  private certain: Place | null = null;
+  private certain: StrokePosition | null = null;
   /** Set by `fail`: nothing more may be streamed. */
   private failure: PlotwrightError | null = null;
 
@@ -87,7 +87,7 @@ export class EbbRun implements MachineRun {
   }
 
   now(): PlotProgress | null {
-    return this.streamer && this.progress.update(this.streamer.place());
+    return this.streamer && this.progress.update(this.streamer.position());
   }
 
   /** Switching to another plan; until that is done, no third plan is accepted. */
@@ -95,9 +95,9 @@ export class EbbRun implements MachineRun {
     return this.streamer?.isSwitching ?? false;
   }
 
-  get receivedPlace(): Place | undefined {
+  get receivedPlace(): StrokePosition | undefined {
     const at = this.streamer?.receivedPlace();
-    if (!at || !this.progress.knows(at.stream)) return undefined;
+    if (!at || !this.progress.includes(at.stream)) return undefined;
     const { trajectory, next } = this.progress.partOf(at.stream);
     const isFirstTravel = at.stream === this.firstPart?.commands && at.planS <= firstStrokeS(trajectory);
     return isFirstTravel ? undefined : (estimatedPosition(trajectory, at.planS) ?? next ?? undefined);
@@ -120,7 +120,7 @@ export class EbbRun implements MachineRun {
     this.streamer = streamer;
     const played = carriage.play(streamer, plot, this.settings);
     begun();
-    let left: Place | null = null;
+    let left: StrokePosition | null = null;
     try {
       const report = await played;
       const { trajectory } = this.progress.partOf(report.end.stream);
@@ -229,7 +229,7 @@ export class EbbRun implements MachineRun {
     return true;
   }
 
-  private brakingAt(place: Place | null): ReturnType<typeof brakingAt> {
+  private brakingAt(place: StrokePosition | null): ReturnType<typeof brakingAt> {
     return brakingAt(this.settings, this.strokes, place, this.carriage.connection.features.version);
   }
 
@@ -260,7 +260,7 @@ export class EbbRun implements MachineRun {
   }
 
   /** Moves a pen that is down to another down height. */
-  private reseat(place: Place | null, fromPct: number, heightPct: number): TimedLine[] {
+  private reseat(place: StrokePosition | null, fromPct: number, heightPct: number): TimedLine[] {
     const distancePct = Math.abs(heightPct - fromPct);
     if (distancePct === 0) return [];
     const { pen } = this.brakingAt(place);
@@ -271,7 +271,7 @@ export class EbbRun implements MachineRun {
 
   /** Step counters that the board reported during the play. */
   private reached([steps1, steps2]: readonly [number, number], asked: PollTime): void {
-    const at = placeFromMotors(machineOf(this.settings), steps1, steps2);
+    const at = positionFromMotors(machineOf(this.settings), steps1, steps2);
     const pass = this.streamer && passOf(this.partsOf(this.streamer.spansAt(asked)), at);
     if (!pass || pass.awayMm > ON_PLAN_MM) return;
     const { part } = pass.span;
@@ -280,7 +280,7 @@ export class EbbRun implements MachineRun {
 
   /** Parts of streams, with their plans. */
   private partsOf(spans: readonly StreamSpan[]): (StreamSpan & { part: EbbPart; trajectory: Trajectory })[] {
-    const known = spans.filter(({ stream }) => this.progress.knows(stream));
+    const known = spans.filter(({ stream }) => this.progress.includes(stream));
     return known.map((span) => {
       const part = this.progress.partOf(span.stream);
       return { ...span, part, trajectory: part.trajectory };
@@ -288,14 +288,14 @@ export class EbbRun implements MachineRun {
   }
 
   /** The user stopped the board at once. */
-  private async afterEmergency(streamer: Streamer): Promise<Place | null> {
+  private async afterEmergency(streamer: Streamer): Promise<StrokePosition | null> {
     const place = await this.positionAfterStop(streamer);
     this.stopped = { place };
     return place;
   }
 
   /** The board refused commands, and was stopped at once. */
-  private async afterRefusal(streamer: Streamer): Promise<Place | null> {
+  private async afterRefusal(streamer: Streamer): Promise<StrokePosition | null> {
     const { carriage } = this;
     try {
       const place = await this.positionAfterStop(streamer);
@@ -309,7 +309,7 @@ export class EbbRun implements MachineRun {
   }
 
   /** The board's queue is cleared: the counters show how far it drew. */
-  private async positionAfterStop(streamer: Streamer): Promise<Place | null> {
+  private async positionAfterStop(streamer: Streamer): Promise<StrokePosition | null> {
     const { carriage, strokes } = this;
     await carriage.position.readBack();
     carriage.pen.isUp = null;
@@ -322,12 +322,12 @@ export class EbbRun implements MachineRun {
   }
 
   /** The first place still to be drawn when a part is drawn; at the end of the plot, the end of the last stroke. */
-  private afterPart({ next, trajectory }: EbbPart): Place | null {
+  private afterPart({ next, trajectory }: EbbPart): StrokePosition | null {
     return next ?? this.endOf(trajectory);
   }
 
   /** The end of the last stroke: for a stop when everything is drawn and only the travel home is left. */
-  private endOf({ runs }: Trajectory): Place | null {
+  private endOf({ runs }: Trajectory): StrokePosition | null {
     const stroke = runs.stroke.reduce((last, one) => Math.max(last, one), -1);
     return stroke < 0 ? this.progress.place : { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
   }
@@ -337,7 +337,7 @@ export class EbbRun implements MachineRun {
     return this.stopped !== null;
   }
 
-  private whereStopped(): Place | null {
+  private whereStopped(): StrokePosition | null {
     return this.stopped?.place ?? null;
   }
 }
@@ -366,5 +366,5 @@ function firstStrokeS({ runs }: Trajectory): number {
   return run < 0 ? Infinity : runs.startS[run];
 }
 
-const isWithinStroke = (strokes: StrokeSet, { stroke, alongMm }: Place): boolean =>
+const isWithinStroke = (strokes: StrokeSet, { stroke, alongMm }: StrokePosition): boolean =>
   alongMm > EDGE_MM && alongMm < strokeLengthMm(strokes, stroke) - EDGE_MM;

@@ -4,7 +4,7 @@
  * when the motors are switched on after it was moved by hand.
  */
 import { PlotwrightError } from "../../../errors.js";
-import { placeFromMotors } from "../../../machines/motors.js";
+import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { MachineSettings } from "../../machine-job.js";
@@ -40,7 +40,7 @@ export class EbbPosition {
 
   /** mm from home; null if unknown. */
   mm(machine: MachineProfile): { x: number; y: number } | null {
-    return this.state && placeFromMotors(machine, this.state.steps1, this.state.steps2);
+    return this.state && positionFromMotors(machine, this.state.steps1, this.state.steps2);
   }
 
   /** Whether a board that was connected again still counts from home, because it was not restarted. */

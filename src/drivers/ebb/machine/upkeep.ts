@@ -106,7 +106,7 @@ export class EbbUpkeep {
         if (failure === "failed") this.events.supplyRead(failure);
         if (isButtonPressed(line, reply)) this.events.buttonPressed();
         if (line === "QC") this.events.supplyRead(isPowerLow(line, reply) ? "low" : "good");
-        if (line === "QS" && streamer.playing && watch.isStalled(reply, asked, streamer.place()))
+        if (line === "QS" && streamer.playing && watch.isStalled(reply, asked, streamer.position()))
           streamer.stopAtOnce(stuck());
       },
     });

@@ -142,7 +142,7 @@ export class AxisMotion {
   }
 
   /** The state after `tick` ticks; after the last tick, the final state. */
-  placeAt(tick: number): AxisState {
+  stateAfterTicks(tick: number): AxisState {
     const piece = this.pieceAt(tick);
     if (piece === undefined || tick >= this.ticks) return { net: this.net, acc: this.acc };
     const t = Math.max(0, Math.min(tick - piece.fromTick, piece.ticks));

@@ -49,7 +49,7 @@ export class AnswerQueue<Awaited extends AwaitedAnswer = AwaitedAnswer> {
   inDoubt = false;
   private readonly waiting: Waiting<Awaited>[] = [];
   /** An error was just received: ignore the OK that some firmware sends after it. */
-  private forgivesOk = false;
+  private toleratesMissingOk = false;
   private lastLine = "";
 
   constructor(private readonly onStray: (line: string) => void) {}
@@ -94,15 +94,15 @@ export class AnswerQueue<Awaited extends AwaitedAnswer = AwaitedAnswer> {
       this.stray(lateFor === "" ? line : `${line} (to ${lateFor})`);
       return;
     }
-    this.forgivesOk = true;
+    this.toleratesMissingOk = true;
     failed.awaited.settle(boardError(failed.awaited.line, code, words), "");
   }
 
   private takeOk(): void {
     const first = this.waiting[0];
     if (!first) {
-      if (!this.forgivesOk) this.stray("OK");
-      this.forgivesOk = false;
+      if (!this.toleratesMissingOk) this.stray("OK");
+      this.toleratesMissingOk = false;
       return;
     }
     // A board without a name answers QT with an empty line, which the line splitter drops.
@@ -110,8 +110,8 @@ export class AnswerQueue<Awaited extends AwaitedAnswer = AwaitedAnswer> {
       this.finishFirst(first.value ?? "");
       return;
     }
-    if (this.forgivesOk) {
-      this.forgivesOk = false;
+    if (this.toleratesMissingOk) {
+      this.toleratesMissingOk = false;
       return;
     }
     if (!first.hadOk) {

@@ -28,7 +28,7 @@ export function commandAfter({ boardS, count }: CommandStream, index: number, le
  * a run: it is written with the rest of the run. Otherwise a host that is killed in between would leave the pen on the
  * paper before the stroke.
  */
-export function endOfLanding(stream: CommandStream, index: number): number {
+export function endOfLowering(stream: CommandStream, index: number): number {
   const { run, count } = stream;
   let end = index + 1;
   if (run[index] < 0 || !/^(SP,0|S2),/.test(commandLine(stream, index))) return end;

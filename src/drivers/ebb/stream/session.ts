@@ -20,7 +20,7 @@ export interface SessionOptions {
   /** For time-outs, in real seconds. */
   readonly clock: Clock;
   /** Time without a reply after which the board counts as gone, while this program runs. Default 1.5 s. */
-  readonly patienceS?: number;
+  readonly timeoutS?: number;
   /** Max number of lines in the log. Default 20 000. */
   readonly logLines?: number;
 }
@@ -48,7 +48,7 @@ export interface BoardIdentity {
 }
 
 interface SentCommand extends AwaitedAnswer {
-  readonly patienceS: number;
+  readonly timeoutS: number;
   readonly alone: boolean;
 }
 
@@ -68,7 +68,7 @@ export class BoardSession {
   identity: BoardIdentity | null = null;
 
   private readonly lines: LineSession;
-  private readonly patienceS: number;
+  private readonly timeoutS: number;
   private readonly answers: AnswerQueue<SentCommand>;
 
   constructor(transport: Transport, options: SessionOptions) {
@@ -86,7 +86,7 @@ export class BoardSession {
       ["clock"],
       "{ clock }, for example { clock: browserClock() }",
     );
-    this.patienceS = options.patienceS ?? 1.5;
+    this.timeoutS = options.timeoutS ?? 1.5;
     this.answers = new AnswerQueue((line) => {
       this.log.add("note", `belongs to no command: ${line}`);
       this.findOrder();
@@ -223,22 +223,22 @@ export class BoardSession {
     const onReply = (): void => {
       this.answers.inDoubt = false;
     };
-    this.write([{ line: "V", waitS: this.patienceS, alone: true, onReply }]);
+    this.write([{ line: "V", waitS: this.timeoutS, alone: true, onReply }]);
   }
 
   private expect({ line, waitS = 0, alone = false, onReply }: Outgoing): void {
-    const patienceS = alone ? waitS : this.patienceS + waitS;
+    const timeoutS = alone ? waitS : this.timeoutS + waitS;
     const settle: SentCommand["settle"] = (error, value) => {
       this.awaitFirst();
       onReply?.(error, value);
     };
-    this.answers.add({ line, patienceS, alone, settle });
+    this.answers.add({ line, timeoutS, alone, settle });
     if (this.answers.count === 1) this.awaitFirst();
   }
 
   /** Call when another command has become the first unanswered one. */
   private awaitFirst(): void {
-    this.lines.expectWithin(this.answers.first?.patienceS ?? Infinity);
+    this.lines.expectWithin(this.answers.first?.timeoutS ?? Infinity);
   }
 
   /** The first unanswered command has waited too long. */

@@ -2,11 +2,11 @@ import type { CommandStream } from "../compile/command-stream.js";
 import type { BoardSession } from "./session.js";
 import type { StreamOptions, StreamReport } from "./stream-types.js";
 import { Streamer } from "./streamer.js";
-import type { StreamPlace } from "./timeline.js";
+import type { StreamPosition } from "./timeline.js";
 import type { Cancellation } from "../../../prepare/work.js";
 
 /** Progress of a plot. */
-export interface StreamProgress extends StreamPlace {
+export interface StreamProgress extends StreamPosition {
   /** Share of the plot's time that is done, 0 … 1. */
   readonly fraction: number;
   /** Remaining time of the plot, seconds. */
@@ -39,7 +39,7 @@ export async function streamCommands(
   let stopTicking = (): void => undefined;
   const tick = (): void => {
     if (options.cancel?.aborted && streamer.playing) streamer.cut();
-    else options.onProgress?.(progressOf(streamer.place()));
+    else options.onProgress?.(progressOf(streamer.position()));
     stopTicking = options.clock.after(options.progressEveryS ?? 0.06, tick);
   };
   const played = streamer.play(stream);
@@ -55,7 +55,7 @@ export async function streamCommands(
   }
 }
 
-function progressOf(place: StreamPlace): StreamProgress {
+function progressOf(place: StreamPosition): StreamProgress {
   const { planS, count } = place.stream;
   const fromS = planS[0];
   const toS = planS[count];

@@ -1,5 +1,5 @@
 /** Inputs and results of a `Streamer`. */
-import type { StreamPlace } from "./timeline.js";
+import type { StreamPosition } from "./timeline.js";
 import type { Clock } from "../../transport.js";
 
 /** How commands are sent. Only the clock is required. */
@@ -36,7 +36,7 @@ export interface PollTime {
   /** On the stream's clock. A busy host may read the reply much later. */
   readonly clockS: number;
   readonly boardS: number;
-  readonly place: StreamPlace;
+  readonly place: StreamPosition;
 }
 
 /** How a stream ended. */
@@ -47,7 +47,7 @@ export interface StreamReport {
   /** True if they equal the prediction (or cannot be read). */
   readonly exact: boolean;
   /** The last command written; the board is in the state after it. */
-  readonly end: StreamPlace;
+  readonly end: StreamPosition;
   /** False if the stream was cut and not replaced. */
   readonly complete: boolean;
 }

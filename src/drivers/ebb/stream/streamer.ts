@@ -21,15 +21,15 @@ import { parseSteps, waitingCount } from "../protocol/replies.js";
 import { PlotwrightError } from "../../../errors.js";
 import { stuck } from "../../faults.js";
 import { delay } from "../../transport.js";
-import { endOfLanding } from "./cut-streams.js";
+import { endOfLowering } from "./cut-streams.js";
 import type { BoardSession, Outgoing } from "./session.js";
 import type { PollTime, StreamOptions, StreamReport } from "./stream-types.js";
 import {
   BoardTimeline,
-  placeIn,
+  positionIn,
   type RefusedCommand,
   type StopNotes,
-  type StreamPlace,
+  type StreamPosition,
   type StreamSpan,
 } from "./timeline.js";
 
@@ -67,7 +67,7 @@ export class Streamer {
   /** Commands from `atIndex` on are not written; the streams in `then`, if any, continue from there. */
   private limit: { readonly atIndex: number; readonly then: readonly CommandStream[] } | null = null;
   private unanswered = 0;
-  private lastWritten: StreamPlace | null = null;
+  private lastWritten: StreamPosition | null = null;
   private cancelWake: (() => void) | null = null;
   private cancelPoll: (() => void) | null = null;
   private betweenDueS = -Infinity;
@@ -116,7 +116,7 @@ export class Streamer {
   }
 
   /** Stops writing the stream. Returns the position of the first command that is not sent. */
-  cut(): StreamPlace {
+  cut(): StreamPosition {
     const stream = this.stream;
     if (!stream || !this.playing) throw new TypeError("nothing is being played");
     this.limit = { atIndex: this.next, then: [] };
@@ -152,20 +152,20 @@ export class Streamer {
   }
 
   /** Estimated current position of the board. */
-  place(): StreamPlace {
+  position(): StreamPosition {
     const boardS = this.timeline.boardS();
     const entry = this.timeline.at(boardS);
-    return entry ? placeIn(entry, boardS) : this.endOfWritten();
+    return entry ? positionIn(entry, boardS) : this.endOfWritten();
   }
 
   /** The end of what the board has acknowledged and plays unless it is stopped; null after a stop at once. */
-  receivedPlace(): StreamPlace | null {
+  receivedPlace(): StreamPosition | null {
     if (this.isStopped) return null;
     const entry = this.timeline.unacknowledged;
-    return entry ? placeIn(entry, entry.startS) : this.endOfWritten();
+    return entry ? positionIn(entry, entry.startS) : this.endOfWritten();
   }
 
-  private endOfWritten(): StreamPlace {
+  private endOfWritten(): StreamPosition {
     if (this.lastWritten) {
       const { stream, commandIndex } = this.lastWritten;
       return { stream, commandIndex, planS: stream.planS[commandIndex + 1] };
@@ -245,7 +245,7 @@ export class Streamer {
     const batch: Outgoing[] = [];
     const endIndex = this.limit?.atIndex ?? stream.count;
     while (this.next < endIndex) {
-      const end = Math.min(endIndex, endOfLanding(stream, this.next));
+      const end = Math.min(endIndex, endOfLowering(stream, this.next));
       if (!this.mayWrite(stream, boardS, end - this.next)) break;
       for (; this.next < end; this.next++) {
         batch.push(...this.queriesBefore(stream.boardS[this.next]), this.outgoing(stream, this.next));
@@ -360,7 +360,7 @@ export class Streamer {
   private queries(lines: readonly string[], done: () => void = () => undefined): Outgoing[] {
     const { clock } = this.options;
     const waitS = this.timeline.longestS();
-    const asked: PollTime = { clockS: clock.nowS(), boardS: this.timeline.boardS(), place: this.place() };
+    const asked: PollTime = { clockS: clock.nowS(), boardS: this.timeline.boardS(), place: this.position() };
     return lines.map((line, i) => ({
       line,
       waitS,

@@ -13,7 +13,7 @@ import { BoardPace } from "./board-pace.js";
 import type { Clock } from "../../transport.js";
 
 /** A position in a stream. */
-export interface StreamPlace {
+export interface StreamPosition {
   readonly stream: CommandStream;
   readonly commandIndex: number;
   /** Trajectory seconds of `stream`. */
@@ -41,7 +41,7 @@ export interface StreamSpan {
 
 /** A command that the board refused. */
 export interface RefusedCommand {
-  readonly at: StreamPlace;
+  readonly at: StreamPosition;
   /** The number of the command, or, if it takes no time, of the next one that does. */
   readonly number: number;
   readonly takesTime: boolean;
@@ -56,7 +56,7 @@ export interface StopNotes {
 }
 
 /** The position in its stream of a command at a board time. */
-export function placeIn({ stream, index, startS, endS }: InFlight, boardS: number): StreamPlace {
+export function positionIn({ stream, index, startS, endS }: InFlight, boardS: number): StreamPosition {
   const share = Math.min(1, Math.max(0, (boardS - startS) / (endS - startS)));
   const fromS = stream.planS[index];
   return { stream, commandIndex: index, planS: fromS + share * (stream.planS[index + 1] - fromS) };
@@ -242,7 +242,7 @@ function spansOf(commands: readonly InFlight[], boardS: number): StreamSpan[] {
     const last = commands[end - 1];
     const running = commands.slice(first, end).find((command) => boardS < command.endS) ?? last;
     const outsideS = Math.min(0, boardS - startS) + Math.max(0, boardS - last.endS);
-    const estimateS = placeIn(running, boardS).planS + outsideS;
+    const estimateS = positionIn(running, boardS).planS + outsideS;
     spans.push({ stream, fromS: stream.planS[index], toS: stream.planS[last.index + 1], estimateS });
   }
   return spans;

@@ -213,7 +213,7 @@ export class BoardCore {
     if (running === null || running.move === null || !this.makesSteps) return [this.steps1, this.steps2];
     const tick = Math.floor(this.motionTick - running.startTick);
     const { motion1, motion2 } = running.move;
-    return [this.steps1 + motion1.placeAt(tick).net, this.steps2 + motion2.placeAt(tick).net];
+    return [this.steps1 + motion1.stateAfterTicks(tick).net, this.steps2 + motion2.stateAfterTicks(tick).net];
   }
 
   /** CS, and EM on every firmware. The running move continues. */
@@ -364,8 +364,8 @@ export class BoardCore {
       return;
     }
     const done = Math.floor(ticks);
-    const place1 = move.motion1.placeAt(done);
-    const place2 = move.motion2.placeAt(done);
+    const place1 = move.motion1.stateAfterTicks(done);
+    const place2 = move.motion2.stateAfterTicks(done);
     const [from1, from2] = [this.steps1 - this.missed1, this.steps2 - this.missed2];
     if (this.turnsMotors) this.line?.addMove(move, done, from1, from2, running.startTick);
     else {

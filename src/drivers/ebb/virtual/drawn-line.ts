@@ -46,7 +46,10 @@ export class DrawnLine implements LineRecord {
     const { motion1, motion2 } = move;
     const end = Math.min(ticks, Math.max(motion1.ticks, motion2.ticks));
     const sample = (tick: number): void =>
-      this.add({ m1: steps1 + motion1.placeAt(tick).net, m2: steps2 + motion2.placeAt(tick).net });
+      this.add({
+        m1: steps1 + motion1.stateAfterTicks(tick).net,
+        m2: steps2 + motion2.stateAfterTicks(tick).net,
+      });
     const stride = sampleTicks(move, end);
     for (let tick = stride; tick < end; tick += stride) sample(tick);
     sample(end);

@@ -56,7 +56,10 @@ export class SwingingLine implements LineRecord {
       this.axisX.advance(dt, (nextVx - vx) / dt);
       this.axisY.advance(dt, (nextVy - vy) / dt);
       [vx, vy] = [nextVx, nextVy];
-      this.addAt(steps1 + move.motion1.placeAt(to).net, steps2 + move.motion2.placeAt(to).net);
+      this.addAt(
+        steps1 + move.motion1.stateAfterTicks(to).net,
+        steps2 + move.motion2.stateAfterTicks(to).net,
+      );
     }
     [this.vx, this.vy] = [vx, vy];
     this.tick = startTick + end;

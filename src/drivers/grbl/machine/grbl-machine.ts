@@ -3,14 +3,14 @@
  * mm from home. If the position is unknown, the carriage is assumed to be at home.
  */
 import { PlotwrightError } from "../../../errors.js";
-import { placeFromMotors } from "../../../machines/motors.js";
+import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type {
   ConnectOptions,
   ConsoleAnswer,
   Machine,
-  MachineRun,
+  Playback,
   PenBefore,
   RunRequest,
 } from "../../driver.js";
@@ -69,7 +69,7 @@ export class GrblMachine implements Machine {
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
     const { stepsPerMm } = profile;
-    return this.at && placeFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
+    return this.at && positionFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
   }
 
   /** Stops motion that was left, reads the Grbl's settings, and lifts the pen if it may be on the paper. */
@@ -235,7 +235,7 @@ export class GrblMachine implements Machine {
     return this.session.log.text();
   }
 
-  startRun(request: RunRequest): MachineRun {
+  startRun(request: RunRequest): Playback {
     return new GrblRun(this, request);
   }
 

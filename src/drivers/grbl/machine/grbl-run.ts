@@ -7,22 +7,22 @@ import { PlotwrightError } from "../../../errors.js";
 import { passesOf } from "../../../geometry/passes.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { penMovesOf } from "../../../plan/pen-moves.js";
-import { stateAt, type Place, type Trajectory } from "../../../plan/trajectory.js";
+import { stateAt, type StrokePosition, type Trajectory } from "../../../plan/trajectory.js";
 import { strokeLengthMm } from "../../../position/on-drawing.js";
 import { passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition } from "../../../position/pen-position.js";
-import type { Machine, MachineRun, RunEvents, RunRequest } from "../../driver.js";
+import type { Machine, Playback, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { RunProgress, type PlotProgress } from "../../run-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
-import { restarted } from "../protocol.js";
+import { boardRestartedError } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
 
 /** A stop farther from the plan than this shows that the Grbl counts from another place, because it has restarted. */
 const LOST_MM = 2;
 
 /** The parts of the machine that a run uses. */
-interface Carriage extends Pick<Machine, "penUp" | "movePen" | "positionMm" | "forgetPosition"> {
+interface GrblCarriage extends Pick<Machine, "penUp" | "movePen" | "positionMm" | "forgetPosition"> {
   /** Throws if the lines cannot be played. */
   stream(commands: GrblCommands): LineStream;
   /** Called after a job has been played to its end. */
@@ -39,9 +39,9 @@ interface Playing {
   readonly stream: LineStream;
 }
 
-export class GrblRun implements MachineRun {
+export class GrblRun implements Playback {
   readonly progress = new RunProgress();
-  stopped: { readonly place: Place | null } | null = null;
+  stopped: { readonly place: StrokePosition | null } | null = null;
   readonly isSwitching = false;
 
   private current: Playing | null = null;
@@ -53,7 +53,7 @@ export class GrblRun implements MachineRun {
   private readonly events: RunEvents;
 
   constructor(
-    private readonly machine: Carriage,
+    private readonly machine: GrblCarriage,
     private readonly request: RunRequest,
   ) {
     this.strokes = request.strokes;
@@ -86,7 +86,7 @@ export class GrblRun implements MachineRun {
     this.current = { plot, commands, stream };
     const played = stream.play();
     begun();
-    let left: Place | null = null;
+    let left: StrokePosition | null = null;
     try {
       await played;
       await machine.arrived();
@@ -101,7 +101,7 @@ export class GrblRun implements MachineRun {
       const isLost = machine.positionMm(machineOf(settings)) === null;
       // The Grbl may have failed before the stop was requested.
       if (isLost || error !== this.requested) {
-        throw await machine.liftAfter(error === this.requested ? restarted() : error, settings);
+        throw await machine.liftAfter(error === this.requested ? boardRestartedError() : error, settings);
       }
       this.stopped = { place: left };
     } finally {
@@ -130,7 +130,7 @@ export class GrblRun implements MachineRun {
   }
 
   /** Clears Grbl's queue. Its position shows how far it drew; if that is lost, the place is forgotten. */
-  private async whereStopped(current: Playing): Promise<Place | null> {
+  private async whereStopped(current: Playing): Promise<StrokePosition | null> {
     const { machine, progress, strokes } = this;
     const { plot, commands, stream } = current;
     const settings = this.request.settings();
@@ -154,7 +154,7 @@ export class GrblRun implements MachineRun {
   }
 
   /** The end of the last stroke: for an emergency stop when only the travel home is left. */
-  private endOfDrawing(): Place {
+  private endOfDrawing(): StrokePosition {
     const stroke = strokeCount(this.strokes) - 1;
     return { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
   }
@@ -166,7 +166,7 @@ export class GrblRun implements MachineRun {
 }
 
 /** Everything before it is certainly drawn. The line may overlap where it resumes. */
-const certainPosition = ({ plot, stream }: Playing): Place | null =>
+const certainPosition = ({ plot, stream }: Playing): StrokePosition | null =>
   estimatedPosition(plot.trajectory, Math.min(stream.boundsS[0], stream.missedS ?? Infinity));
 
 /** How far a point is from the straight line between the points at two times of the plan, mm. */

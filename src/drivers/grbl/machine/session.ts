@@ -27,7 +27,7 @@ import {
   offsetOf,
   outOfStep,
   refusal,
-  restarted,
+  boardRestartedError,
   RX_BYTES,
   statusOf,
   unanswered,
@@ -311,7 +311,7 @@ export class GrblSession implements LineProtocol {
       else this.broken(alarm(code));
     } else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);
-      if (waiters.length === 0) this.broken(restarted());
+      if (waiters.length === 0) this.broken(boardRestartedError());
       for (const waiter of waiters) waiter();
     }
   }

@@ -2,7 +2,7 @@
 import { PlotwrightError } from "../../../errors.js";
 import type { Controller, MachineProfile } from "../../../machines/profile.js";
 import type { SettingsTable, ValuesOf } from "../../../settings/setting.js";
-import type { AxisLimits } from "./planner.js";
+import type { GrblAxisLimits } from "./planner.js";
 
 const speed = { kind: "number", min: 0, minExcluded: true, max: 1_000, unit: "mm/s", step: 1 } as const;
 const accel = { kind: "number", min: 0, minExcluded: true, max: 50_000, unit: "mm/s²", step: 10 } as const;
@@ -65,7 +65,7 @@ export function grblOf({ name, motors, controller }: MachineProfile): GrblContro
   );
 }
 
-export function axisLimits(grbl: GrblController): AxisLimits {
+export function axisLimits(grbl: GrblController): GrblAxisLimits {
   const { maxSpeedMmPerS: speed, accelMmPerS2: accel, penSpeedMmPerS, penAccelMmPerS2, junctionMm } = grbl;
   return { speed: [speed, speed, penSpeedMmPerS], accel: [accel, accel, penAccelMmPerS2], junctionMm };
 }

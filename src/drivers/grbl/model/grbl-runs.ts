@@ -1,13 +1,13 @@
 /** Writes the runs of a plan as Grbl will perform them, and records the moves to send. */
-import { motor1FromXy, motor2FromXy, placeFromMotors } from "../../../machines/motors.js";
+import { motor1FromXy, motor2FromXy, positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { BlockColumns } from "../../../plan/block-columns.js";
 import { capSegments, type RunLimits } from "../../../plan/limits.js";
 import type { RunPath } from "../../../plan/run-path.js";
-import type { WritesRuns } from "../../../plan/run-writer.js";
+import type { RunPlanner } from "../../../plan/run-writer.js";
 import { newStraight, writeStraight } from "../../../plan/trapezoid.js";
 import { axisLimits, type GrblController } from "./grbl-controller.js";
-import { moveOf, plannedSpeeds2, type AxisLimits, type Move } from "./planner.js";
+import { moveOf, plannedSpeeds2, type GrblAxisLimits, type Move } from "./planner.js";
 
 /** A line to send: to a position of the axes, mm. */
 export interface SentMove {
@@ -28,10 +28,10 @@ interface Point {
   readonly alongMm: number;
 }
 
-export class GrblRuns implements WritesRuns {
+export class GrblRuns implements RunPlanner {
   /** By run. */
   readonly runs: SentMove[][] = [];
-  private readonly limits: AxisLimits;
+  private readonly limits: GrblAxisLimits;
 
   constructor(
     private readonly machine: MachineProfile,
@@ -86,7 +86,7 @@ export class GrblRuns implements WritesRuns {
   private pointAt({ x, y }: RunPath, i: number, alongMm: number): Point {
     const steps1 = Math.round(motor1FromXy(this.machine, x[i], y[i]));
     const steps2 = Math.round(motor2FromXy(this.machine, x[i], y[i]));
-    return { steps1, steps2, ...placeFromMotors(this.machine, steps1, steps2), alongMm };
+    return { steps1, steps2, ...positionFromMotors(this.machine, steps1, steps2), alongMm };
   }
 }
 

@@ -11,7 +11,7 @@ export const difference = (a: Axes, b: Axes): Axes => [a[0] - b[0], a[1] - b[1],
 
 export const sum = (a: Axes, b: Axes): Axes => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 
-export interface AxisLimits {
+export interface GrblAxisLimits {
   /** mm/s. */
   readonly speed: Axes;
   /** mm/s². */
@@ -37,7 +37,13 @@ export const QUEUE_MOVES = 15;
 const SAME = 0.999999;
 
 /** A move between two different positions. `before`: the previous move in the queue. */
-export function moveOf(from: Axes, to: Axes, feed: number, limits: AxisLimits, before: Move | null): Move {
+export function moveOf(
+  from: Axes,
+  to: Axes,
+  feed: number,
+  limits: GrblAxisLimits,
+  before: Move | null,
+): Move {
   const delta = difference(to, from);
   const lengthMm = Math.hypot(...delta);
   const unit: Axes = [delta[0] / lengthMm, delta[1] / lengthMm, delta[2] / lengthMm];
@@ -56,7 +62,7 @@ function alongAxes(limits: Axes, unit: Axes): number {
 }
 
 /** Max speed² around a corner: that of a circle that passes it within the junction deviation. */
-export function junctionSpeed2(before: Axes, after: Axes, { accel, junctionMm }: AxisLimits): number {
+export function junctionSpeed2(before: Axes, after: Axes, { accel, junctionMm }: GrblAxisLimits): number {
   const cos = -(before[0] * after[0] + before[1] * after[1] + before[2] * after[2]);
   if (cos > SAME) return 0;
   if (cos < -SAME) return Infinity;

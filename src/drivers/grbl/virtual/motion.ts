@@ -1,5 +1,5 @@
 /** The move queue of the virtual Grbl, and the axes that perform it over time. */
-import type { AxisLimits, Axes, Move } from "../model/planner.js";
+import type { GrblAxisLimits, Axes, Move } from "../model/planner.js";
 import { exitLimit2, moveOf, QUEUE_MOVES } from "../model/planner.js";
 
 /** A piece of constant acceleration. */
@@ -25,7 +25,7 @@ export class GrblMotion {
   private isHolding = false;
 
   constructor(
-    private readonly limits: () => AxisLimits,
+    private readonly limits: () => GrblAxisLimits,
     private readonly onSteps: (at: Axes) => Axes,
     private readonly arrived: (at: Axes) => void,
   ) {}

@@ -3,7 +3,7 @@
  * reports, real-time commands, soft limits and the lock of a machine that wants to be homed. It supports the commands
  * that this driver sends, and refuses others as Grbl does.
  */
-import { placeFromMotors } from "../../../machines/motors.js";
+import { positionFromMotors } from "../../../machines/motors.js";
 import { DrawnPolylines, type DrawnPolyline } from "../../drawn-polylines.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
@@ -421,7 +421,7 @@ export class VirtualGrbl implements VirtualMachine {
 
   private onPage(x: number, y: number): { x: number; y: number } {
     const { stepsPerMm } = this.options.machine;
-    return placeFromMotors(this.options.machine, x * stepsPerMm, y * stepsPerMm);
+    return positionFromMotors(this.options.machine, x * stepsPerMm, y * stepsPerMm);
   }
 
   private record(): void {

@@ -1,7 +1,7 @@
 /** What differs from one virtual Grbl to another: its own settings, its receive buffer, and faults of the connection. */
 import type { MachineProfile } from "../../../machines/profile.js";
 import { grblOf } from "../model/grbl-controller.js";
-import type { Axes, AxisLimits } from "../model/planner.js";
+import type { Axes, GrblAxisLimits } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
 
 export interface VirtualGrblOptions {
@@ -52,7 +52,7 @@ export class VirtualSettings {
     for (const [number, value] of Object.entries(all)) this.settings.set(Number(number), value);
   }
 
-  get limits(): AxisLimits {
+  get limits(): GrblAxisLimits {
     const speed = this.axes(110);
     return {
       speed: [speed[0] / 60, speed[1] / 60, speed[2] / 60],
