@@ -8,7 +8,9 @@ const REAL_TIME = ["test/serial/**/*.test.ts"];
 const LOAD = ["test/serial/load.test.ts", "test/serial/attacks.test.ts"];
 
 /** Tests of the command line that replace modules (vi.mock), so each file has a process of its own. */
-const COMMANDS = ["hand-commands", "plot", "reference", "stdin"].map((name) => `test/cli/${name}.test.ts`);
+const COMMANDS = ["hand-commands", "plot", "reference", "stdin"].map(
+  (name) => `test/server/cli/${name}.test.ts`,
+);
 
 /** Tests of the built product, in processes of their own, and in a browser. */
 const PROCESSES = ["test/e2e/**/*.test.ts", "test/packaging/**/*.test.ts", "test/**/*.alone.test.ts"];
@@ -19,9 +21,9 @@ const PROCESSES = ["test/e2e/**/*.test.ts", "test/packaging/**/*.test.ts", "test
  */
 const POSIX_ONLY = [
   ...REAL_TIME,
-  "test/board/virtual-pty.test.ts",
-  "test/cli/moves.test.ts",
-  "test/server/process-ends.alone.test.ts",
+  "test/server/cli/virtual-pty.test.ts",
+  "test/server/cli/moves.test.ts",
+  "test/server/composition/process-ends.alone.test.ts",
 ];
 const LEFT_OUT = process.platform === "win32" ? POSIX_ONLY : [];
 
@@ -35,7 +37,11 @@ const limits = (limitMs: number) => ({
 /** A larger young generation needs less garbage collection: a tenth less processor time. */
 const EXEC_ARGV = ["--max-semi-space-size=64"];
 
-const COMMON = { pool: "forks" as const, execArgv: EXEC_ARGV, setupFiles: ["test/support/fixed-seed.ts"] };
+const COMMON = {
+  pool: "forks" as const,
+  execArgv: EXEC_ARGV,
+  setupFiles: ["test/support/runs/fixed-seed.ts"],
+};
 
 /** These tests leave nothing behind, so they share workers that have loaded the product once. */
 const SHARED = { isolate: false };
@@ -52,14 +58,14 @@ const SLOWEST = [
   "test/e2e/without-server.test.ts",
   "test/e2e/both-backends.test.ts",
   "test/e2e/site.test.ts",
-  "test/server/shared-queue.alone.test.ts",
-  "test/cli/reference.test.ts",
+  "test/server/plugins/shared-queue/shared-queue.alone.test.ts",
+  "test/server/cli/reference.test.ts",
   "test/e2e/machine.test.ts",
   "test/e2e/layers.test.ts",
-  "test/board/plot-matrix.test.ts",
-  "test/server/server.test.ts",
-  "test/server/attacks.test.ts",
-  "test/server/shared-begin.test.ts",
+  "test/src/drivers/ebb/virtual/plot-matrix.test.ts",
+  "test/server/composition/server.test.ts",
+  "test/server/http/attacks.test.ts",
+  "test/server/plugins/shared-queue/shared-begin.test.ts",
   "test/serial/hidden-tab.test.ts",
   "test/serial/plot-faults.test.ts",
   "test/serial/busy-host.test.ts",
@@ -111,7 +117,7 @@ export default defineConfig({
           name: "processes",
           include: PROCESSES,
           exclude: LEFT_OUT,
-          globalSetup: ["test/support/built.ts", "test/support/shared-browser.ts"],
+          globalSetup: ["test/support/processes/built.ts", "test/support/browser/shared-browser.ts"],
           ...limits(120_000),
         },
       },
@@ -122,7 +128,7 @@ export default defineConfig({
           name: "real-time",
           include: REAL_TIME,
           exclude: LOAD,
-          globalSetup: ["test/support/built.ts"],
+          globalSetup: ["test/support/processes/built.ts"],
           ...limits(120_000),
         },
       },
@@ -131,7 +137,7 @@ export default defineConfig({
           ...COMMON,
           name: "load",
           include: LOAD,
-          globalSetup: ["test/support/built.ts"],
+          globalSetup: ["test/support/processes/built.ts"],
           ...limits(120_000),
         },
       },

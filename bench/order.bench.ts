@@ -15,7 +15,7 @@ import {
 } from "../src/index.js";
 import { NearestPoints, PointGrid } from "../src/geometry/point-grid.js";
 import { randomFrom } from "../src/prepare/work.js";
-import { drawingOf } from "../test/support/drawings.js";
+import { drawingOf } from "../test/support/drawings/drawings.js";
 
 type Report = (section: string, rows: readonly Record<string, string | number>[]) => void;
 

@@ -5,7 +5,7 @@
  * result depends on the graphics card and the machine. Needs the built product (`npm run build`).
  */
 import type { Page } from "playwright-core";
-import { PageTest } from "../test/support/page-test.js";
+import { PageTest } from "../test/support/browser/page-test.js";
 import type { Report, Row } from "./run.js";
 
 const FILES = [

@@ -9,7 +9,7 @@
 import { fork } from "node:child_process";
 import path from "node:path";
 import { cpus, loadavg } from "node:os";
-import { PtyBoard } from "../test/support/pty-board.js";
+import { PtyBoard } from "../test/support/processes/pty-board.js";
 import type { Report } from "./run.js";
 import type { SenderReport, SenderTask } from "./stream-sender.js";
 

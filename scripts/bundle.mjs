@@ -35,7 +35,7 @@ const { metafile } = await build({
     "server/main": "server/main.ts",
     // Beside the chunks that start them (server/planning/bounded-thread.ts).
     "chunks/plan-worker": "server/planning/plan-worker.ts",
-    "chunks/plan-command-worker": "server/cli/plan-command-worker.ts",
+    "chunks/plan-command-worker": "server/cli/plan/plan-command-worker.ts",
   },
   outdir: "dist",
   bundle: true,

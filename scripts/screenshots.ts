@@ -6,14 +6,14 @@
 import { mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import type { Browser, Page } from "playwright-core";
-import { seriousFindings } from "../test/support/axe.js";
-import { launchBrowser } from "../test/support/browser.js";
-import { dropFile, waitForPlan } from "../test/support/page-actions.js";
-import { inStates, LOOKS, type Look } from "../test/support/in-states.js";
-import { PAGE_STATES } from "../test/support/page-states.js";
-import { sampleText } from "../test/support/page-states/page-state.js";
-import { temporaryFolder } from "../test/support/folders.js";
-import { startServerProcess } from "../test/support/server-process.js";
+import { seriousFindings } from "../test/support/browser/axe.js";
+import { launchBrowser } from "../test/support/browser/browser.js";
+import { dropFile, waitForPlan } from "../test/support/browser/page-actions.js";
+import { inStates, LOOKS, type Look } from "../test/support/browser/in-states.js";
+import { PAGE_STATES } from "../test/support/browser/page-states.js";
+import { sampleText } from "../test/support/browser/page-states/page-state.js";
+import { temporaryFolder } from "../test/support/processes/folders.js";
+import { startServerProcess } from "../test/support/processes/server-process.js";
 import { ROOT, ensureBuild } from "./setup.mjs";
 
 const DOCS_ONLY = process.argv.includes("--docs");

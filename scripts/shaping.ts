@@ -27,9 +27,9 @@ import {
   SHAPERS,
   type Springs,
 } from "../src/internal.js";
-import { shaperKernel } from "../src/plan/shapers.js";
+import { shaperKernel } from "../src/plan/shaping/shapers.js";
 import type { RunPlanner } from "../src/plan/run-writer.js";
-import { inverseMotion } from "../test/support/inverse-motion.js";
+import { inverseMotion } from "../test/support/trajectories/inverse-motion.js";
 import { referenceRuns, shapedRuns } from "../test/support/reference-planners/motion.js";
 import { REFERENCE_PLANNERS } from "../test/support/reference-planners/systems.js";
 import { markdownTable } from "./settings-table.js";

@@ -11,5 +11,5 @@ process.env.PLOTWRIGHT_MATRIX = process.argv[2] ?? "all";
 process.exitCode = run(process.execPath, [
   nodeModule("vitest", "vitest.mjs"),
   "run",
-  "test/board/plot-matrix.test.ts",
+  "test/src/drivers/ebb/virtual/plot-matrix.test.ts",
 ]);

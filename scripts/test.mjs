@@ -3,7 +3,7 @@
  *
  *   npm test                       types, lint, format, package, and every test, in real Chromium too: some minutes
  *   npm run test:full              the same with all cases, firmware, kills, faults and page states: about an hour
- *   npm test -- test/unit/plan     only these tests
+ *   npm test -- test/src/plan     only these tests
  */
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";

@@ -4,7 +4,7 @@
  */
 import { DEFAULT_PEN, plan, type StrokeSet } from "../src/index.js";
 import type { MotionMode } from "../src/internal.js";
-import { blendLoss, junctionLoss, leastLoss } from "../test/support/corner-bound.js";
+import { blendLoss, junctionLoss, leastLoss } from "../test/support/trajectories/corner-bound.js";
 
 const LIMITS = { accel: 500, deviation: 0.05 };
 const ms = (s: number): string => (1000 * s).toFixed(1).padStart(8);

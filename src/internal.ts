@@ -88,10 +88,10 @@ export {
   quarterTurnedBox,
 } from "./prepare/files-page.js";
 export { meanScaleOf, sizeInWords, type DrawnSize, type OutsidePaper } from "./prepare/on-paper.js";
-export { orientedPaper, layOutDrawing, type Layout } from "./prepare/place.js";
+export { orientedPaper, layOutDrawing, type Layout } from "./prepare/layout.js";
 export { cutOffLines } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
-export { parseLayerName, shownLayerName } from "./prepare/layer-codes.js";
+export { parseLayerName, shownLayerName } from "./prepare/layers/layer-codes.js";
 export {
   NO_PENS,
   PEN_STOP_MODES,
@@ -101,13 +101,13 @@ export {
   type PenSetup,
   type PenStop,
   type PlotPen,
-} from "./prepare/pens.js";
+} from "./prepare/layers/pens.js";
 
 // plan
 export { PositionTimes } from "./position/on-plan.js";
 export type { TrajectoryStats } from "./plan/stats.js";
-export { lowerAheadMm } from "./plan/pen-flight.js";
-export { penOfLayer } from "./plan/pen-times.js";
+export { lowerAheadMm } from "./plan/pen/pen-flight.js";
+export { penOfLayer } from "./plan/pen/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 export {
   motionForSprings,
@@ -116,9 +116,9 @@ export {
   qualityOf,
   withQuality,
 } from "./plan/quality.js";
-export { penError, type PenError } from "./plan/pen-error.js";
-export { swingPen, type PenPoint } from "./plan/spring-pen.js";
-export { comeToRest } from "./plan/come-to-rest.js";
+export { penError, type PenError } from "./plan/simulate/pen-error.js";
+export { swingPen, type PenPoint } from "./plan/simulate/spring-pen.js";
+export { comeToRest } from "./plan/rest/come-to-rest.js";
 export { movedPosition, pointAt } from "./position/on-drawing.js";
 export { maxOffDrawingMm, reportedPosition } from "./position/reported.js";
 

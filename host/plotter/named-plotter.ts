@@ -1,7 +1,7 @@
 /** A plotter that is stored: a plotter driver with an id, a name and a machine. */
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";
-import { PlotterConnection } from "./plotter-driver.js";
+import { PlotterConnection } from "./plotter-connection.js";
 import type { PlotterOptions } from "./plotter-state.js";
 import type { ManagedPlotter } from "./plotter-port.js";
 import type { PlotterRow } from "../storage.js";

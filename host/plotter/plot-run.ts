@@ -22,7 +22,7 @@ import {
   strokeCount,
 } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
-import { JOURNAL_S, resumePosition, PROGRESS_S } from "./place-left.js";
+import { JOURNAL_S, resumePosition, PROGRESS_S } from "./resume-position.js";
 import { PenStops } from "./pen-stops.js";
 import { BLOT_S, restedWhileStalled } from "./plotter-state.js";
 import { RunSettings } from "./run-settings.js";

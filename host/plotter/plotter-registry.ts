@@ -17,7 +17,7 @@ import {
 } from "../../src/schema/index.js";
 import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
 import type { PlotterRow, PlotterStore } from "../storage.js";
-import type { FoundBoard } from "./connection.js";
+import type { FoundBoard } from "./connected-machine.js";
 import { settingsOfPlotter, type SettingsOfPlotter, type WithMachine } from "./settings-of-plotter.js";
 
 interface RegistryParts {

@@ -13,7 +13,7 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
-import { journalSchema } from "../plotter/place-left.js";
+import { journalSchema } from "../plotter/resume-position.js";
 import type {
   JournalEntry,
   LivePlotRun,

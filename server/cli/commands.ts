@@ -10,9 +10,11 @@ interface CliCommand {
 }
 
 const hand = async (): Promise<typeof import("./hand-commands.js")> => import("./hand-commands.js");
-const server = async (): Promise<typeof import("./server-commands.js")> => import("./server-commands.js");
-const queue = async (): Promise<typeof import("./queue-commands.js")> => import("./queue-commands.js");
-const job = async (): Promise<typeof import("./job-commands.js")> => import("./job-commands.js");
+const server = async (): Promise<typeof import("./service/server-commands.js")> =>
+  import("./service/server-commands.js");
+const queue = async (): Promise<typeof import("./client/queue-commands.js")> =>
+  import("./client/queue-commands.js");
+const job = async (): Promise<typeof import("./plot/job-commands.js")> => import("./plot/job-commands.js");
 const list = async (): Promise<typeof import("./list-commands.js")> => import("./list-commands.js");
 
 /** The command that runs if none is given. */
@@ -33,7 +35,7 @@ export const COMMANDS: readonly CliCommand[] = [
       "plotwright plan drawing.svg --json",
       "plotwright plan - --commands -",
     ],
-    load: async () => (await import("./plan-command.js")).declarePlan,
+    load: async () => (await import("./plan/plan-command.js")).declarePlan,
   },
   {
     name: "plot",
@@ -43,7 +45,7 @@ export const COMMANDS: readonly CliCommand[] = [
       "plotwright plot drawing.svg other.svg --copies 2 --paper-s 30",
       "plotwright plot --resume",
     ],
-    load: async () => (await import("./plot.js")).declarePlot,
+    load: async () => (await import("./plot/plot.js")).declarePlot,
   },
   {
     name: "add",
@@ -201,6 +203,6 @@ export const COMMANDS: readonly CliCommand[] = [
     name: "board",
     about: "run a virtual board that other programs can drive",
     examples: ["plotwright board --pty /tmp/plotter --speed 10 --svg drawn.svg"],
-    load: async () => (await import("./board.js")).declareBoard,
+    load: async () => (await import("./board/board.js")).declareBoard,
   },
 ];

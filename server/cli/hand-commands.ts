@@ -18,8 +18,13 @@ import {
   type Declare,
   type DeviceOptions,
 } from "./options.js";
-import { serverHint } from "./server-client.js";
-import { servedPlotter, throughServer, type HandPlotter, type ServedPlotter } from "./served-plotter.js";
+import { serverHint } from "./client/server-client.js";
+import {
+  servedPlotter,
+  throughServer,
+  type HandPlotter,
+  type ServedPlotter,
+} from "./client/served-plotter.js";
 import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
 
 type HandOptions = OptionValues & DeviceOptions;

@@ -1,5 +1,5 @@
 /** Commands that list boards and plotter models. */
-import type { FoundBoard } from "../../host/plotter/connection.js";
+import type { FoundBoard } from "../../host/plotter/connected-machine.js";
 import { printableJson } from "../../src/internal.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles } from "../storage/machine-files.js";

@@ -1,7 +1,7 @@
 /** The plotter driver on Node, with the computer's clock and serial ports: for programs, and for a command. */
 import { type Clock, PlotwrightError } from "../../src/index.js";
-import type { Devices } from "../../host/plotter/connection.js";
-import { PlotterConnection as HostDriver } from "../../host/plotter/plotter-driver.js";
+import type { Devices } from "../../host/plotter/connected-machine.js";
+import { PlotterConnection as HostDriver } from "../../host/plotter/plotter-connection.js";
 import type { PlotterOptions as HostOptions } from "../../host/plotter/plotter-state.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { findBoards } from "../serial/find-boards.js";

@@ -1,9 +1,9 @@
 import { usbIds, type UsbId } from "../../src/internal.js";
-import type { FoundBoard } from "../../host/plotter/connection.js";
+import type { FoundBoard } from "../../host/plotter/connected-machine.js";
 import { readdirSync, readFileSync, realpathSync } from "node:fs";
 import path from "node:path";
 
-export type { FoundBoard } from "../../host/plotter/connection.js";
+export type { FoundBoard } from "../../host/plotter/connected-machine.js";
 
 /** All boards on USB with these ids, sorted by path; default: those that some driver knows. */
 export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<readonly FoundBoard[]> {

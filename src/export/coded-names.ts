@@ -3,9 +3,9 @@ import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/strok
 import { codeOfSpeed, withLayerCodes } from "../plan/coded-layers.js";
 import type { MotionSettings } from "../settings/motion.js";
 import type { PenSettings } from "../settings/pen.js";
-import { formatLayerName, parseLayerName } from "../prepare/layer-codes.js";
+import { formatLayerName, parseLayerName } from "../prepare/layers/layer-codes.js";
 import type { Prepared } from "../prepare/prepare.js";
-import { penOf, penStopsOf, type PenSetup } from "../prepare/pens.js";
+import { penOf, penStopsOf, type PenSetup } from "../prepare/layers/pens.js";
 import type { SvgOptions } from "./strokes-to-svg.js";
 
 type Settings = PenSetup & { readonly motion: MotionSettings; readonly pen: PenSettings };

@@ -3,7 +3,7 @@ import { checkNames } from "../check-arguments.js";
 import { importSvg } from "../import/svg/import-svg.js";
 import { machineOf, type MachineChoice } from "../machines/profiles.js";
 import { completeSettings } from "../prepare/complete-settings.js";
-import { NO_PENS, type PenSetup } from "../prepare/pens.js";
+import { NO_PENS, type PenSetup } from "../prepare/layers/pens.js";
 import type { Prepared } from "../prepare/prepare.js";
 import { DEFAULT_MOTION } from "../settings/motion.js";
 import { withGiven, type DeepPartial } from "../settings/partial.js";

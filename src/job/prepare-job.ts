@@ -6,7 +6,7 @@ import type { JobSettings } from "../drivers/machine-job.js";
 import { PlotwrightError } from "../errors.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { checkBounds, checkPaper } from "../prepare/on-paper.js";
-import { prepareSettingsOf, type PenSetup } from "../prepare/pens.js";
+import { prepareSettingsOf, type PenSetup } from "../prepare/layers/pens.js";
 import { prepare, type Prepared } from "../prepare/prepare.js";
 import type { Work } from "../prepare/work.js";
 import type { PrepareSettings } from "../settings/prepare.js";

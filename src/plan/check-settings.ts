@@ -31,7 +31,7 @@ import {
 import { SPRINGS_TABLE } from "../settings/machine.js";
 import { isAllowed, rangeInWords, type NumberSetting } from "../settings/setting.js";
 import { drawLimitsOf } from "./limits.js";
-import { penOfLayer } from "./pen-times.js";
+import { penOfLayer } from "./pen/pen-times.js";
 
 /** @throws PlotwrightError "bad-setting", naming the setting, its value and what is allowed */
 export function checkSettings(

@@ -11,8 +11,8 @@
  */
 import { MM_PER_INCH } from "../units.js";
 import { settingsIdOf, type StrokeLayer } from "../drawing/stroke-set.js";
-import { parseLayerName, type LayerCodes } from "../prepare/layer-codes.js";
-import { penOfLayer } from "./pen-times.js";
+import { parseLayerName, type LayerCodes } from "../prepare/layers/layer-codes.js";
+import { penOfLayer } from "./pen/pen-times.js";
 import type { LayerMotion, MotionSettings } from "../settings/motion.js";
 import type { LayerPen, PenSettings } from "../settings/pen.js";
 

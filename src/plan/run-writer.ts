@@ -7,17 +7,17 @@
  *   4. a second merge, with a shaper         because its filter splits each block into several
  */
 import { AxisFrame } from "./axis-frame.js";
-import { limitBlends } from "./blend-rule.js";
+import { limitBlends } from "./corners/blend-rule.js";
 import { BlockColumns } from "./block-columns.js";
-import { writeCornerBlocks } from "./corner-blocks.js";
-import { writeFiltered } from "./filter.js";
-import { ImpulseFilter, type Kernel } from "./impulse-filter.js";
-import { limitJunctions } from "./junction-rule.js";
+import { writeCornerBlocks } from "./corners/corner-blocks.js";
+import { writeFiltered } from "./shaping/filter.js";
+import { ImpulseFilter, type Kernel } from "./shaping/impulse-filter.js";
+import { limitJunctions } from "./corners/junction-rule.js";
 import { capSegments, isStretched, shapedLimits, type RunLimits } from "./limits.js";
-import { lookAhead } from "./look-ahead.js";
+import { lookAhead } from "./corners/look-ahead.js";
 import { mergeBlocks, SHAPED_RULES, type MergeRules } from "./merge.js";
 import { RunPath } from "./run-path.js";
-import { filteredPlan, stopsAreFaster } from "./scurve.js";
+import { filteredPlan, stopsAreFaster } from "./corners/scurve.js";
 import type { FitSettings, MotionMode } from "../settings/motion.js";
 
 /** Writes the blocks of one run, from rest to rest. Called once for each run, in order. */

@@ -1,5 +1,5 @@
 import { firstWhere } from "../geometry/binary-search.js";
-import type { Kernel } from "./impulse-filter.js";
+import type { Kernel } from "./shaping/impulse-filter.js";
 
 /**
  * The pen's motion over time: constant-acceleration (or constant-jerk) blocks in columns.

@@ -13,7 +13,7 @@
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import { passesOf } from "../geometry/passes.js";
 import type { MachineProfile } from "../machines/profile.js";
-import { maxShapingErrorMm } from "../plan/shapers.js";
+import { maxShapingErrorMm } from "../plan/shaping/shapers.js";
 import type { StrokePosition } from "../plan/trajectory.js";
 import type { MotionSettings } from "../settings/motion.js";
 import { pointAt, pointsOf, strokeLengthMm } from "./on-drawing.js";

@@ -5,9 +5,9 @@
 import type { Drawing } from "../drawing/drawing.js";
 import { setFor, settingsIdOf, shiftedXy, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { filterLines, lineCount, lineLength, pickLines, type Lines } from "../geometry/polyline.js";
-import { type FileLayer, type LayerTable, speedFactorsOf, type SpeedParts } from "./layers.js";
+import { type FileLayer, type LayerTable, speedFactorsOf, type SpeedParts } from "./layers/layers.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import { inkPortions } from "./spread.js";
+import { inkPortions } from "./order/spread.js";
 
 /** A layer of the file, visible or hidden, with figures about its lines on this paper. */
 export interface PreparedLayer extends FileLayer {

@@ -3,10 +3,10 @@ import { isBackground, type Drawing } from "../drawing/drawing.js";
 import { boxContains, boxesTouch, grownBox, isEmptyBox, type Box } from "../geometry/box.js";
 import { filterLines, lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import { clipRegions, clipLines } from "./clips.js";
-import { flattenShapes, gapsOfShapes, cropBox, strokedOnly } from "./shapes.js";
-import { layersOf, visibleLayers } from "./layers.js";
-import { isFarAway, type Layout } from "./place.js";
+import { clipRegions, clipLines } from "./steps/clips.js";
+import { flattenShapes, gapsOfShapes, cropBox, strokedOnly } from "./steps/shapes.js";
+import { layersOf, visibleLayers } from "./layers/layers.js";
+import { isFarAway, type Layout } from "./layout.js";
 
 interface CutOff {
   /** Lines outside this box are not drawn, mm. */

@@ -2,7 +2,7 @@
 import { PAPER_SIZES, type PaperSize } from "../drawing/paper.js";
 import type { Box } from "../geometry/box.js";
 import { PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
-import { orientedPaper, type LayoutChoice, type Layout } from "./place.js";
+import { orientedPaper, type LayoutChoice, type Layout } from "./layout.js";
 
 /** Width along x and height along y, unlike `PaperSize`, which is portrait. */
 type Size = PaperSize;

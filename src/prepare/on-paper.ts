@@ -4,7 +4,7 @@ import { boxContains, boxOfPoints, grownBox, hasRoom, isEmptyBox, type Box } fro
 import { lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import { mmInWords } from "../units.js";
 import type { OutsideMode } from "../settings/prepare.js";
-import { ROUNDING_MM, withTolerance, type Layout } from "./place.js";
+import { ROUNDING_MM, withTolerance, type Layout } from "./layout.js";
 import { checkObject } from "../check-arguments.js";
 import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";

@@ -9,7 +9,7 @@ import { isBackground, type Drawing } from "../drawing/drawing.js";
 import { withPxPerInch } from "../drawing/px-size.js";
 import { type StrokeSet, setFor } from "../drawing/stroke-set.js";
 import { lineCount, totalLength } from "../geometry/polyline.js";
-import { cropAreas, filledAreas, filledOnly } from "./areas.js";
+import { cropAreas, filledAreas, filledOnly } from "./steps/areas.js";
 import {
   sortedByLayer,
   countLayers,
@@ -21,9 +21,9 @@ import {
   type PreparedLayer,
 } from "./assemble.js";
 import { checkObject } from "../check-arguments.js";
-import { clipRegions, clipLines } from "./clips.js";
+import { clipRegions, clipLines } from "./steps/clips.js";
 import { completeSettings } from "./complete-settings.js";
-import { dashLines } from "./dash.js";
+import { dashLines } from "./steps/dash.js";
 import {
   flattenShapes,
   gapsOfShapes,
@@ -40,16 +40,16 @@ import {
   shapesOnPaper,
   strokedOnly,
   withoutBackgrounds,
-} from "./shapes.js";
-import { hideCovered } from "./hidden-lines.js";
-import { joinInFileOrder, joinLines } from "./join.js";
-import { inOrder, layersOf, visibleLayers, speedPartsOf } from "./layers.js";
-import { inDrawingOrder } from "./order.js";
+} from "./steps/shapes.js";
+import { hideCovered } from "./steps/hidden-lines.js";
+import { joinInFileOrder, joinLines } from "./steps/join.js";
+import { inOrder, layersOf, visibleLayers, speedPartsOf } from "./layers/layers.js";
+import { inDrawingOrder } from "./order/order.js";
 import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
-import { layOutDrawing } from "./place.js";
-import { dropRepeats } from "./repeats.js";
+import { layOutDrawing } from "./layout.js";
+import { dropRepeats } from "./steps/repeats.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import { simplifyLines, reloopLines, smoothLines } from "./points.js";
+import { simplifyLines, reloopLines, smoothLines } from "./steps/points.js";
 import { stopIfCancelled, type Work } from "./work.js";
 
 /** The result of `prepare`: the strokes and figures about them. */

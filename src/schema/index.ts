@@ -6,7 +6,7 @@ export * from "./given-settings.js";
 export * from "./plotter-settings.js";
 export * from "./job.js";
 export * from "./api.js";
-export * from "./studio.js";
+export * from "./sharing.js";
 export * from "./machine.js";
 export * from "./hand-moves.js";
 export * from "./shared.js";

@@ -16,7 +16,7 @@ import {
   pairingSchema,
   plotterPatchSchema,
   webhookSchema,
-} from "./studio.js";
+} from "./sharing.js";
 import {
   historyRequestSchema,
   jobChangeSchema,

@@ -32,7 +32,7 @@ import {
   type PrepareSettings,
 } from "../settings/prepare.js";
 import { STREAM_TABLE } from "../settings/machine.js";
-import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/pens.js";
+import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/layers/pens.js";
 import { machineProfileSchema } from "./machine.js";
 import { numberSchema, shapeOf, shapeWithDefaults } from "./setting.js";
 

@@ -24,7 +24,7 @@ export const CORNER_RULES = {
 export type MotionMode = keyof typeof CORNER_RULES;
 export const MOTION_MODES = Object.keys(CORNER_RULES) as readonly MotionMode[];
 
-/** Input shapers against the swinging of the machine (src/plan/shapers.ts). */
+/** Input shapers against the swinging of the machine (src/plan/shaping/shapers.ts). */
 export const SHAPERS = ["none", "zv", "mzv", "zvd", "ei"] as const;
 /** Input shapers against the swinging of the machine. */
 export type Shaper = (typeof SHAPERS)[number];

@@ -69,7 +69,7 @@ export const DROP_RATE = {
 export const PEN_OVERLAPS = ["off", "safe", "fast"] as const;
 export type PenOverlap = (typeof PEN_OVERLAPS)[number];
 
-/** Whether the carriage moves during pen moves (src/plan/pen-flight.ts). */
+/** Whether the carriage moves during pen moves (src/plan/pen/pen-flight.ts). */
 export const OVERLAP_TABLE = {
   overlap: {
     kind: "choice",

@@ -75,7 +75,11 @@ export const GRBL_COMMAND = /^(G\d+([A-Z$]|$)|M[345](S|$)|\$([XHIGC#$]|SLP)$|\$(
 /** Commands of a controller outside its driver's folder. */
 export const foreignCommands = (sources: Sources): string[] => [
   // HPGL has commands of the same names; the console's field shows one as its example.
-  ...literalsLike(sources, EBB_COMMAND, ["src/drivers/ebb/", "src/import/hpgl/", "web/plotter/console.tsx"]),
+  ...literalsLike(sources, EBB_COMMAND, [
+    "src/drivers/ebb/",
+    "src/import/hpgl/",
+    "web/plotter/console/console.tsx",
+  ]),
   ...literalsLike(sources, GRBL_COMMAND, ["src/drivers/grbl/"]),
 ];
 
@@ -87,7 +91,7 @@ export const foreignKinds = (sources: Sources): string[] =>
     "src/machines/profiles.ts",
     "src/schema/machine.ts",
     // The page's form for the fields of an EiBotBoard.
-    "web/plotter/profile.ts",
+    "web/plotter/machines/profile.ts",
   ]);
 
 /** Private members that are not `private name`. */

@@ -4,8 +4,8 @@
  */
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { seriousFindings } from "../support/axe.js";
-import { launchBrowser, PLAIN } from "../support/browser.js";
+import { seriousFindings } from "../support/browser/axe.js";
+import { launchBrowser, PLAIN } from "../support/browser/browser.js";
 import {
   chooseSample,
   dropFile,
@@ -16,7 +16,7 @@ import {
   waitForPlan,
   waitForPlotButton,
   waitForSamples,
-} from "../support/page-actions.js";
+} from "../support/browser/page-actions.js";
 import {
   DESK,
   FONTS,
@@ -30,12 +30,12 @@ import {
   type Font,
   type Look,
   type Scheme,
-} from "../support/in-states.js";
-import { PAGE_STATES } from "../support/page-states.js";
-import type { PageState } from "../support/page-states/page-state.js";
-import { temporaryFolder } from "../support/folders.js";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
-import { IS_FULL } from "../support/full-run.js";
+} from "../support/browser/in-states.js";
+import { PAGE_STATES } from "../support/browser/page-states.js";
+import type { PageState } from "../support/browser/page-states/page-state.js";
+import { temporaryFolder } from "../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
+import { IS_FULL } from "../support/runs/full-run.js";
 
 const data = temporaryFolder("accessibility");
 let browser: Browser;

@@ -2,9 +2,9 @@
 import { text } from "node:stream/consumers";
 import type { Browser, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
-import { BACKENDS, startPage, type StartedPage } from "../support/backends.js";
-import { launchBrowser } from "../support/browser.js";
-import { IS_FULL } from "../support/full-run.js";
+import { BACKENDS, startPage, type StartedPage } from "../support/browser/backends.js";
+import { launchBrowser } from "../support/browser/browser.js";
+import { IS_FULL } from "../support/runs/full-run.js";
 import {
   dropFile,
   historyPanel,
@@ -13,7 +13,7 @@ import {
   queuePanel,
   statusCard,
   waitForPlan,
-} from "../support/page-actions.js";
+} from "../support/browser/page-actions.js";
 
 const PATIENCE_MS = 90_000;
 

@@ -1,7 +1,7 @@
 /** The page without a server in a browser that is too old, does not let it use a plotter, or stores nothing. */
 import { chromium, type Browser, type Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { browserOptions, launchBrowser, PLAIN } from "../support/browser.js";
+import { browserOptions, launchBrowser, PLAIN } from "../support/browser/browser.js";
 import {
   dropFile,
   historyPanel,
@@ -9,8 +9,8 @@ import {
   plotBar,
   queuePanel,
   waitForPlan,
-} from "../support/page-actions.js";
-import { startStaticApp, type StaticApp, type StaticAppOptions } from "../support/static-app.js";
+} from "../support/browser/page-actions.js";
+import { startStaticApp, type StaticApp, type StaticAppOptions } from "../support/browser/static-app.js";
 
 const PATIENCE_MS = 90_000;
 /** Any name that is not this computer's makes a page insecure. */

@@ -1,7 +1,7 @@
 /** The views of a drawing, and the actions on one of its strokes. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { colorCounts, nextFrames, openView, statusCard } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { colorCounts, nextFrames, openView, statusCard } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 /** Three lines across the page, the middle one wide and blue. */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="140mm" viewBox="0 0 200 140" fill="none">

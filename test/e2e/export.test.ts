@@ -13,8 +13,8 @@ import {
 } from "../../src/index.js";
 import { machineOf, prepareSettingsOf, withLayerCodes } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
-import { PageTest } from "../support/page-test.js";
-import { ascii } from "../support/virtual-plots.js";
+import { PageTest } from "../support/browser/page-test.js";
+import { ascii } from "../support/plots/virtual-plots.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
   width="200mm" height="150mm" viewBox="0 0 200 150" fill="none" stroke="#0000e0">

@@ -3,11 +3,11 @@ import { once } from "node:events";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Job } from "../../src/schema/index.js";
-import { launchBrowser } from "../support/browser.js";
-import { combOf, expectPartlyDrawn, SHARP } from "../support/half-drawn.js";
-import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/page-actions.js";
-import { temporaryFolder } from "../support/folders.js";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
+import { launchBrowser } from "../support/browser/browser.js";
+import { combOf, expectPartlyDrawn, SHARP } from "../support/browser/half-drawn.js";
+import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/browser/page-actions.js";
+import { temporaryFolder } from "../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
 
 const PATIENCE_MS = 120_000;
 const NAME = "comb";

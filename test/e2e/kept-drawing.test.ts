@@ -1,7 +1,7 @@
 /** A drawing and its settings survive a reload; another drawing starts fresh. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { dropFile, plotBar, waitForPlotButton } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { dropFile, plotBar, waitForPlotButton } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 /** The second layer has 44 blue strokes and one purple one. */
 const MIXED = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"

@@ -1,7 +1,7 @@
 /** From load to Plot by keyboard alone, in few stops. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { statusCard, waitForPlotButton } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { statusCard, waitForPlotButton } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const MAX_STOPS = 12;
 /** Boxes inside each other, so that the plot lasts while the page is loaded again. */

@@ -1,7 +1,7 @@
 /** A drawing too large to be drawn in one part: the picture is complete in the end, zoomed out and zoomed in. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { colorCounts, waitForPicture, waitForPlan } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { colorCounts, waitForPicture, waitForPlan } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 /** Waves side by side, in short pieces and closer than the pen is wide: where one is missing, paper shows. */
 const LINES = 800;

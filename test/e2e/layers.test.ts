@@ -4,9 +4,9 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { VirtualBoard } from "../../src/index.js";
 import { machineOf } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
-import { chooseSample, colorCounts, dropFile, plotBar } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
-import { ascii } from "../support/virtual-plots.js";
+import { chooseSample, colorCounts, dropFile, plotBar } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
+import { ascii } from "../support/plots/virtual-plots.js";
 
 /** One line of 100 mm in each layer, 20 mm apart: a line's y identifies its layer. */
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"

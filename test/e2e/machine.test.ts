@@ -3,8 +3,8 @@ import type { Browser, Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { MachineProfile } from "../../src/index.js";
 import { machineListSchema, snapshotSchema, type Plotter } from "../../src/schema/index.js";
-import { launchBrowser, PLAIN } from "../support/browser.js";
-import { ruledSheet } from "../support/drawings.js";
+import { launchBrowser, PLAIN } from "../support/browser/browser.js";
+import { ruledSheet } from "../support/drawings/drawings.js";
 import {
   chooseSample,
   dropFile,
@@ -15,9 +15,9 @@ import {
   queuePanel,
   statusCard,
   waitForPlan,
-} from "../support/page-actions.js";
-import { temporaryFolder } from "../support/folders.js";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
+} from "../support/browser/page-actions.js";
+import { temporaryFolder } from "../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
 
 const data = temporaryFolder("machine");
 let browser: Browser;

@@ -1,7 +1,7 @@
 /** The size on the paper, the machine's reach, and lengths in inches, on the page. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { dropFile, plotBar } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { dropFile, plotBar } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const svgOf = (width: number, height: number, d: string): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" width="${width}mm" height="${height}mm" viewBox="0 0 ${width} ${height}">

@@ -2,8 +2,8 @@
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Snapshot } from "../../src/schema/index.js";
-import { dropFile, openTab, plotBar, waitForPlan } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { dropFile, openTab, plotBar, waitForPlan } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
   <path fill="none" stroke="#000" d="M5 5H55V35H5Z"/></svg>`;

@@ -1,9 +1,9 @@
 /** A plot that waits for a pen, or was reopened: the page shows its progress, and never all of it as drawn. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Job } from "../../src/schema/index.js";
-import { combOf, expectPartlyDrawn, expectShareOnCanvas, SHARP } from "../support/half-drawn.js";
-import { historyPanel, openView, plotBar } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { combOf, expectPartlyDrawn, expectShareOnCanvas, SHARP } from "../support/browser/half-drawn.js";
+import { historyPanel, openView, plotBar } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const LIMIT_MS = 120_000;
 const NAME = "two pens";

@@ -3,7 +3,7 @@
  * draw.
  */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { PageTest } from "../support/page-test.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 /**
  * 60 × 40 mm: a cross from corner to corner, which no frame hides, and a dash at the left that shows

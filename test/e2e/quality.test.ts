@@ -2,9 +2,9 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { motionOfQuality, type Quality } from "../../src/internal.js";
 import type { MachineProfile } from "../../src/index.js";
-import { seriousFindings } from "../support/axe.js";
-import { chooseMeasuredPlotter, SPRINGS } from "../support/measured-plotter.js";
-import { PageTest } from "../support/page-test.js";
+import { seriousFindings } from "../support/browser/axe.js";
+import { chooseMeasuredPlotter, SPRINGS } from "../support/browser/measured-plotter.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const PATIENCE_MS = 120_000;
 const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;

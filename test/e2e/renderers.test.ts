@@ -10,9 +10,9 @@ import { ROOT } from "../../scripts/setup.mjs";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type StrokeSet } from "../../src/index.js";
 import type { Frame } from "../../web/scene/renderer.js";
 import { buildScene } from "../../web/scene/scene.js";
-import { launchBrowser } from "../support/browser.js";
-import type * as PageCode from "../support/renderers-page.js";
-import type { RendererName, SentScene } from "../support/renderers-page.js";
+import { launchBrowser } from "../support/browser/browser.js";
+import type * as PageCode from "../support/browser/renderers-page.js";
+import type { RendererName, SentScene } from "../support/browser/renderers-page.js";
 
 /** Crossing waves of two layers: every pixel of their middle is drawn many times. */
 const waves = (): StrokeSet => {
@@ -91,7 +91,11 @@ beforeAll(async () => {
     logLevel: "silent",
     build: {
       write: false,
-      lib: { entry: path.join(ROOT, "test/support/renderers-page.ts"), formats: ["iife"], name: "renderers" },
+      lib: {
+        entry: path.join(ROOT, "test/support/browser/renderers-page.ts"),
+        formats: ["iife"],
+        name: "renderers",
+      },
     },
   });
   const [{ output }] = built as { output: { code: string }[] }[] as [{ output: { code: string }[] }];

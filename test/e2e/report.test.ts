@@ -8,8 +8,8 @@ import {
   openTab,
   waitForPicture,
   waitForPlan,
-} from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+} from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="140mm" viewBox="0 0 200 140">
   <circle cx="60" cy="70" r="40" fill="none" stroke="#000"/>

@@ -2,8 +2,8 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Job } from "../../src/schema/index.js";
 import { machineListSchema, snapshotSchema } from "../../src/schema/index.js";
-import { seriousFindings } from "../support/axe.js";
-import { PageTest } from "../support/page-test.js";
+import { seriousFindings } from "../support/browser/axe.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const PATIENCE_MS = 120_000;
 const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100"><path d="M10 10h80v80" fill="none" stroke="#0a0"/></svg>`;

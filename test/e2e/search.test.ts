@@ -4,9 +4,9 @@ import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { FIELDS } from "../../web/search/fields.js";
 import { DEFAULT_VIEW } from "../../web/state/persist.js";
 import { createPageStore } from "../../web/state/store.js";
-import { seriousFindings } from "../support/axe.js";
-import { IS_FULL } from "../support/full-run.js";
-import { PageTest } from "../support/page-test.js";
+import { seriousFindings } from "../support/browser/axe.js";
+import { IS_FULL } from "../support/runs/full-run.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const LIMIT_MS = 120_000;
 

@@ -3,8 +3,8 @@
  * model.
  */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { SharedDatabase } from "../server/support/shared-servers.js";
-import { PageTest } from "../support/page-test.js";
+import { SharedDatabase } from "../support/servers/shared-servers.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 let database: SharedDatabase;
 let test: PageTest;

@@ -3,10 +3,10 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { planJob } from "../../src/index.js";
 import { machineOf, penError } from "../../src/internal.js";
 import { ASKED_COLOR } from "../../web/scene/renderer.js";
-import { ruledSheet } from "../support/drawings.js";
-import { seriousFindings } from "../support/axe.js";
-import { colorCounts, waitForPicture } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { ruledSheet } from "../support/drawings/drawings.js";
+import { seriousFindings } from "../support/browser/axe.js";
+import { colorCounts, waitForPicture } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const PATIENCE_MS = 120_000;
 const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;

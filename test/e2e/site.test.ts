@@ -9,11 +9,11 @@ import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ROOT, TEST_SITE } from "../../scripts/setup.mjs";
 import { PAGES } from "../../scripts/site/pages.js";
-import { seriousFindings } from "../support/axe.js";
-import { launchBrowser } from "../support/browser.js";
-import { IS_FULL } from "../support/full-run.js";
-import { chooseSample, waitForPicture } from "../support/page-actions.js";
-import { serveFolder, type StaticSite } from "../support/static-site.js";
+import { seriousFindings } from "../support/browser/axe.js";
+import { launchBrowser } from "../support/browser/browser.js";
+import { IS_FULL } from "../support/runs/full-run.js";
+import { chooseSample, waitForPicture } from "../support/browser/page-actions.js";
+import { serveFolder, type StaticSite } from "../support/browser/static-site.js";
 
 const { base: BASE, folder, source: SOURCE } = TEST_SITE;
 const DOC_FILES = PAGES.map(({ file }) => `docs/${file}`);

@@ -7,7 +7,7 @@ import path from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
-import { launchBrowser } from "../support/browser.js";
+import { launchBrowser } from "../support/browser/browser.js";
 import {
   chooseSample,
   colorCounts,
@@ -18,9 +18,9 @@ import {
   waitForPicture,
   waitForPlan,
   waitForPlotButton,
-} from "../support/page-actions.js";
-import { temporaryFolder } from "../support/folders.js";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
+} from "../support/browser/page-actions.js";
+import { temporaryFolder } from "../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
 
 const DESKTOP = { width: 1440, height: 900 };
 const PHONE = { width: 390, height: 844 };

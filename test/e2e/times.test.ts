@@ -1,8 +1,8 @@
 /** Times in the queue and in Watch: durations in words, the day if it is not today, no end time while nothing moves. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { queuePanel, statusCard } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { queuePanel, statusCard } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const PATIENCE_MS = 120_000;
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="280mm" height="200mm" viewBox="0 0 280 200" fill="none" stroke="#000">${Array.from(

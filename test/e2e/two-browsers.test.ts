@@ -4,8 +4,8 @@
  */
 import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
-import { launchBrowser, PLAIN } from "../support/browser.js";
-import { ruledSheet } from "../support/drawings.js";
+import { launchBrowser, PLAIN } from "../support/browser/browser.js";
+import { ruledSheet } from "../support/drawings/drawings.js";
 import {
   chooseSample,
   dropFile,
@@ -16,9 +16,9 @@ import {
   queuePanel,
   statusCard,
   waitForPlan,
-} from "../support/page-actions.js";
-import { temporaryFolder } from "../support/folders.js";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
+} from "../support/browser/page-actions.js";
+import { temporaryFolder } from "../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
 
 const data = temporaryFolder("two-browsers");
 /** Small, because three pages draw it in software. */

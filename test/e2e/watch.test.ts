@@ -1,7 +1,7 @@
 /** Watch: the running plot has a separate view, and the drawing laid out in Prepare stays unchanged. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../src/schema/index.js";
-import { ruledSheet } from "../support/drawings.js";
+import { ruledSheet } from "../support/drawings/drawings.js";
 import {
   colorCounts,
   historyPanel,
@@ -10,8 +10,8 @@ import {
   queuePanel,
   statusCard,
   waitForPicture,
-} from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+} from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const PATIENCE_MS = 120_000;
 const LINES = "lines";

@@ -1,7 +1,7 @@
 /** On a desktop screen the page is as high as the window and does not scroll; its columns scroll separately. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { plotBar, queuePanel } from "../support/page-actions.js";
-import { PageTest } from "../support/page-test.js";
+import { plotBar, queuePanel } from "../support/browser/page-actions.js";
+import { PageTest } from "../support/browser/page-test.js";
 
 const SIZES = [
   { width: 1440, height: 900 },

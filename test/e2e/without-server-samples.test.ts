@@ -2,11 +2,11 @@
 import { readFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
-import { IS_FULL } from "../support/full-run.js";
-import { plotting } from "../support/live-plot.js";
-import { openTab } from "../support/page-actions.js";
-import { done, storedJob, useSerialPages } from "../support/serial-page.js";
-import { strokesInBrowser } from "../support/strokes-in-browser.js";
+import { IS_FULL } from "../support/runs/full-run.js";
+import { plotting } from "../support/plots/live-plot.js";
+import { openTab } from "../support/browser/page-actions.js";
+import { done, storedJob, useSerialPages } from "../support/browser/serial-page.js";
+import { strokesInBrowser } from "../support/browser/strokes-in-browser.js";
 
 /** The samples take 10 to 20 minutes each on a real board. */
 const BOARD_SPEED = 100;

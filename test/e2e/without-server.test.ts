@@ -1,7 +1,7 @@
 /** The page without a server: a reload and a second tab while it plots on the board. */
 import { describe, expect, it } from "vitest";
-import { historyPanel, statusCard } from "../support/page-actions.js";
-import { expectState, useSerialPages } from "../support/serial-page.js";
+import { historyPanel, statusCard } from "../support/browser/page-actions.js";
+import { expectState, useSerialPages } from "../support/browser/serial-page.js";
 
 const startPages = useSerialPages();
 

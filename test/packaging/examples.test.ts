@@ -18,10 +18,10 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
 
 /**
- * Without the references that are generated: they have signatures instead of examples, and test/cli/reference.test.ts
+ * Without the references that are generated: they have signatures instead of examples, and test/server/cli/reference.test.ts
  * runs the commands in the generated part of docs/cli.md.
  */
 const GENERATED = ["library-reference.md", "http-reference.md", "cli.md"];

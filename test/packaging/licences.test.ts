@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { afterAll, describe, expect, it } from "vitest";
 import { ROOT, nodeModule } from "../../scripts/setup.mjs";
-import { IS_FULL } from "../support/full-run.js";
+import { IS_FULL } from "../support/runs/full-run.js";
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-licences-"));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));

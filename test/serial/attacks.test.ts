@@ -8,10 +8,10 @@ import { request as httpRequest } from "node:http";
 import { connect, type Socket } from "node:net";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, jobSchema } from "../../src/schema/index.js";
-import { countFor } from "../support/full-run.js";
-import { PtyBoard } from "../support/pty-board.js";
-import { temporaryFolder } from "../support/folders.js";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
+import { countFor } from "../support/runs/full-run.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
+import { temporaryFolder } from "../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
 
 const ROUNDS = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const IS_SHORT = ROUNDS === 1;

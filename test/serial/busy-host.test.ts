@@ -8,9 +8,9 @@ import { nodeClock } from "../../server/serial/node-clock.js";
 import { openSerial } from "../../server/serial/serial-transport.js";
 import { BoardSession } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { waitS } from "../support/faulty-plots.js";
-import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { PtyBoard } from "../support/pty-board.js";
+import { waitS } from "../support/plots/faulty-plots.js";
+import { LocalPlanner, strokesOf } from "../support/plots/local-planner.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
 
 function beBusyFor(s: number): void {
   const untilMs = Date.now() + 1_000 * s;

@@ -9,12 +9,12 @@ import { spawn as spawnAtTerminal } from "@lydell/node-pty";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
 import type { StrokeSet } from "../../src/index.js";
-import { compareDrawn } from "../support/drawn-truth.js";
-import { FAULT_DRAWING, waitS } from "../support/faulty-plots.js";
-import { countFor } from "../support/full-run.js";
-import { seeded } from "../support/live-plot.js";
-import { strokesOf } from "../support/local-planner.js";
-import { PtyBoard } from "../support/pty-board.js";
+import { compareDrawn } from "../support/drawings/drawn-truth.js";
+import { FAULT_DRAWING, waitS } from "../support/plots/faulty-plots.js";
+import { countFor } from "../support/runs/full-run.js";
+import { seeded } from "../support/plots/live-plot.js";
+import { strokesOf } from "../support/plots/local-planner.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];

@@ -1,6 +1,6 @@
 /**
  * Faults of a connection during a plot, over a real pseudo-terminal: each ends in a defined state. Those of the board itself
- * are tested without real time, in test/server/plotter.test.ts.
+ * are tested without real time, in test/host/plotter/plotter.test.ts.
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
@@ -10,14 +10,14 @@ import { NodePlotter, type PlotterState } from "../../server/plotter/node-plotte
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
-import { childScript, hasEnded, nextMessage } from "../support/child-script.js";
-import { LocalPlanner, strokesOf } from "../support/local-planner.js";
-import { PtyBoard } from "../support/pty-board.js";
-import { wakefulClock } from "../support/wakeful-clock.js";
+import { childScript, hasEnded, nextMessage } from "../support/processes/child-script.js";
+import { LocalPlanner, strokesOf } from "../support/plots/local-planner.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
+import { wakefulClock } from "../support/clocks/wakeful-clock.js";
 
 const LONG = strokesOf([10, 10, 250, 10, 250, 20, 10, 20, 10, 30, 250, 30]);
 /**
- * An undetected fault never ends, or only with the plot. test/server/plotter.test.ts tests the limit of 3 s, without real
+ * An undetected fault never ends, or only with the plot. test/host/plotter/plotter.test.ts tests the limit of 3 s, without real
  * time: here a busy computer delays the board and the driver.
  */
 const WITHIN_S = 15;

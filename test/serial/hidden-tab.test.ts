@@ -3,9 +3,9 @@
  * if other tests kept the processor busy.
  */
 import { describe, expect, it } from "vitest";
-import { IS_FULL } from "../support/full-run.js";
-import { done, useSerialPages } from "../support/serial-page.js";
-import { startTabbedBrowser } from "../support/tabbed-browser.js";
+import { IS_FULL } from "../support/runs/full-run.js";
+import { done, useSerialPages } from "../support/browser/serial-page.js";
+import { startTabbedBrowser } from "../support/browser/tabbed-browser.js";
 
 const HIDDEN_S = IS_FULL ? 360 : 20;
 

@@ -5,9 +5,9 @@ import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
-import { drawnMm } from "../support/live-plot.js";
-import { PtyBoard } from "../support/pty-board.js";
-import { folderOfTest } from "../support/folders.js";
+import { drawnMm } from "../support/plots/live-plot.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
+import { folderOfTest } from "../support/processes/folders.js";
 
 const LIMIT_MS = 120_000;
 /** Loops of about 25 mm, each overlapping the one before. */

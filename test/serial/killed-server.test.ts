@@ -5,11 +5,11 @@
 import { once } from "node:events";
 import { expect, it, onTestFinished } from "vitest";
 import { jobSchema, snapshotSchema, type Job } from "../../src/schema/index.js";
-import { EventStream } from "../server/support/event-stream.js";
-import { PtyBoard, type BoardReport } from "../support/pty-board.js";
-import { folderOfTest } from "../support/folders.js";
-import { startServerProcess, type ServerProcess } from "../support/server-process.js";
-import { countFor } from "../support/full-run.js";
+import { EventStream } from "../support/servers/event-stream.js";
+import { PtyBoard, type BoardReport } from "../support/processes/pty-board.js";
+import { folderOfTest } from "../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
+import { countFor } from "../support/runs/full-run.js";
 
 const KILL_COUNT = countFor("PLOTWRIGHT_KILLS", 50, 4);
 const KILLS_PER_PLOT = 10;

@@ -4,11 +4,11 @@
  */
 import { expect, it, onTestFinished } from "vitest";
 import { jobSchema } from "../../src/schema/index.js";
-import { EventStream } from "../server/support/event-stream.js";
-import { PtyBoard } from "../support/pty-board.js";
-import { folderOfTest } from "../support/folders.js";
-import { startServerProcess } from "../support/server-process.js";
-import { IS_FULL } from "../support/full-run.js";
+import { EventStream } from "../support/servers/event-stream.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
+import { folderOfTest } from "../support/processes/folders.js";
+import { startServerProcess } from "../support/processes/server-process.js";
+import { IS_FULL } from "../support/runs/full-run.js";
 
 const STREAM_COUNT = 50;
 const REQUESTS_PER_S = 20;

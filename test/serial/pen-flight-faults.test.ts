@@ -9,8 +9,8 @@ import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { machineById, planJob } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";
-import { childScript, nextMessage } from "../support/child-script.js";
-import { untilIdle, untilUnderWay, waitS } from "../support/faulty-plots.js";
+import { childScript, nextMessage } from "../support/processes/child-script.js";
+import { untilIdle, untilUnderWay, waitS } from "../support/plots/faulty-plots.js";
 import {
   HOPS,
   instant,
@@ -20,11 +20,11 @@ import {
   STATED_SERVO,
   virtualServo,
   type FlyingServo,
-} from "../support/flying-pens.js";
-import { countFor } from "../support/full-run.js";
-import { seeded } from "../support/live-plot.js";
-import { LocalPlanner } from "../support/local-planner.js";
-import { PtyBoard } from "../support/pty-board.js";
+} from "../support/machines/flying-pens.js";
+import { countFor } from "../support/runs/full-run.js";
+import { seeded } from "../support/plots/live-plot.js";
+import { LocalPlanner } from "../support/plots/local-planner.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 /** Missing or drawn twice, mm. */

@@ -4,9 +4,9 @@
  * both firmware versions.
  */
 import { describe, expect, it } from "vitest";
-import { plotWithFault, waitS, type Fault, type FaultyPlotResult } from "../support/faulty-plots.js";
-import { seeded } from "../support/live-plot.js";
-import { countFor } from "../support/full-run.js";
+import { plotWithFault, waitS, type Fault, type FaultyPlotResult } from "../support/plots/faulty-plots.js";
+import { seeded } from "../support/plots/live-plot.js";
+import { countFor } from "../support/runs/full-run.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];

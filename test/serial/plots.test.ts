@@ -7,9 +7,9 @@ import { afterEach, describe, expect, it } from "vitest";
 import { NodePlotter } from "../../server/plotter/node-plotter.js";
 import { importSvg, prepare, type Prepared } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
-import { LocalPlanner } from "../support/local-planner.js";
-import { PtyBoard, type BoardReport } from "../support/pty-board.js";
-import { farthest, SegmentGrid } from "../support/segment-grid.js";
+import { LocalPlanner } from "../support/plots/local-planner.js";
+import { PtyBoard, type BoardReport } from "../support/processes/pty-board.js";
+import { farthest, SegmentGrid } from "../support/drawings/segment-grid.js";
 
 const SPEED = 150;
 const SAMPLES = ["hello-paper", "harmonograph", "three-colour-hills"];

@@ -2,8 +2,8 @@ import { afterEach, describe, expect, it } from "vitest";
 import { openSerial, openError } from "../../server/serial/serial-transport.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
 import { BoardSession, type PlotwrightError } from "../../src/index.js";
-import { PtyBoard } from "../support/pty-board.js";
-import { outcome } from "../support/virtual-plotter.js";
+import { PtyBoard } from "../support/processes/pty-board.js";
+import { outcome } from "../support/plots/virtual-plotter.js";
 
 const open: { close(): Promise<void> }[] = [];
 const keep = <T extends { close(): Promise<void> }>(thing: T): T => {

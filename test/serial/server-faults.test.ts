@@ -5,12 +5,12 @@
 import { describe, expect, it, onTestFinished } from "vitest";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { jobSchema, snapshotSchema, type Job, type Snapshot } from "../../src/schema/index.js";
-import { EventStream } from "../server/support/event-stream.js";
-import { PtyBoard, type ToBoard } from "../support/pty-board.js";
-import { folderOfTest } from "../support/folders.js";
-import { wakefulClock } from "../support/wakeful-clock.js";
+import { EventStream } from "../support/servers/event-stream.js";
+import { PtyBoard, type ToBoard } from "../support/processes/pty-board.js";
+import { folderOfTest } from "../support/processes/folders.js";
+import { wakefulClock } from "../support/clocks/wakeful-clock.js";
 
-/** An undetected fault never ends. The limit of 3 s is tested without real time, in test/server/plotter.test.ts. */
+/** An undetected fault never ends. The limit of 3 s is tested without real time, in test/host/plotter/plotter.test.ts. */
 const WITHIN_S = 15;
 const clock = wakefulClock({ countsWork: true });
 const SVG =

@@ -5,7 +5,7 @@ import { spawn } from "@lydell/node-pty";
 import xterm from "@xterm/headless";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
-import { folderOfTest } from "../support/folders.js";
+import { folderOfTest } from "../support/processes/folders.js";
 
 const LIMIT_MS = 60_000;
 const CTRL_C = "\u0003";

@@ -17,7 +17,7 @@ import { shownView, TABS, unfinishedJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { drawingText } from "../drawing/text.js";
 import { skipText, tabsText } from "./text.js";
-import { DropZone } from "../ui/drop-zone.js";
+import { DropZone } from "../ui/files/drop-zone.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PAGE_ACTIONS } from "./page-actions.js";
 
@@ -25,7 +25,7 @@ const EmptyPaper = lazyPart(async () => (await import("../drawing/empty-paper.js
 const Watch = lazyPart(async () => (await import("../watch/watch.js")).Watch);
 const Adjust = lazyPart(async () => (await import("../watch/adjust.js")).Adjust);
 const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
-const Camera = lazyPart(async () => (await import("../studio/camera.js")).Camera);
+const Camera = lazyPart(async () => (await import("../sharing/camera.js")).Camera);
 
 /** Targets of the skip link. */
 const PLOT_ID = "plot-bar";
@@ -144,11 +144,11 @@ const Search = lazyPart(async () => (await import("../search/search.js")).Search
 const DIALOGS = {
   keys: lazyPart(async () => (await import("./help.js")).HelpSheet),
   about: lazyPart(async () => (await import("./help.js")).AboutDialog),
-  wizard: lazyPart(async () => (await import("../plotter/wizard.js")).Wizard),
-  machines: lazyPart(async () => (await import("../plotter/machines-dialog.js")).MachinesDialog),
-  console: lazyPart(async () => (await import("../plotter/console.js")).Console),
+  wizard: lazyPart(async () => (await import("../plotter/wizard/wizard.js")).Wizard),
+  machines: lazyPart(async () => (await import("../plotter/machines/machines-dialog.js")).MachinesDialog),
+  console: lazyPart(async () => (await import("../plotter/console/console.js")).Console),
   ringing: lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog),
-  studio: lazyPart(async () => (await import("../studio/studio-dialog.js")).StudioDialog),
+  studio: lazyPart(async () => (await import("../sharing/studio-dialog.js")).StudioDialog),
 } as const;
 
 /** The open dialog, if any. The question is shown over it, so that what was typed into the dialog is kept. */

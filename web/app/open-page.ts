@@ -10,7 +10,7 @@ import type { Page } from "../state/page-action.js";
 import { readRemembered, writeRemembered, type TextStore } from "../state/persist.js";
 import { applyServerEvent } from "../state/server-events.js";
 import { createPageStore } from "../state/store.js";
-import { saveFile } from "../ui/save-file.js";
+import { saveFile } from "../ui/files/save-file.js";
 import { appName, errorText } from "../ui/text.js";
 import { openPlanner } from "../worker/planner.js";
 import { listenForShortcuts } from "./shortcuts.js";

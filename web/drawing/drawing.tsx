@@ -5,10 +5,10 @@ import { useFilesPage } from "./drawn-size.js";
 import { paperLabel } from "./paper.js";
 import { drawingText as words, reportText, saveText } from "./text.js";
 import { Button } from "../ui/button.js";
-import { ChooseFile } from "../ui/choose-file.js";
+import { ChooseFile } from "../ui/files/choose-file.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { SettingsGroup } from "../ui/settings-group.js";
+import { SettingsGroup } from "../ui/fields/settings-group.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
 export const DrawingPanel = () => {

@@ -4,7 +4,7 @@ import { boardFirmware } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { saveText as words } from "./text.js";
 import { Button } from "../ui/button.js";
-import { Select } from "../ui/choice.js";
+import { Select } from "../ui/fields/choice.js";
 import { EXPORT_FORMATS, type ExportFormat } from "../worker/protocol.js";
 
 /** One version for each set of motion commands that boards understand, newest first. */

@@ -2,8 +2,8 @@ import { HATCH_TABLE, PREPARE_TABLE } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
 import { fillText as words } from "./text.js";
 import { Button } from "../ui/button.js";
-import { Switch } from "../ui/choice.js";
-import { SettingField } from "../ui/setting-field.js";
+import { Switch } from "../ui/fields/choice.js";
+import { SettingField } from "../ui/fields/setting-field.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
 const FIRST_SPACING_MM = 0.6;

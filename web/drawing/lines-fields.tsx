@@ -1,8 +1,8 @@
 import { PREPARE_TABLE, type Setting } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
 import { linesText as words } from "./text.js";
-import { Segments, Switch } from "../ui/choice.js";
-import { SettingField } from "../ui/setting-field.js";
+import { Segments, Switch } from "../ui/fields/choice.js";
+import { SettingField } from "../ui/fields/setting-field.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
 type Key = keyof typeof PREPARE_TABLE;

@@ -1,7 +1,7 @@
 import { usePageState } from "../state/use-store.js";
 import { linesText, fillText as words } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { SettingsGroup } from "../ui/settings-group.js";
+import { SettingsGroup } from "../ui/fields/settings-group.js";
 import { formatNumber } from "../ui/format.js";
 
 const LinesFields = lazyPart(async () => (await import("./lines-fields.js")).LinesFields);

@@ -25,9 +25,9 @@ import {
 import { useActions, usePageState } from "../state/use-store.js";
 import { layersText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Segments } from "../ui/choice.js";
+import { Segments } from "../ui/fields/choice.js";
 import { Icon } from "../ui/icon.js";
-import { OwnNumber } from "../ui/own-number.js";
+import { OwnNumber } from "../ui/fields/own-number.js";
 
 interface LayerDetailsProps {
   readonly row: PreparedLayer;

@@ -1,4 +1,4 @@
-import "../ui/row-drag.css";
+import "../ui/rows/row-drag.css";
 import "./layers.css";
 import { useRef, useState } from "react";
 import { PREPARE_TABLE } from "../../src/internal.js";
@@ -7,7 +7,7 @@ import { inWantedOrder, isLayerShown, moveLayer, showAll } from "./layer-setting
 import { useActions, usePageState } from "../state/use-store.js";
 import { layersText as words } from "./text.js";
 import { Button } from "../ui/button.js";
-import { Segments } from "../ui/choice.js";
+import { Segments } from "../ui/fields/choice.js";
 import { Icon } from "../ui/icon.js";
 import { usePrepareChange } from "../ui/use-change.js";
 import { LayerRow } from "./layer-row.js";

@@ -7,7 +7,7 @@ import { Button } from "../ui/button.js";
 import { formatCount } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { LayerDetails } from "./layer-details.js";
-import { useRowDrag } from "../ui/row-drag.js";
+import { useRowDrag } from "../ui/rows/row-drag.js";
 
 interface LayerRowProps {
   readonly row: PreparedLayer;

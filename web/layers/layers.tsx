@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { usePageState } from "../state/use-store.js";
 import { layersText } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { SettingsGroup } from "../ui/settings-group.js";
+import { SettingsGroup } from "../ui/fields/settings-group.js";
 
 const LayerList = lazyPart(async () => (await import("./layer-list.js")).LayerList);
 

@@ -17,9 +17,9 @@ import {
 import type { PlotSettings } from "../../src/schema/index.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { detailsText as words } from "./details-text.js";
-import { Select, Switch } from "../ui/choice.js";
-import { OwnNumber } from "../ui/own-number.js";
-import { SettingField } from "../ui/setting-field.js";
+import { Select, Switch } from "../ui/fields/choice.js";
+import { OwnNumber } from "../ui/fields/own-number.js";
+import { SettingField } from "../ui/fields/setting-field.js";
 import { useMotionChange } from "../ui/use-change.js";
 import { CornerPicture } from "./corner-picture.js";
 import { useSprings } from "./use-springs.js";

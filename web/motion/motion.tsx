@@ -3,10 +3,10 @@ import { QUALITIES, qualityOf, withQuality, type Quality } from "../../src/inter
 import { useActions, usePageState } from "../state/use-store.js";
 import { motionText as words } from "./text.js";
 import { Button } from "../ui/button.js";
-import { Segments } from "../ui/choice.js";
+import { Segments } from "../ui/fields/choice.js";
 import { formatInUnit, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { SettingsGroup } from "../ui/settings-group.js";
+import { SettingsGroup } from "../ui/fields/settings-group.js";
 import { useSprings } from "./use-springs.js";
 
 const MotionDetails = lazyPart(async () => (await import("./motion-details.js")).MotionDetails);

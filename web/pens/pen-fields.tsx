@@ -2,8 +2,8 @@ import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
 import { heightsText as words } from "./text.js";
-import { Segments, Switch } from "../ui/choice.js";
-import { SettingField } from "../ui/setting-field.js";
+import { Segments, Switch } from "../ui/fields/choice.js";
+import { SettingField } from "../ui/fields/setting-field.js";
 import { usePenChange } from "../ui/use-change.js";
 
 type PenSettings = PlotSettings["pen"];

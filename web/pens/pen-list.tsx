@@ -8,10 +8,10 @@ import { addPen, changePen, pensFromColors, removePen } from "../layers/layer-se
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { pensText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Segments, Select } from "../ui/choice.js";
+import { Segments, Select } from "../ui/fields/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { SettingField } from "../ui/setting-field.js";
+import { SettingField } from "../ui/fields/setting-field.js";
 
 export const PenList = () => {
   const pens = usePageState(({ settings }) => settings.pens);

@@ -1,7 +1,7 @@
 import { usePageState } from "../state/use-store.js";
 import { pensText, heightsText } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { SettingsGroup } from "../ui/settings-group.js";
+import { SettingsGroup } from "../ui/fields/settings-group.js";
 import { formatNumber } from "../ui/format.js";
 
 const PenList = lazyPart(async () => (await import("./pen-list.js")).PenList);

@@ -6,16 +6,16 @@ import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
 import { useActions, useBackend, useIsConnected, usePageState } from "../state/use-store.js";
 import { plotterText as words, presetsText } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
-import { Select } from "../ui/choice.js";
+import { Select } from "../ui/fields/choice.js";
 import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { PenAtHand, StopMove } from "./pen-at-hand.js";
+import { PenAtHand, StopMove } from "./hand/pen-at-hand.js";
 import { adviceWords, homeWords, lampOf, penWords, plotterWords } from "./machine-words.js";
 import { CONNECT, CONSOLE, MACHINES_DIALOG, RINGING, SAVE_LOG, SET_UP } from "./plotter-actions.js";
-import { SettingsGroup } from "../ui/settings-group.js";
+import { SettingsGroup } from "../ui/fields/settings-group.js";
 
-const HandMoves = lazyPart(async () => (await import("./hand-moves.js")).HandMoves);
+const HandMoves = lazyPart(async () => (await import("./hand/hand-moves.js")).HandMoves);
 
 /** The plotter's state, and the controls that every plot needs. */
 export const MachinePanel = () => {

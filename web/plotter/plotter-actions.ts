@@ -3,8 +3,8 @@ import type { HandMove, BoxMm } from "../../src/schema/index.js";
 import { isForOperator, type Page, type PageAction } from "../state/page-action.js";
 import { activeJob, currentPlotter, isReady, type DialogName, type PageState } from "../state/store.js";
 import { stateText } from "../state/text.js";
-import { saveFile } from "../ui/save-file.js";
-import { movesText } from "./hand-text.js";
+import { saveFile } from "../ui/files/save-file.js";
+import { movesText } from "./hand/text.js";
 import { penText, plotterText, whyNoMoveText as why } from "./text.js";
 import type { Trajectory } from "../../src/index.js";
 

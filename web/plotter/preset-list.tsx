@@ -2,7 +2,7 @@ import { useState } from "react";
 import { useActions, usePageState } from "../state/use-store.js";
 import { presetsText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
-import { TextField } from "../ui/text-field.js";
+import { TextField } from "../ui/fields/text-field.js";
 
 /** Presets: speeds, heights, pens and layers under a name. */
 export const PresetList = () => {

@@ -1,6 +1,6 @@
 /** Changes the preview's view by pointer (mouse, pen or fingers), wheel and keyboard. */
 import { panBy, zoomAt, type View } from "../scene/view.js";
-import { ARROW_KEYS } from "../ui/arrow-keys.js";
+import { ARROW_KEYS } from "../ui/rows/arrow-keys.js";
 
 export interface Point {
   readonly x: number;

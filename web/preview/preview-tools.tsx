@@ -3,7 +3,7 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
 import { IconButton } from "../ui/button.js";
-import { Segments, Select } from "../ui/choice.js";
+import { Segments, Select } from "../ui/fields/choice.js";
 import { PLACE, TRAVEL } from "./preview-actions.js";
 import type { Stage } from "./stage.js";
 import { VIEW_MODES, viewModeOf } from "./view-modes.js";

@@ -5,7 +5,7 @@ import { useActions, useIsConnected, useOlderJobs, usePageState } from "../state
 import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatDuration, formatWhen } from "../ui/format.js";
-import { RowMenu } from "../ui/row-menu.js";
+import { RowMenu } from "../ui/rows/row-menu.js";
 import { canGoOn, EndedButtons } from "./ended-buttons.js";
 import { JobName, StateBadge } from "./job-head.js";
 import { expectedSOf } from "./queue-time.js";

@@ -11,7 +11,7 @@ import { ActionButton } from "../ui/action-button.js";
 import { Facts } from "../ui/facts.js";
 import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { NumberField } from "../ui/number-field.js";
+import { NumberField } from "../ui/fields/number-field.js";
 
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
 const MAX_COPIES = 100;

@@ -11,7 +11,7 @@ import {
   usePlotterJobs,
 } from "../state/use-store.js";
 import { queueText as words, notifyText } from "./text.js";
-import { Segments } from "../ui/choice.js";
+import { Segments } from "../ui/fields/choice.js";
 import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { useNow } from "../ui/use-now.js";

@@ -5,12 +5,12 @@ import { plotText, queueText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { RowMenu } from "../ui/row-menu.js";
+import { RowMenu } from "../ui/rows/row-menu.js";
 import type { Copies } from "./copies.js";
 import { expectedSOf } from "./queue-time.js";
 import { JobName } from "./job-head.js";
-import "../ui/row-drag.css";
-import { placeAfterMove, useRowDrag } from "../ui/row-drag.js";
+import "../ui/rows/row-drag.css";
+import { placeAfterMove, useRowDrag } from "../ui/rows/row-drag.js";
 import { Thumb } from "../drawing/thumb.js";
 
 interface WaitingJobProps {

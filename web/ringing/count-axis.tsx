@@ -1,9 +1,9 @@
 import { useId } from "react";
 import { frequencyOfRipples, RINGING_SPEEDS } from "../../src/internal.js";
 import { ringingText as words } from "./ringing-text.js";
-import { Segments } from "../ui/choice.js";
+import { Segments } from "../ui/fields/choice.js";
 import { formatNumber } from "../ui/format.js";
-import { NumberBox, useTypedNumber, type NumberLimits } from "../ui/number-box.js";
+import { NumberBox, useTypedNumber, type NumberLimits } from "../ui/fields/number-box.js";
 import { RipplePicture, type Axis } from "./ripple-picture.js";
 
 const COUNTED_MM = 10;

@@ -12,7 +12,7 @@ import { activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ringingText as words } from "./ringing-text.js";
 import { Button } from "../ui/button.js";
-import { Segments } from "../ui/choice.js";
+import { Segments } from "../ui/fields/choice.js";
 import { formatNumber } from "../ui/format.js";
 import { CountAxis, frequencyOf, NO_READING, type Reading } from "./count-axis.js";
 import type { Gain, GainRequest } from "./ringing-gain.js";

@@ -2,7 +2,7 @@ import { useState } from "react";
 import { currentPlotter } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { ringingText as words } from "./ringing-text.js";
-import { Segments } from "../ui/choice.js";
+import { Segments } from "../ui/fields/choice.js";
 import { Sheet } from "../ui/dialog.js";
 import { CountRipples } from "./count-ripples.js";
 import { PickLine } from "./pick-line.js";

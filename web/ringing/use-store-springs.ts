@@ -2,7 +2,7 @@ import { findMachine, type Springs } from "../../src/internal.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ringingText } from "./ringing-text.js";
 import { MACHINES, type MachineProfile } from "../../src/index.js";
-import { copyOf } from "../plotter/profile.js";
+import { copyOf } from "../plotter/machines/profile.js";
 
 /**
  * Stores the springs with the plotter's machine, and chooses that machine. False: it failed, and the user has seen

@@ -1,10 +1,10 @@
 import { withOffs, type Job, type PlotSettings } from "../../src/schema/index.js";
-import { NudgeJob } from "../plotter/pen-nudge.js";
+import { NudgeJob } from "../plotter/hand/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
 import { activeJob, mayOperate, penOf, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
-import { Select } from "../ui/choice.js";
+import { Select } from "../ui/fields/choice.js";
 import { formatCount, formatNumber } from "../ui/format.js";
 import { watchText } from "./text.js";
 import {

@@ -3,7 +3,7 @@
  */
 import type { StrokeSet } from "../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../machines/profile.js";
-import { penMovesOf } from "../../plan/pen-moves.js";
+import { penMovesOf } from "../../plan/pen/pen-moves.js";
 import { plan } from "../../plan/plan.js";
 import { runEndS, type Trajectory } from "../../plan/trajectory.js";
 import type { PenSettings } from "../../settings/pen.js";

@@ -1,9 +1,9 @@
 /** The inherited state of an element: passed down the tree, never changed. */
 import { compose, IDENTITY, type Affine } from "../../geometry/affine.js";
 import type { ClipNode } from "../clip-node.js";
-import type { LengthBasis } from "./length.js";
-import type { Paint } from "./properties.js";
-import type { Style } from "./style.js";
+import type { LengthBasis } from "./css/length.js";
+import type { Paint } from "./css/properties.js";
+import type { Style } from "./css/style.js";
 
 export interface Context {
   /** User units to page mm. */

@@ -1,9 +1,9 @@
 /** Effects that a browser draws and a pen cannot: each gives a warning. */
 import type { Box } from "../../geometry/box.js";
 import { parseColor } from "../color.js";
-import { isFontLength } from "./length.js";
-import { NOT_DRAWN_PROPERTIES, type Declared, type Property } from "./properties.js";
-import { declaredValue, isUnknownPaint, parseOpacity, parseUrl, type Style } from "./style.js";
+import { isFontLength } from "./css/length.js";
+import { NOT_DRAWN_PROPERTIES, type Declared, type Property } from "./css/properties.js";
+import { declaredValue, isUnknownPaint, parseOpacity, parseUrl, type Style } from "./css/style.js";
 import { tagOf, type SvgTree } from "./svg-tree.js";
 import type { WarningCode, Warnings } from "../warnings.js";
 

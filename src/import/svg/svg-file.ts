@@ -1,8 +1,8 @@
 /** A parsed SVG file, shared by all steps of its import. */
 import type { TextFont } from "../text/text-font.js";
-import { Cascade } from "./cascade.js";
-import type { LengthBasis } from "./length.js";
-import { computeStyle, INITIAL_STYLE, type Style } from "./style.js";
+import { Cascade } from "./css/cascade.js";
+import type { LengthBasis } from "./css/length.js";
+import { computeStyle, INITIAL_STYLE, type Style } from "./css/style.js";
 import { planLayers, type LayerPlan } from "./svg-layers.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
 

@@ -11,24 +11,24 @@ import {
 import { EMPTY_BOX, mapBox, uniteBoxes, type Box } from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
 import { MM_PER_PX } from "../../units.js";
-import type { Declared, Paint } from "./properties.js";
+import type { Declared, Paint } from "./css/properties.js";
 import type { DrawingBuilder, Look } from "../drawing-builder.js";
-import { lengthPx } from "./length.js";
+import { lengthPx } from "./css/length.js";
 import { drawPathData } from "../path-data.js";
-import { MeasuredPath } from "./measured-path.js";
+import { MeasuredPath } from "./shapes/measured-path.js";
 import { curveBox, type ShapeBuffer } from "../shape-buffer.js";
 import { type Context, isMarked } from "./svg-context.js";
 import { warnOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
-import { MaskPaintServers, type SvgPaintServers } from "./svg-paint-servers.js";
-import type { SvgGeometry } from "./basic-shapes.js";
-import { placeText, type PlacedText } from "./svg-text.js";
-import type { PlacedLetter } from "./svg-text-layout.js";
-import { SvgTextPaths } from "./svg-text-path.js";
+import { MaskPaintServers, type SvgPaintServers } from "./shapes/paint-servers.js";
+import type { SvgGeometry } from "./shapes/basic-shapes.js";
+import { placeText, type PlacedText } from "./text/placed-text.js";
+import type { PlacedLetter } from "./text/text-layout.js";
+import { SvgTextPaths } from "./text/text-path.js";
 import { USUAL_METRICS, type TextFont } from "../text/text-font.js";
 import { attribute } from "./svg-tree.js";
 import type { Color } from "../color.js";
-import { declaredValue, INITIAL_STYLE } from "./style.js";
+import { declaredValue, INITIAL_STYLE } from "./css/style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgPainter {

@@ -6,11 +6,11 @@
  *   then the box is aligned to xMin|xMid|xMax, YMin|YMid|YMax of the viewport.
  */
 import { compose, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
-import { lengthPx, type Side } from "./length.js";
-import type { Declared } from "./properties.js";
+import { lengthPx, type Side } from "./css/length.js";
+import type { Declared } from "./css/properties.js";
 import { withViewport, type Context } from "./svg-context.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
-import { declaredValue } from "./style.js";
+import { declaredValue } from "./css/style.js";
 import { rectangleClip } from "../clip-node.js";
 
 interface ViewBox {

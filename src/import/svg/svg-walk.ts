@@ -9,10 +9,10 @@ import { type Drawing, isSpeedFactor } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
-import { SHAPE_TAGS, type SvgGeometry } from "./basic-shapes.js";
-import { isSameDeclared, type Declared } from "./properties.js";
-import { elementTransform } from "./transform.js";
-import { lengthPx, type Side } from "./length.js";
+import { SHAPE_TAGS, type SvgGeometry } from "./shapes/basic-shapes.js";
+import { isSameDeclared, type Declared } from "./css/properties.js";
+import { elementTransform } from "./css/transform.js";
+import { lengthPx, type Side } from "./css/length.js";
 import {
   isInsideUseOf,
   MAX_COPY_DEPTH,
@@ -23,14 +23,14 @@ import {
 } from "./svg-context.js";
 import { effectsOf, isErased, warnOf, type Effects, backgroundOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
-import type { SvgClips } from "./svg-clips.js";
-import { markerPlaces, insideMarker } from "./svg-markers.js";
-import { SvgMasks, type DrawApart } from "./svg-masks.js";
+import type { SvgClips } from "./masks/clips.js";
+import { markerPlaces, insideMarker } from "./shapes/markers.js";
+import { SvgMasks, type DrawApart } from "./masks/masks.js";
 import { LayerGroups } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree, childrenOf } from "./svg-tree.js";
-import { computeStyle, declaredValue, parseOpacity, type Style } from "./style.js";
-import { withoutAlignment, withoutShift } from "./text-style.js";
+import { computeStyle, declaredValue, parseOpacity, type Style } from "./css/style.js";
+import { withoutAlignment, withoutShift } from "./css/text-style.js";
 import { viewportInside } from "./svg-viewport.js";
 import { Warnings } from "../warnings.js";
 import { DrawingBuilder } from "../drawing-builder.js";

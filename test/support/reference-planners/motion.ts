@@ -3,10 +3,10 @@
  * acceleration jump, and not only how long a plan takes.
  */
 import { BlockColumns } from "../../../src/plan/block-columns.js";
-import { ImpulseFilter, type Kernel } from "../../../src/plan/impulse-filter.js";
+import { ImpulseFilter, type Kernel } from "../../../src/plan/shaping/impulse-filter.js";
 import type { RunPath } from "../../../src/plan/run-path.js";
 import type { RunPlanner } from "../../../src/plan/run-writer.js";
-import { newStraight, writeStraight } from "../../../src/plan/trapezoid.js";
+import { newStraight, writeStraight } from "../../../src/plan/corners/trapezoid.js";
 import { distance, type Point, type ReferencePlanner } from "./polyline.js";
 
 /** Shorter straights are rounding errors, mm. */

@@ -3,7 +3,7 @@
  */
 import { PlotwrightError } from "../../../src/index.js";
 import { usbIds, type UsbId } from "../../../src/internal.js";
-import type { Devices, FoundBoard } from "../../../host/plotter/connection.js";
+import type { Devices, FoundBoard } from "../../../host/plotter/connected-machine.js";
 import { openWebSerial } from "../../serial/web-serial.js";
 
 const hex = (id: number | undefined): string | undefined => id?.toString(16).padStart(4, "0");

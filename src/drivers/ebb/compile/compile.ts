@@ -9,7 +9,7 @@ import { checkObject } from "../../../check-arguments.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { checkPen } from "../../../plan/check-settings.js";
-import { penMoveAt } from "../../../plan/pen-moves.js";
+import { penMoveAt } from "../../../plan/pen/pen-moves.js";
 import { runEndS, type PenMove, type Trajectory } from "../../../plan/trajectory.js";
 import { TICKS_PER_MS } from "../../../units.js";
 import {

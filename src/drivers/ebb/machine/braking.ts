@@ -2,7 +2,7 @@
 import { settingsIdOf, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { withLayerCodes } from "../../../plan/coded-layers.js";
 import { accelEverywhere, drawLimitsOf } from "../../../plan/limits.js";
-import { penOfLayer } from "../../../plan/pen-times.js";
+import { penOfLayer } from "../../../plan/pen/pen-times.js";
 import type { StrokePosition } from "../../../plan/trajectory.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import type { JobSettings } from "../../machine-job.js";

@@ -6,7 +6,7 @@ import { strokeCount, type StrokeSet } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
 import { passesOf } from "../../../geometry/passes.js";
 import { machineOf } from "../../../machines/profiles.js";
-import { penMovesOf } from "../../../plan/pen-moves.js";
+import { penMovesOf } from "../../../plan/pen/pen-moves.js";
 import { stateAt, type StrokePosition, type Trajectory } from "../../../plan/trajectory.js";
 import { strokeLengthMm } from "../../../position/on-drawing.js";
 import { passOf } from "../../../position/on-plan.js";

@@ -1,0 +1,340 @@
+/**
+ * `plotwright plot FILE…`: plots on the server that has the plotter (plot-on-server.ts), or else without one. The first Ctrl-C pauses (Enter resumes), a second one
+ * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
+ * When the process must end (SIGTERM, or its terminal is closed), the pen lifts, and the plot can be resumed.
+ */
+import { basename } from "node:path";
+import { importDrawing, PlotwrightError } from "../../../src/index.js";
+import { firmwareAdvice, machineOf, sizeInWords } from "../../../src/internal.js";
+import type { PlotSettings } from "../../../src/schema/index.js";
+import { defaultDataDir } from "../../storage/data-dir.js";
+import { fileFault } from "../../storage/file-fault.js";
+import type { OpenPlanner } from "../../../host/planning/open-planner.js";
+import { PenStops } from "../../../host/plotter/pen-stops.js";
+import { openPlanner } from "../../planning/planner.js";
+import { withLayerPens, type PenChoice } from "../../planning/layers-by-name.js";
+import { readDrawing } from "../../planning/read-drawing.js";
+import { OWN_PLANNING_LIMITS } from "../../planning/planning-limits.js";
+import { isOtherBoard } from "../../../host/plotter/board-id.js";
+import type { JournalEntry, PlotStart, PlotterPort } from "../../../host/plotter/plotter-port.js";
+import { mustBeReadable, nameOf, withDrawingFile } from "../files.js";
+import { printed, type CliIo } from "../io.js";
+import { withPlotter } from "../hand-commands.js";
+import {
+  type DeviceOptions,
+  addData,
+  addDevice,
+  addLayerOptions,
+  copies,
+  seconds,
+  type Declare,
+} from "../options.js";
+import { PlotRecord, type InterruptedPlot } from "./plot-record.js";
+import { plotOnServer } from "./plot-on-server.js";
+import { plotReport } from "./plot-report.js";
+import { CANCELLED, cancelled, waitForPaper, watch } from "./plot-watch.js";
+import type { Command, Option } from "commander";
+import { servedPlotter } from "../client/served-plotter.js";
+import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "../settings-options.js";
+
+export interface PlotCommandOptions extends DeviceOptions {
+  readonly only?: readonly string[];
+  readonly pen?: readonly PenChoice[];
+  readonly copies: number;
+  readonly paperS?: number;
+  readonly resume?: boolean;
+  readonly restart?: boolean;
+  readonly quiet?: boolean;
+  readonly json?: boolean;
+  readonly data?: string;
+}
+
+interface Plot {
+  readonly name: string;
+  readonly path: string;
+  readonly settings: PlotSettings;
+  readonly only: readonly string[] | undefined;
+  readonly from: InterruptedPlot["from"] | null;
+  readonly received: InterruptedPlot["received"];
+  readonly board: InterruptedPlot["board"];
+  /** Before it begins, 0 … 1. */
+  readonly progress: number;
+}
+
+/** What a plot on the plotter needs besides its drawing. */
+interface Course {
+  /** Stores that the plot begins or resumes. */
+  readonly begin: () => void;
+  readonly record: PlotRecord;
+  /** Aborted when the process must end. */
+  readonly end: AbortSignal;
+}
+
+/** Plots the drawings one after the other. Returns the exit code: that of the first plot which does not end normally. */
+async function plotInTurn(
+  files: readonly string[],
+  options: PlotCommandOptions,
+  io: CliIo,
+  plot: (file: string, end: AbortSignal) => Promise<number>,
+): Promise<number> {
+  const jobs = files.flatMap((file) => Array<string>(options.copies).fill(file));
+  if (jobs.length === 0)
+    throw new PlotwrightError("bad-setting", "No drawing was given. Use plotwright plot FILE.svg.");
+  if (jobs.length > 1 && options.paperS === undefined && !io.hasKeyboard) {
+    throw new PlotwrightError(
+      "bad-setting",
+      "Between two plots it waits for Enter, so that the paper can be changed. Without a keyboard, use --paper-s SECONDS to set the wait.",
+    );
+  }
+  mustBeReadable(files);
+  return untilEnd(io, async (end) => {
+    for (const [index, file] of jobs.entries()) {
+      if (index > 0 && (end.aborted || !(await waitForPaper(nameOf(file), options, io))))
+        return cancelled(io);
+      const code = await plot(file, end);
+      if (code !== 0) return code;
+    }
+    return 0;
+  });
+}
+
+/** Without a server. Returns the exit code: 0, or 5 when it was cancelled or interrupted. Failures are thrown. */
+export async function runPlot(
+  files: readonly string[],
+  settings: PlotSettings,
+  options: PlotCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
+  mustHaveEnded(record, options);
+  return plotInTurn(files, options, io, (file, end) =>
+    withDrawingFile(file, (path) => {
+      const { only, pen } = options;
+      const plot: Plot = {
+        name: basename(nameOf(file)),
+        path,
+        settings:
+          pen === undefined ? settings : withLayerPens(importDrawing("", readDrawing(path)), settings, pen),
+        only,
+        from: null,
+        received: undefined,
+        board: undefined,
+        progress: 0,
+      };
+      return plotOne(plot, { begin: () => record.begin(path, plot), record, end }, options, io);
+    }),
+  );
+}
+
+/**
+ * Listens to the signals that end the process until everything is stored. No second one, as at the end of an ssh
+ * session, may end it before.
+ */
+async function untilEnd(io: CliIo, use: (end: AbortSignal) => Promise<number>): Promise<number> {
+  const end = new AbortController();
+  const forget = io.onInterrupt((isFinal) => isFinal && end.abort());
+  try {
+    return await use(end.signal);
+  } finally {
+    forget();
+  }
+}
+
+/** Resumes an interrupted plot: where it stopped, or after a crash from at most half a second before. */
+export async function resumePlot(
+  files: readonly string[],
+  options: PlotCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  if (files.length > 0) {
+    throw new PlotwrightError(
+      "bad-setting",
+      "--resume continues the drawing that was begun, so give no file.",
+    );
+  }
+  const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
+  const found = record.mustFind();
+  const plot: Plot = { ...found, path: record.drawingPath };
+  return untilEnd(io, (end) =>
+    plotOne(plot, { begin: () => record.takeOver(found), record, end }, options, io),
+  );
+}
+
+/** Refuses a new plot after an interrupted one: the carriage is in the middle of that drawing, so it is rarely intended. */
+function mustHaveEnded(record: PlotRecord, { restart }: PlotCommandOptions): void {
+  const found = record.find();
+  if (found === null || restart === true) return;
+  throw new PlotwrightError(
+    "conflict",
+    `${wasInterrupted(found)} Use plotwright plot --resume to resume it, or add --restart to discard it and plot from the beginning.`,
+  );
+}
+
+async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, io: CliIo): Promise<number> {
+  const { path, settings, only } = plot;
+  const say = options.quiet === true ? () => undefined : (text: string) => io.err(text);
+  const stop = new AbortController();
+  const forget = io.onInterrupt(() => stop.abort());
+  try {
+    const planner = await openPlanner(
+      { path, settings, machine: machineOf(settings), only, limits: OWN_PLANNING_LIMITS },
+      stop.signal,
+    );
+    try {
+      if (!io.hasKeyboard) mustNotWaitForPen(planner, plot);
+      planner.warnings.forEach((warning) => say(printed`note: ${warning}\n`));
+      return await withPlotter(options, settings, (plotter) => {
+        // Ctrl-C while the board was being connected.
+        if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
+        forget();
+        const advice = firmwareAdvice(machineOf(settings), plotter.snapshot());
+        if (advice !== null) say(printed`note: ${advice}\n`);
+        say(printed`${plot.name}: ${sizeInWords(planner.size)}\n`);
+        return onPlotter(plotter, planner, plot, course, options, io);
+      });
+    } finally {
+      await planner.close();
+    }
+  } catch (error) {
+    if (error instanceof PlotwrightError && error.code === "cancelled" && stop.signal.aborted) {
+      return course.end.aborted ? interrupted(course.record, io) : cancelled(io);
+    }
+    throw error;
+  } finally {
+    forget();
+  }
+}
+
+/** Refuses a plot that would wait for another pen. Without a keyboard it would wait endlessly. */
+function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): void {
+  const stops = new PenStops(strokes, settings, from);
+  const next = stops.nextAfter(from);
+  const wait = stops.due(from) ?? (next === null ? null : stops.due({ stroke: next, alongMm: 0 }));
+  if (wait === null) return;
+  const how =
+    from === null
+      ? 'plot its layers one by one with --only, or switch the stops off with "penStops": "never" in a file for --config'
+      : "the plot can't be resumed: run it in a terminal";
+  throw new PlotwrightError(
+    "bad-setting",
+    `Before "${wait.layerName}" the plot waits for Enter, so that the pen can be changed. Without a keyboard, ${how}.`,
+  );
+}
+
+async function onPlotter(
+  plotter: PlotterPort,
+  planner: OpenPlanner,
+  { name, settings, from, received, board, progress: before }: Plot,
+  { begin, record, end }: Course,
+  options: PlotCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  const found = plotter.snapshot();
+  const isOther = board !== undefined && isOtherBoard(board, found);
+  const position = isOther ? "other" : found.xMm === null ? "lost" : "known";
+  let progress = before;
+  begin();
+  const journal = journalIn(record, () => progress, io);
+  // A resumed plot waits for the user, unless there is no keyboard to start it with.
+  const held = from !== null && io.hasKeyboard;
+  const noted = (message: string): void => io.err(printed`${message}\n`);
+  const start: PlotStart = { from, received, board, journal, noted, held };
+  const run = await plotter.plot(planner, settings, start);
+  run.onProgress((now) => (progress = now.progress));
+  const resumed = from === null ? null : ({ position } as const);
+  const report = plotReport(name, options, io);
+  const ended = await watch(run, { report, resumed, end, endWords: "Interrupted: the pen lifts." }, io);
+  // The motors stay on, so that the carriage stays where the plot is to be resumed.
+  if (ended === "interrupted") return interrupted(record, io);
+  try {
+    await plotter.motorsOff();
+  } finally {
+    record.end();
+  }
+  return ended === "done" ? 0 : cancelled(io);
+}
+
+/** The process must end. Says whether the plot can be resumed. */
+function interrupted(record: PlotRecord, io: CliIo): number {
+  const found = record.find();
+  if (found === null) return cancelled(io);
+  io.err(printed`plotwright: ${wasInterrupted(found)} Use plotwright plot --resume to resume it.\n`);
+  return CANCELLED;
+}
+
+const wasInterrupted = ({ name, progress }: InterruptedPlot): string =>
+  `The plot of ${name} was interrupted at ${Math.round(100 * progress)} %.`;
+
+/** A full disk must not stop the pen in mid-stroke: each entry is tried, as the disk may soon have room again. */
+function journalIn(record: PlotRecord, progress: () => number, io: CliIo): NonNullable<PlotStart["journal"]> {
+  let isReported = false;
+  return {
+    record: (entry: JournalEntry) => {
+      try {
+        record.save(entry, progress());
+      } catch (error) {
+        if (!isReported) io.err(printed`${notStored(error)}\n`);
+        isReported = true;
+      }
+    },
+  };
+}
+
+const notStored = (cause: unknown): string =>
+  `The progress can't be stored: ${fileFault(cause)}. The plot continues, but if it is interrupted, it resumes from an earlier place or not at all.`;
+
+export const declarePlot: Declare = (command, { io, setExitCode }) => {
+  addData(
+    addDevice(
+      addLayerOptions(
+        addSettingOptions(command.argument("[files...]", "drawings, one after the other; - for stdin")),
+      ),
+    ),
+  )
+    .option("--copies <number>", "number of times to plot each", copies, 1)
+    .option(
+      "--paper-s <seconds>",
+      "time to wait for new paper between two plots, instead of waiting for Enter",
+      seconds,
+    )
+    .option("--resume", "resume a plot that was interrupted")
+    .option("--restart", "discard an interrupted plot and start from the beginning")
+    .option("--quiet", "print nothing but errors")
+    .option("--json", "print progress and stops as JSON, one line for each")
+    .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {
+      if (options.resume === true) {
+        mustFitResume(command);
+        setExitCode(await resumePlot(files, options, io));
+        return;
+      }
+      const served = await servedPlotter(options);
+      const { settings, note } = served?.settings ?? plotterSettingsFromOptions(options);
+      if (note !== null && options.quiet !== true) io.err(printed`note: ${note}\n`);
+      setExitCode(
+        served === null
+          ? await runPlot(files, settings, options, io)
+          : await plotInTurn(files, options, io, (file, end) => plotOnServer(file, served, end, options, io)),
+      );
+    });
+};
+
+/** The other options belong to a new plot, and would have no effect. */
+const WITH_RESUME = ["--resume", "--device", "--virtual-speed", "--data", "--quiet", "--json"];
+
+function mustFitResume(command: Command): void {
+  const other = command.options.find(
+    (option) => isGiven(command, option) && !WITH_RESUME.includes(option.long ?? ""),
+  );
+  if (other === undefined) return;
+  throw new PlotwrightError(
+    "bad-setting",
+    `--resume continues with the settings of the plot that was begun, so leave out ${other.long ?? other.flags}.`,
+  );
+}
+
+/** `--fit` and `--no-fit` set the same value: only the value tells which of them was given. */
+function isGiven(command: Command, option: Option): boolean {
+  const name = option.attributeName();
+  const isNegated = command.getOptionValue(name) === false;
+  return command.getOptionValueSource(name) === "cli" && option.negate === isNegated;
+}

@@ -1,0 +1,389 @@
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { SERVER_STOPPED } from "../../../host/queue/running-plots.js";
+import { PlotwrightError } from "../../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
+import { folderOfTest } from "../../support/processes/folders.js";
+import { LED_PLANNING } from "../../support/jobs/led-plotter.js";
+import { openQueueIn, settled, type OpenQueue } from "../../support/jobs/open-queue.js";
+
+let dir: string;
+let opened: OpenQueue;
+beforeEach(() => {
+  dir = folderOfTest();
+  openQueue();
+});
+afterEach(() => opened.close());
+
+let { store, plotter, events, logged, queue, add, nextRun, plotting } = {} as OpenQueue;
+function openQueue(options?: Parameters<typeof openQueueIn>[1]): void {
+  opened = openQueueIn(dir, options);
+  ({ store, plotter, events, logged, queue, add, nextRun, plotting } = opened);
+}
+
+const names = (): string[] => queue.list().map((job) => `${job.name} ${job.state}`);
+
+describe("the queue", () => {
+  it.each([
+    ["done", null],
+    ["cancelled", null],
+    ["interrupted", new PlotwrightError("disconnected", "The cable came off.")],
+    ["failed", new PlotwrightError("bad-file", "Nothing to draw.")],
+  ] as const)("keeps what may be seen on the paper with a job that is %s", async (state, error) => {
+    const { id, run } = await plotting();
+    run.start.noted?.("The pen rested at A.");
+    expect(queue.get(id).message).toBe("The pen rested at A.");
+    queue.plots.pause(id);
+    queue.plots.resume(id);
+    run.start.noted?.("The pen rested at B.");
+    if (error !== null) run.fail(error);
+    else run.end({ kind: state });
+    await settled();
+    const reason = error === null ? "" : `${error.message} `;
+    expect(queue.get(id)).toMatchObject({
+      state,
+      message: `${reason}The pen rested at A. The pen rested at B.`,
+    });
+    expect(events.at(-2)).toMatchObject({ job: { message: queue.get(id).message } });
+  });
+
+  it("plots a job through progress and hold to its end, announcing each step", async () => {
+    const { id, run } = await plotting();
+    run.progress({
+      progress: 0.5,
+      elapsedS: 6,
+      remainingS: 6,
+      planS: 6,
+      xMm: 1,
+      yMm: 2,
+      penUp: false,
+      penMoving: false,
+    });
+    expect(queue.get(id)).toMatchObject({ state: "plotting", progress: 0.5, remainingS: 6 });
+    queue.plots.pause(id);
+    expect(queue.get(id).state).toBe("paused");
+    queue.plots.resume(id);
+    expect(queue.get(id).state).toBe("plotting");
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "done", progress: 1, remainingS: 0 });
+    expect(run.asked).toEqual(["pause", "resume"]);
+    const states = events.flatMap((event) => (event.type === "job" ? [event.job.state] : []));
+    expect(new Set(states)).toEqual(new Set(["queued", "plotting", "paused", "done"]));
+    expect(events).toContainEqual(
+      expect.objectContaining({ type: "progress", jobId: id, xMm: 1, yMm: 2, penUp: false }),
+    );
+  });
+
+  it("reports the failure, keeps the rest of the queue, and can plot again", async () => {
+    const first = await add("fern");
+    await add("moss");
+    await queue.start(first.id);
+    const run = await nextRun();
+    run.fail(new PlotwrightError("out-of-bounds", "It is larger than the machine."));
+    await settled();
+    expect(names()).toEqual(["moss queued", "fern failed"]);
+    expect(queue.get(first.id).message).toBe("It is larger than the machine.");
+    queue.requeue(first.id);
+    expect(names()).toEqual(["moss queued", "fern queued"]);
+    await queue.start(first.id);
+    (await plotter.nextRun()).end({ kind: "done" });
+    await settled();
+    expect(names()).toEqual(["moss queued", "fern done"]);
+  });
+
+  it("refuses a second job while one is on the plotter", async () => {
+    const first = await add("fern");
+    const second = await add("moss");
+    await queue.start(first.id);
+    await expect(queue.start(second.id)).rejects.toThrow(/"fern" is being plotted/);
+    expect(queue.get(second.id).state).toBe("queued");
+  });
+
+  it("releases its claim on a shared job if the board disappears before it begins", async () => {
+    const asked: string[] = [];
+    await opened.close();
+    openQueue({
+      claims: {
+        claim: (id) => {
+          asked.push(`claim ${id}`);
+          plotter.connection = "absent";
+          return Promise.resolve(null);
+        },
+        release: (id) => Promise.resolve(void asked.push(`release ${id}`)),
+      },
+    });
+    const { id } = await add("fern");
+    await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
+    expect(asked).toEqual([`claim ${id}`, `release ${id}`]);
+    // Without a board, no claim is made.
+    await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
+    expect(asked.length).toBe(2);
+    expect(names()).toEqual(["fern queued"]);
+  });
+
+  it("refuses to start without a board, and the job stays queued", async () => {
+    const { id } = await add("fern");
+    plotter.connection = "absent";
+    await expect(queue.start(id)).rejects.toThrow(expect.objectContaining({ code: "no-board" }));
+    expect(queue.get(id).state).toBe("queued");
+  });
+
+  it("cancels a job that is still being planned", async () => {
+    await opened.close();
+    openQueue({
+      planning: {
+        ...LED_PLANNING,
+        open: (_drawing, _settings, signal) =>
+          new Promise((_resolve, reject) => {
+            signal.addEventListener("abort", () => reject(new PlotwrightError("cancelled", "stop")));
+          }),
+      },
+    });
+    const { id } = await add("fern");
+    await queue.start(id);
+    queue.plots.cancel(id);
+    await settled();
+    expect(queue.get(id).state).toBe("cancelled");
+    expect(plotter.runs).toEqual([]);
+  });
+
+  it("does not add a job whose drawing can't be planned", async () => {
+    await opened.close();
+    const measure = () => Promise.reject(new PlotwrightError("bad-file", "This is not an SVG."));
+    openQueue({ planning: { ...LED_PLANNING, measure } });
+    await expect(add("fern")).rejects.toThrow("This is not an SVG.");
+    expect(queue.list()).toEqual([]);
+    expect(events).toEqual([]);
+  });
+
+  it("marks the running plot as interrupted after a restart, and keeps the others' order", async () => {
+    const jobs = [await add("fern"), await add("moss"), await add("ivy")];
+    queue.move(jobs[2].id, jobs[1].id);
+    await queue.start(jobs[0].id);
+    await plotter.nextRun();
+    store.close();
+    openQueue();
+    expect(names()).toEqual(["fern interrupted", "ivy queued", "moss queued"]);
+    expect(queue.get(jobs[0].id).message).toBe(SERVER_STOPPED);
+  });
+
+  it("resumes an interrupted job at the journal's place, held, and the place can be moved", async () => {
+    const { id, run: broken } = await plotting();
+    broken.record({ place: { stroke: 3, alongMm: 4.5 } });
+    broken.record({ place: { stroke: 7, alongMm: 1.25 } });
+    broken.fail(new PlotwrightError("disconnected", "The board was unplugged."));
+    await settled();
+    expect(queue.get(id)).toMatchObject({
+      state: "interrupted",
+      message: "The board was unplugged.",
+      place: { strokeIndex: 7, alongMm: 1.25 },
+    });
+    expect(queue.plots.recover(id).state).toBe("paused");
+    const run = await nextRun();
+    expect(run.asked).toEqual(["begin held"]);
+    expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
+    expect(queue.plots.movePlace(id, { strokes: -2, mm: 3 }).place).toEqual({
+      strokeIndex: 5,
+      alongMm: 4.25,
+    });
+    await queue.plots.checkPlace(id);
+    queue.plots.resume(id);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id).state).toBe("done");
+  });
+
+  it("starts at the requested place, paused there until it is resumed", async () => {
+    const from = { strokeIndex: 1, alongMm: 0 };
+    const { id, place } = await add("fern", { from });
+    expect(place).toEqual(from);
+    expect(queue.duplicate(id).place).toBe(null);
+    await queue.start(id);
+    const run = await nextRun();
+    expect([run.asked, run.holdPlace]).toEqual([["begin held"], { stroke: 1, alongMm: 0 }]);
+    expect(queue.get(id)).toMatchObject({ state: "paused", place: from });
+    queue.plots.resume(id);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.requeue(id).place).toBe(null);
+  });
+
+  it("keeps the layout in which its first stroke was chosen, and begins with that stroke", async () => {
+    const { id } = await add("fern", { from: { strokeIndex: 1, alongMm: 0 } });
+    const { prepare, pen } = DEFAULT_PLOT_SETTINGS;
+    const moved = { ...DEFAULT_PLOT_SETTINGS, prepare: { ...prepare, marginMm: 40 } };
+    await expect(queue.patch(id, { settings: moved })).rejects.toThrow("starts at stroke 2");
+    const lower = { ...DEFAULT_PLOT_SETTINGS, pen: { ...pen, downPct: 20 } };
+    expect((await queue.patch(id, { settings: lower })).place).toEqual({ strokeIndex: 1, alongMm: 0 });
+    const beyond = add("moss", { from: { strokeIndex: 1e6, alongMm: 0 } });
+    await expect(beyond).rejects.toThrow("strokes, so it can't start at number");
+  });
+
+  it("recovers a cancelled job where it was cancelled, paused", async () => {
+    const { id, run: first } = await plotting();
+    first.record({ place: { stroke: 7, alongMm: 1.25 } });
+    queue.plots.cancel(id);
+    first.end({ kind: "cancelled" });
+    await settled();
+    const cancelled = queue.get(id);
+    expect(cancelled).toMatchObject({ state: "cancelled", place: { strokeIndex: 7, alongMm: 1.25 } });
+    expect(cancelled.endedAt).not.toBeNull();
+    expect(queue.plots.recover(id)).toMatchObject({ state: "paused", endedAt: null });
+    const run = await nextRun();
+    expect(run.asked).toEqual(["begin held"]);
+    expect(queue.get(id)).toMatchObject({ state: "paused", place: { strokeIndex: 7, alongMm: 1.25 } });
+  });
+
+  it("can't recover a cancelled job that was never begun", async () => {
+    const { id } = await add("fern");
+    queue.plots.cancel(id);
+    expect(() => queue.plots.recover(id)).toThrow("it can't be continued now");
+  });
+
+  it("continues when it is resumed before the plotter has recovered it", async () => {
+    const { id, run: broken } = await plotting();
+    broken.record({ place: { stroke: 7, alongMm: 1.25 } });
+    broken.fail(new PlotwrightError("disconnected", "The board was unplugged."));
+    await settled();
+    queue.plots.recover(id);
+    expect(queue.plots.resume(id).state).toBe("paused");
+    const run = await nextRun();
+    expect(run.asked).toEqual(["resume"]);
+    expect(queue.get(id)).toMatchObject({ state: "plotting", place: null });
+  });
+
+  it("offers to continue a plot whose board failed before anything was drawn, paused at its beginning", async () => {
+    const { id, run: broken } = await plotting();
+    broken.fail(new PlotwrightError("board-timeout", "The board has stopped answering."));
+    await settled();
+    expect(queue.get(id)).toMatchObject({
+      state: "interrupted",
+      message: "The board has stopped answering.",
+    });
+    queue.plots.recover(id);
+    const run = await nextRun();
+    expect(run.asked).toEqual(["begin held"]);
+    expect(run.holdPlace).toEqual({ stroke: 0, alongMm: 0 });
+    expect(queue.get(id).state).toBe("paused");
+  });
+
+  it("offers to continue a plot that has begun to draw, however it ended", async () => {
+    const { id, run: broken } = await plotting();
+    broken.record({ place: { stroke: 3, alongMm: 4.5 } });
+    broken.fail(new Error("A programming error."));
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", place: { strokeIndex: 3, alongMm: 4.5 } });
+  });
+
+  it("begins at the beginning when it is plotted again, if it is interrupted before it draws", async () => {
+    const { id, run } = await plotting();
+    run.record({ place: { stroke: 12, alongMm: 8 } });
+    store.close();
+    openQueue();
+    queue.requeue(id);
+    await queue.start(id);
+    await plotter.nextRun();
+    store.close();
+    openQueue();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", place: null });
+  });
+
+  it("continues plotting with a full disk, and reports once that it can't write", async () => {
+    const { id, run } = await plotting();
+    const { saveJournal } = store;
+    store.saveJournal = () => {
+      throw new Error("database or disk is full");
+    };
+    run.record({});
+    run.record({});
+    store.saveJournal = saveJournal;
+    run.record({ place: { stroke: 2, alongMm: 1 } });
+    expect(logged).toEqual(["the state of a plot can't be stored: database or disk is full"]);
+    run.end({ kind: "done" });
+    await settled();
+    expect(queue.get(id).state).toBe("done");
+  });
+
+  it("knows after a kill how far a job had come, and nothing moves until the user asks", async () => {
+    const { id, run } = await plotting();
+    run.record({ place: { stroke: 12, alongMm: 8 } });
+    store.close();
+    openQueue();
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "interrupted", place: { strokeIndex: 12, alongMm: 8 } });
+    expect(plotter.runs).toEqual([]);
+    queue.requeue(id);
+    expect(queue.get(id)).toMatchObject({ state: "queued", place: null });
+  });
+
+  it("stores heights and speeds that were changed while plotting", async () => {
+    const { id } = await plotting();
+    const pen = { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 21 };
+    await queue.change(id, { pen, speedPct: 60 });
+    expect(store.jobs()[0]).toMatchObject({ speedPct: 60, settings: { pen } });
+    await queue.plots.emergencyStop(id);
+    expect(queue.get(id).state).toBe("paused");
+  });
+
+  it("holds a plot that is stopped while it is still being planned", async () => {
+    const { id } = await add("fern");
+    await queue.start(id);
+    await queue.plots.emergencyStop(id);
+    await nextRun();
+    expect(queue.get(id).state).toBe("paused");
+  });
+
+  it("makes copies that share the drawing, right after the original", async () => {
+    const fern = await add("fern");
+    await add("moss");
+    const copy = queue.duplicate(fern.id);
+    expect(names()).toEqual(["fern queued", "fern queued", "moss queued"]);
+    expect(queue.list()[1]?.id).toBe(copy.id);
+    expect(queue.drawingOf(copy.id)).toBe(queue.drawingOf(fern.id));
+    queue.plots.cancel(fern.id);
+    queue.duplicate(fern.id);
+    expect(names()).toEqual(["fern queued", "moss queued", "fern queued", "fern cancelled"]);
+    await queue.remove(fern.id);
+    expect(store.isUsed(queue.drawingOf(copy.id))).toBe(true);
+  });
+
+  it("waits between jobs for the paper, or continues automatically if configured", async () => {
+    const [a, b] = [await add("fern"), await add("moss")];
+    await queue.start(a.id);
+    (await plotter.nextRun()).end({ kind: "done" });
+    await settled();
+    expect(queue.get(b.id).state).toBe("queued");
+    queue.saveSettings({ runOn: true });
+    await add("ivy");
+    await queue.start(b.id);
+    (await plotter.nextRun()).end({ kind: "done" });
+    await settled();
+    expect(names().slice(0, 1)).toEqual(["ivy plotting"]);
+    (await plotter.nextRun()).fail(new PlotwrightError("board-error", "Motor power is off."));
+    await settled();
+    store.close();
+    openQueue();
+    expect(queue.settings()).toEqual({ runOn: true });
+  });
+
+  it("changes settings only while queued, and the name at any time", async () => {
+    const { id } = await add("fern");
+    const settings = { prepare: { marginMm: 12 } };
+    expect((await queue.patch(id, { settings })).settings.prepare.marginMm).toBe(12);
+    queue.plots.cancel(id);
+    await expect(queue.patch(id, { settings })).rejects.toMatchObject({ code: "conflict" });
+    expect((await queue.patch(id, { name: "bracken" })).name).toBe("bracken");
+  });
+
+  it("keeps a job until its plot has ended", async () => {
+    const { id, run } = await plotting();
+    await expect(queue.remove(id)).rejects.toMatchObject({ code: "conflict" });
+    run.end({ kind: "done" });
+    await settled();
+    await queue.remove(id);
+    expect(queue.list()).toEqual([]);
+    expect(events.at(-1)).toEqual({ type: "job-removed", id });
+  });
+});

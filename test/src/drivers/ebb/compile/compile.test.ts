@@ -1,0 +1,152 @@
+import { describe, expect, it } from "vitest";
+import {
+  commandLine,
+  compile,
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  type PenSettings,
+  machineById,
+  plan,
+  planJob,
+  setUpCommands,
+  type CommandStream,
+  type MachineProfile,
+} from "../../../../../src/index.js";
+import { closingCommands } from "../../../../../src/internal.js";
+import { strokeSetOf, type Point } from "../../../../support/drawings/arbitraries.js";
+
+/** The carriage waits for the pen. */
+const WAITING: PenSettings = { ...DEFAULT_PEN, overlap: "off" };
+const machine = machineById("axidraw-v3");
+const linesOf = (stream: CommandStream): string[] =>
+  Array.from({ length: stream.count }, (_, i) => commandLine(stream, i));
+const compiled = (strokes: readonly (readonly Point[])[], firmware: string, pen = WAITING) =>
+  compile(plan(strokeSetOf(strokes), DEFAULT_MOTION, pen), { machine, firmware, pen });
+
+const DEFAULT_JOB = { motion: DEFAULT_MOTION, pen: WAITING };
+const LINE: readonly Point[] = [
+  [10, 10],
+  [60, 35],
+];
+
+describe("compile", () => {
+  it.each([
+    ["2.4.4", "SM"],
+    ["2.5.3", "LM"],
+    ["2.7.0", "LT"],
+    ["2.8.1", "LT"],
+    ["3.0.3", "LT"],
+  ])("moves with the best command of firmware %s: %s", (firmware, name) => {
+    const names = new Set(linesOf(compiled([LINE], firmware)).map((line) => line.slice(0, 2)));
+    expect([...names].sort()).toEqual([name, "SC", "SP"].sort());
+  });
+
+  it("uses T3 for constant jerk where the firmware has it", () => {
+    const trajectory = plan(strokeSetOf([LINE]), { ...DEFAULT_MOTION, mode: "scurve" }, WAITING);
+    const lines = linesOf(compile(trajectory, { machine, firmware: "3.0.3", pen: WAITING }));
+    expect(lines.some((line) => line.startsWith("T3,"))).toBe(true);
+  });
+
+  it.each([
+    ["stepsPerMm", { ...machine, stepsPerMm: undefined }],
+    ["motors", { ...machine, motors: "belt" }],
+    ["controller", { ...machine, controller: undefined }],
+    [
+      "controller.microstepMode",
+      { ...machine, controller: { ...machine.controller, microstepMode: undefined } },
+    ],
+    ["controller.servoPin", { ...machine, controller: { ...machine.controller, servoPin: 7 } }],
+    ["controller.servoPosAt0Pct", { ...machine, controller: { ...machine.controller, servoPosAt0Pct: NaN } }],
+  ])("refuses a machine profile whose %s is missing or wrong, and names it", (field, profile) => {
+    const incomplete = profile as unknown as MachineProfile;
+    const trajectory = plan(strokeSetOf([LINE]));
+    const refused = expect.objectContaining({
+      code: "bad-setting",
+      message: expect.stringContaining(field) as unknown,
+    }) as Error;
+    expect(() => compile(trajectory, { machine: incomplete, firmware: "2.8.1", pen: WAITING })).toThrow(
+      refused,
+    );
+    expect(() => setUpCommands(incomplete, WAITING, "2.8.1")).toThrow(refused);
+    expect(() => planJob({ strokes: strokeSetOf([LINE]) }, DEFAULT_JOB, incomplete)).toThrow(refused);
+  });
+
+  it("writes no commands for an empty plan", () => {
+    const stream = compiled([], "2.8.1");
+    expect(stream.count).toBe(0);
+    expect([...stream.boardS]).toEqual([0]);
+  });
+
+  it("sets the pen's heights first, and holds the queue for each of its moves", () => {
+    const lines = linesOf(compiled([LINE], "2.8.1"));
+    expect(lines.slice(0, 4)).toEqual(["SC,4,19800", "SC,5,13650", "SC,11,1025", "SC,12,769"]);
+    expect(lines.filter((line) => line.startsWith("SP"))).toEqual(["SP,0,300", "SP,1,250"]);
+  });
+
+  it("moves a pen on the second servo output by S2", () => {
+    const nextdraw = machineById("nextdraw-8511");
+    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING);
+    const lines = linesOf(compile(trajectory, { machine: nextdraw, firmware: "2.8.1", pen: WAITING }));
+    expect(lines.filter((line) => /^S[CP2]/.test(line))).toEqual(["S2,7560,5,270,300", "S2,9720,5,360,250"]);
+  });
+
+  it("keeps its columns consistent: text, times, positions", () => {
+    const stream = compiled([LINE, [[100, 100]]], "3.0.3");
+    expect(stream.textOffsets[stream.count]).toBe(stream.text.length);
+    for (let i = 0; i < stream.count; i++) {
+      expect(stream.boardS[i + 1]).toBeGreaterThanOrEqual(stream.boardS[i]);
+      expect(stream.planS[i + 1]).toBeGreaterThanOrEqual(stream.planS[i] - 1e-9);
+      expect(commandLine(stream, i)).toMatch(/^[A-Z][A-Z0-9](,-?\d+)+$/);
+      if (/^S[CP]/.test(commandLine(stream, i))) expect(stream.run[i]).toBe(-1);
+      else expect(stream.run[i]).toBeGreaterThanOrEqual(0);
+    }
+    expect(() => commandLine(stream, stream.count)).toThrow(RangeError);
+  });
+
+  it("continues from any state of the board", () => {
+    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING, { startX: 5, startY: 5 });
+    const start = { steps1: 801, steps2: -1, acc1: 12_345, acc2: 2 ** 31 - 1 };
+    for (const firmware of ["2.4.4", "2.5.3", "2.8.1", "3.0.3"]) {
+      const stream = compile(trajectory, { machine, firmware, pen: WAITING, start });
+      const last = stream.count - 1;
+      expect([stream.steps1[last], stream.steps2[last]]).toEqual([0, 0]);
+    }
+  });
+
+  it("never writes a command shorter than a board can sustain, or longer than a hold may wait", () => {
+    const curve = Array.from({ length: 500 }, (_, i): Point => [
+      100 + 30 * Math.cos(i / 80),
+      100 + 30 * Math.sin(i / 80),
+    ]);
+    for (const firmware of ["2.5.3", "2.8.1", "3.0.3"]) {
+      const stream = compiled([curve], firmware);
+      let movingS = 0;
+      let count = 0;
+      for (let i = 0; i < stream.count; i++) {
+        if (stream.run[i] < 0) continue;
+        const s = stream.boardS[i + 1] - stream.boardS[i];
+        expect(s).toBeLessThan(0.2);
+        movingS += s;
+        count++;
+      }
+      expect(movingS / count).toBeGreaterThan(0.005);
+    }
+  });
+
+  it("refuses an invalid firmware and a plan that is not finite", () => {
+    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING);
+    expect(() => compile(trajectory, { machine, firmware: "new", pen: WAITING })).toThrow(/firmware/);
+    expect(() =>
+      compile({ ...trajectory, totalS: NaN }, { machine, firmware: "2.8.1", pen: WAITING }),
+    ).toThrow(RangeError);
+  });
+});
+
+describe("the commands around a plot", () => {
+  it("switch the motors on, reset the counters and set the pen up before the plot, and switch off after it", () => {
+    expect(setUpCommands(machine, WAITING, "2.8.1")[0]).toBe("EM,1,1");
+    expect(setUpCommands(machine, WAITING, "2.8.1")).not.toContain("CS");
+    expect(setUpCommands(machine, WAITING, "2.5.3")[1]).toBe("CS");
+    expect(closingCommands()).toEqual(["EM,0,0"]);
+  });
+});

@@ -1,0 +1,40 @@
+import { describe, expect, it } from "vitest";
+import {
+  compareFirmware,
+  firmwareFeatures,
+  firmwareFromReply,
+} from "../../../../../src/drivers/ebb/protocol/firmware.js";
+
+describe("the firmware table", () => {
+  it.each([
+    ["2.4.4", "slices"],
+    ["2.5.2", "slices"],
+    ["2.5.3", "steps"],
+    ["2.6.9", "steps"],
+    ["2.7.0", "timed"],
+    ["2.8.1", "timed"],
+    ["3.0.0", "jerk"],
+    ["3.1.0", "jerk"],
+    ["10.0.0", "jerk"],
+  ])("plots with firmware %s by %s", (version, motion) => {
+    expect(firmwareFeatures(version).motion).toBe(motion);
+  });
+
+  it("orders versions by number, not by letter", () => {
+    expect(compareFirmware("2.10.0", "2.9.9")).toBe(1);
+    expect(compareFirmware("2.8", "2.8.0")).toBe(0);
+    expect(compareFirmware("2.5.3", "2.6.0")).toBe(-1);
+  });
+
+  it("reads the version from the board's reply", () => {
+    expect(firmwareFromReply("EBBv13_and_above EB Firmware Version 2.8.1\r\n")).toBe("2.8.1");
+    expect(firmwareFromReply("V,EBBv13_and_above EB Firmware Version 3.0.3")).toBe("3.0.3");
+    expect(firmwareFromReply("Grbl 1.1h")).toBeNull();
+  });
+
+  it("refuses an invalid version", () => {
+    for (const text of ["", "two", "2", "2.8.1; EM", "-1.0.0"]) {
+      expect(() => firmwareFeatures(text)).toThrow(/firmware version/);
+    }
+  });
+});

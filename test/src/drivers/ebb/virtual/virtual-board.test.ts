@@ -1,0 +1,416 @@
+import { describe, expect, it } from "vitest";
+import {
+  VirtualBoard,
+  type VirtualBoardOptions,
+} from "../../../../../src/drivers/ebb/virtual/virtual-board.js";
+import { ManualClock } from "../../../../support/clocks/manual-clock.js";
+
+const ascii = (text: string): Uint8Array => Uint8Array.from(text, (c) => c.charCodeAt(0));
+
+/** A board with text instead of bytes. */
+function boardWith(options: Partial<VirtualBoardOptions> = {}) {
+  const clock = new ManualClock();
+  const board = new VirtualBoard({ clock, ...options });
+  let sent = "";
+  board.onSend((bytes) => (sent += String.fromCharCode(...bytes)));
+  const take = (): string => {
+    const text = sent;
+    sent = "";
+    return text;
+  };
+  const ask = (line: string): string => {
+    board.receive(ascii(`${line}\r`));
+    return take();
+  };
+  return { clock, board, take, ask };
+}
+
+describe("the virtual board's bytes", () => {
+  it.each([
+    ["3.0.3", "V", "EBBv13_and_above EB Firmware Version 3.0.3\r\n"],
+    ["2.8.1", "v", "EBBv13_and_above EB Firmware Version 2.8.1\r\n"],
+    ["3.0.3", "QM", "QM,0,0,0,0\n\r"],
+    ["2.4.3", "QM", "QM,0,0,0\n\r"],
+    ["3.0.3", "QG", "10\r\n"],
+    ["3.0.3", "QS", "0,0\n\rOK\r\n"],
+    ["3.0.3", "QP", "1\n\rOK\r\n"],
+    ["3.0.3", "QB", "0\r\nOK\r\n"],
+    ["3.0.3", "QC", "394,297\r\nOK\r\n"],
+    ["2.8.1", "QC", "0394,0297\r\nOK\r\n"],
+    ["3.0.3", "QN", "0\r\nOK\r\n"],
+    ["2.8.1", "QN", "0000000000\r\nOK\r\n"],
+    ["2.8.1", "QL", "000\r\nOK\r\n"],
+    ["3.0.3", "QT", "\r\nOK\r\n"],
+    ["3.0.3", "ES", "0\n\rOK\r\n"],
+    ["2.8.1", "ES", "0,0,0,0,0\n\rOK\r\n"],
+    ["3.0.3", "QU,2", "QU,32\r\nOK\r\n"],
+    ["3.0.1", "QU,2", "QU,2,32\r\nOK\r\n"],
+    ["3.0.3", "PI,B,1", "PI,1\r\n"],
+    ["2.8.1", "EM,1,1", "OK\r\n"],
+    ["2.8.1", "CS", "OK\r\n"],
+    ["2.8.1", "SC,4,20000", "OK\r\n"],
+    ["2.8.1", "R", "OK\r\n"],
+    ["2.8.1", "RB", ""],
+    ["2.8.1", "XX", "!8 Err: Unknown command 'XX:5858'\r\n"],
+    ["2.8.1", "SM", "!4 Err: Missing parameter(s)\r\n"],
+    ["2.8.1", "SM,10,abc", "!6 Err: Invalid parameter value\r\n"],
+    ["2.8.1", "SPX", "!5 Err: Need comma next, found: 'X'\r\n"],
+    ["2.5.3", "LT,10,5,5,5,5", "!8 Err: Unknown command 'LT:4C54'\r\n"],
+    ["2.8.1", "LT,10,0,5,0,5", "!6 Err: Invalid parameter value\r\n"],
+    ["3.0.3", "LT,0,5,5,5,5", "!6 Err: Invalid parameter value\r\n"],
+    ["3.0.3", "LM,-5,-5,0,0,0,0", "!6 Err: Invalid parameter value\r\n"],
+  ])("firmware %s answers %s", (firmware, line, reply) => {
+    expect(boardWith({ firmware }).ask(line)).toBe(reply);
+  });
+
+  it("answers with one named line each in future syntax", () => {
+    const { ask } = boardWith({ firmware: "3.0.3" });
+    expect(ask("CU,10,1")).toBe("\n");
+    expect(ask("SP,1,0")).toBe("SP\n");
+    expect(ask("QS")).toBe("QS,0,0\n");
+    expect(ask("QU,3")).toBe("QU,1\n\n");
+    expect(ask("SM")).toBe("SM,!4 Err: Missing parameter(s)\n");
+    expect(ask("CU,10,0")).toBe("CUOK\r\n");
+    expect(ask("QS")).toBe("0,0\n\rOK\r\n");
+  });
+
+  it("reports surplus parameters after running the command", () => {
+    const { ask, board } = boardWith({ speed: Infinity });
+    expect(ask("SM,1,1,1,0,0")).toBe("OK\r\n!7 Err: Extra parameter\r\n");
+    expect(board.state()).toMatchObject({ steps1: 1, steps2: 1 });
+  });
+
+  it("takes CR, LF and CR LF as one end of line and drops other control bytes", () => {
+    const { board, take } = boardWith();
+    board.receive(ascii("QP\r\nQP\nQ\x01P\rQX\x08P\r"));
+    expect(take()).toBe("1\n\rOK\r\n".repeat(4));
+  });
+
+  it("refuses a line of more than 255 characters", () => {
+    expect(boardWith().ask(`SM,${"1".repeat(260)}`)).toBe("!3 Err: RX Buffer overrun\r\n");
+  });
+
+  it("latches its button until it is read", () => {
+    const { board, ask } = boardWith({ firmware: "3.0.3" });
+    board.pressButton();
+    expect(ask("QG")).toBe("30\r\n");
+    expect(ask("QG")).toBe("10\r\n");
+    board.pressButton();
+    expect(ask("QB")).toBe("1\r\nOK\r\n");
+    expect(ask("QB")).toBe("0\r\nOK\r\n");
+  });
+
+  it("remembers that the motor supply was low", () => {
+    const { board, ask } = boardWith({ firmware: "3.0.3" });
+    ask("CU,60,250");
+    board.setMotorVolts(0);
+    expect(ask("QC")).toBe("394,0\r\nOK\r\n");
+    board.setMotorVolts(9.1);
+    expect(ask("QG")).toBe("50\r\n");
+    expect(ask("QG")).toBe("10\r\n");
+  });
+});
+
+describe("the virtual board's queue", () => {
+  it("delays the OK of a move until the one before it has begun", async () => {
+    const { clock, board, take } = boardWith({ firmware: "2.8.1" });
+    board.receive(ascii("SM,100,80,0\rSM,100,80,0\rSM,100,80,0\rQS\r"));
+    expect(take()).toBe("OK\r\nOK\r\n");
+    await clock.advance(0.099);
+    expect(take()).toBe("");
+    await clock.advance(0.002);
+    expect(take()).toMatch(/^OK\r\n(80|81),0\n\rOK\r\n$/);
+  });
+
+  it("stops reading while its parser is blocked, and reports when it reads again", async () => {
+    const { clock, board } = boardWith({ inputBytes: 64 });
+    let drained = 0;
+    board.onDrain(() => drained++);
+    board.receive(ascii("SM,100,8,0\r".repeat(20)));
+    expect(board.accepting).toBe(false);
+    await clock.advance(1.6);
+    expect(board.accepting).toBe(true);
+    expect(drained).toBe(1);
+  });
+
+  it("is up to 32 deep on firmware 3", () => {
+    const { board, take, ask } = boardWith({ firmware: "3.0.3" });
+    ask("CU,4,40");
+    expect(ask("QU,3")).toBe("QU,32\r\nOK\r\n");
+    board.receive(ascii("SM,100,8,0\r".repeat(40)));
+    expect(take()).toBe("OK\r\n".repeat(33));
+  });
+
+  it("drops running and waiting orders at ES, and keeps the true position", async () => {
+    const { clock, board, ask, take } = boardWith({ firmware: "3.0.3" });
+    ask("CU,4,32");
+    board.receive(ascii("LT,25000,85899346,0,85899346,0\rLT,25000,85899346,0,85899346,0\r"));
+    take();
+    await clock.advance(0.5);
+    expect(ask("ES")).toBe("1\n\rOK\r\n");
+    expect(ask("QS")).toBe("500,500\n\rOK\r\n");
+    expect(ask("QM")).toBe("QM,0,0,0,0\n\r");
+  });
+
+  it("does not stop a timed move at ES on firmware 2.8", async () => {
+    const { clock, board, ask, take } = boardWith({ firmware: "2.8.1" });
+    board.receive(ascii("LT,25000,85899346,0,85899346,0\r"));
+    take();
+    await clock.advance(0.5);
+    expect(ask("ES")).toBe("0,0,0,0,0\n\rOK\r\n");
+    await clock.advance(0.6);
+    expect(ask("QS")).toBe("1000,1000\n\rOK\r\n");
+  });
+
+  it("stays busy until ES with a motor that has steps to make but no rate", async () => {
+    const { clock, ask } = boardWith({ firmware: "3.0.3" });
+    ask("LM,85899346,10,0,0,10,0");
+    await clock.advance(100);
+    expect(ask("QM")).toBe("QM,1,0,1,0\n\r");
+    expect(ask("ES")).toBe("1\n\rOK\r\n");
+    expect(ask("QS")).toBe("10,0\n\rOK\r\n");
+  });
+
+  it("zeroes its counters in the middle of a move and continues", async () => {
+    const { clock, ask } = boardWith({ firmware: "2.8.1" });
+    ask("SM,1000,1000,-1000");
+    await clock.advance(0.5);
+    ask("CS");
+    await clock.advance(0.6);
+    expect(ask("QS")).toMatch(/^501,-501\n\rOK\r\n$/);
+  });
+
+  it("clears the counters with EM when its turn comes", async () => {
+    const { clock, ask } = boardWith({ firmware: "2.8.1" });
+    ask("SM,100,100,100");
+    ask("EM,1,1");
+    expect(ask("QE")).toBe("16,16\n\rOK\r\n");
+    await clock.advance(0.2);
+    expect(ask("QS")).toBe("0,0\n\rOK\r\n");
+    expect(ask("EM,1")).toBe("");
+  });
+
+  it("goes home in a straight line", () => {
+    const { ask, board } = boardWith({ firmware: "3.0.3", speed: Infinity });
+    ask("SM,1000,3000,-1000");
+    ask("HM,3000");
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+  });
+});
+
+describe("the virtual board's test mode", () => {
+  // The firmware's own regression tests: command, net steps of motor 1.
+  it.each([
+    ["LM,490123456,5,0,0,0,0", 5],
+    ["LM,8589934,29,17353403,0,0,0", 29],
+    ["LM,395851877,3,-77012345,0,0,0,115030", -3],
+    ["LM,-1050109930,134,5099123,0,0,0", 34],
+    ["LT,22,-490123456,0,0,0", -5],
+    ["LT,11,1204481500,-77012345,0,0", 4],
+    ["LT,14,-79000000,10015000,0,0,128535542", 0],
+    ["LT,8842,-388686102,70433,0,0,623903050", -318],
+    ["T3,19512,-490123456,0,11,0,0,0", 1889],
+    ["T3,69,1800095000,-26012345,600999,0,0,0", 44],
+  ])("%s makes %i steps", (line, net) => {
+    const { ask } = boardWith({ firmware: "3.0.3", speed: Infinity });
+    ask("CU,251,1");
+    expect(ask(line)).toBe("OK\r\n");
+    expect(ask("QS")).toBe(`${net},0\n\rOK\r\n`);
+  });
+
+  it.each([
+    ["3.0.3", 398, 2500 + 7500 + 2625],
+    ["2.8.1", 400, 2500 + 7500 + 2501],
+  ])("firmware %s ends a braking LM aimed at zero after %i steps", (firmware, steps, ticks) => {
+    const { ask, board } = boardWith({ firmware, speed: Infinity });
+    ask("LM,0,400,274878,0,400,274878,3");
+    ask("LM,687194767,2400,0,687194767,2400,0");
+    ask("LM,687194767,400,-274878,687194767,400,-274878");
+    expect(board.state()).toMatchObject({ steps1: 2800 + steps, steps2: 2800 + steps });
+    expect(Math.abs(board.statistics().movingS * 25_000 - ticks)).toBeLessThan(3);
+  });
+});
+
+describe("the virtual board's pen", () => {
+  it("draws with the pen down and travels with it up", () => {
+    const { ask, board } = boardWith({ speed: Infinity });
+    ask("SM,100,800,800");
+    ask("SP,0,100");
+    ask("SM,100,800,-800");
+    ask("SP,1,100");
+    ask("SM,100,-1600,0");
+    const lines = board.drawn();
+    expect(lines.map((line) => line.penDown)).toEqual([false, true, false]);
+    expect([...lines[1].xy].slice(0, 2)).toEqual([10, 0]);
+    expect([...lines[1].xy].slice(-2)).toEqual([10, 10]);
+    expect(board.statistics()).toMatchObject({ penMoveCount: 2, moveCount: 3 });
+    expect(board.statistics().drawnMm).toBeCloseTo(10, 6);
+  });
+
+  it("moves the servo at its rate while the delay holds the queue", async () => {
+    const { clock, ask, board } = boardWith();
+    ask("SC,4,20000");
+    ask("SC,5,10000");
+    ask("SC,11,1000");
+    ask("SC,12,1000");
+    ask("SP,0,300");
+    await clock.advance(5);
+    ask("SP,1,300");
+    await clock.advance(0.12);
+    expect(board.state()).toMatchObject({ penUp: true, isBusy: true });
+    expect(board.state().penPct).toBeCloseTo((100 * (15_000 - 7_500)) / 20_500, 5);
+    await clock.advance(0.18);
+    expect(board.state().isBusy).toBe(false);
+  });
+});
+
+describe("the virtual board's faults", () => {
+  it("loses as many replies as requested", () => {
+    const { ask, board } = boardWith();
+    board.loseReplies(1);
+    expect(ask("QP")).toBe("");
+    expect(ask("QP")).toBe("1\n\rOK\r\n");
+  });
+
+  it("executes commands in silence while it is mute", () => {
+    const { ask, board } = boardWith({ speed: Infinity });
+    board.setMute(true);
+    expect(ask("SM,10,5,5")).toBe("");
+    board.setMute(false);
+    expect(ask("QS")).toBe("5,5\n\rOK\r\n");
+  });
+
+  it("answers while its motion is frozen, and continues where it stopped", async () => {
+    const { ask, board, clock } = boardWith();
+    ask("SM,1000,100,100");
+    await clock.advance(0.501);
+    board.setFrozen(true);
+    await clock.advance(10);
+    expect(ask("QS")).toBe("50,50\n\rOK\r\n");
+    expect(ask("QM")).toBe("QM,1,1,1,0\n\r");
+    expect(ask("SM,1000,-100,-100")).toBe("OK\r\n");
+    expect(ask("SM,10,0,0")).toBe("");
+    board.setFrozen(false);
+    await clock.advance(0.2501);
+    expect(board.state()).toMatchObject({ steps1: 75, steps2: 75 });
+    await clock.advance(1.3);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, isBusy: false });
+  });
+
+  it("begins orders received while frozen when it is unfrozen, and drops them at ES", async () => {
+    const { ask, board, clock } = boardWith();
+    board.setFrozen(true);
+    ask("SM,1000,100,100");
+    await clock.advance(3);
+    expect(board.state()).toMatchObject({ steps1: 0, isBusy: true });
+    board.setFrozen(false);
+    await clock.advance(0.5001);
+    expect(board.state()).toMatchObject({ steps1: 50, isBusy: true });
+    board.setFrozen(true);
+    await clock.advance(3);
+    expect(ask("ES")).toContain("OK");
+    expect(board.state()).toMatchObject({ steps1: 50, isBusy: false });
+  });
+
+  it("spends the time of moves without a step while it is motionless", async () => {
+    const { ask, board, clock } = boardWith();
+    ask("SM,1000,100,100");
+    await clock.advance(0.5001);
+    board.setMotionless(true);
+    await clock.advance(0.6);
+    expect(board.state()).toMatchObject({ steps1: 50, steps2: 50, isBusy: false });
+    ask("SM,100,10,10");
+    await clock.advance(0.2);
+    expect(ask("QS")).toBe("50,50\n\rOK\r\n");
+    board.setMotionless(false);
+    ask("SM,100,10,10");
+    await clock.advance(0.2);
+    expect(ask("QS")).toBe("60,60\n\rOK\r\n");
+  });
+
+  it.each(["R", "RB"])("keeps its name over %s, but no other settings", (reset) => {
+    const { ask } = boardWith({ firmware: "3.0.3" });
+    for (const line of ["ST,easel", "SL,7,3", "SN,9", "CU,60,300", "EM,1,1"]) ask(line);
+    ask(reset);
+    expect(ask("QL,3")).toBe("0\r\nOK\r\n");
+    expect(ask("QN")).toBe("0\r\nOK\r\n");
+    expect(ask("QE")).toBe("0,0\n\rOK\r\n");
+    expect(ask("QT")).toBe("easel\r\nOK\r\n");
+  });
+
+  it("reports its supply", () => {
+    const { ask, board } = boardWith({ firmware: "3.0.3" });
+    board.setMotorVolts(5);
+    const reading = Number(/^394,(\d+)/.exec(ask("QC"))![1]);
+    expect(reading).toBeGreaterThan(140);
+    expect(reading).toBeLessThan(250);
+    ask("R");
+    expect(ask("QC")).toContain(`394,${reading}`);
+  });
+
+  it("loses its counters and the connection at a power failure", async () => {
+    const { ask, board } = boardWith({ speed: Infinity });
+    const transport = board.transport();
+    const closed = new Promise<Error | undefined>((resolve) => transport.onClose(resolve));
+    ask("SM,10,5,5");
+    board.resetByPower();
+    expect(await closed).toMatchObject({ code: "disconnected" });
+    await expect(transport.write(ascii("QS\r"))).rejects.toMatchObject({ code: "disconnected" });
+    expect(ask("QS")).toBe("0,0\n\rOK\r\n");
+  });
+
+  it("keeps its position if only the cable is unplugged", () => {
+    const { ask, board } = boardWith({ speed: Infinity });
+    ask("SM,10,5,5");
+    board.unplug();
+    expect(ask("QS")).toBe("5,5\n\rOK\r\n");
+  });
+
+  it("counts the gap as an underrun only when a slow connection starves a moving pen", async () => {
+    const fast = boardWith();
+    fast.board.receive(ascii("SM,20,80,80\r".repeat(30)));
+    await fast.clock.advance(2);
+    expect(fast.board.statistics()).toMatchObject({ underrunCount: 0, moveCount: 30 });
+
+    const slow = boardWith();
+    slow.board.setUsbBytesPerS(300);
+    slow.board.receive(ascii("SM,20,80,80\r".repeat(30)));
+    await slow.clock.advance(2);
+    const { underrunCount, underrunS } = slow.board.statistics();
+    expect(underrunCount).toBe(29);
+    expect(underrunS).toBeCloseTo(29 * 0.02, 2);
+  });
+});
+
+describe("the virtual board as a transport", () => {
+  it("accepts a write when the system has room for it, and passes the bytes on as the board reads", async () => {
+    const clock = new ManualClock();
+    const board = new VirtualBoard({ clock, systemBytes: 100, inputBytes: 64 });
+    const transport = board.transport();
+    let okCount = 0;
+    transport.onData((bytes) => (okCount += String.fromCharCode(...bytes).split("OK").length - 1));
+    let taken = 0;
+    const writes = Array.from({ length: 40 }, () =>
+      transport.write(ascii("SM,100,80,80\r")).then(() => taken++),
+    );
+    await Promise.resolve();
+    await Promise.resolve();
+    expect(taken).toBeLessThan(20);
+    await clock.advance(10);
+    await Promise.all(writes);
+    expect(okCount).toBe(40);
+    expect(board.statistics().underrunCount).toBe(0);
+  });
+
+  it("closes the previous connection when it is opened again", () => {
+    const board = new VirtualBoard({ clock: new ManualClock() });
+    let reason: Error | undefined;
+    board.transport().onClose((error) => (reason = error));
+    board.transport();
+    expect(reason).toMatchObject({ code: "disconnected" });
+  });
+
+  it("rejects an invalid speed", () => {
+    expect(() => new VirtualBoard({ clock: new ManualClock(), speed: 0 })).toThrow(RangeError);
+  });
+});

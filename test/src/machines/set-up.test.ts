@@ -1,0 +1,96 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { MACHINES, machineById, type MachineProfile } from "../../../src/index.js";
+import {
+  DIRECTIONS,
+  findMachine,
+  machineOf,
+  machineTurned,
+  motor1FromXy,
+  motor2FromXy,
+  stepsPerMmMeasured,
+  xFromMotors,
+  yFromMotors,
+  type Direction,
+} from "../../../src/internal.js";
+import { cases } from "../../support/runs/full-run.js";
+
+const machines = fc
+  .tuple(fc.constantFrom(...MACHINES), fc.boolean(), fc.boolean(), fc.boolean())
+  .map(([machine, flipX, flipY, swapAxes]): MachineProfile => ({ ...machine, flipX, flipY, swapAxes }));
+
+const VECTORS: Readonly<Record<Direction, readonly [number, number]>> = {
+  right: [1, 0],
+  left: [-1, 0],
+  down: [0, 1],
+  up: [0, -1],
+};
+const directionOf = (x: number, y: number): Direction =>
+  DIRECTIONS.find((one) => Math.abs(VECTORS[one][0] - x) + Math.abs(VECTORS[one][1] - y) < 1e-6)!;
+
+describe("a machine corrected by its observed directions", () => {
+  it("moves right and down for any wiring and profile", () => {
+    fc.assert(
+      fc.property(machines, machines, (wiring, told) => {
+        // What the carriage does when the profile `like` drives motors that are wired as `wiring` says.
+        const seen = (like: MachineProfile, x: number, y: number): Direction => {
+          const real = { ...wiring, motors: like.motors, stepsPerMm: like.stepsPerMm };
+          const steps = [motor1FromXy(like, x, y), motor2FromXy(like, x, y)] as const;
+          return directionOf(xFromMotors(real, ...steps), yFromMotors(real, ...steps));
+        };
+        const turned = machineTurned(told, seen(told, 1, 0), seen(told, 0, 1));
+        expect([seen(turned, 1, 0), seen(turned, 0, 1)]).toEqual(["right", "down"]);
+      }),
+      { numRuns: cases() },
+    );
+  });
+
+  it("cannot be made from two moves along one line: a motor does not turn", () => {
+    expect(() => machineTurned(machineById("axidraw-v3"), "right", "left")).toThrow(
+      /one motor does not turn/,
+    );
+  });
+});
+
+describe("the steps for one mm", () => {
+  it("make the square the right size when it is drawn again", () => {
+    fc.assert(
+      fc.property(machines, fc.double({ min: 0.2, max: 5, noNaN: true }), (machine, share) => {
+        const stepsPerMm = stepsPerMmMeasured(machine, 100, 100 * share);
+        // The same motors, which really made `machine.stepsPerMm / share` steps per mm.
+        const realStepsPerMm = machine.stepsPerMm / share;
+        expect((100 * stepsPerMm) / realStepsPerMm).toBeCloseTo(100, 9);
+      }),
+      { numRuns: cases() },
+    );
+  });
+
+  it("are the mean of both sides, and a misreading of the ruler is refused", () => {
+    const machine = machineById("axidraw-v3");
+    expect(stepsPerMmMeasured(machine, 50, 49, 51)).toBeCloseTo(80, 9);
+    for (const [x, y] of [
+      [0, 50],
+      [-50, 50],
+      [NaN, 50],
+      [50, 5],
+      [50_000, 50_000],
+    ] as const) {
+      expect(() => stepsPerMmMeasured(machine, 50, x, y)).toThrow(/measure it again/);
+    }
+  });
+});
+
+describe("the machine of a job's settings", () => {
+  const own: MachineProfile = { ...machineById("axidraw-v3"), id: "mine", widthMm: 500 };
+
+  it("is the profile stored in them if it is the named one, otherwise the known one", () => {
+    expect(machineOf({ machine: "mine", customMachine: own })).toBe(own);
+    expect(machineOf({ machine: "axidraw-v3", customMachine: own }).widthMm).toBe(300);
+    expect(machineOf({ machine: "axidraw-v3" }).id).toBe("axidraw-v3");
+  });
+
+  it("is reported by name if it is unknown", () => {
+    expect(() => machineOf({ machine: "mine" })).toThrow(/no machine "mine"/);
+    expect(findMachine({ machine: "mine" })).toBeNull();
+  });
+});

@@ -1,0 +1,137 @@
+/** The queue, a plot under way, and plots that ended. */
+import { ruledSheet } from "../../drawings/drawings.js";
+import { historyPanel, openTab, openView, plotBar, queuePanel, statusCard } from "../page-actions.js";
+import { type PageState, button, lay, sampleText, start, TWO_PENS } from "./page-state.js";
+
+export const PLOT_STATES: readonly PageState[] = [
+  {
+    name: "06-queued",
+    reach: async ({ page }) => {
+      for (const name of ["hello", "note"]) {
+        await lay(page, name, sampleText("hello-paper"));
+        for (let copy = 0; copy < 2; copy++) {
+          await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+        }
+      }
+      await openTab(page, "Queue");
+      await button(page, /^Start /)
+        .nth(1)
+        .waitFor();
+    },
+  },
+  {
+    name: "07-plotting",
+    virtualSpeed: 5,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await queuePanel(page).getByText(/left/).first().waitFor();
+    },
+  },
+  {
+    name: "08-asking-to-cancel",
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await button(page, "Cancel").click();
+      await page.getByRole("alertdialog").first().waitFor();
+    },
+  },
+  {
+    name: "09-held",
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await button(page, "Pause").click();
+      await button(page, "Resume").waitFor();
+    },
+  },
+  {
+    name: "10-waiting-for-pen",
+    reach: async ({ page }) => {
+      await start(page, "two-pens", TWO_PENS);
+      await button(page, "Continue").waitFor();
+    },
+  },
+  {
+    name: "11-interrupted",
+    virtualSpeed: 8,
+    reach: async (stand) => {
+      await start(stand.page, "lines", ruledSheet());
+      await queuePanel(stand.page).getByText("1 %").first().waitFor();
+      await stand.restart();
+      await button(stand.page, "Go on from there").waitFor();
+    },
+  },
+  {
+    name: "12-done",
+    reach: async ({ page }) => {
+      await start(page, "few lines", ruledSheet(3));
+      await historyPanel(page).getByText("Done").first().waitFor();
+    },
+  },
+  {
+    name: "27-full-screen",
+    isOnlyPlace: true,
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await page.getByRole("button", { name: "Full screen" }).click();
+      await page.getByRole("button", { name: "Exit full screen" }).waitFor();
+    },
+  },
+  {
+    name: "30-queue-menu",
+    isOnlyPlace: true,
+    reach: async ({ page }) => {
+      for (const name of ["hello", "a long name of a drawing, with its date"]) {
+        await lay(page, name, sampleText("hello-paper"));
+        await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+      }
+      await openTab(page, "Queue");
+      await queuePanel(page).getByRole("button", { name: "More for hello" }).click();
+      await page.getByRole("button", { name: "Open hello" }).waitFor();
+    },
+  },
+  {
+    name: "34-server-gone-while-plotting",
+    virtualSpeed: 2,
+    reach: async ({ page, server }) => {
+      await start(page, "lines", ruledSheet());
+      await statusCard(page).getByText("left").first().waitFor();
+      await server.stop();
+      await page.getByText("last seen").first().waitFor();
+    },
+  },
+  {
+    name: "35-stopped",
+    virtualSpeed: 8,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await statusCard(page).getByText("1 %").waitFor();
+      await button(page, "Emergency stop").click();
+      await statusCard(page).getByText("Plotting", { exact: true }).waitFor({ state: "detached" });
+    },
+  },
+  {
+    name: "36-prepare-while-plotting",
+    virtualSpeed: 2,
+    reach: async ({ page }) => {
+      await start(page, "two-pens", TWO_PENS);
+      await openView(page, "Prepare");
+      await lay(page, "hills", sampleText("three-colour-hills"));
+    },
+  },
+  {
+    name: "45-cancelled",
+    virtualSpeed: 8,
+    reach: async ({ page }) => {
+      await start(page, "lines", ruledSheet());
+      await statusCard(page).getByText("1 %").waitFor();
+      await button(page, "Cancel").first().click();
+      await page.getByRole("button", { name: "Cancel the plot" }).first().click();
+      await button(page, /^Go on from where it was cancelled/)
+        .first()
+        .waitFor();
+    },
+  },
+];

@@ -1,0 +1,149 @@
+/** One browser, one server and one page for a browser test, with its helpers. */
+import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
+import { importSvg, prepare, type StrokeSet } from "../../../src/index.js";
+import { prepareSettingsOf } from "../../../src/internal.js";
+import { jobSchema, snapshotSchema, type Job } from "../../../src/schema/index.js";
+import { launchBrowser, PLAIN } from "./browser.js";
+import {
+  chooseSample,
+  dropFile,
+  nextFrames,
+  openTab,
+  plotBar,
+  waitForPicture,
+  waitForPlan,
+} from "./page-actions.js";
+import { temporaryFolder } from "../processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../processes/server-process.js";
+
+const DESKTOP: BrowserContextOptions = {
+  ...PLAIN,
+  viewport: { width: 1440, height: 900 },
+  colorScheme: "light",
+};
+
+export class PageTest {
+  /** Messages of the browser's console. */
+  readonly complaints: string[] = [];
+
+  private constructor(
+    readonly browser: Browser,
+    readonly server: ServerProcess,
+    readonly page: Page,
+    private readonly removeData: () => void,
+  ) {
+    page.on("pageerror", (error) => this.complaints.push(error.message));
+    page.on("console", (message) => {
+      if (message.type() === "error") this.complaints.push(message.text());
+    });
+  }
+
+  /** Starts with a sample on the paper. `args`: for the server. */
+  static async open(...options: Parameters<typeof PageTest.firstVisit>): Promise<PageTest> {
+    const test = await PageTest.firstVisit(...options);
+    await chooseSample(test.page);
+    return test;
+  }
+
+  /** Starts with an empty paper. */
+  static async firstVisit(
+    name: string,
+    options: BrowserContextOptions = {},
+    args: readonly string[] = [],
+  ): Promise<PageTest> {
+    const data = temporaryFolder(name);
+    const browser = await launchBrowser();
+    const server = await startServerProcess({ dataDir: data.path, virtualSpeed: 50, args });
+    const context = await browser.newContext({ ...DESKTOP, ...options });
+    const test = new PageTest(browser, server, await context.newPage(), data.remove);
+    await test.page.goto(server.url);
+    return test;
+  }
+
+  async close(): Promise<void> {
+    await this.browser.close();
+    await this.server.stop();
+    this.removeData();
+  }
+
+  /** Drops a drawing and waits for its plan. */
+  async drop(name: string, svg: string): Promise<void> {
+    await dropFile(this.page, `${name}.svg`, svg);
+    await this.page.getByText(name, { exact: true }).first().waitFor({ state: "attached" });
+    await this.planned();
+  }
+
+  /** Waits until the last change has been planned. */
+  async planned(): Promise<void> {
+    await nextFrames(this.page);
+    await waitForPlan(this.page);
+  }
+
+  /** Waits until it is visible, too. */
+  async drawn(): Promise<void> {
+    await this.planned();
+    await waitForPicture(this.page);
+  }
+
+  /** Opens or closes a group of settings. */
+  async group(title: string, isOpen = true): Promise<void> {
+    const head = this.page
+      .locator(".group-head")
+      .filter({ has: this.page.getByText(title, { exact: true }) });
+    if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
+  }
+
+  /** Selects a view of the drawing. */
+  async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
+    const looks = this.page.getByRole("group", { name: "Colour by" });
+    await looks.getByRole("radio", { name, exact: true }).check();
+  }
+
+  async jobs(): Promise<readonly Job[]> {
+    const answer = await fetch(`${this.server.url}/api/v1/state`);
+    return snapshotSchema.parse(await answer.json()).jobs;
+  }
+
+  /** The job once the server has planned it. */
+  async measured({ id }: Job): Promise<Job> {
+    for (;;) {
+      const job = jobSchema.parse(await (await fetch(`${this.server.url}/api/v1/jobs/${id}`)).json());
+      if (job.stats !== null) return job;
+      await this.page.waitForTimeout(50);
+    }
+  }
+
+  /** Adds the drawing to the queue, and returns the job as the server has it. */
+  async queue(): Promise<Job> {
+    await this.planned();
+    const known = new Set((await this.jobs()).map(({ id }) => id));
+    await plotBar(this.page).getByRole("button", { name: "Add to queue" }).click();
+    for (;;) {
+      const fresh = (await this.jobs()).find((job) => !known.has(job.id));
+      if (fresh) return fresh;
+      await this.page.waitForTimeout(50);
+    }
+  }
+
+  /** The strokes that a job would draw, from its own file and settings. */
+  async strokesOf(job: Job): Promise<StrokeSet> {
+    const text = await (await fetch(`${this.server.url}/api/v1/jobs/${job.id}/drawing`)).text();
+    return prepare(importSvg(text), prepareSettingsOf(job.settings)).strokes;
+  }
+
+  /** The box that a drawing queued now would cover, mm. */
+  async queuedBox(): Promise<{ x0: number; y0: number; x1: number; y1: number }> {
+    const { xy } = await this.strokesOf(await this.queue());
+    const xs = [...xy].filter((_, k) => k % 2 === 0);
+    const ys = [...xy].filter((_, k) => k % 2 === 1);
+    return { x0: Math.min(...xs), y0: Math.min(...ys), x1: Math.max(...xs), y1: Math.max(...ys) };
+  }
+
+  async tab(name: "Set up" | "Queue" | "Plotter"): Promise<void> {
+    await openTab(this.page, name);
+  }
+
+  field(label: string): Locator {
+    return this.page.getByLabel(label, { exact: true });
+  }
+}

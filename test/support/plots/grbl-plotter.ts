@@ -1,0 +1,135 @@
+/** A plotter whose machine has a virtual Grbl, on a manual clock and over a connection that a test can disturb. */
+import { expect } from "vitest";
+import { PlotterConnection } from "../../../host/plotter/plotter-connection.js";
+import type { PlotStart } from "../../../host/plotter/plotter-port.js";
+import { driver as grblDriver } from "../../../src/drivers/grbl/controller.js";
+import { VirtualGrbl } from "../../../src/drivers/grbl/virtual/virtual-grbl.js";
+import type { VirtualGrblOptions } from "../../../src/drivers/grbl/virtual/virtual-settings.js";
+import type { PlannedPlot, PlanRequest } from "../../../host/planning/planning.js";
+import {
+  PlotwrightError,
+  type Clock,
+  type MachineProfile,
+  type StrokeSet,
+  type Transport,
+} from "../../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../src/schema/index.js";
+import { GRBL, NO_EVENTS } from "../machines/machine.js";
+import { DRAWING } from "./live-plot.js";
+import { LocalPlanner } from "./local-planner.js";
+import { ManualClock } from "../clocks/manual-clock.js";
+import { outcome } from "./virtual-plotter.js";
+
+/** Settings for a machine with a Grbl. */
+export const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
+/** Longer than any of these takes, s. */
+export const LIMIT_S = 60;
+
+/** A connection that a test can cut, or keep from being heard. */
+class WeakLine implements Transport {
+  isMute = false;
+  /** Nothing reaches the board. */
+  isDeaf = false;
+  /** Time until a reply is read, s. */
+  lateS = 0;
+  private lost: (error?: Error) => void = () => undefined;
+  private isLost = false;
+
+  constructor(
+    private readonly line: Transport,
+    private readonly clock: Clock,
+  ) {}
+
+  write(bytes: Uint8Array): Promise<void> {
+    if (this.isDeaf) return Promise.resolve();
+    if (!this.isLost) return this.line.write(bytes);
+    return Promise.reject(new PlotwrightError("disconnected", "The cable is unplugged."));
+  }
+
+  onData(listener: (bytes: Uint8Array) => void): void {
+    this.line.onData((bytes) => {
+      if (this.isMute || this.isLost) return;
+      if (this.lateS > 0) this.clock.after(this.lateS, () => listener(bytes));
+      else listener(bytes);
+    });
+  }
+
+  onClose(listener: (error?: Error) => void): void {
+    this.lost = listener;
+    this.line.onClose(listener);
+  }
+
+  close(): Promise<void> {
+    return this.line.close();
+  }
+
+  unplug(): void {
+    this.isLost = true;
+    this.lost(new Error("unplugged"));
+  }
+}
+
+/** `options`: what differs from an ordinary Grbl. */
+export async function newPlotter(options: VirtualGrblOptions = {}, machine: MachineProfile = GRBL) {
+  const world = new ManualClock();
+  const board = new VirtualGrbl({ clock: world, speed: 1, machine }, options);
+  const lines: WeakLine[] = [];
+  const open = (): Promise<Transport> => {
+    lines.push(new WeakLine(board.transport(), world));
+    return Promise.resolve(lines[lines.length - 1]);
+  };
+  const driver = new PlotterConnection({
+    device: "a port",
+    clock: world,
+    settings: { ...SETTINGS, customMachine: machine },
+    devices: { find: () => Promise.resolve([]), open },
+  });
+  await world.run(driver.start());
+  const begin = async (planner = new LocalPlanner(DRAWING), start: PlotStart = {}, settings = SETTINGS) =>
+    world.run(driver.plot(planner, settings, start));
+  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
+  const line = (): WeakLine => lines[lines.length - 1];
+  /** It is connected again if necessary, and still works. */
+  const mustWork = async (lostCount = 0): Promise<void> => {
+    await world.advance(5);
+    expect(driver.state).toMatchObject({ connection: "idle", activity: "none" });
+    expect(await within(driver.move({ kind: "move-to", xMm: 12, yMm: 13 }))).toBeUndefined();
+    const { xMm, yMm, ...rest } = board.state();
+    expect(rest).toMatchObject({ state: "Idle", penUp: true, lostCount });
+    // A stop leaves it between two steps.
+    expect([xMm, yMm].map((mm) => Math.round(100 * mm))).toEqual([1_200, 1_300]);
+    expect(driver.state.penUp).toBe(true);
+  };
+  return { world, board, driver, begin, within, line, mustWork };
+}
+
+export async function newMachine(options: VirtualGrblOptions = {}) {
+  const world = new ManualClock();
+  const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL }, options);
+  const line = new WeakLine(board.transport(), world);
+  const lost: string[] = [];
+  const events = { ...NO_EVENTS, lost: ({ code }: PlotwrightError) => void lost.push(code) };
+  const machine = await world.run(
+    grblDriver.identify(line, { clock: world, machineClock: world, speed: 1, events }),
+  );
+  await world.run(machine.readKeptState(SETTINGS, null));
+  const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
+  return { world, board, line, machine, lost, within };
+}
+
+/** Its plans have one line that the Grbl refuses, by its index or its text. */
+export class RefusedPlanner extends LocalPlanner {
+  constructor(
+    strokes: StrokeSet,
+    private readonly refused: number | string,
+  ) {
+    super(strokes);
+  }
+
+  override async plan(request: PlanRequest): Promise<PlannedPlot> {
+    const plot = await super.plan(request);
+    const { lines } = plot.commands as unknown as { lines: string[] };
+    lines[typeof this.refused === "number" ? this.refused : lines.indexOf(this.refused)] = "G5X1";
+    return plot;
+  }
+}

@@ -1,0 +1,131 @@
+import { describe, expect, it } from "vitest";
+import { machineById } from "../../../src/index.js";
+import { DEFAULT_PLOT_SETTINGS, type ServerEvent } from "../../../src/schema/index.js";
+import { parseServerEvent } from "../../../web/backend/server/server-backend.js";
+import { DEFAULT_VIEW } from "../../../web/state/persist.js";
+import { applyServerEvent } from "../../../web/state/server-events.js";
+import { activeJob, createPageStore, currentPlotter, type PageState } from "../../../web/state/store.js";
+import { makeJob, makePlotter } from "../../support/jobs/jobs-on-page.js";
+
+const start = (): PageState =>
+  createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW }).getState();
+const after = (state: PageState, ...events: ServerEvent[]): PageState =>
+  events.reduce((now, event) => ({ ...now, ...applyServerEvent(now, event) }), state);
+const snapshot = (...ids: string[]): ServerEvent => ({
+  type: "snapshot",
+  snapshot: {
+    version: "0.1.0",
+    queue: { runOn: false },
+    queues: {},
+    operator: null,
+    serverNotices: [],
+    localName: null,
+    machines: [],
+    plotters: [makePlotter("virtual")],
+    plotterSettings: {},
+    jobs: ids.map((id) => makeJob(id)),
+    hasOlderJobs: false,
+  },
+});
+const progress = (jobId: string, share: number): ServerEvent => ({
+  type: "progress",
+  jobId,
+  plotterId: "virtual",
+  progress: share,
+  elapsedS: 10,
+  remainingS: 30,
+  planS: 9.5,
+  xMm: 12,
+  yMm: 34,
+  penUp: false,
+  penMoving: false,
+});
+
+describe("server events", () => {
+  it("a snapshot replaces everything and chooses a plotter", () => {
+    const state = after(start(), snapshot("old"), snapshot("a", "b"));
+    expect(state.jobs.map(({ id }) => id)).toEqual(["a", "b"]);
+    expect(currentPlotter(state)?.id).toBe("virtual");
+  });
+
+  it("the machines come with the snapshot, and again when one is stored", () => {
+    const listed = (widthMm: number) => ({
+      ...machineById("axidraw-v3"),
+      id: "mine",
+      widthMm,
+      builtIn: false,
+    });
+    const connected = snapshot() as Extract<ServerEvent, { type: "snapshot" }>;
+    const state = after(start(), {
+      type: "snapshot",
+      snapshot: { ...connected.snapshot, machines: [listed(300)] },
+    });
+    expect(state.machines).toEqual([listed(300)]);
+    const stored = parseServerEvent(JSON.stringify({ type: "machines", machines: [listed(600)] }));
+    expect(after(state, stored!).machines).toEqual([listed(600)]);
+  });
+
+  it("a job is replaced in its place, or added at the end", () => {
+    const state = after(
+      start(),
+      snapshot("a", "b"),
+      { type: "job", job: makeJob("a", { state: "plotting" }) },
+      { type: "job", job: makeJob("c") },
+    );
+    expect(state.jobs.map(({ id, state: s }) => `${id} ${s}`)).toEqual([
+      "a plotting",
+      "b queued",
+      "c queued",
+    ]);
+    expect(activeJob(state)?.id).toBe("a");
+  });
+
+  it("an order event sorts, even with unknown ids", () => {
+    const state = after(start(), snapshot("a", "b", "c"), { type: "order", ids: ["c", "ghost", "a"] });
+    expect(state.jobs.map(({ id }) => id)).toEqual(["c", "a", "b"]);
+  });
+
+  it("progress moves the bar and the pen", () => {
+    const state = after(start(), snapshot("a"), progress("a", 0.25));
+    expect(state.jobs[0]).toMatchObject({ progress: 0.25, remainingS: 30 });
+    expect(state.live).toMatchObject({ jobId: "a", planS: 9.5 });
+    expect(currentPlotter(state)).toMatchObject({ xMm: 12, yMm: 34, penUp: false, penMoving: false });
+  });
+
+  it("the live plot ends with its job", () => {
+    const state = after(start(), snapshot("a"), progress("a", 0.9), {
+      type: "job",
+      job: makeJob("a", { state: "done", progress: 1 }),
+    });
+    expect(state.live).toBeNull();
+    expect(activeJob(state)).toBeNull();
+  });
+
+  it("a snapshot keeps the live plot while its job is plotting, and drops it otherwise", () => {
+    const plotting = after(start(), snapshot("a", "b"), progress("a", 0.5));
+    const reconnected = (...jobs: ReturnType<typeof makeJob>[]): PageState["live"] => {
+      const connected = snapshot() as Extract<ServerEvent, { type: "snapshot" }>;
+      return after(plotting, { type: "snapshot", snapshot: { ...connected.snapshot, jobs } }).live;
+    };
+    expect(reconnected(makeJob("b"), makeJob("a", { state: "plotting" }))).toMatchObject({ jobId: "a" });
+    expect(reconnected(makeJob("a", { state: "done" }))).toBeNull();
+    expect(reconnected(makeJob("a", { state: "cancelled" }), makeJob("b", { state: "plotting" }))).toBeNull();
+    expect(reconnected(makeJob("b", { state: "plotting" }))).toBeNull();
+    expect(reconnected()).toBeNull();
+  });
+
+  it("a removed job is gone", () => {
+    expect(after(start(), snapshot("a", "b"), { type: "job-removed", id: "a" }).jobs).toHaveLength(1);
+  });
+
+  it("new expected times change only the jobs that they name", () => {
+    const state = after(start(), snapshot("a", "b"), { type: "expected", expectedS: { b: 99 } });
+    expect(state.jobs.map(({ expectedS }) => expectedS)).toEqual([makeJob("a").expectedS, 99]);
+  });
+
+  it("an unknown event is ignored", () => {
+    expect(parseServerEvent("not json")).toBeNull();
+    expect(parseServerEvent('{"type":"weather"}')).toBeNull();
+    expect(parseServerEvent('{"type":"job-removed","id":"a"}')).toEqual({ type: "job-removed", id: "a" });
+  });
+});

@@ -1,0 +1,107 @@
+import { useId } from "react";
+import { useHint } from "../hint.js";
+
+interface ChoiceOption<T extends string> {
+  readonly value: T;
+  readonly label: string;
+  /** Can't be chosen now. */
+  readonly isOff?: boolean;
+}
+
+interface ChoiceProps<T extends string> {
+  readonly label: string;
+  readonly value: T;
+  readonly options: readonly ChoiceOption<T>[];
+  /** Help on demand. */
+  readonly hint?: string;
+  onChange(value: T): void;
+}
+
+interface SegmentsProps<T extends string> extends ChoiceProps<T> {
+  readonly isLabelHidden?: boolean;
+  /** Puts the label beside the choices; for two short ones. */
+  readonly isInline?: boolean;
+}
+
+/** One of a few choices, all visible: a row of radio buttons that looks like one control. */
+export const Segments = <T extends string>({
+  label,
+  value,
+  options,
+  isLabelHidden,
+  isInline,
+  hint,
+  onChange,
+}: SegmentsProps<T>) => {
+  const name = useId();
+  const help = useHint(label, `${name}-note`, hint);
+  return (
+    <div
+      role="group"
+      aria-labelledby={`${name}-label`}
+      className="field segments-field"
+      data-inline={isInline || undefined}
+    >
+      <span className={isLabelHidden ? "visually-hidden" : "field-label"}>
+        <span id={`${name}-label`}>{label}</span>
+        {help.button}
+      </span>
+      <div className="segments">
+        {options.map((option) => (
+          <label key={option.value} className="segment">
+            <input
+              type="radio"
+              name={name}
+              checked={option.value === value}
+              disabled={option.isOff}
+              onChange={() => onChange(option.value)}
+            />
+            <span>{option.label}</span>
+          </label>
+        ))}
+      </div>
+      {help.note}
+    </div>
+  );
+};
+
+/** One of many choices: the system's own list. */
+export const Select = <T extends string>({ label, value, options, hint, onChange }: ChoiceProps<T>) => {
+  const id = useId();
+  const help = useHint(label, `${id}-note`, hint);
+  return (
+    <div className="field">
+      <span className="field-label">
+        <label htmlFor={id}>{label}</label>
+        {help.button}
+      </span>
+      <select id={id} value={value} onChange={(event) => onChange(event.target.value as T)}>
+        {options.map((option) => (
+          <option key={option.value} value={option.value}>
+            {option.label}
+          </option>
+        ))}
+      </select>
+      {help.note}
+    </div>
+  );
+};
+
+interface SwitchProps {
+  readonly label: string;
+  readonly isOn: boolean;
+  onChange(isOn: boolean): void;
+}
+
+export const Switch = ({ label, isOn, onChange }: SwitchProps) => (
+  <label className="switch">
+    <input
+      type="checkbox"
+      role="switch"
+      checked={isOn}
+      onChange={(event) => onChange(event.target.checked)}
+    />
+    <span className="switch-track" aria-hidden="true" />
+    <span className="switch-label">{label}</span>
+  </label>
+);

@@ -1,0 +1,35 @@
+import { useId } from "react";
+import { Icon, type IconName } from "../icon.js";
+
+interface ChooseFileProps {
+  readonly label: string;
+  /** Types and endings that the browser's dialog lists. */
+  readonly accept: string;
+  readonly icon?: IconName;
+  onFile(file: File): void;
+}
+
+/** A button that opens the browser's dialog for a file. */
+export const ChooseFile = ({ label, accept, icon, onFile }: ChooseFileProps) => {
+  const id = useId();
+  return (
+    <div className="choose">
+      <input
+        id={id}
+        type="file"
+        accept={accept}
+        className="visually-hidden"
+        onChange={(event) => {
+          const file = event.target.files?.[0];
+          if (file) onFile(file);
+          // Otherwise the same file could not be chosen again after it was edited.
+          event.target.value = "";
+        }}
+      />
+      <label htmlFor={id} className="button">
+        {icon && <Icon name={icon} />}
+        {label}
+      </label>
+    </div>
+  );
+};
