@@ -34,7 +34,7 @@ const limits = (limitMs: number) => ({
   expect: { poll: { timeout: 0.75 * limitMs } },
 });
 
-/** A larger young generation needs less garbage collection: a tenth less processor time. */
+/** A larger young generation needs less garbage collection. */
 const EXEC_ARGV = ["--max-semi-space-size=64"];
 
 const COMMON = {
@@ -49,7 +49,7 @@ const SHARED = { isolate: false };
 /** Tests that also wait (for a board, a browser, a process) keep two cores busy only with a third worker. */
 const WAITING = { maxWorkers: 3 };
 
-/** Tests on a board in real time need little processor time: 80 s for all. With 5 workers they take 60 s, with 3 90 s. */
+/** Tests on a board in real time need little processor time. */
 const MOSTLY_WAITING = { maxWorkers: 5 };
 
 /** The files that take longest, the slowest first. */

@@ -4,8 +4,8 @@ import { licencePlugins } from "../scripts/licences.mjs";
 
 /**
  * Library files that are referenced, so tree-shaking keeps them, but never called here: zod's JSON schema writer, and
- * the parts of css-select's default adapter that write and change documents (we pass our own adapter). Together they
- * would be 5 % of the first visit's code.
+ * the parts of css-select's default adapter that write and change documents (we pass our own adapter). The
+ * first visit would load them.
  */
 const NEVER_CALLED =
   /\/(zod\/v4\/core\/(json-schema-processors|to-json-schema)|domutils\/dist\/(feeds|legacy|manipulation|stringify))\.js$/;

@@ -47,10 +47,7 @@ export function grown<T extends Column>(column: T, needed = 0): T {
 
 type Column = Uint8Array | Uint32Array | Int32Array | Float32Array | Float64Array;
 
-/**
- * Appends one number at a time to a typed array of the given kind. The program should not use more than four kinds:
- * with a fifth one, V8 no longer specialises `push`, which is then several times slower.
- */
+/** Appends one number at a time to a typed array of the given kind. */
 export class ColumnBuffer<T extends Column> {
   data: T;
   length = 0;

@@ -1,6 +1,6 @@
 /**
  * Draws strokes on the processor if there is no graphics card. Computes for each pixel near a piece what the shader
- * computes for a fragment. About fifty times faster than WebGL2 in software.
+ * computes for a fragment. Much faster than WebGL2 in software.
  *
  *   d      distance of the pixel's centre from the piece, device px
  *   reach  half the line's width, device px

@@ -9,7 +9,7 @@
  *   polygon             a stop at every corner, if that is faster: each side is then a single straight
  *
  * A larger BOX_SHARE allows a larger A', but leaves less of δ for corners. On the sample drawings 5/8 takes the
- * least total time (1/2 and 3/4: up to 1.5 % more on some). As J grows, w tends to 0, A' to A, and the motion to
+ * least total time. As J grows, w tends to 0, A' to A, and the motion to
  * that of `blend`.
  */
 import { capSegments, mmPerFrameMm, type RunLimits } from "../limits.js";

@@ -13,8 +13,8 @@ const FOLDER = path.join(ROOT, "node_modules", ".cache", "plotwright-tests");
 const built = new Set<string>();
 
 /**
- * The file to run for `name`.ts in this folder. Starting it takes a third of the processor time that
- * compiling and loading the modules one by one would take.
+ * The file to run for `name`.ts in this folder. Starting it takes less processor
+ * time than compiling and loading the modules one by one.
  */
 export function childScript(name: string): string {
   const file = path.join(FOLDER, `${name}.mjs`);
