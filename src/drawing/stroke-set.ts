@@ -1,4 +1,6 @@
 import { checkObject } from "../check-arguments.js";
+import { RULE_NONZERO, VERB_LINE, VERB_MOVE, type Drawing, type DrawingPaths } from "./drawing.js";
+import type { PaperSize } from "./paper.js";
 
 /**
  * The strokes of a plot, in drawing order: polylines in mm in the machine frame.
@@ -88,7 +90,7 @@ const ONE_LAYER: StrokeLayer = { id: "lines", name: "Lines", color: null };
  * @throws RangeError for a line without points, and for a coordinate that is not a finite number.
  */
 export function strokesOf(lines: readonly Line[], layer: StrokeLayer = ONE_LAYER): StrokeSet {
-  checkLines(lines);
+  checkLines("strokesOf", lines);
   const offsets = new Uint32Array(lines.length + 1);
   lines.forEach((line, index) => {
     if (line.length === 0) throw new RangeError(`line ${index} has no points: leave it out`);
@@ -108,10 +110,34 @@ export function strokesOf(lines: readonly Line[], layer: StrokeLayer = ONE_LAYER
   return { xy, offsets, layer: new Uint16Array(lines.length), layers: [layer] };
 }
 
-function checkLines(lines: unknown): void {
+/**
+ * A drawing of these lines on a page of the paper's size, so that their points are mm on the paper.
+ *
+ * @throws as strokesOf
+ */
+export function drawingOfLines(lines: readonly Line[], { widthMm, heightMm }: PaperSize): Drawing {
+  checkLines("prepare", lines);
+  const { xy, offsets, layer } = strokesOf(lines.map(dotAsLine));
+  const count = lines.length;
+  const verbs = new Uint8Array(xy.length / 2).fill(VERB_LINE);
+  for (let line = 0; line < count; line++) verbs[offsets[line]] = VERB_MOVE;
+  const none = new Int32Array(count).fill(-1);
+  const paths: DrawingPaths = {
+    ...{ count, verbs, coords: xy, verbOffsets: offsets, coordOffsets: offsets.map((point) => 2 * point) },
+    ...{ group: Uint32Array.from(layer), stroke: new Int32Array(count), fill: none, dash: none, clip: none },
+    ...{ fillRule: new Uint8Array(count).fill(RULE_NONZERO), strokeWidth: new Float32Array(count) },
+  };
+  const groups = [{ id: ONE_LAYER.id, name: ONE_LAYER.name, hidden: false }];
+  return { widthMm, heightMm, groups, colors: ["#000000"], dashes: [], clips: [], paths, warnings: [] };
+}
+
+/** A path of one point draws nothing: a dot is a line to the same point. */
+const dotAsLine = (line: Line): Line => (line.length === 1 ? [line[0], line[0]] : line);
+
+function checkLines(call: string, lines: unknown): void {
   const isLine = (line: unknown): boolean => Array.isArray(line) && line.every(Array.isArray);
   if (Array.isArray(lines) && lines.every(isLine)) return;
   throw new TypeError(
-    "strokesOf takes a list of lines, each a list of points [x, y] in mm: strokesOf([[[0, 0], [10, 10]]]).",
+    `${call} takes a list of lines, each a list of points [x, y] in mm: ${call}([[[0, 0], [10, 10]]]).`,
   );
 }

@@ -7,7 +7,7 @@
  */
 import { isBackground, type Drawing } from "../drawing/drawing.js";
 import { withPxPerInch } from "../drawing/px-size.js";
-import { type StrokeSet, setFor } from "../drawing/stroke-set.js";
+import { drawingOfLines, setFor, type Line, type StrokeSet } from "../drawing/stroke-set.js";
 import { lineCount, totalLength } from "../geometry/polyline.js";
 import { cropAreas, filledAreas, filledOnly } from "./steps/areas.js";
 import {
@@ -46,7 +46,7 @@ import { joinInFileOrder, joinLines } from "./steps/join.js";
 import { inOrder, layersOf, visibleLayers, speedPartsOf } from "./layers/layers.js";
 import { inDrawingOrder } from "./order/order.js";
 import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
-import { layOutDrawing } from "./layout.js";
+import { layOutDrawing, orientedPaper } from "./layout.js";
 import { dropRepeats } from "./steps/repeats.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { simplifyLines, reloopLines, smoothLines } from "./steps/points.js";
@@ -78,23 +78,17 @@ export interface Prepared {
 /**
  * Places the drawing on the paper and turns it into strokes in drawing order (mm in the machine frame).
  *
+ * @param imported a drawing, or lines: their points are mm on the paper, and they are joined and ordered like a drawing's
  * @param changes the settings that differ from `DEFAULT_PREPARE`
  * @throws PlotwrightError "bad-setting" for a wrong setting, or if the margins leave no room; "cancelled"
  */
 export function prepare(
-  imported: Drawing,
+  imported: Drawing | readonly Line[],
   changes: Partial<PrepareSettings> = {},
   options: Work = {},
 ): Prepared {
-  checkObject(
-    "prepare",
-    "the drawing",
-    imported,
-    ["paths", "groups"],
-    "what importSvg or importDrawing returns",
-  );
   const settings = completeSettings(changes);
-  const drawing = withPxPerInch(imported, settings.pxPerInch);
+  const drawing = drawingFrom(imported, settings);
   const progress = (done: number, step: string): void => {
     stopIfCancelled(options);
     options.onProgress?.(done, step);
@@ -216,3 +210,17 @@ const within = (work: Work, from: number, to: number): Work => ({
   ...work,
   onProgress: work.onProgress && ((done, step) => work.onProgress?.(from + done * (to - from), step)),
 });
+
+function drawingFrom(imported: Drawing | readonly Line[], settings: PrepareSettings): Drawing {
+  if (isLines(imported)) return drawingOfLines(imported, orientedPaper(settings.paper, settings.landscape));
+  checkObject(
+    "prepare",
+    "the drawing",
+    imported,
+    ["paths", "groups"],
+    "what importSvg or importDrawing returns, or a list of lines",
+  );
+  return withPxPerInch(imported, settings.pxPerInch);
+}
+
+const isLines = (imported: Drawing | readonly Line[]): imported is readonly Line[] => Array.isArray(imported);
