@@ -80,7 +80,7 @@ export default defineConfig({
           groups: [
             {
               name: "index",
-              test: /node_modules\/(react|react-dom|scheduler|zod|zustand)\/|\/web\/ui\/(choice|format|icon|lazy-part|number-box|number-field|settings-group|text)\.|\/web\/(state|drawing|layers|pens|motion|queue|plotter|preview)\/text\.|\/web\/drawing\/paper\.|\/web\/scene\/placing\.|\/src\/(schema\/(?!studio|hand-moves)|drawing|machines\/(?!set-up)|errors)/,
+              test: /node_modules\/(react|react-dom|scheduler|zod|zustand)\/|\/web\/ui\/(fields\/(choice|number-box|number-field|settings-group)|format|icon|lazy-part|text)\.|\/web\/(state|drawing|layers|pens|motion|queue|plotter|preview)\/text\.|\/web\/drawing\/paper\.|\/web\/scene\/placing\.|\/src\/(schema\/(?!sharing|hand-moves)|drawing|machines\/(?!set-up)|errors)/,
             },
           ],
         },

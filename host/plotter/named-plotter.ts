@@ -1,4 +1,4 @@
-/** A plotter that is stored: a plotter driver with an id, a name and a machine. */
+/** A plotter that is stored: a connection with an id, a name and a machine. */
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";
 import { PlotterConnection } from "./plotter-connection.js";

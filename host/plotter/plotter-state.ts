@@ -1,4 +1,4 @@
-/** Options and state of a plotter driver, and its messages about them. */
+/** Options and state of a plotter's connection, and its messages about them. */
 import { PlotwrightError, type Clock } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";

@@ -10,7 +10,7 @@
 import { PlotwrightError } from "../../src/index.js";
 import { ENDED_STATES, type HistoryRequest, type Job, type JobPage } from "../../src/schema/index.js";
 import { DISK_FULL, isDiskFault } from "../disk-fault.js";
-import { applyJobEvent, isOnPlotter, type JobEvent } from "./job-machine.js";
+import { applyJobEvent, isOnPlotter, type JobEvent } from "./job-states.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
 import type { StoredDrawing } from "../storage.js";
 

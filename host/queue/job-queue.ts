@@ -19,7 +19,7 @@ import type { SettingsOfPlotter } from "../plotter/settings-of-plotter.js";
 import { findPlotter } from "./find-plotter.js";
 import { JobList } from "./job-list.js";
 import { SettingsOfJobs } from "./job-settings.js";
-import { applyJobEvent, isOnPlotter, queuedJob } from "./job-machine.js";
+import { applyJobEvent, isOnPlotter, queuedJob } from "./job-states.js";
 import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
 

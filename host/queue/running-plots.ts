@@ -25,7 +25,7 @@ import type {
 import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
 import type { SettingsOfJobs } from "./job-settings.js";
-import { applyJobEvent, canContinue, isOnPlotter } from "./job-machine.js";
+import { applyJobEvent, canContinue, isOnPlotter } from "./job-states.js";
 import { findPlotter, mustBeIdle } from "./find-plotter.js";
 import type { QueueParts } from "./queue-parts.js";
 import { MotionTimer } from "./expected-time.js";

@@ -4,6 +4,7 @@ import { COMMANDS, DEFAULT_COMMAND } from "./commands.js";
 import { printed, type CliIo } from "./io.js";
 import type { CommandContext } from "./options.js";
 import { PlotwrightError } from "../../src/index.js";
+import { isDrawingName } from "../../src/internal.js";
 
 /** 0 done; 2 bad usage; 3 bad input file; 4 no or wrong device; 5 plot failed or was cancelled. */
 const BAD_USAGE = 2;
@@ -94,18 +95,15 @@ async function mustBeCommand(word: string | undefined): Promise<void> {
 
 const oneLine = (text: string): string => text.trim().replace(/\s*\n\s*/g, " ");
 
-const DRAWING = /\.(svg|dxf|hpgl|hpg|plt|json)$/i;
-
 const notACommand = (word: string, commands: readonly string[]): PlotwrightError =>
   new PlotwrightError("bad-setting", `There is no command ${word}. ${hint(word, commands)}`);
 
 function hint(word: string, commands: readonly string[]): string {
-  if (DRAWING.test(word)) return `To plot a drawing: plotwright plot ${word}`;
+  if (isDrawingName(word)) return `To plot a drawing: plotwright plot ${word}`;
   if (/^\d+$/.test(word)) {
     return `To choose the port: plotwright --port ${word}, or npm start -- --port ${word} (with -- before the options).`;
   }
-  if (word === "recover" || word === "resume")
-    return "To continue a drawing that was begun: plotwright plot --resume";
+  if (word === "recover") return "To continue a drawing that was begun: plotwright plot --resume";
   if (word === "version") return "To print the version: plotwright --version";
   const near = nearest(word, commands);
   if (near !== null) return `Did you mean ${near}?`;

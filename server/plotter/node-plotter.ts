@@ -1,4 +1,4 @@
-/** The plotter driver on Node, with the computer's clock and serial ports: for programs, and for a command. */
+/** A plotter's connection on Node, with the computer's clock and serial ports: for programs, and for a command. */
 import { type Clock, PlotwrightError } from "../../src/index.js";
 import type { Devices } from "../../host/plotter/connected-machine.js";
 import { PlotterConnection as HostDriver } from "../../host/plotter/plotter-connection.js";

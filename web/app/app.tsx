@@ -148,7 +148,7 @@ const DIALOGS = {
   machines: lazyPart(async () => (await import("../plotter/machines/machines-dialog.js")).MachinesDialog),
   console: lazyPart(async () => (await import("../plotter/console/console.js")).Console),
   ringing: lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog),
-  studio: lazyPart(async () => (await import("../sharing/studio-dialog.js")).StudioDialog),
+  sharing: lazyPart(async () => (await import("../sharing/sharing-dialog.js")).SharingDialog),
 } as const;
 
 /** The open dialog, if any. The question is shown over it, so that what was typed into the dialog is kept. */

@@ -10,7 +10,7 @@ import {
   historyText,
   searchLabel,
   shortcutsText,
-  studioLink,
+  sharingLink,
   themeText,
   viewText,
 } from "./text.js";
@@ -43,12 +43,12 @@ const showView = (view: PageView): PageAction => ({
   perform: ({ actions }) => actions.showView(view),
 });
 
-export const STUDIO: PageAction = {
-  id: "studio",
-  label: studioLink,
+export const SHARING: PageAction = {
+  id: "sharing",
+  label: sharingLink,
   words: "network, phone, pair, link, qr code, webcam, webhook, password",
   isOffered: (page) => isForOperator(page) && page.backend.features.sharing,
-  perform: ({ actions }) => actions.openDialog("studio"),
+  perform: ({ actions }) => actions.openDialog("sharing"),
 };
 
 const nextTheme = ({ view }: PageState): Theme =>
@@ -89,7 +89,7 @@ export const PAGE_ACTIONS: readonly PageAction[] = [
   ...PLOTTER_ACTIONS,
   showView("prepare"),
   showView("watch"),
-  STUDIO,
+  SHARING,
   THEME,
   SEARCH,
   SHORTCUTS,

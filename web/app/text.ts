@@ -20,7 +20,7 @@ export const tabsText = {
 
 export const searchLabel = "Search for anything";
 
-export const studioLink = "Sharing, plotters, camera";
+export const sharingLink = "Sharing, plotters, camera";
 
 export const viewText = {
   label: "View",

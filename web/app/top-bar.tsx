@@ -3,7 +3,7 @@ import type { Theme } from "../state/persist.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ActionButton } from "../ui/action-button.js";
 import { appName } from "../ui/text.js";
-import { REDO, SEARCH, SHORTCUTS, STUDIO, THEME, UNDO } from "./page-actions.js";
+import { REDO, SEARCH, SHORTCUTS, SHARING, THEME, UNDO } from "./page-actions.js";
 import { viewText } from "./text.js";
 import { plotterText as words } from "../plotter/text.js";
 import type { IconName } from "../ui/icon.js";
@@ -28,7 +28,7 @@ export const TopBar = () => {
         <ActionButton action={SEARCH} kind="tool" icon="search" />
         {isPreparing && <ActionButton action={UNDO} kind="tool" icon="undo" />}
         {isPreparing && <ActionButton action={REDO} kind="tool" icon="redo" />}
-        <ActionButton action={STUDIO} kind="tool" icon="share" />
+        <ActionButton action={SHARING} kind="tool" icon="share" />
         <ThemeButton />
         <ActionButton action={SHORTCUTS} kind="tool" icon="help" />
       </div>

@@ -4,7 +4,7 @@
  * request rejects with a BackendFault.
  */
 import type { Job, NewJob, OperationClient, Plotter, ServerEvent } from "../../src/schema/index.js";
-import type { DrawingText } from "../worker/drawing-text.js";
+import type { DrawingText } from "./drawing-text.js";
 
 /** An error whose message is written for the user. */
 export class BackendFault extends Error {

@@ -1,22 +1,22 @@
 import { useState } from "react";
 import type { AccessEntry, Role } from "../../src/schema/index.js";
-import { studioText as words } from "./text.js";
+import { sharingText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/fields/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/fields/text-field.js";
-import { useFetched, useStudio } from "./use-studio.js";
+import { useFetched, useSharing } from "./use-sharing.js";
 
 /** Paired browsers, and keys for scripts. Each can be revoked. */
 export const AccessSection = () => {
-  const studio = useStudio();
-  const [answer, askAgain] = useFetched(studio.access.list);
+  const sharing = useSharing();
+  const [answer, askAgain] = useFetched(sharing.access.list);
   const [secret, setSecret] = useState<string | null>(null);
   const revoke = async (id: string): Promise<void> => {
-    if (await studio.access.revoke(id)) askAgain();
+    if (await sharing.access.revoke(id)) askAgain();
   };
   const add = async (name: string, role: Role): Promise<void> => {
-    const made = await studio.access.addKey({ name, role });
+    const made = await sharing.access.addKey({ name, role });
     if (!made) return;
     setSecret(made.secret);
     askAgain();
@@ -24,7 +24,7 @@ export const AccessSection = () => {
   return (
     <>
       <p className="note">{words.accessHint}</p>
-      <ul className="studio-list">
+      <ul className="sharing-list">
         {(answer?.entries ?? []).map((entry) => (
           <EntryRow key={entry.id} entry={entry} onRevoke={() => void revoke(entry.id)} />
         ))}
@@ -63,7 +63,7 @@ const NewKeyForm = ({ onAdd }: { onAdd(name: string, role: Role): Promise<void> 
   const [role, setRole] = useState<Role>("operate");
   return (
     <form
-      className="studio-form"
+      className="sharing-form"
       onSubmit={(event) => {
         event.preventDefault();
         if (name.trim() === "") return;

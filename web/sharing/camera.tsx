@@ -1,7 +1,7 @@
 import { useEffect, useState } from "react";
 import { usePageState } from "../state/use-store.js";
-import { studioText as words } from "./text.js";
-import "./studio.css";
+import { sharingText as words } from "./text.js";
+import "./sharing.css";
 
 /** The camera's picture: a stream, or a still picture that is fetched repeatedly. */
 export const Camera = () => {

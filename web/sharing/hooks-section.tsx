@@ -1,24 +1,24 @@
 import { useState } from "react";
 import { WEBHOOK_EVENTS, type Webhook, type WebhookEvent } from "../../src/schema/index.js";
-import { studioText as words } from "./text.js";
+import { sharingText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { formatWhen } from "../ui/format.js";
 import { TextField } from "../ui/fields/text-field.js";
 import { Secret } from "./access-section.js";
-import { useFetched, useStudio } from "./use-studio.js";
+import { useFetched, useSharing } from "./use-sharing.js";
 
 /** Addresses that are notified when a plot is done, waits, or has failed. */
 export const HooksSection = () => {
-  const studio = useStudio();
-  const [answer, askAgain] = useFetched(studio.webhooks.list);
+  const sharing = useSharing();
+  const [answer, askAgain] = useFetched(sharing.webhooks.list);
   const [secret, setSecret] = useState<string | null>(null);
   const remove = async (id: string): Promise<void> => {
-    if (await studio.webhooks.remove(id)) askAgain();
+    if (await sharing.webhooks.remove(id)) askAgain();
   };
   return (
     <>
       <p className="note">{words.hooksHint}</p>
-      <ul className="studio-list">
+      <ul className="sharing-list">
         {(answer?.webhooks ?? []).map((hook) => (
           <HookRow key={hook.id} hook={hook} onRemove={() => void remove(hook.id)} />
         ))}
@@ -56,13 +56,13 @@ const HookRow = ({ hook, onRemove }: { hook: Webhook; onRemove(): void }) => (
 );
 
 const NewHookForm = ({ onAdded }: { onAdded(secret: string): void }) => {
-  const studio = useStudio();
+  const sharing = useSharing();
   const [name, setName] = useState("");
   const [url, setUrl] = useState("");
   const [events, setEvents] = useState<readonly WebhookEvent[]>(WEBHOOK_EVENTS);
   const isWhole = name.trim() !== "" && /^https?:\/\/./.test(url.trim()) && events.length > 0;
   const add = async (): Promise<void> => {
-    const made = await studio.webhooks.add({ name: name.trim(), url: url.trim(), events: [...events] });
+    const made = await sharing.webhooks.add({ name: name.trim(), url: url.trim(), events: [...events] });
     if (!made) return;
     setName("");
     setUrl("");
@@ -70,7 +70,7 @@ const NewHookForm = ({ onAdded }: { onAdded(secret: string): void }) => {
   };
   return (
     <form
-      className="studio-form"
+      className="sharing-form"
       onSubmit={(event) => {
         event.preventDefault();
         if (isWhole) void add();

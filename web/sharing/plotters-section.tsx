@@ -1,19 +1,19 @@
 import { useState } from "react";
 import { ENDED_STATES, type Plotter } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
-import { studioText as words } from "./text.js";
+import { sharingText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/fields/choice.js";
 import { TextField } from "../ui/fields/text-field.js";
 import { PortSelect, portChoices } from "./port-select.js";
-import { useFetched, useStudio } from "./use-studio.js";
+import { useFetched, useSharing } from "./use-sharing.js";
 
 /** The server's plotters: their names and ports, adding and removing them. */
 export const PlottersSection = () => {
   const plotters = usePageState((state) => state.plotters);
   return (
     <>
-      <ul className="studio-list">
+      <ul className="sharing-list">
         {plotters.map((plotter) => (
           <PlotterRow key={plotter.id} plotter={plotter} isLast={plotters.length === 1} />
         ))}
@@ -24,7 +24,7 @@ export const PlottersSection = () => {
 };
 
 const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) => {
-  const studio = useStudio();
+  const sharing = useSharing();
   /** The name while it is being typed. */
   const [typed, setTyped] = useState<string | null>(null);
   const jobs = usePageState((state) => state.jobs);
@@ -32,7 +32,7 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
   const rename = (): void => {
     const wanted = typed?.trim() ?? "";
     setTyped(null);
-    if (wanted !== "" && wanted !== plotter.name) void studio.plotters.patch(plotter.id, { name: wanted });
+    if (wanted !== "" && wanted !== plotter.name) void sharing.plotters.patch(plotter.id, { name: wanted });
   };
   return (
     <li className="plotter-row">
@@ -56,7 +56,7 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
         aria-label={words.removePlotterNamed(plotter.name)}
         title={isInUse ? words.inUse : undefined}
         disabled={isLast || isInUse}
-        onClick={() => void studio.plotters.remove(plotter.id)}
+        onClick={() => void sharing.plotters.remove(plotter.id)}
       >
         {words.removePlotter}
       </Button>
@@ -65,20 +65,20 @@ const PlotterRow = ({ plotter, isLast }: { plotter: Plotter; isLast: boolean }) 
 };
 
 const NewPlotterForm = () => {
-  const studio = useStudio();
+  const sharing = useSharing();
   const machine = usePageState((state) => state.settings.machine);
-  const [answer, askAgain] = useFetched(studio.plotters.devices);
+  const [answer, askAgain] = useFetched(sharing.plotters.devices);
   const [name, setName] = useState("");
   const [device, setDevice] = useState("auto");
   const add = async (): Promise<void> => {
-    if (!(await studio.plotters.add({ name: name.trim(), device, machine }))) return;
+    if (!(await sharing.plotters.add({ name: name.trim(), device, machine }))) return;
     setName("");
     setDevice("auto");
     askAgain();
   };
   return (
     <form
-      className="studio-form"
+      className="sharing-form"
       onSubmit={(event) => {
         event.preventDefault();
         if (name.trim() !== "") void add();

@@ -1,12 +1,12 @@
 import type { Device, Plotter } from "../../src/schema/index.js";
-import { studioText as words } from "./text.js";
+import { sharingText as words } from "./text.js";
 import { Select } from "../ui/fields/choice.js";
-import { useFetched, useStudio } from "./use-studio.js";
+import { useFetched, useSharing } from "./use-sharing.js";
 
 /** Chooses a plotter's port: automatic, one of the connected boards, or the virtual board. */
 export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
-  const studio = useStudio();
-  const [answer] = useFetched(studio.plotters.devices);
+  const sharing = useSharing();
+  const [answer] = useFetched(sharing.plotters.devices);
   const choices = portChoices(answer?.devices ?? [], plotter);
   const now = plotter.kind === "virtual" ? "virtual" : (plotter.device ?? "auto");
   return (
@@ -14,7 +14,7 @@ export const PortSelect = ({ plotter }: { plotter: Plotter }) => {
       label={words.port}
       value={now}
       options={choices}
-      onChange={(device) => void studio.plotters.patch(plotter.id, { device })}
+      onChange={(device) => void sharing.plotters.patch(plotter.id, { device })}
     />
   );
 };

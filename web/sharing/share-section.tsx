@@ -1,12 +1,12 @@
 import { useActions, usePageState } from "../state/use-store.js";
-import { studioText as words } from "./text.js";
-import { useFetched, useStudio } from "./use-studio.js";
+import { sharingText as words } from "./text.js";
+import { useFetched, useSharing } from "./use-sharing.js";
 import { Button } from "../ui/button.js";
 
 /** Links and QR codes for pairing another device, to operate or to watch. */
 export const ShareSection = () => {
-  const studio = useStudio();
-  const [pairing] = useFetched(studio.operator.pairing);
+  const sharing = useSharing();
+  const [pairing] = useFetched(sharing.operator.pairing);
   const localName = usePageState((state) => state.localName);
   if (!pairing) return <p className="note">{words.pairingWhere}</p>;
   return (

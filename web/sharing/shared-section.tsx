@@ -11,12 +11,12 @@ import {
 import { BackendFault, type Backend } from "../backend/backend.js";
 import { profileOf } from "../state/plotter-sync.js";
 import { useActions, useBackend, usePageState } from "../state/use-store.js";
-import { studioText as words } from "./text.js";
+import { sharingText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/fields/choice.js";
 import { formatWhen } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
-import { useFetched, useStudio } from "./use-studio.js";
+import { useFetched, useSharing } from "./use-sharing.js";
 
 const POLL_MS = 3_000;
 
@@ -30,7 +30,7 @@ export const SharedSection = () => {
   }, [askAgain]);
   if (answer?.jobs === null) {
     return (
-      <ul className="studio-list">
+      <ul className="sharing-list">
         <li className="note">{words.notShared}</li>
       </ul>
     );
@@ -38,7 +38,7 @@ export const SharedSection = () => {
   return (
     <>
       <p className="note">{words.sharedHint}</p>
-      <ul className="studio-list">
+      <ul className="sharing-list">
         {(answer?.jobs ?? []).map((job) => (
           <SharedRow key={job.id} job={job} onChanged={askAgain} />
         ))}
@@ -63,7 +63,7 @@ const sharedJobs = async (
 };
 
 const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) => {
-  const studio = useStudio();
+  const sharing = useSharing();
   const nowMs = useNow();
   const action = possibleAction(job, nowMs);
   const plotters = usePageState((state) => state.plotters);
@@ -77,7 +77,7 @@ const SharedRow = ({ job, onChanged }: { job: SharedJob; onChanged(): void }) =>
     formatWhen(job.createdAt, nowMs),
   ];
   const runAction = async (): Promise<void> => {
-    await (action === "withdraw" ? studio.sharedJobs.withdraw(job.id) : studio.sharedJobs.giveBack(job.id));
+    await (action === "withdraw" ? sharing.sharedJobs.withdraw(job.id) : sharing.sharedJobs.giveBack(job.id));
     onChanged();
   };
   return (
@@ -111,7 +111,7 @@ interface LeftOutProps {
 
 /** A plotter without a model, and a button that sets the one that the job needs. */
 const LeftOut = ({ plotter, machine }: LeftOutProps) => {
-  const studio = useStudio();
+  const sharing = useSharing();
   return (
     <span className="note left-out">
       {words.modelUnknown(plotter.name)}
@@ -119,7 +119,7 @@ const LeftOut = ({ plotter, machine }: LeftOutProps) => {
         <Button
           kind="small"
           aria-label={words.isOfModelNamed(machine.name, plotter.name)}
-          onClick={() => void studio.plotters.patch(plotter.id, { machine: machine.id })}
+          onClick={() => void sharing.plotters.patch(plotter.id, { machine: machine.id })}
         >
           {words.isOfModel(machine.name)}
         </Button>
@@ -131,7 +131,7 @@ const LeftOut = ({ plotter, machine }: LeftOutProps) => {
 const ANY = "machine";
 
 const ShareForm = ({ onSent }: { onSent(): void }) => {
-  const studio = useStudio();
+  const sharing = useSharing();
   const actions = useActions();
   const drawing = usePageState((state) => state.drawing);
   const settings = usePageState((state) => state.settings);
@@ -142,15 +142,15 @@ const ShareForm = ({ onSent }: { onSent(): void }) => {
   const named = plotters.find(({ id }) => id === to);
   const target: SharedTarget = named ? { plotter: named.name } : { machine: settings.machine };
   const send = async (): Promise<void> => {
-    const uploaded = await studio.drawings.upload(drawing.text);
+    const uploaded = await sharing.drawings.upload(drawing.text);
     const job = { name: drawing.name, settings: withoutPlotterPart(settings), target };
-    if (!uploaded || !(await studio.sharedJobs.add({ ...job, drawingId: uploaded.id }))) return;
+    if (!uploaded || !(await sharing.sharedJobs.add({ ...job, drawingId: uploaded.id }))) return;
     actions.notify("info", words.shareSent(drawing.name));
     onSent();
   };
   return (
     <form
-      className="studio-form"
+      className="sharing-form"
       onSubmit={(event) => {
         event.preventDefault();
         void send();

@@ -1,5 +1,5 @@
 /** Texts of the dialog "Sharing" and the camera. */
-export const studioText = {
+export const sharingText = {
   title: "Sharing",
   sections: {
     share: "Share",

@@ -2,7 +2,7 @@
 import { isDrawingName, isSameJson } from "../../src/internal.js";
 import { type Job, DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
-import { contentOf, type DrawingText } from "../worker/drawing-text.js";
+import { contentOf, type DrawingText } from "../backend/drawing-text.js";
 import type { PlanFault } from "../worker/protocol.js";
 import type { createUiActions } from "./ui-actions.js";
 import { openedSettings } from "./plotter-sync.js";

@@ -32,7 +32,7 @@ import { lineGapMm } from "../scene/pick.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
-import { textOf, type DrawingText } from "./drawing-text.js";
+import { textOf, type DrawingText } from "../backend/drawing-text.js";
 import type {
   ExportRequest,
   Planned,

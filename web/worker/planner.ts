@@ -8,7 +8,7 @@
  */
 import type { StrokeSet } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import type { DrawingText } from "./drawing-text.js";
+import type { DrawingText } from "../backend/drawing-text.js";
 import type { ExportFormat, PlanFault, Planned, WorkerReply, WorkerRequest } from "./protocol.js";
 import { markMoment } from "./moments.js";
 

@@ -19,7 +19,7 @@ import type { Frame, Picture } from "../scene/renderer.js";
 import type { Scene } from "../scene/scene.js";
 import type { SwingPicture } from "../scene/swing-scene.js";
 import type { CutOffPicture } from "./cut-off.js";
-import type { DrawingText } from "./drawing-text.js";
+import type { DrawingText } from "../backend/drawing-text.js";
 
 /** `drawingKey` identifies the text. The worker stores the last drawing, so the text is sent once. */
 export interface WorkerPlanRequest {

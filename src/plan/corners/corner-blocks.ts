@@ -7,7 +7,7 @@
  */
 import type { BlockColumns } from "../block-columns.js";
 import type { RunPath } from "../run-path.js";
-import { newStraight, writeStraight } from "./trapezoid.js";
+import { newStraight, writeStraight } from "../trapezoid.js";
 
 /** Above this sin(φ/2) a curve is only as long as A requires, because the speed in its middle is only v cos(φ/2). */
 const SHARP = 0.35;

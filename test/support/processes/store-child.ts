@@ -4,7 +4,7 @@
  */
 import { writeSync } from "node:fs";
 import { prepareDataDir } from "../../../server/storage/data-dir.js";
-import { applyJobEvent, type JobEvent } from "../../../host/queue/job-machine.js";
+import { applyJobEvent, type JobEvent } from "../../../host/queue/job-states.js";
 import { Store } from "../../../server/storage/store.js";
 import { drawingOf, makeJob } from "../jobs/jobs.js";
 import { pictureOf } from "./store-picture.js";

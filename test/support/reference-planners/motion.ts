@@ -6,7 +6,7 @@ import { BlockColumns } from "../../../src/plan/block-columns.js";
 import { ImpulseFilter, type Kernel } from "../../../src/plan/shaping/impulse-filter.js";
 import type { RunPath } from "../../../src/plan/run-path.js";
 import type { RunPlanner } from "../../../src/plan/run-writer.js";
-import { newStraight, writeStraight } from "../../../src/plan/corners/trapezoid.js";
+import { newStraight, writeStraight } from "../../../src/plan/trapezoid.js";
 import { distance, type Point, type ReferencePlanner } from "./polyline.js";
 
 /** Shorter straights are rounding errors, mm. */

@@ -1,5 +1,5 @@
 /** The page's backend without a server: a worker of the page, or of another tab, operates the plotter. */
-import { textOf, type DrawingText } from "../../worker/drawing-text.js";
+import { textOf, type DrawingText } from "../drawing-text.js";
 import { clientOf, OPERATIONS, type OperationGroup, type ServerEvent } from "../../../src/schema/index.js";
 import { BackendFault, type Backend } from "../backend.js";
 import { whyNoPort } from "./capabilities.js";

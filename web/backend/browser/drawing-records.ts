@@ -1,6 +1,6 @@
 /** The drawings of a browser's host, by id. */
 import { PlotwrightError } from "../../../src/index.js";
-import type { DrawingText } from "../../worker/drawing-text.js";
+import type { DrawingText } from "../drawing-text.js";
 import type { Records, StoreName } from "./database.js";
 import { browserText } from "./text.js";
 

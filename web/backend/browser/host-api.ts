@@ -5,7 +5,7 @@ import type { OperationHandlers, Plotter } from "../../../src/schema/index.js";
 import { hostOperations, type HostParts } from "../../../host/operations/host-operations.js";
 import type { Requester } from "../../../host/planning/lane.js";
 import { findPlotter } from "../../../host/queue/find-plotter.js";
-import type { DrawingText } from "../../worker/drawing-text.js";
+import type { DrawingText } from "../drawing-text.js";
 import { browserText } from "./text.js";
 
 interface BrowserParts extends Omit<HostParts, "storeText" | "jobBoxMm" | "log"> {

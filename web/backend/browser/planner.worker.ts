@@ -6,7 +6,7 @@ import { importDrawing } from "../../../src/index.js";
 import { prepareJob } from "../../../src/internal.js";
 import { faultOf, type FromWorker, type ToWorker } from "../../../host/planning/messages.js";
 import { answerOf, buffersOf, type ThreadInput } from "../../../host/planning/stages.js";
-import { textOf, type DrawingText } from "../../worker/drawing-text.js";
+import { textOf, type DrawingText } from "../drawing-text.js";
 
 /** The first message. All others are `ToWorker`. */
 export interface PlannerStart extends ThreadInput {

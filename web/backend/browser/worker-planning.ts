@@ -12,7 +12,7 @@ import {
   type PlannerThread,
 } from "../../../host/planning/open-planner.js";
 import type { Planning } from "../../../host/planning/planning.js";
-import type { DrawingText } from "../../worker/drawing-text.js";
+import type { DrawingText } from "../drawing-text.js";
 import { reasonOf } from "./worker-fault.js";
 import type { PlannerStart } from "./planner.worker.js";
 

@@ -11,7 +11,7 @@ import {
   type ServerEvent,
 } from "../../../src/schema/index.js";
 import { BackendFault, type Backend, type BackendListener } from "../backend.js";
-import { contentOf } from "../../worker/drawing-text.js";
+import { contentOf } from "../drawing-text.js";
 
 /** Texts of errors in requests to the server. */
 const serverText = {

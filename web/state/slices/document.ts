@@ -1,7 +1,7 @@
 /** The drawing on the paper, how it is plotted, and the steps back. Its actions: ../document-actions.ts, ../undo.ts. */
 import type { PaperSize } from "../../../src/internal.js";
 import type { PlotSettings, Preset } from "../../../src/schema/index.js";
-import type { DrawingText } from "../../worker/drawing-text.js";
+import type { DrawingText } from "../../backend/drawing-text.js";
 
 /** The drawing on the paper. */
 export interface OpenDrawing {

@@ -30,7 +30,7 @@ export type Tab = (typeof TABS)[number];
 
 /** Dialogs, one at a time. */
 export type DialogName =
-  "search" | "keys" | "about" | "machines" | "wizard" | "console" | "studio" | "ringing";
+  "search" | "keys" | "about" | "machines" | "wizard" | "console" | "sharing" | "ringing";
 
 export interface UiSlice {
   readonly view: ViewSettings;

@@ -5,7 +5,7 @@ import type { BlockColumns } from "../../../plan/block-columns.js";
 import { capSegments, type RunLimits } from "../../../plan/limits.js";
 import type { RunPath } from "../../../plan/run-path.js";
 import type { RunPlanner } from "../../../plan/run-writer.js";
-import { newStraight, writeStraight } from "../../../plan/corners/trapezoid.js";
+import { newStraight, writeStraight } from "../../../plan/trapezoid.js";
 import { axisLimits, type GrblController } from "./grbl-controller.js";
 import { moveOf, plannedSpeeds2, type GrblAxisLimits, type Move } from "./planner.js";
 

@@ -15,7 +15,7 @@ async function pairingPaths(server: ServerProcess): Promise<readonly string[]> {
 
 export const SHARING_STATES: readonly PageState[] = [
   ...(["Share", "Access", "Plotters", "Servers", "Webhooks", "Camera"] as const).map((section, index) => ({
-    name: `${17 + index}-studio-${section.toLowerCase()}`,
+    name: `${17 + index}-sharing-${section.toLowerCase()}`,
     isPassing: true as const,
     reach: async ({ page }: Stand): Promise<void> => {
       await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();

@@ -2,8 +2,8 @@
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import type { JobStore, PlotterStore } from "../../../../host/storage.js";
 import { JobList } from "../../../../host/queue/job-list.js";
-import { applyJobEvent, TRANSITIONS, type JobEvent } from "../../../../host/queue/job-machine.js";
-import { queuedJob } from "../../../../host/queue/job-machine.js";
+import { applyJobEvent, TRANSITIONS, type JobEvent } from "../../../../host/queue/job-states.js";
+import { queuedJob } from "../../../../host/queue/job-states.js";
 import { Store } from "../../../../server/storage/store.js";
 import { prepareDataDir } from "../../../../server/storage/data-dir.js";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../../../src/schema/index.js";

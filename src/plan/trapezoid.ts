@@ -10,7 +10,7 @@
  * own end speeds and exact length, (w1² − w0²)/2d, not from A, so that rounding never opens a gap between
  * blocks.
  */
-import type { BlockColumns } from "../block-columns.js";
+import type { BlockColumns } from "./block-columns.js";
 
 /** A change of speed² below this share of the peak is a rounding error, as is a cruise below this share of the straight. */
 const NEGLIGIBLE = 1e-11;

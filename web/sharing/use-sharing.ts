@@ -29,7 +29,7 @@ const attempts = (backend: Backend, { attempt }: Pick<Actions, "attempt">): Atte
     }),
   ) as unknown as Attempts;
 
-export const useStudio = (): Attempts => {
+export const useSharing = (): Attempts => {
   const backend = useBackend();
   const actions = useActions();
   return useMemo(() => attempts(backend, actions), [backend, actions]);

@@ -2,7 +2,7 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/index.js";
 import { ENDED_STATES, JOB_STATES, jobSchema, type Job } from "../../../src/schema/index.js";
-import { TRANSITIONS, applyJobEvent, type JobEvent } from "../../../host/queue/job-machine.js";
+import { TRANSITIONS, applyJobEvent, type JobEvent } from "../../../host/queue/job-states.js";
 import { makeJob } from "../../support/jobs/jobs.js";
 
 const NOW = "2026-05-01T12:00:00.000Z";

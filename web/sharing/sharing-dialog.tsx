@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { Sheet } from "../ui/dialog.js";
-import { studioText as words } from "./text.js";
+import { sharingText as words } from "./text.js";
 import { Segments, Select } from "../ui/fields/choice.js";
 import { AccessSection } from "./access-section.js";
 import { HooksSection } from "./hooks-section.js";
@@ -10,7 +10,7 @@ import { SharedSection } from "./shared-section.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { isCameraUrl } from "./camera.js";
-import "./studio.css";
+import "./sharing.css";
 
 const EVERY_S = [0, 1, 2, 5, 10, 30, 60] as const;
 
@@ -23,7 +23,7 @@ const CameraSection = () => {
   const isGood = wanted === "" || isCameraUrl(wanted);
   return (
     <form
-      className="studio-form"
+      className="sharing-form"
       onSubmit={(event) => {
         event.preventDefault();
         if (isGood) changeView({ cameraUrl: wanted });
@@ -66,7 +66,7 @@ type SectionName = keyof typeof SECTIONS;
 const NAMES = Object.keys(SECTIONS) as readonly SectionName[];
 
 /** The dialog for sharing, access, plotters, the shared queue, webhooks and the camera. */
-export const StudioDialog = () => {
+export const SharingDialog = () => {
   const [name, setName] = useState<SectionName>("share");
   const Section = SECTIONS[name];
   return (
