@@ -1,13 +1,13 @@
 /** Commands to a running server's queue. */
 import { basename } from "node:path";
-import { importDrawing } from "../../../src/index.js";
+import { importDrawing, PlotwrightError } from "../../../src/index.js";
 import { printableJson, sizeInWords, textOfBytes } from "../../../src/internal.js";
 import { ENDED_STATES, type Job, type PlotSettings } from "../../../src/schema/index.js";
 import { withLayerPens, withOnlyLayers, type PenChoice } from "../../planning/layers-by-name.js";
 import { readBytes } from "../../planning/read-drawing.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "../files.js";
-import { printed } from "../io.js";
-import { addData, addJson, addLayerOptions, copies, type Declare } from "../options.js";
+import { printed, type CliIo } from "../io.js";
+import { addJson, addLayerOptions, copies, type Declare } from "../options.js";
 import { minutes } from "../plan/plan.js";
 import {
   accessOf,
@@ -16,6 +16,7 @@ import {
   serverClient,
   serverState,
   type ServerAccess,
+  type ServerClient,
   type ServerState,
 } from "./server-client.js";
 import { machinesOf, plotterOf, storedOf } from "./served-plotter.js";
@@ -33,9 +34,7 @@ interface AddOptions extends Options {
 }
 
 export const declareAdd: Declare = (command, { io }) => {
-  addLayerOptions(
-    addData(addServer(addSettingOptions(command.argument("<files...>", "drawings; - for stdin")))),
-  )
+  addLayerOptions(addServer(addSettingOptions(command.argument("<files...>", "drawings; - for stdin"))))
     .option("--copies <number>", "number of times to plot each", copies, 1)
     .option("--plotter <name>", "which of the server's plotters, by name or id (default: its first one)")
     .option("--start", "start the first one, if nothing else is plotting")
@@ -52,8 +51,8 @@ export const declareAdd: Declare = (command, { io }) => {
         const plotterId = options.plotter === undefined ? undefined : plotter?.id;
         const added = await addDrawing(access, base, file, { copies, only, pen, plotterId });
         const isStarted = index === 0 && options.start === true;
-        const job = isStarted ? await serverClient(access).jobs.start(added.id) : added;
-        if (options.json === true) io.out(`${JSON.stringify(job)}\n`);
+        const job = isStarted ? await startIfFree(serverClient(access), added, options, io) : added;
+        if (options.json === true) io.out(`${printableJson(job)}\n`);
         if (options.json === true || options.quiet === true) continue;
         // The server says first that it plots on the plotter's machine, not on the one that was named.
         if (job.settings.machine !== base.machine) io.err(printed`note: ${job.warnings[0] ?? ""}\n`);
@@ -62,6 +61,20 @@ export const declareAdd: Declare = (command, { io }) => {
       }
     });
 };
+
+/** Returns the job as it is afterwards: while another one is plotted, it waits in the queue. */
+async function startIfFree({ jobs }: ServerClient, job: Job, { quiet }: AddOptions, io: CliIo): Promise<Job> {
+  try {
+    return await jobs.start(job.id);
+  } catch (error) {
+    const now = await jobs.get(job.id);
+    // A queue that runs on by itself may have started it already.
+    if (now.state !== "queued") return now;
+    if (!(error instanceof PlotwrightError) || error.code !== "busy") throw error;
+    if (quiet !== true) io.err(printed`note: ${job.name} waits in the queue: ${error.message}\n`);
+    return now;
+  }
+}
 
 interface AddedDrawing {
   readonly only?: readonly string[] | undefined;

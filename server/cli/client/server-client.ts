@@ -4,6 +4,7 @@ import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
 import { defaultDataDir } from "../../storage/data-dir.js";
 import { addressOfServer } from "../../storage/data-lock.js";
+import { addData } from "../options.js";
 import {
   apiErrorSchema,
   clientOf,
@@ -23,10 +24,10 @@ import {
 export const DEFAULT_URL = "http://127.0.0.1:9080";
 
 export const addServer = (command: Command): Command =>
-  command
+  addData(command)
     .option(
       "--url <url>",
-      `address of the server (default: the one on this computer, ${DEFAULT_URL})`,
+      `address of the server (default: the one that uses the data folder, or else ${DEFAULT_URL})`,
       serverUrl,
     )
     .addOption(new Option("--key <key>", "access key of a server on another computer").env("PLOTWRIGHT_KEY"));
@@ -108,7 +109,7 @@ async function send({ url, key }: ServerAccess, one: Operation, input: Operation
   const { code, message } = fault.data.error;
   const hint =
     response.status === 403 && key === undefined
-      ? " Or give an access key, with --key or in PLOTWRIGHT_KEY; make one on the server's page, under Sharing, Access."
+      ? " Or set the environment variable PLOTWRIGHT_KEY to an access key; make one on the server's page, under Sharing, Access."
       : "";
   throw new PlotwrightError(code, `The server at ${url} refused it: ${message}${hint}`);
 }
@@ -116,6 +117,10 @@ async function send({ url, key }: ServerAccess, one: Operation, input: Operation
 /** `cause`: the error of fetch, whose own cause has a code. */
 function noAnswer(url: string, cause: unknown): string {
   const code = String((cause as { cause?: { code?: unknown } }).cause?.code);
+  if (code === "ERR_TLS_CERT_ALTNAME_INVALID") {
+    const { hostname } = new URL(url);
+    return `The certificate of ${url} is for another name. Give the address with that name in --url, or add ${hostname} to the certificate for the commands without --url.`;
+  }
   if (/CERT|SIGNATURE/.test(code)) {
     return `The certificate of ${url} is not trusted (${code}). If it is your own, set the environment variable NODE_EXTRA_CA_CERTS to its file.`;
   }

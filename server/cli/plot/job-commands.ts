@@ -92,6 +92,7 @@ function jobOf(jobs: readonly Job[], wanted: string | undefined, usual: readonly
     if (others.length > 0 && job.state !== "queued") throw fault("Say which job", [job, ...others]);
     return job;
   }
+  if (wanted === "") throw fault("The name of the job is empty", jobs);
   const exact = jobs.find(({ id }) => id === wanted);
   if (exact !== undefined) return exact;
   const found = jobs.filter(({ id, name }) => id.startsWith(wanted) || name === wanted);

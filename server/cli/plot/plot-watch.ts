@@ -41,6 +41,7 @@ export async function watch(
     report.held(held, wait);
     if (wait !== null) control.waitsFor(wait);
     else if (held) control.paused();
+    else control.continued();
   });
   report.begins(resumed === null ? "Plotting" : "Resuming");
   if (isHeld) io.err(`${POSITIONS[resumed.position]} Enter resumes, Ctrl-C cancels.\n`);
@@ -102,6 +103,8 @@ export function cancelled(io: CliIo): number {
 class Control {
   private held: boolean;
   private cancelling = false;
+  /** A pause was asked for, and the plot is not held yet. */
+  private isPausing = false;
   isInterrupted = false;
   /** Rejects if a request fails. */
   readonly failed: Promise<never>;
@@ -125,6 +128,7 @@ class Control {
       this.run.cancel().catch(this.fail);
     } else {
       this.held = true;
+      this.isPausing = true;
       this.io.err("Paused. Enter resumes, Ctrl-C again cancels.\n");
       this.run.pause().catch(this.fail);
     }
@@ -143,6 +147,7 @@ class Control {
 
   /** The plot is held: by the user's key, or by the button on the machine. */
   paused(): void {
+    this.isPausing = false;
     if (this.held || this.isEnding) return;
     this.held = true;
     this.io.err(`Paused. ${this.io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
@@ -150,10 +155,18 @@ class Control {
 
   /** A planned stop, for another pen. */
   waitsFor({ penName, layerName }: PlotWait): void {
+    this.isPausing = false;
     if (this.isEnding) return;
     this.held = true;
     const what = penName === null ? `the pen for "${layerName}"` : `"${penName}" for "${layerName}"`;
     this.io.err(printed`Put in ${what}. ${this.io.hasKeyboard ? "Enter resumes, " : ""}Ctrl-C cancels.\n`);
+  }
+
+  /** The plot goes on, perhaps because somebody resumed it on the server's page: then Ctrl-C must pause again. */
+  continued(): void {
+    if (!this.held || this.isPausing || this.isEnding) return;
+    this.held = false;
+    this.io.err("Resumed.\n");
   }
 
   resume(): void {

@@ -104,6 +104,24 @@ describe("plotwright plot beside a running server", () => {
     expect(io.errText).toMatch(/Paused\. Enter resumes.*\n(.*\n)*Cancelling/);
   });
 
+  it("pauses at Ctrl-C although the plot was paused and resumed elsewhere before", async () => {
+    writeFileSync(file, LONG);
+    const io = new CaughtIo();
+    const plotted = cliWith(io, "plot", file, "--data", data);
+    await expect.poll(() => stateOf("a.svg")).toBe("plotting");
+    await there("pause");
+    await expect.poll(() => io.errText).toMatch(/Paused\. Enter resumes, Ctrl-C cancels\.\n/);
+    await there("resume");
+    await expect.poll(() => io.errText).toContain("Resumed.\n");
+    // The plot is not held any more, so Enter has nothing to resume.
+    io.line();
+    io.interrupt();
+    await expect.poll(() => stateOf("a.svg")).toBe("paused");
+    io.interrupt();
+    expect((await plotted).code).toBe(5);
+    expect(io.errText).toContain("Cancelling");
+  });
+
   it("stops for pens, which are answered here", async () => {
     const layers = ["Sky", "Sea"].map((name) => `<g inkscape:groupmode="layer" inkscape:label="${name}" stroke="black"><path d="M1 2h9"/></g>`); // prettier-ignore
     writeFileSync(
@@ -164,6 +182,37 @@ describe("a job of a running server", () => {
     // Not before the pen is up and home.
     await expect.poll(() => at("remove", id)).toMatchObject({ code: 0 });
     expect((await at("start", id)).err).toMatch(/The server has no job \S+\. It has none\./);
+  });
+
+  it("is found by the data folder of its server", async () => {
+    writeFileSync(file, LONG);
+    await there("add", file);
+    expect((await there("queue")).out).toContain("\tqueued\t");
+    expect((await there("start")).out).toContain("\tplotting\t");
+    expect((await there("cancel", "a.svg")).code).toBe(0);
+    expect((await there("follow", "a.svg")).code).toBe(5);
+  });
+
+  it("is added, and stays in the queue, while another is plotted", async () => {
+    writeFileSync(file, LONG);
+    await at("add", file, "--start");
+    const other = join(data, "b.svg");
+    writeFileSync(other, square(1));
+    const { code, out, err } = await at("add", other, file, "--start");
+    expect(err).toMatch(/^note: b\.svg waits in the queue: .*"a\.svg" is being plotted\..*\n/);
+    expect(out).toMatch(/^\S+\tb\.svg\t.*\n\S+\ta\.svg\t.*\n$/);
+    expect(code).toBe(0);
+    expect((await jobs()).map(({ name, state }) => [name, state])).toEqual([
+      ["a.svg", "plotting"],
+      ["b.svg", "queued"],
+      ["a.svg", "queued"],
+    ]);
+  });
+
+  it("is not meant by an empty name", async () => {
+    await at("add", file);
+    expect((await at("remove", "")).err).toMatch(/^plotwright: The name of the job is empty\./);
+    expect(await jobs()).toHaveLength(1);
   });
 
   it("is followed to its end, or until Ctrl-C, which changes nothing", async () => {
