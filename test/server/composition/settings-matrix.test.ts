@@ -301,7 +301,7 @@ describe.each(CASES)("a plotter that is a %s with heights %o", (model, heights) 
       // A plotter with a job takes none from the shared queue.
       await send(server.url, "DELETE", `/jobs/${job.id}`);
       const own = { ...huge, id: model };
-      const far = { paper: { widthMm: 900, heightMm: 900 }, place: { xMm: 800, yMm: 800 } };
+      const far = { paper: { widthMm: 900, heightMm: 900 }, layout: { xMm: 800, yMm: 800 } };
       for (const settings of [other, { machine: model, customMachine: own }]) {
         const body = { name: "far", drawing: SVG, settings: { ...settings, prepare: far } };
         const refusal = await send(server.url, "POST", "/jobs", body);
@@ -396,7 +396,7 @@ describe("a plotter whose model is not set", () => {
         }
         const log = await (await send(server.url, "GET", "/plotters/main/log")).text();
         expect(servoLinesIn(log).sort()).toEqual(servoLines("axidraw-v3", USUAL).sort());
-        const far = { paper: { widthMm: 850, heightMm: 590 }, place: { xMm: 500, yMm: 300 } };
+        const far = { paper: { widthMm: 850, heightMm: 590 }, layout: { xMm: 500, yMm: 300 } };
         const refusal = await post("/jobs", { ...job, settings: { machine: "nextdraw-2234", prepare: far } });
         expect([refusal.status, await refusal.text()]).toEqual([422, expect.stringContaining("AxiDraw V3")]);
         expect((await post("/plotters/main/move-to", { xMm: 500, yMm: 30, settings: other })).status).toBe(

@@ -58,7 +58,7 @@ const settings = fc.record({
   fit: fc.constantFrom("auto" as const, true, false),
   rotateDeg: fc.constantFrom("auto" as const, 0, 90, 33, 180, -90),
   mirror: fc.constantFrom("none" as const, "leftRight" as const, "upDown" as const),
-  place: fc.option(
+  layout: fc.option(
     fc.record({
       xMm: fc.integer({ min: -50, max: 200 }),
       yMm: fc.integer({ min: -50, max: 200 }),

@@ -72,7 +72,7 @@ describe("the page's stored settings", () => {
       prepare: {
         ...kept.prepare,
         smoothRounds: 6,
-        place: { xMm: "far", yMm: 3 },
+        layout: { xMm: "far", yMm: 3 },
         layerRepeats: { sky: 2, sea: 99 },
       },
       motion: {
