@@ -18,7 +18,7 @@ import { lookAhead } from "./corners/look-ahead.js";
 import { mergeBlocks, SHAPED_RULES, type MergeRules } from "./merge.js";
 import { RunPath } from "./run-path.js";
 import { filteredPlan, stopsAreFaster } from "./corners/scurve.js";
-import type { FitSettings, MotionMode } from "../settings/motion.js";
+import { CORNER_RULES, type FitSettings, type MotionMode } from "../settings/motion.js";
 
 /** Writes the blocks of one run, from rest to rest. Called once for each run, in order. */
 export interface RunPlanner {
@@ -30,7 +30,7 @@ export interface RunPlanner {
 type CornerRule = (path: RunPath, limits: RunLimits) => void;
 
 /** The rule of each mode. `scurve` filters the blocks of `blend`. */
-const CORNER_RULES: Readonly<Record<MotionMode, CornerRule>> = {
+const CORNER_PLANNERS: Readonly<Record<MotionMode, CornerRule>> = {
   junction: limitJunctions,
   blend: limitBlends,
   scurve: limitBlends,
@@ -55,7 +55,7 @@ export class RunWriter implements RunPlanner {
       toleranceMm: fit.toleranceMm,
       shortToleranceMm: fit.toleranceMm,
       floorS: fit.floorMs / 1_000,
-      isSmooth: mode !== "junction",
+      isSmooth: CORNER_RULES[mode].isRounded,
       isShaped: false,
     };
   }
@@ -118,7 +118,7 @@ export class RunWriter implements RunPlanner {
   private writeBlocks(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     const first = out.count;
     capSegments(path, limits);
-    CORNER_RULES[this.mode](path, limits);
+    CORNER_PLANNERS[this.mode](path, limits);
     lookAhead(path, limits.accel);
     writeCornerBlocks(path, limits.accel, out);
     if (this.rules !== null && path.segmentCount > 1) {

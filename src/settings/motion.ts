@@ -4,22 +4,26 @@ import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } fro
 /**
  * The motion settings: one set of limits with the pen down (`draw`), one with the pen up (`travel`).
  *
- * `CORNER_RULES` has the page's words for the corner rules; src/plan/run-writer.ts has their planners.
+ * `CORNER_RULES` has the page's words for the corner rules, and whether the line is rounded at corners;
+ * src/plan/run-writer.ts has their planners.
  */
 export const CORNER_RULES = {
   junction: {
     label: "Exact",
     hint: "Slows down for every corner and turns exactly at its point. The line is exactly the file’s.",
+    isRounded: false,
   },
   blend: {
     label: "Rounded",
     hint: "Draws corners as tiny curves: faster, quieter, and the pen never jerks.",
+    isRounded: true,
   },
   scurve: {
     label: "Gentle",
     hint: "Like Rounded, and also speeds up and slows down softly. Best for brush pens and tall machines.",
+    isRounded: true,
   },
-} as const;
+} as const satisfies Record<string, { label: string; hint: string; isRounded: boolean }>;
 /** How corners are taken: at once, rounded, or rounded with limited jerk. */
 export type MotionMode = keyof typeof CORNER_RULES;
 export const MOTION_MODES = Object.keys(CORNER_RULES) as readonly MotionMode[];

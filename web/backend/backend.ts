@@ -17,8 +17,12 @@ export class BackendFault extends Error {
   }
 }
 
-export type JobAction =
-  "start" | "pause" | "resume" | "cancel" | "requeue" | "emergency-stop" | "recover" | "check-place";
+type Jobs = OperationClient["jobs"];
+/** The operations that change a job and need no further data. */
+export type JobAction = Exclude<
+  { [Name in keyof Jobs]: Jobs[Name] extends (id: string) => Promise<Job> ? Name : never }[keyof Jobs],
+  "get"
+>;
 
 /** A drawing that the backend stores. */
 export interface DrawingSource {

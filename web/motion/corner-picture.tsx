@@ -1,4 +1,4 @@
-import type { MotionMode } from "../../src/internal.js";
+import { CORNER_RULES, type MotionMode } from "../../src/internal.js";
 
 /**
  * A picture of how a mode draws a corner: the line, and dots at equal times. Close dots mean slow.
@@ -34,17 +34,17 @@ interface Shares {
   readonly curve: readonly number[];
 }
 const ROUNDED: Shares = { straight: [0, 0.45, 0.85], curve: [0.18, 0.5, 0.82] };
-/** A mode without an entry is drawn as rounded. */
+const EXACT: Shares = { straight: [0, 0.36, 0.64, 0.84, 0.96], curve: [] };
+/** Modes that differ from these two. */
 const SHARES: Partial<Record<MotionMode, Shares>> = {
-  junction: { straight: [0, 0.36, 0.64, 0.84, 0.96], curve: [] },
   scurve: { straight: [0, 0.42, 0.72, 0.91], curve: [0.1, 0.3, 0.5, 0.7, 0.9] },
 };
 
-const isExact = (mode: MotionMode): boolean => mode === "junction";
+const isExact = (mode: MotionMode): boolean => !CORNER_RULES[mode].isRounded;
 
 const dotsOf = (mode: MotionMode): [number, number][] => {
   const [cornerX, cornerY] = CORNER;
-  const { straight, curve } = SHARES[mode] ?? ROUNDED;
+  const { straight, curve } = SHARES[mode] ?? (isExact(mode) ? EXACT : ROUNDED);
   const endX = isExact(mode) ? cornerX : CURVE_FROM_X;
   const startY = isExact(mode) ? cornerY : CURVE_TO_Y;
   const before = straight.map((share): [number, number] => [START_X + share * (endX - START_X), cornerY]);
