@@ -166,7 +166,7 @@ function planned(
     layers: [{ id: "all", name: "All", color: null }],
   };
   const [startX, startY] = points[0];
-  const motion: MotionSettings = { mode, draw: DRAW, travel: DRAW, ...other };
+  const motion: MotionSettings = { mode, draw: DRAW, travel: DRAW, fit: null, ...other };
   return plan(strokes, motion, DEFAULT_PEN, { startX, startY, returnHome: false, machine });
 }
 

@@ -94,6 +94,7 @@ describe("limits of single axes", () => {
 
   const motion: MotionSettings = {
     mode: "blend",
+    fit: null,
     draw: { speedMmPerS: 100, accelMmPerS2: 1_000, cornerMm: 0.025, jerkMmPerS3: 1 },
     travel: { speedMmPerS: 100, accelMmPerS2: 1_000, cornerMm: 0.5, jerkMmPerS3: 1 },
   };

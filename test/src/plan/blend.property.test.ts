@@ -34,7 +34,9 @@ describe("a plan in blend mode", () => {
     fc.assert(
       fc.property(fc.oneof(wavy, arbitraryStroke), arbitraryLimits, (points, draw) => {
         const strokes = strokesOf(points);
-        const t = plan(strokes, { mode: "blend", draw, travel: draw }, DEFAULT_PEN, { returnHome: false });
+        const t = plan(strokes, { mode: "blend", draw, travel: draw, fit: null }, DEFAULT_PEN, {
+          returnHome: false,
+        });
         const run = Array.from(t.runs.stroke).indexOf(0);
         const size = Math.max(...points.flat().map(Math.abs), 1);
         const worst = worstOf(t, strokes, draw, draw, draw.cornerMm);
@@ -65,7 +67,7 @@ describe("a plan that resumes with the pen beside its line", () => {
         const [startX, startY] = [x + DELTA * Math.cos(way), y + DELTA * Math.sin(way)];
         const options = { from, startX, startY, penOffsetMm: 1.01 * DELTA, returnHome: false };
         for (const mode of ["junction", "blend", "scurve"] as const) {
-          const t = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, options);
+          const t = plan(strokes, { mode, draw, travel: draw, fit: null }, DEFAULT_PEN, options);
           expect(Array.from(t.runs.stroke)).toEqual([0]);
           expect(penMovesOf(t).map(({ up }) => up)).toEqual([false, true]);
           expect(Math.hypot(t.x[0] - startX, t.y[0] - startY)).toBeLessThan(1e-9);
@@ -73,7 +75,7 @@ describe("a plan that resumes with the pen beside its line", () => {
           expect(worst.accel).toBeLessThanOrEqual(1.001);
           expect(worst.gap).toBeLessThanOrEqual(1e-9);
           expect(worst.distance).toBeLessThanOrEqual(draw.cornerMm * 1.0001 + DELTA + MAX_MOVED_MM);
-          const away = plan(strokes, { mode, draw, travel: draw }, DEFAULT_PEN, {
+          const away = plan(strokes, { mode, draw, travel: draw, fit: null }, DEFAULT_PEN, {
             ...options,
             penOffsetMm: 0.99 * DELTA,
           });

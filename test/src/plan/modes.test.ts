@@ -74,7 +74,7 @@ describe("fitting", () => {
   });
 
   it("leaves a polygon's blocks as they are", () => {
-    const motion: MotionSettings = { mode: "blend", draw, travel: draw };
+    const motion: MotionSettings = { mode: "blend", draw, travel: draw, fit: null };
     const plain = plan(strokeSetOf([square]), motion, DEFAULT_PEN);
     const merged = plan(strokeSetOf([square]), { ...motion, fit: DEFAULT_FIT }, DEFAULT_PEN);
     expect(merged.blockCount).toBe(plain.blockCount);
@@ -91,7 +91,7 @@ describe("corners", () => {
   ];
 
   it("in blend mode are one block: a right angle is passed at v² = 4 A δ, δ inside the corner", () => {
-    const t = plan(strokeSetOf([corner]), { mode: "blend", draw, travel: draw }, DEFAULT_PEN);
+    const t = plan(strokeSetOf([corner]), { mode: "blend", draw, travel: draw, fit: null }, DEFAULT_PEN);
     const k = Array.from({ length: t.blockCount }, (_, i) => i).find((i) => t.ax[i] < -1 && t.ay[i] > 1)!;
     expect(Math.hypot(t.vx[k], t.vy[k]) ** 2).toBeCloseTo(4 * 1000 * 0.05, 6);
     expect(Math.hypot(t.ax[k], t.ay[k])).toBeCloseTo(1000, 6);
@@ -129,7 +129,7 @@ describe("corners", () => {
 
   it("in scurve mode with hardly any limit on jerk take as long as in blend mode", () => {
     const time = (mode: MotionMode) =>
-      plan(strokeSetOf([corner]), { mode, draw, travel: draw }, DEFAULT_PEN).totalS;
+      plan(strokeSetOf([corner]), { mode, draw, travel: draw, fit: null }, DEFAULT_PEN).totalS;
     expect(time("scurve") / time("blend")).toBeCloseTo(1, 3);
   });
 });

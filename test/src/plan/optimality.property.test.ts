@@ -90,7 +90,7 @@ function pathOf(points: readonly Point[]): RunPath {
 }
 
 function planned(points: readonly Point[], mode: MotionMode, draw: MotionLimits) {
-  return plan(strokeSetOf([points]), { mode, draw, travel: draw }, NO_PEN, { returnHome: false });
+  return plan(strokeSetOf([points]), { mode, draw, travel: draw, fit: null }, NO_PEN, { returnHome: false });
 }
 
 /**

@@ -17,7 +17,12 @@ import { MAX_MOVED_MM } from "../../../src/plan/resample.js";
 
 const RUNS = { numRuns: cases() };
 const motionIn = (mode: MotionMode): fc.Arbitrary<MotionSettings> =>
-  fc.record({ mode: fc.constant(mode), draw: arbitraryLimits, travel: arbitraryLimits });
+  fc.record({
+    mode: fc.constant(mode),
+    draw: arbitraryLimits,
+    travel: arbitraryLimits,
+    fit: fc.constant(null),
+  });
 
 describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
   const arbitraryMotion = motionIn(mode);
@@ -172,7 +177,7 @@ describe("an scurve plan", () => {
           heading += 10 ** exponent;
         }
         const strokes = strokeSetOf([points]);
-        const trajectory = plan(strokes, { mode: "scurve", draw, travel: draw }, DEFAULT_PEN);
+        const trajectory = plan(strokes, { mode: "scurve", draw, travel: draw, fit: null }, DEFAULT_PEN);
         expect(worstOf(trajectory, strokes, draw, draw, 1).gap).toBeLessThanOrEqual(1e-9);
       }),
       RUNS,

@@ -32,7 +32,8 @@ describe.each(cases)("an isolated corner of $deg° at $speed mm/s", ({ deg, spee
   function drawS(mode: MotionMode, points: readonly Point[]): number {
     const draw = { speedMmPerS: speed, accelMmPerS2: accel, cornerMm: deviation, jerkMmPerS3: 1e4 };
     const noPen = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
-    return plan(strokeSetOf([points]), { mode, draw, travel: draw }, noPen, { returnHome: false }).totalS;
+    return plan(strokeSetOf([points]), { mode, draw, travel: draw, fit: null }, noPen, { returnHome: false })
+      .totalS;
   }
 });
 

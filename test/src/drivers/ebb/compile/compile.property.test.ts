@@ -33,7 +33,7 @@ describe("a compiled plan on the virtual board", () => {
           limits,
           limits,
           (strokes, mode, draw, travel) => {
-            const trajectory = plan(strokeSetOf(strokes), { mode, draw, travel }, DEFAULT_PEN);
+            const trajectory = plan(strokeSetOf(strokes), { mode, draw, travel, fit: null }, DEFAULT_PEN);
             const fast = new FastBoard(firmware, machineById("axidraw-v3"), DEFAULT_PEN);
             const stream = fast.compile(trajectory);
             const { boardS, firstWrong } = fast.play(stream);

@@ -35,7 +35,7 @@ describe("slices of any plan", () => {
   it("stay close to it in place and time, and end on its last step", () => {
     fc.assert(
       fc.property(drawing, ({ strokes, mode, draw, travel, pen }) => {
-        const trajectory = plan(strokeSetOf(strokes), { mode, draw, travel }, pen);
+        const trajectory = plan(strokeSetOf(strokes), { mode, draw, travel, fit: null }, pen);
         const stream = compile(trajectory, { machine, firmware: "2.4.4", pen });
         expect(Math.abs(stream.boardS[stream.count] - trajectory.totalS)).toBeLessThan(0.01);
         let steps1 = 0;
