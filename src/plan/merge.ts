@@ -13,6 +13,7 @@
  *
  *   |w| ≤ V and |a₁|, |a₂| ≤ A     (velocity is linear in each half, so the extremes are at the ends)
  *   it deviates from the planned line by at most ε
+ *   it is slower than the slowest of its blocks by at most MAX_DIP
  *
  * At each block, start with a group as long as the one merged just before, or else with the shortest. The group grows
  * until it fails, or shrinks until it passes (greedy, no backtracking). Linear in the number of blocks.
@@ -26,6 +27,9 @@ import type { RunEnd } from "./run-path.js";
 
 /** A pair may take longer than the blocks that it replaces by this share. */
 const STRETCH = 0.012;
+
+/** A pair may be slower than the slowest of its blocks by this share. */
+const MAX_DIP = 0.04;
 
 /** Longest pair, s: the position along the drawing is only interpolated inside a block. */
 const LONGEST_S = 0.6;
@@ -124,7 +128,9 @@ function mergeGroup(
 function pairTime(blocks: BlockColumns, i: number, m: number, limits: RunLimits, rules: MergeRules): number {
   if (!isWorthMerging(blocks, i, m, rules.floorS)) return 0;
   const wholeS = allowedTime(blocks, i, m, limits, rules);
-  return wholeS > 0 && isNear(blocks, i, m, wholeS, limits, rules) ? wholeS : 0;
+  const isAllowed =
+    wholeS > 0 && isNear(blocks, i, m, wholeS, limits, rules) && isFastEnough(blocks, i, m, wholeS);
+  return isAllowed ? wholeS : 0;
 }
 
 /** One axis of the pair's velocity in its middle. */
@@ -251,6 +257,35 @@ function isNear(
     if (across / Math.sqrt(v2) + (accel * along * along) / (v2 * v2) > tolerance) return false;
   }
   return true;
+}
+
+/**
+ * Whether the pair is slower than the slowest of its blocks by at most MAX_DIP. A pair that cuts a tight bend inside ε can
+ * be much slower there, which shows as a heavier line.
+ */
+function isFastEnough(blocks: BlockColumns, i: number, m: number, wholeS: number): boolean {
+  const { durationS, x, y, vx, vy, ax, ay } = blocks;
+  const wx = middleVelocity(x[m] - x[i], vx[i], vx[m], wholeS);
+  const wy = middleVelocity(y[m] - y[i], vy[i], vy[m], wholeS);
+  const pair2 = Math.min(lowestSpeed2(vx[i], vy[i], wx, wy), lowestSpeed2(wx, wy, vx[m], vy[m]));
+  const allowed2 = pair2 / (1 - MAX_DIP) ** 2;
+  for (let k = i; k <= m; k++) {
+    const d = durationS[k];
+    if (lowestSpeed2(vx[k], vy[k], vx[k] + d * ax[k], vy[k] + d * ay[k]) <= allowed2) return true;
+  }
+  return false;
+}
+
+/** The lowest speed² while the velocity changes evenly from v to w: the distance² of its straight from 0. */
+function lowestSpeed2(vx: number, vy: number, wx: number, wy: number): number {
+  const changeX = wx - vx;
+  const changeY = wy - vy;
+  const fromV = -(vx * changeX + vy * changeY);
+  const change2 = changeX * changeX + changeY * changeY;
+  if (fromV <= 0) return vx * vx + vy * vy;
+  if (fromV >= change2) return wx * wx + wy * wy;
+  const across = vx * wy - vy * wx;
+  return (across * across) / change2;
 }
 
 /** Writes the pair over blocks i and i + 1. The others of [i, m) get zero duration, so that they are removed later. */

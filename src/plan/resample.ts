@@ -3,16 +3,20 @@
  * nothing, but each would get a corner speed: a point 1 µm beside a line would stop the pen.
  *
  *   1. thin      a point is dropped if the line without it stays within TOLERANCE of it
- *   2. even out  the remaining points of a smooth line move along it, until their distances change only gradually
- *   3. average   each then moves to the mean of the line around it, where the errors of single points cancel
+ *   2. sharpen   each remaining point moves to the point of the drawing that is farthest from the chord between its
+ *                neighbours: to the very corner, or to the middle of an arc. It stays if the line would then miss it
+ *   3. even out  the points of a smooth line move along it, until their distances change only gradually
+ *   4. average   each of these then moves to the mean of the line around it, where the errors of single points cancel
  *
  * Thinning is the cone test of Imai and Iri (1988). From the last kept point, each point leaves a cone of directions that
  * pass it within TOLERANCE. A point outside the intersection of these cones ends the segment.
  *
- *                 ______------      A corner is a point that the mean would move by more than TOLERANCE, so it stays.
- *     kept ·  <  ·   ·    ·         Without steps 2 and 3 the turns of a dense curve would depend on which of its points
- *                 ‾‾‾‾‾‾------      were kept, and would vary by a fifth.
+ *                 ______------      Points beside the line decide which points are kept. Without sharpening, a corner
+ *     kept ·  <  ·   ·    ·         would move by TOLERANCE over its turn. Without steps 3 and 4 the turns of a dense
+ *                 ‾‾‾‾‾‾------      curve would vary by a fifth.
  *
+ * A line is smooth at a point that the mean would move by less than TOLERANCE/2. From there to three times that, the point
+ * moves less and less, since a strict limit would treat neighbours differently. Beyond that it is a corner and stays.
  * A drawing of segments that are long or turn clearly is not changed at all. Linear in the number of points.
  */
 import { RunPath, SHORTEST_MM } from "./run-path.js";
@@ -22,9 +26,6 @@ const TOLERANCE = 0.004;
 /** The new line leaves the drawing by less than this, mm. */
 export const MAX_MOVED_MM = 0.015;
 const TOLERANCE2 = TOLERANCE * TOLERANCE;
-
-/** A point is not smooth if the line is sampled this many times more densely on one side of it than on the other. */
-const MAX_RATIO = 3;
 
 /** Times that points are moved towards the middle of their neighbours. */
 const EVENING_ROUNDS = 4;
@@ -37,11 +38,11 @@ export class Resampler {
   private x = new Float64Array(0);
   private y = new Float64Array(0);
   private along = new Float64Array(0);
-  /** The kept points: index in the line, mm along it, and 1 if the line is smooth there. */
+  /** The kept points: index in the line, mm along it, and how smooth the line is there: 0 (a corner) to 1. */
   private kept = new Uint32Array(0);
   private at = new Float64Array(0);
   private moved = new Float64Array(0);
-  private isSmooth = new Uint8Array(0);
+  private smooth = new Float64Array(0);
   /** The segment in which the next mean begins. Means are computed in order. */
   private segment = 0;
   private meanX = 0;
@@ -51,10 +52,9 @@ export class Resampler {
   resample(path: RunPath): void {
     if (path.segmentCount < 2) return;
     this.load(path);
-    const last = this.thin(path.segmentCount);
-    const smoothCount = this.findSmooth(last);
-    if (smoothCount === 0 && last === path.segmentCount) return;
-    if (smoothCount > 0) this.evenOut(last);
+    const last = this.sharpen(this.thin(path.segmentCount));
+    this.measureSmoothness(last);
+    this.evenOut(last);
     this.write(path, last);
   }
 
@@ -120,36 +120,76 @@ export class Resampler {
     return last;
   }
 
-  /** Returns how many points are smooth. */
-  private findSmooth(last: number): number {
-    const { x, y, kept, at, isSmooth } = this;
-    isSmooth[0] = isSmooth[last] = 0;
-    this.segment = 0;
+  /** Step 2. Leaves out points that are not needed any more. Returns the new index of the last point. */
+  private sharpen(last: number): number {
+    const { along, kept, at } = this;
     let count = 0;
+    let isLeftOut = false;
     for (let i = 1; i < last; i++) {
-      isSmooth[i] = 0;
-      const before = at[i] - at[i - 1];
-      const after = at[i + 1] - at[i];
-      if (before > MAX_RATIO * after || after > MAX_RATIO * before) continue;
-      this.findMean(i);
-      const dx = this.meanX - x[kept[i]];
-      const dy = this.meanY - y[kept[i]];
-      if (dx * dx + dy * dy > TOLERANCE2) continue;
-      isSmooth[i] = 1;
-      count++;
+      const farthest = this.farthest(kept[count], kept[i + 1]);
+      // Never two in a row, so that the search is linear.
+      isLeftOut = farthest === -1 && !isLeftOut;
+      if (isLeftOut) continue;
+      const own = kept[i];
+      // The line must still pass the old point, or it would cut the corner.
+      const [from, to] = farthest < own ? [farthest, kept[i + 1]] : [kept[count], farthest];
+      const canMove = farthest !== -1 && this.offChord2(own, from, to) <= TOLERANCE2;
+      kept[++count] = canMove ? farthest : own;
+      at[count] = along[kept[count]];
     }
+    kept[++count] = kept[last];
+    at[count] = at[last];
     return count;
   }
 
-  /** Step 2. A point moves so little that the line from it to its neighbours still follows the drawing. */
+  /** The point farthest from the chord between two points of the line; -1 if all are within TOLERANCE of it. */
+  private farthest(first: number, end: number): number {
+    let farthest = -1;
+    let far2 = TOLERANCE2;
+    for (let j = first + 1; j < end; j++) {
+      const away2 = this.offChord2(j, first, end);
+      if (away2 <= far2) continue;
+      far2 = away2;
+      farthest = j;
+    }
+    return farthest;
+  }
+
+  /** The distance² of a point of the line from the chord between two others. */
+  private offChord2(point: number, first: number, end: number): number {
+    const { x, y } = this;
+    const cx = x[end] - x[first];
+    const cy = y[end] - y[first];
+    const dx = x[point] - x[first];
+    const dy = y[point] - y[first];
+    const c2 = cx * cx + cy * cy;
+    const share = c2 === 0 ? 0 : Math.max(0, Math.min(1, (dx * cx + dy * cy) / c2));
+    const awayX = dx - share * cx;
+    const awayY = dy - share * cy;
+    return awayX * awayX + awayY * awayY;
+  }
+
+  private measureSmoothness(last: number): void {
+    const { x, y, kept, smooth } = this;
+    smooth[0] = smooth[last] = 0;
+    this.segment = 0;
+    for (let i = 1; i < last; i++) {
+      smooth[i] = 0;
+      this.findMean(i);
+      const movedMm = Math.hypot(this.meanX - x[kept[i]], this.meanY - y[kept[i]]);
+      smooth[i] = Math.max(0, Math.min(1, 1.5 - movedMm / TOLERANCE));
+    }
+  }
+
+  /** Step 3. A point moves so little that the line from it to its neighbours still follows the drawing. */
   private evenOut(last: number): void {
-    const { along, kept, at, moved, isSmooth } = this;
+    const { along, kept, at, moved, smooth } = this;
     for (let round = 0; round < EVENING_ROUNDS; round++) {
       moved.set(at.subarray(0, last + 1));
       for (let i = 1; i < last; i++) {
-        if (isSmooth[i] === 0) continue;
+        if (smooth[i] === 0) continue;
         const own = along[kept[i]];
-        const most = Math.min(own - along[kept[i - 1]], along[kept[i + 1]] - own) * MAX_MOVE;
+        const most = Math.min(own - along[kept[i - 1]], along[kept[i + 1]] - own) * MAX_MOVE * smooth[i];
         const wanted = (at[i - 1] + 2 * at[i] + at[i + 1]) / 4;
         moved[i] = Math.max(own - most, Math.min(own + most, wanted));
       }
@@ -157,19 +197,19 @@ export class Resampler {
     }
   }
 
-  /** Step 3, and the lengths of the new segments. */
+  /** Step 4, and the lengths of the new segments. */
   private write(path: RunPath, last: number): void {
-    const { x, y, kept, at, isSmooth } = this;
+    const { x, y, kept, at, smooth } = this;
     this.segment = 0;
     let count = 0;
     let begin = 0;
     for (let i = 1; i <= last; i++) {
       let px = x[kept[i]];
       let py = y[kept[i]];
-      if (isSmooth[i] === 1) {
+      if (smooth[i] > 0) {
         this.findMean(i);
-        px = this.meanX;
-        py = this.meanY;
+        px += smooth[i] * (this.meanX - px);
+        py += smooth[i] * (this.meanY - py);
       }
       const isNew = Math.hypot(px - path.x[count], py - path.y[count]) >= 2 * SHORTEST_MM;
       if (isNew) {
@@ -230,6 +270,6 @@ export class Resampler {
     this.kept = new Uint32Array(size);
     this.at = new Float64Array(size);
     this.moved = new Float64Array(size);
-    this.isSmooth = new Uint8Array(size);
+    this.smooth = new Float64Array(size);
   }
 }

@@ -33,25 +33,36 @@ const STRAIGHT = 1e-12;
 
 /** Fills `path.v2` with the max speed² at every corner (0 at both ends), and its `sine` and `tangent`. */
 export function limitBlends(path: RunPath, { accel, corner }: RunLimits): void {
-  const { segmentCount: n, length, ux, uy, cap2, v2, sine, tangent } = path;
-  v2[0] = sine[0] = tangent[0] = 0;
-  v2[n] = sine[n] = tangent[n] = 0;
+  const { segmentCount: n, cap2, v2, sine, tangent } = path;
+  v2[0] = tangent[0] = 0;
+  v2[n] = tangent[n] = 0;
+  fillSines(path);
+  for (let i = 1; i < n; i++) {
+    const s = sine[i];
+    v2[i] = Math.min(cap2[i - 1], cap2[i]);
+    tangent[i] = 0;
+    if (s === 0) continue;
+    tangent[i] = Math.min((2 * corner) / s, shareOfSegments(path, i, corner));
+    v2[i] = Math.min(v2[i], (accel * tangent[i]) / s);
+  }
+}
+
+/** Fills `path.sine`; 0 at both ends and where the line is straight. */
+export function fillSines({ segmentCount: n, ux, uy, sine }: RunPath): void {
+  sine[0] = sine[n] = 0;
   for (let i = 1; i < n; i++) {
     const bx = ux[i] - ux[i - 1];
     const by = uy[i] - uy[i - 1];
     const s = Math.sqrt(bx * bx + by * by) / 2;
     sine[i] = s > STRAIGHT ? s : 0;
   }
-  for (let i = 1; i < n; i++) {
-    const s = sine[i];
-    v2[i] = Math.min(cap2[i - 1], cap2[i]);
-    tangent[i] = 0;
-    if (s === 0) continue;
-    const before = partOf(length[i - 1], s, sine[i - 1], corner);
-    const after = partOf(length[i], s, sine[i + 1], corner);
-    tangent[i] = Math.min((2 * corner) / s, before, after);
-    v2[i] = Math.min(v2[i], (accel * tangent[i]) / s);
-  }
+}
+
+/** mm that corner i may use of each segment beside it. */
+export function shareOfSegments({ length, sine }: RunPath, i: number, corner: number): number {
+  const before = partOf(length[i - 1], sine[i], sine[i - 1], corner);
+  const after = partOf(length[i], sine[i], sine[i + 1], corner);
+  return Math.min(before, after);
 }
 
 /** mm of a segment for the corner with sine `s`; the corner at the segment's other end has sine `other`. */

@@ -4,26 +4,25 @@
  *
  * Source: Sungeun K. Jeon (2011), as used in Grbl: replace the corner by a circle of radius R that is tangent
  * to both segments and passes the vertex at distance δ; then v² = A R. The second limit, the circle that is
- * tangent at half the shorter segment, is Klipper's. Without it a finely sampled curve would have no speed
- * limit, since φ goes to 0 as the segments shrink.
+ * tangent within the segments, is Klipper's. Without it a finely sampled curve would have no speed limit, since φ
+ * goes to 0 as the segments shrink. Klipper's circle begins at half the shorter segment; here two vertices share
+ * a segment as in `blend` (blend-rule.ts), so that uneven samples of a curve do not slow it.
  *
  *   u0, u1   unit directions before and after      φ   turn angle, cos φ = u0·u1 (0 straight on, π back)
  *   δ        deviation, mm                   A   acceleration, mm/s²
- *   ℓ        shorter of the two segments, mm
+ *   L        share of the segments, mm
  *
  *                    u1 /          with c = cos(φ/2), s = sin(φ/2):
  *                      /             R = δ c / (1 − c) = δ c (1 + c) / s²
- *       u0           ,'              v² ≤ A R,  v² ≤ A (ℓ/2) c / s
+ *       u0           ,'              v² ≤ A R,  v² ≤ A L c / s
  *     ------------·´ φ
  *
  * s and c come from |u1 − u0| = 2 s and |u1 + u0| = 2 c. This keeps full precision for the tiny turns of
  * dense curves, where 1 − cos φ would cancel. A straight line has no limit; a reversal is a full stop.
  */
+import { fillSines, shareOfSegments } from "./blend-rule.js";
 import type { RunLimits } from "../limits.js";
 import type { RunPath } from "../run-path.js";
-
-/** Below this sin²(φ/2) a vertex counts as straight: its limit would be far above the speed limit. */
-const STRAIGHT = 1e-24;
 
 /** cos²(φ/2) of a turn of 1 rad: anything sharper is a corner, not a sample of a curve. */
 const CURVE = Math.cos(0.5) ** 2;
@@ -36,11 +35,10 @@ const CURVE = Math.cos(0.5) ** 2;
  * brake on every chord.
  */
 export function limitJunctions(path: RunPath, { accel, corner }: RunLimits): void {
-  const { segmentCount: n, length, ux, uy, v2, cap2 } = path;
-  path.sine.fill(0, 0, n + 1);
+  const { segmentCount: n, ux, uy, v2, cap2, sine } = path;
+  fillSines(path);
   path.tangent.fill(0, 0, n + 1);
   const accelDeviation = accel * corner;
-  const halfAccel = accel / 2;
   // The tangent limit of the previous vertex, signed by its turn direction, if it belongs to a curve;
   // otherwise 0.
   let curveBefore = 0;
@@ -50,16 +48,15 @@ export function limitJunctions(path: RunPath, { accel, corner }: RunLimits): voi
     const y0 = uy[i - 1];
     const x1 = ux[i];
     const y1 = uy[i];
-    const s2 = ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)) / 4;
+    const s = sine[i];
     let limit = cap2[i - 1] < cap2[i] ? cap2[i - 1] : cap2[i];
     let curve = 0;
-    if (s2 > STRAIGHT) {
+    if (s > 0) {
       const c2 = ((x1 + x0) * (x1 + x0) + (y1 + y0) * (y1 + y0)) / 4;
       const c = Math.sqrt(c2);
-      const deviationLimit = (accelDeviation * c * (1 + c)) / s2;
+      const deviationLimit = (accelDeviation * c * (1 + c)) / (s * s);
       if (deviationLimit < limit) limit = deviationLimit;
-      const shorter = length[i - 1] < length[i] ? length[i - 1] : length[i];
-      const tangentLimit = (halfAccel * shorter * c) / Math.sqrt(s2);
+      const tangentLimit = (accel * shareOfSegments(path, i, corner) * c) / s;
       if (tangentLimit < limit) {
         limit = tangentLimit;
         if (c2 > CURVE) curve = x0 * y1 - y0 * x1 > 0 ? limit : -limit;
@@ -70,4 +67,6 @@ export function limitJunctions(path: RunPath, { accel, corner }: RunLimits): voi
     curveBefore = curve;
   }
   v2[n] = 0;
+  // No vertex is drawn as a curve.
+  sine.fill(0, 0, n + 1);
 }

@@ -1,6 +1,6 @@
 /** Merging: pairs of blocks replace longer sequences, exact at their ends and within ε between. */
 import { describe, expect, it } from "vitest";
-import { compile, DEFAULT_MOTION, DEFAULT_PEN, machineById, plan } from "../../../src/index.js";
+import { compile, DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, stateAt } from "../../../src/index.js";
 import { DEFAULT_FIT, type FitSettings, type MotionMode } from "../../../src/internal.js";
 import { BlockColumns } from "../../../src/plan/block-columns.js";
 import type { RunLimits } from "../../../src/plan/limits.js";
@@ -127,6 +127,21 @@ describe("a merged plan", () => {
     });
     expect(counts[0]).toBeGreaterThan(counts[1]);
     expect(counts[1]).toBeGreaterThan(counts[2]);
+  });
+
+  it("is at most 4 % slower than the plan before merging in the tight bends of a wave", () => {
+    const wave = Array.from({ length: 1_000 }, (_, i): Point => [
+      i / 20,
+      5 * Math.sin((2 * Math.PI * i) / 160),
+    ]);
+    const slowest = (fit: FitSettings | null): number => {
+      const trajectory = plan(strokeSetOf([wave]), { ...DEFAULT_MOTION, fit }, DEFAULT_PEN, {
+        returnHome: false,
+      });
+      const middle = Array.from({ length: 4_000 }, (_, i) => trajectory.totalS * (0.3 + i / 10_000));
+      return Math.min(...middle.map((t) => stateAt(trajectory, t)).map(({ vx, vy }) => Math.hypot(vx, vy)));
+    };
+    expect(slowest(DEFAULT_FIT)).toBeGreaterThanOrEqual(0.959 * slowest(null));
   });
 
   it("draws a dense line of 100 000 points with at most 15 000 commands", () => {

@@ -98,11 +98,20 @@ function planned(points: readonly Point[], mode: MotionMode, draw: MotionLimits)
  * the limit plus 2 A times the distance to it; the time is integrated over a fine grid.
  */
 function fastestProfile(points: readonly Point[], limits: Limits): number {
-  const { speed, accel } = limits;
+  const { speed, accel, deviation } = limits;
   const places = [0];
   points.slice(1).forEach((p, i) => places.push(places[i] + distance(points[i], p)));
-  const corners = cornersOf(points).map((corner) => {
-    const circle = (accel * Math.min(corner.before, corner.after)) / 2 / Math.tan(corner.turn / 2);
+  const turns = cornersOf(points);
+  // At one speed the tangents of two corners are as long as their sines: so they share the segment between them. One also
+  // takes what the other can't use within the deviation.
+  const share = (mm: number, turn: number, other = 0): number => {
+    const [s, t] = [Math.sin(turn / 2), Math.sin(other / 2)];
+    return t === 0 ? mm : Math.max((mm * s) / (s + t), mm - (2 * deviation) / t);
+  };
+  const corners = turns.map((corner, i) => {
+    const { before, after, turn } = corner;
+    const tangent = Math.min(share(before, turn, turns[i - 1]?.turn), share(after, turn, turns[i + 1]?.turn));
+    const circle = (accel * tangent) / Math.tan(turn / 2);
     return Math.min(junctionDeviation(corner, limits) ** 2, circle);
   });
   const limit2 = [0, ...corners, 0];

@@ -101,6 +101,19 @@ function slowest(trajectory: Trajectory): number {
 const planned = (lines: readonly (readonly Point[])[], { motion, springs }: Case): Trajectory =>
   plan(strokeSetOf(lines), motion, DEFAULT_PEN, { machine: springs && swinging(springs) });
 
+/**
+ * Seconds to draw each part shorter than a motor step by itself, from rest to rest. 1 µm of noise decides whether a spike
+ * of 4 µm is drawn: it is there and back, at most twice its time.
+ */
+const tinyS = (line: readonly Point[], mode: Case): number => {
+  let sum = 0;
+  for (let i = 1; i < line.length; i++) {
+    const mm = Math.hypot(line[i][0] - line[i - 1][0], line[i][1] - line[i - 1][1]);
+    if (mm > 0 && mm < 0.01) sum += drawS(planned([[line[i - 1], line[i]]], mode));
+  }
+  return sum;
+};
+
 /** Smooth lines: circles, spirals and waves, sampled every 0.02 to 1 mm. */
 const turning = (radius: (turn: number) => number, turns: number, stepMm: number): Point[] => {
   const points: Point[] = [];
@@ -139,12 +152,12 @@ describe.each(CASES)("points within 1 µm of a line, $name", (mode) => {
     );
   });
 
-  it("change the time of lines with corners by at most 1 %", () => {
+  it("change the time of lines with corners by at most 1 %, and that of each part below 10 µm", () => {
     fc.assert(
       fc.property(cornered, real(0.3, 20), fc.nat(), (line, perSegment, seed) => {
         const clean = drawS(planned([line], mode));
         const noisy = drawS(planned([withNoise(line, perSegment, seed)], mode));
-        expect(Math.abs(noisy - clean)).toBeLessThanOrEqual(0.01 * clean + 1e-3);
+        expect(Math.abs(noisy - clean)).toBeLessThanOrEqual(0.01 * clean + 1e-3 + tinyS(line, mode));
       }),
       { numRuns: cases(1_000, 25) },
     );
@@ -183,7 +196,7 @@ describe("a resampled line", () => {
           for (const share of [0, 0.5]) {
             const x = path.x[i] + share * (path.x[i + 1] - path.x[i]);
             const y = path.y[i] + share * (path.y[i + 1] - path.y[i]);
-            expect(near.distance(x, y)).toBeLessThanOrEqual(MAX_MOVED_MM);
+            expect(near.distance(x, y)).toBeLessThan(MAX_MOVED_MM);
           }
         }
       }),
@@ -191,12 +204,28 @@ describe("a resampled line", () => {
     );
   });
 
-  it("is the drawing itself where each point carries shape", () => {
-    const square = [0, 0, 30, 0, 30.02, 0.1, 30, 30, 0, 30, 0, 0];
-    const path = new RunPath();
-    path.load(Float64Array.from(square), 0, 6, 0);
-    new Resampler().resample(path);
-    expect([...path.x.subarray(0, 6)]).toEqual([0, 30, 30.02, 30, 0, 0]);
+  it("is the drawing itself if its segments are at least 1 mm long and turn by at least 0.1 rad", () => {
+    const turn = fc.tuple(real(0.1, 3), fc.constantFrom(-1, 1)).map(([angle, side]) => angle * side);
+    const steps = fc.array(fc.tuple(real(1, 100), turn), { minLength: 2, maxLength: 20 });
+    fc.assert(
+      fc.property(steps, (drawn) => {
+        const line: number[] = [0, 0];
+        let heading = 0;
+        for (const [mm, angle] of drawn) {
+          heading += angle;
+          line.push(
+            line[line.length - 2] + mm * Math.cos(heading),
+            line[line.length - 1] + mm * Math.sin(heading),
+          );
+        }
+        const path = new RunPath();
+        path.load(Float64Array.from(line), 0, line.length / 2, 0);
+        new Resampler().resample(path);
+        const points = [...path.x.subarray(0, path.segmentCount + 1)].flatMap((x, i) => [x, path.y[i]]);
+        expect(points).toEqual(line);
+      }),
+      { numRuns: cases() },
+    );
   });
 });
 
