@@ -3,6 +3,9 @@
  * one such record for each plotter. The plotter's model is `Plotter.machine`.
  */
 import { z } from "zod";
+import { PlotwrightError } from "../errors.js";
+import { findMachine } from "../machines/profiles.js";
+import { withoutShaperIfUnmeasured } from "../plan/quality.js";
 import type { GivenSettings } from "./given-settings.js";
 import {
   motionSettingsSchema,
@@ -70,4 +73,47 @@ export function withPlotterPart(
     pen: layers === undefined ? pen : { ...pen, layers },
     pens: [...pens, ...others],
   };
+}
+
+/** The settings with those of a preset. */
+export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }: Preset): PlotSettings => ({
+  ...settings,
+  motion: withoutShaperIfUnmeasured(motion, findMachine(settings)?.springs ?? null),
+  pen,
+  ...pens,
+  prepare: { ...settings.prepare, ...layers },
+});
+
+/** The list with the preset at the end, in place of one of the same name. */
+export const withPreset = (
+  presets: readonly Preset[],
+  name: string,
+  settings: PlotSettings,
+): PlotterSettings["presets"] => {
+  const { motion, pen, pens, layerPens, penStops, layerStops } = settings;
+  const { layers, hiddenLayers, shownLayers, layerOrder, layerRepeats, layerHatches } = settings.prepare;
+  const preset = {
+    name: name.trim(),
+    motion,
+    pen,
+    pens: { pens, layerPens, penStops, layerStops },
+    layers: { layers, hiddenLayers, shownLayers, layerOrder, layerRepeats, layerHatches },
+  };
+  return [...withoutPreset(presets, preset.name), preset].slice(-MAX_PRESETS);
+};
+
+/** @param name without blanks around it */
+export const withoutPreset = (presets: readonly Preset[], name: string): PlotterSettings["presets"] =>
+  presets.filter((preset) => preset.name !== name);
+
+/** The preset with that name, in any case. Throws `bad-setting` with the names that there are. */
+export function presetNamed(presets: readonly Preset[], wanted: string): Preset {
+  const name = wanted.trim();
+  const found =
+    presets.find((preset) => preset.name === name) ??
+    presets.find((preset) => preset.name.toLowerCase() === name.toLowerCase());
+  if (found !== undefined) return found;
+  const known = presets.map((preset) => preset.name).join(", ");
+  const all = known === "" ? "It has none." : `It has ${known}.`;
+  throw new PlotwrightError("bad-setting", `The plotter has no preset ${JSON.stringify(name)}. ${all}`);
 }

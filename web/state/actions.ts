@@ -1,7 +1,13 @@
 /** The user's actions as functions on the store: those of each slice, and those that need several. */
 import type { MachineProfile } from "../../src/index.js";
 import type { Backend } from "../backend/backend.js";
-import type { PlotSettings, Preset } from "../../src/schema/index.js";
+import {
+  fromPreset,
+  withoutPreset,
+  withPreset,
+  type PlotSettings,
+  type Preset,
+} from "../../src/schema/index.js";
 import type { Planner } from "../worker/planner.js";
 import { createDocumentActions } from "./document-actions.js";
 import { createPlanActions } from "./plan-actions.js";
@@ -9,7 +15,6 @@ import { createPlayerActions } from "./player-actions.js";
 import { createServerActions } from "./server-actions.js";
 import { createAsOperator } from "./take-over.js";
 import { createPlotterSync, withMachine } from "./plotter-sync.js";
-import { fromPreset, withPreset } from "./presets.js";
 import type { PageStore } from "./store.js";
 import { createUiActions } from "./ui-actions.js";
 import { createUndo } from "./undo.js";
@@ -116,6 +121,6 @@ export const createActions = (deps: ActionDeps) => {
     takePreset: (preset: Preset): void =>
       undo.changeSettings(`preset ${preset.name}`, (settings) => fromPreset(settings, preset)),
     removePreset: (name: string): void =>
-      undo.changePresets(`remove ${name}`, ({ presets }) => presets.filter((preset) => preset.name !== name)),
+      undo.changePresets(`remove ${name}`, ({ presets }) => withoutPreset(presets, name)),
   };
 };

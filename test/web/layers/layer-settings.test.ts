@@ -1,7 +1,13 @@
 import { describe, expect, it } from "vitest";
 import { prepare, importSvg } from "../../../src/index.js";
 import { penStopsOf, prepareSettingsOf } from "../../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS, newJobSchema, type PlotSettings } from "../../../src/schema/index.js";
+import {
+  DEFAULT_PLOT_SETTINGS,
+  fromPreset,
+  newJobSchema,
+  withPreset,
+  type PlotSettings,
+} from "../../../src/schema/index.js";
 import { alignmentJob, CORNERS, markPlace } from "../../../web/pens/alignment-mark.js";
 import {
   addPen,
@@ -22,7 +28,6 @@ import {
   type LayerRow,
 } from "../../../web/layers/layer-settings.js";
 import { forOtherDrawing } from "../../../web/state/document-actions.js";
-import { fromPreset, withPreset } from "../../../web/state/presets.js";
 
 const DEFAULTS: PlotSettings = DEFAULT_PLOT_SETTINGS;
 const rows: readonly LayerRow[] = [

@@ -8,9 +8,8 @@ import {
   qualityOf,
   withQuality,
 } from "../../../src/internal.js";
-import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, fromPreset, withPreset } from "../../../src/schema/index.js";
 import { withMachine } from "../../../web/state/plotter-sync.js";
-import { fromPreset, withPreset } from "../../../web/state/presets.js";
 
 const SOFT = { xHz: 8, yHz: 12, damping: 0.05 };
 const STIFF = { xHz: 15, yHz: 25, damping: 0.05 };
