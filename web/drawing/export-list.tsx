@@ -8,7 +8,7 @@ import { Select } from "../ui/fields/choice.js";
 import { EXPORT_FORMATS, type ExportFormat } from "../worker/protocol.js";
 
 /** One version for each set of motion commands that boards understand, newest first. */
-const FIRMWARES = ["3.0.3", "2.8.1", "2.7.0", "2.5.3"];
+const FIRMWARES = ["3.0.3", "3.1.7", "2.8.1", "2.7.0", "2.5.3"];
 
 const WORDS: Record<ExportFormat, { readonly title: string; readonly hint: string }> = {
   svg: { title: words.svg, hint: words.svgHint },

@@ -16,7 +16,7 @@ export const SAMPLES = [
   "three-colour-hills",
   "whirling-triangles",
 ] as const;
-export const FIRMWARE = ["2.4.4", "2.5.3", "2.6.5", "2.7.0", "2.8.1", "3.0.3"] as const;
+export const FIRMWARE = ["2.4.4", "2.5.3", "2.6.5", "2.7.0", "2.8.1", "3.0.3", "3.1.7"] as const;
 export const MODES = ["junction", "blend", "scurve"] as const;
 export type Sample = (typeof SAMPLES)[number];
 type Firmware = (typeof FIRMWARE)[number];
@@ -65,11 +65,23 @@ const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: Segme
 });
 
 /** Plots a sample that many times in a row, without homing in between. */
-export function plotOften(sample: Sample, firmware: Firmware, mode: MotionMode, plots: number): MatrixRow {
+export function plotOften(
+  sample: Sample,
+  firmware: Firmware,
+  mode: MotionMode,
+  plots: number,
+  /** Default: as the firmware is known to have. */
+  idleTicksTimed?: number,
+): MatrixRow {
   const { strokes, grid } = strokesOf(sample);
   const motion = motionForFirmware({ ...DEFAULT_MOTION, mode }, firmware);
   const trajectory = plan(strokes, motion, DEFAULT_PEN, { machine: MACHINE });
-  const fast = new FastBoard(firmware, MACHINE, DEFAULT_PEN);
+  const fast = new FastBoard(
+    firmware,
+    MACHINE,
+    DEFAULT_PEN,
+    idleTicksTimed === undefined ? {} : { idleTicksTimed },
+  );
   let firstWrong: string | null = null;
   let timeShare = 0;
   let commands = 0;

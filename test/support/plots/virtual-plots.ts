@@ -27,11 +27,10 @@ export class FastBoard {
     readonly firmware: string,
     readonly machine: MachineProfile,
     readonly pen: PenSettings,
-    springs?: Springs,
+    unlike: { readonly springs?: Springs; readonly idleTicksTimed?: number } = {},
   ) {
-    const swing = springs === undefined ? {} : { springs };
     const options = { clock: stillClock, firmware, machine, speed: Infinity, servo: {} };
-    this.board = new VirtualBoard({ ...options, ...swing });
+    this.board = new VirtualBoard({ ...options, ...unlike });
     this.board.onSend((bytes) => {
       const text = String.fromCharCode(...bytes);
       if (text.includes("!")) this.errors.push(text.trim());

@@ -31,8 +31,12 @@ describe("the words about the firmware", () => {
     expect(adviceWords(board(firmware), axidraw)).toMatch(/^Before firmware 3\.0\.0, .* less than 0\.3 s/);
   });
 
+  it("tell that a firmware is newer than plotwright knows", () => {
+    expect(adviceWords(board("4.1.0"), axidraw)).toContain("4.1.0 is newer than plotwright knows");
+  });
+
   it("are left out where they are not true or not known", () => {
-    for (const firmware of ["3.0.0", "3.0.3", "4.1.0", "Grbl 1.1h", null]) {
+    for (const firmware of ["3.0.0", "3.0.3", "3.1.7", "Grbl 1.1h", null]) {
       expect(adviceWords(board(firmware), axidraw)).toBeNull();
     }
     expect(adviceWords(board("2.8.1", "virtual"), axidraw)).toBeNull();

@@ -21,7 +21,7 @@ import {
 } from "../protocol/commands.js";
 import { AT_HOME, type BoardState, type CommandStream } from "./command-stream.js";
 import { checkEbbProfile } from "../protocol/ebb-controller.js";
-import { firmwareFeatures } from "../protocol/firmware.js";
+import { firmwareFeatures, newerFirmwareNote } from "../protocol/firmware.js";
 import type { LegWriter, RunCommandWriter } from "./leg.js";
 import { LegRuns } from "./leg-runs.js";
 import { RunWalk } from "./run-walk.js";
@@ -101,6 +101,8 @@ class Compiler {
     const { trajectory } = this;
     const { penMoves, runs } = trajectory;
     if (!Number.isFinite(trajectory.totalS)) throw new RangeError("the trajectory's time is not finite");
+    const note = newerFirmwareNote(this.options.firmware);
+    if (note !== null) this.columns.warnOnce(note);
     if (penMoves.count > 0) this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0, -1);
     let next = 0;
     for (let r = 0; r <= runs.count; r++) {

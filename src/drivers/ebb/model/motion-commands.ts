@@ -47,13 +47,14 @@ export class MotionCommands {
     const axis1 = this.steppedAxis(p, hasJerk);
     const axis2 = this.steppedAxis(p, hasJerk);
     const order = this.move(p, axis1, axis2, Infinity);
-    const isDead = ({ steps, rate, accel, jerk }: AxisOrder): boolean =>
+    const isDead = ({ steps, rate, accel }: AxisOrder, jerk: number): boolean =>
       steps === 0 || (rate === 0 && accel === 0 && jerk === 0);
-    if (isDead(axis1) && isDead(axis2)) throw invalidValue();
+    const jerk2 = this.features.l3NegatesJerk ? axis2.jerk : axis1.jerk;
+    if (isDead(axis1, axis1.jerk) && isDead(axis2, jerk2)) throw invalidValue();
     return [order];
   }
 
-  /** Negative steps negate rate and acceleration, but not the jerk, as the firmware does. */
+  /** Negative steps negate rate and acceleration, but the jerk only from 3.1 on. */
   private steppedAxis(p: Parameters, hasJerk: boolean): AxisOrder {
     const isSigned = this.features.arithmetic === "signed";
     const rate = isSigned ? p.int() : p.uint(INT31);
@@ -64,7 +65,8 @@ export class MotionCommands {
     if (!isSigned) return { rate: steps < 0 ? -rate : rate, accel, jerk: 0, steps: Math.abs(steps) };
     if (steps >= 0) return { rate, accel, jerk, steps };
     if (rate < 0) throw invalidValue();
-    return { rate: 0 - rate, accel: 0 - accel, jerk, steps: -steps };
+    const ownJerk = this.features.l3NegatesJerk ? 0 - jerk : jerk;
+    return { rate: 0 - rate, accel: 0 - accel, jerk: ownJerk, steps: -steps };
   }
 
   timed(p: Parameters, hasJerk: boolean): readonly Order[] {

@@ -1,7 +1,7 @@
 /** Limits of the firmware on the plan itself. */
 import type { LayerMotion, MotionSettings } from "../../../settings/motion.js";
 import type { FirmwareRules } from "../../machine-job.js";
-import { firmwareFeatures, queueDepthOf } from "./firmware.js";
+import { firmwareFeatures, newerFirmwareNote, queueDepthOf } from "./firmware.js";
 
 /**
  * mm/s². Slices of constant speed last about 10 ms, so the speed changes in jumps of A · 10 ms: 5 mm/s at
@@ -32,7 +32,8 @@ export const ebbFirmware: FirmwareRules = {
   isOwn: (firmware) => /^v?\d/.test(firmware),
   isPlannedAlike: ({ overlap }, a, b) =>
     limitsMotion(a) === limitsMotion(b) && (overlap !== "fast" || dropsAtStroke(a) === dropsAtStroke(b)),
-  advice: (firmware) => (firmwareFeatures(firmware).hasSupplyLatch ? null : SUPPLY_ADVICE),
+  advice: (firmware) =>
+    newerFirmwareNote(firmware) ?? (firmwareFeatures(firmware).hasSupplyLatch ? null : SUPPLY_ADVICE),
 };
 
 /**

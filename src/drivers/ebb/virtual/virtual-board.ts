@@ -43,6 +43,8 @@ export interface VirtualBoardOptions {
   readonly clock: Clock;
   /** Default "2.8.1". */
   readonly firmware?: string | undefined;
+  /** Idle ticks after LT and T3. Default: as the firmware is known to have. To try a plot on a board that differs. */
+  readonly idleTicksTimed?: number | undefined;
   /** Board seconds per clock second. Infinity: every move is over as soon as it is sent. Default 1. */
   readonly speed?: number;
   /** Default AxiDraw V3. */
@@ -145,7 +147,9 @@ export class VirtualBoard {
     this.startS = options.clock.nowS();
     const { recordLine = true, servo = null, springs } = options;
     const line = springs ? new SwingingLine(this.machine, springs) : new DrawnLine(this.machine);
-    this.core = new BoardCore(firmwareFeatures(this.firmware), this.machine, recordLine ? line : null, servo);
+    const known = firmwareFeatures(this.firmware);
+    const features = { ...known, idleTicksTimed: options.idleTicksTimed ?? known.idleTicksTimed };
+    this.core = new BoardCore(features, this.machine, recordLine ? line : null, servo);
     this.interpreter = this.makeInterpreter();
   }
 

@@ -47,7 +47,7 @@ function played(
   springs: Springs,
 ): Played {
   const machine = swinging(shapedFor);
-  const fast = new FastBoard(firmware, machine, DEFAULT_PEN, springs);
+  const fast = new FastBoard(firmware, machine, DEFAULT_PEN, { springs });
   const { firstWrong } = fast.play(fast.compile(plan(strokes, motion, DEFAULT_PEN, { machine })));
   expect(firstWrong).toBeNull();
   const asked = new SegmentGrid(2);

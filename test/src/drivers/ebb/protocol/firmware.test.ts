@@ -2,6 +2,8 @@ import { describe, expect, it } from "vitest";
 import {
   compareFirmware,
   firmwareFeatures,
+  NEWEST_FIRMWARE,
+  newerFirmwareNote,
   firmwareFromReply,
 } from "../../../../../src/drivers/ebb/protocol/firmware.js";
 
@@ -18,6 +20,16 @@ describe("the firmware table", () => {
     ["10.0.0", "jerk"],
   ])("plots with firmware %s by %s", (version, motion) => {
     expect(firmwareFeatures(version).motion).toBe(motion);
+  });
+
+  it("treats a version newer than it knows as the newest one, and says so", () => {
+    const newest = firmwareFeatures(NEWEST_FIRMWARE);
+    for (const version of ["3.1.8", "3.2.0", "10.0.0"]) {
+      expect(firmwareFeatures(version)).toEqual({ ...newest, version });
+      expect(newerFirmwareNote(version)).toContain(`Firmware ${version} is newer than plotwright knows`);
+    }
+    for (const version of ["2.4.4", "3.0.3", "3.1.0", NEWEST_FIRMWARE])
+      expect(newerFirmwareNote(version)).toBeNull();
   });
 
   it("orders versions by number, not by letter", () => {

@@ -30,7 +30,7 @@ const combinations = FIRMWARE.flatMap((firmware, f) => {
     const often = QUICK[(f + m) % QUICK.length];
     // Each of the others once: along the diagonal of newer firmware.
     const others = SAMPLES.filter((sample) => !QUICK.includes(sample));
-    const once = m === f % MODES.length && f >= 2 ? others[f - 2] : often;
+    const once = m === f % MODES.length && others[f - 2] ? others[f - 2] : often;
     return (isWhole ? SAMPLES : [once]).map((sample) => ({ sample, firmware, mode }));
   });
 });
@@ -46,6 +46,19 @@ describe(`a sample plotted ${PLOTS} times in a row`, () => {
     expect(row.missedMm).toBeLessThan(ALLOWED_MM);
     expect(row.jumpMmPerS).toBeLessThanOrEqual(allowedJump(mode, firmware) ?? Infinity);
   });
+
+  // The most commands per second are those of scurve.
+  const ANY_IDLE = (isWhole ? SAMPLES : QUICK).flatMap((sample) =>
+    (isWhole ? MODES : (["scurve"] as const)).map((mode) => ({ sample, mode })),
+  );
+  it.each(ANY_IDLE)(
+    "is $sample, exact to the step in $mode on a 3.1.7 that idles after timed commands after all",
+    ({ sample, mode }) => {
+      const row = plotOften(sample, "3.1.7", mode, 1, 1);
+      expect(row).toMatchObject({ firstWrong: null, endSteps: [0, 0], errors: [] });
+      expect(row.timeShare).toBeLessThan(0.002);
+    },
+  );
 
   it("covers each sample, and each firmware in each mode", () => {
     expect(new Set(combinations.map(({ sample }) => sample)).size).toBe(SAMPLES.length);

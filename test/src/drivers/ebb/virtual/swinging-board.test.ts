@@ -12,7 +12,7 @@ const strokes = FIGURES.squares;
 
 const played = (motion: typeof DEFAULT_MOTION, firmware: string, isSwinging: boolean) => {
   const { trajectory } = planJob({ strokes }, { motion, pen: DEFAULT_PEN }, machine, { firmware });
-  const fast = new FastBoard(firmware, machine, DEFAULT_PEN, isSwinging ? springs : undefined);
+  const fast = new FastBoard(firmware, machine, DEFAULT_PEN, isSwinging ? { springs } : {});
   const { firstWrong } = fast.play(fast.compile(trajectory));
   const lines = fast.board.drawn().filter(({ penDown }) => penDown);
   return { trajectory, firstWrong, lines, board: fast.board };

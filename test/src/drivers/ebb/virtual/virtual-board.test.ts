@@ -200,7 +200,7 @@ describe("the virtual board's queue", () => {
 
 describe("the virtual board's test mode", () => {
   // The firmware's own regression tests: command, net steps of motor 1.
-  it.each([
+  const RECORDED: readonly [string, number][] = [
     ["LM,490123456,5,0,0,0,0", 5],
     ["LM,8589934,29,17353403,0,0,0", 29],
     ["LM,395851877,3,-77012345,0,0,0,115030", -3],
@@ -211,8 +211,10 @@ describe("the virtual board's test mode", () => {
     ["LT,8842,-388686102,70433,0,0,623903050", -318],
     ["T3,19512,-490123456,0,11,0,0,0", 1889],
     ["T3,69,1800095000,-26012345,600999,0,0,0", 44],
-  ])("%s makes %i steps", (line, net) => {
-    const { ask } = boardWith({ firmware: "3.0.3", speed: Infinity });
+  ];
+  const onEach = ["3.0.3", "3.1.7"].flatMap((firmware) => RECORDED.map((row) => [firmware, ...row] as const));
+  it.each(onEach)("on firmware %s, %s makes %i steps", (firmware, line, net) => {
+    const { ask } = boardWith({ firmware, speed: Infinity });
     ask("CU,251,1");
     expect(ask(line)).toBe("OK\r\n");
     expect(ask("QS")).toBe(`${net},0\n\rOK\r\n`);
@@ -228,6 +230,34 @@ describe("the virtual board's test mode", () => {
     ask("LM,687194767,400,-274878,687194767,400,-274878");
     expect(board.state()).toMatchObject({ steps1: 2800 + steps, steps2: 2800 + steps });
     expect(Math.abs(board.statistics().movingS * 25_000 - ticks)).toBeLessThan(3);
+  });
+});
+
+describe("L3 on the virtual board", () => {
+  const afterL3 = (firmware: string, line: string): { reply: string; ticks: number; steps: string } => {
+    const { ask, board } = boardWith({ firmware, speed: Infinity });
+    const reply = ask(line);
+    const ticks = Math.round(board.statistics().movingS * 25_000);
+    return { reply, ticks, steps: ask("QS").split("\n")[0] };
+  };
+  const forward = afterL3("3.1.7", "L3,20000000,300,100000,20,0,0,0,0,3");
+
+  it("runs backward as it runs forward from firmware 3.1 on", () => {
+    const backward = afterL3("3.1.7", "L3,20000000,-300,100000,20,0,0,0,0,3");
+    expect([forward.steps, backward.steps]).toEqual(["300,0", "-300,0"]);
+    expect(backward.ticks).toBe(forward.ticks);
+  });
+
+  it("does not negate the jerk of a backward move before", () => {
+    const backward = afterL3("3.0.3", "L3,20000000,-300,100000,20,0,0,0,0,3");
+    expect(backward.ticks).toBeGreaterThan(forward.ticks);
+  });
+
+  it("looks at the jerk of each motor from firmware 3.1 on, and before only at the first one's", () => {
+    const onlyJerk2 = "L3,0,5,0,0,0,5,0,9";
+    expect(afterL3("3.0.3", onlyJerk2).reply).toMatch(/^!6/);
+    expect(afterL3("3.1.7", "L3,0,0,0,7,0,5,0,0").reply).toMatch(/^!6/);
+    expect(boardWith({ firmware: "3.1.7" }).ask(onlyJerk2)).toBe("OK\r\n");
   });
 });
 
