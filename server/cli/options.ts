@@ -1,6 +1,7 @@
 /** Options that several commands have, and how their values are read. */
 import { InvalidArgumentError, Option, type Command } from "commander";
 import { isAllowed, rangeInWords, SPRINGS_TABLE, type Springs, parseLength } from "../../src/internal.js";
+import { originsOf } from "../composition/server-options.js";
 import type { PenChoice } from "../planning/layers-by-name.js";
 import type { CliIo } from "./io.js";
 
@@ -59,6 +60,15 @@ export function hostNames(text: string, before: readonly string[] = []): string[
     throw new InvalidArgumentError("It must be a name without http:// and port, such as studio.local.");
   }
   return [...before, text];
+}
+
+/** Collects the values of an option that takes several origins. */
+export function origins(text: string, before: readonly string[] = []): string[] {
+  try {
+    return [...before, ...originsOf([text])];
+  } catch (error) {
+    throw new InvalidArgumentError((error as Error).message);
+  }
 }
 
 export function positive(text: string): number {

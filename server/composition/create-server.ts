@@ -29,7 +29,7 @@ import { findBoards } from "../serial/find-boards.js";
 import type { PluginHost, RunningPlugin } from "../plugins/server-plugin.js";
 import { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
 import { jobHooksOf, loadPlugins } from "./load-plugins.js";
-import { checkServerOptions, type ServerOptions } from "./server-options.js";
+import { checkServerOptions, originsOf, type ServerOptions } from "./server-options.js";
 
 export type { ServerOptions } from "./server-options.js";
 
@@ -53,6 +53,7 @@ const DEFAULT_MAX_UPLOAD_BYTES = 200_000_000;
  */
 export async function createServer(options: ServerOptions = {}): Promise<PlotwrightServer> {
   checkServerOptions(options);
+  const allowedOrigins = originsOf(options.allowedOrigins ?? []);
   const dataDir = options.dataDir ?? defaultDataDir();
   let book: LogBook | null = null;
   const log = (text: string): void => {
@@ -89,6 +90,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     };
     const app = createApp({
       ...parts,
+      allowedOrigins,
       plugins: plugins.flatMap(({ operations }) => operations ?? []),
       pairing,
       log,
@@ -134,7 +136,9 @@ async function openParts(
   log: (line: string) => void,
   closing: Closing,
 ): Promise<
-  Omit<AppParts, "pairing" | "log" | "serverLog" | "plugins"> & { readonly plugins: readonly RunningPlugin[] }
+  Omit<AppParts, "pairing" | "log" | "serverLog" | "plugins" | "allowedOrigins"> & {
+    readonly plugins: readonly RunningPlugin[];
+  }
 > {
   const files = new DrawingFiles(dataDir, options.maxUploadBytes ?? DEFAULT_MAX_UPLOAD_BYTES);
   const unclaimedCount = await files.sweep((drawing) => store.isUsed(drawing));

@@ -32,6 +32,11 @@ export interface ServerOptions {
   readonly maxUploadBytes?: number;
   /** Host names to accept besides localhost and addresses. */
   readonly allowedHosts?: readonly string[];
+  /**
+   * Origins, such as `https://editor.p5js.org`, whose pages may use the HTTP interface. They need a key: `POST
+   * /access/keys`. Default: none.
+   */
+  readonly allowedOrigins?: readonly string[];
   /** Notify other programs of jobs, as users set up on the page. Default true. */
   readonly webhooks?: boolean;
   /** Folder whose new drawings become queued jobs. */
@@ -63,6 +68,7 @@ const NAMES = Object.keys({
   dataDir: true,
   maxUploadBytes: true,
   allowedHosts: true,
+  allowedOrigins: true,
   webhooks: true,
   watchDir: true,
   sharedQueue: true,
@@ -85,4 +91,27 @@ export function checkServerOptions(options: object): void {
     "bad-setting",
     `createServer has no option "${unknown}". Options: ${NAMES.join(", ")}.`,
   );
+}
+
+/**
+ * The origins of these URLs, as browsers send them: in lower case, without path and default port.
+ *
+ * @throws PlotwrightError "bad-setting"
+ */
+export function originsOf(urls: readonly string[]): string[] {
+  return urls.map((url) => {
+    const origin = originIn(url);
+    if (origin !== null) return origin;
+    const why =
+      url === "*" || url === "null"
+        ? "Only single origins can be allowed: a page opened as a file has none, and any page could send a key that it has found."
+        : "It must be the address of a site without a path, such as https://editor.p5js.org or http://localhost:8080.";
+    throw new PlotwrightError("bad-setting", `${JSON.stringify(url)} is not an origin. ${why}`);
+  });
+}
+
+function originIn(text: string): string | null {
+  // The URL standard accepts much more: spaces, backslashes, user names, numbers as hosts.
+  if (!/^https?:\/\/[^\s/\\?#@*]+\/?$/i.test(text) || !URL.canParse(text)) return null;
+  return new URL(text).origin;
 }

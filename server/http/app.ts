@@ -7,6 +7,7 @@ import helmet from "helmet";
 import { API_PATH, type Operation } from "../../src/schema/index.js";
 import { limitRequests, pairRoutes, requireLocal, requireRole } from "./auth.js";
 import { Browsers, requireOperator } from "./browser.js";
+import { answerPreflights, crossOriginHeaders } from "./cross-origin.js";
 import { errorResponder, notFound } from "./errors.js";
 import { guardHosts, guardPaths } from "./guard.js";
 import { openApiText } from "./openapi.js";
@@ -16,13 +17,15 @@ import { serverHandlers, serverResponders, type ServerParts } from "./server-ope
 
 export interface AppParts extends ServerParts {
   readonly allowedHosts: readonly string[];
+  /** Origins whose pages may use the API with a key, as browsers send them. */
+  readonly allowedOrigins: readonly string[];
   /** Folder with the built page. */
   readonly webDir: string;
   readonly refusals: Refusals;
 }
 
 export function createApp(parts: AppParts): Express {
-  const { access, queue, log, refusals } = parts;
+  const { access, queue, log, refusals, allowedOrigins } = parts;
   const browsers = new Browsers(access, parts.operatorLock.operator);
   const isRunning = (jobId: string): boolean => queue.isRunning(jobId);
   const app = express();
@@ -30,9 +33,11 @@ export function createApp(parts: AppParts): Express {
   // Answers of the API are not cached, so a hash of each would be for nothing.
   app.disable("etag");
   app.use(securityHeaders());
-  app.use(limitRequests(access, isRunning, refusals));
-  app.use(guardHosts(parts.allowedHosts, parts.localName, refusals));
+  if (allowedOrigins.length > 0) app.use("/api", crossOriginHeaders(allowedOrigins));
+  app.use(limitRequests(access, isRunning, allowedOrigins, refusals));
+  app.use(guardHosts(parts.allowedHosts, allowedOrigins, parts.localName, refusals));
   app.use(guardPaths(refusals));
+  app.use("/api", answerPreflights(allowedOrigins));
   app.use(pairRoutes(access, refusals, log));
   app.use(browsers.routes());
   app.use("/api", requireRole(access, isRunning, refusals));

@@ -8,6 +8,7 @@ import { ipKeyGenerator, rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
 import { API_PATH, OPERATIONS, type Operation, type Role } from "../../src/schema/index.js";
 import { SESSION_DAYS, type Access } from "../security/access.js";
+import { isCrossOrigin, isPreflight } from "./cross-origin.js";
 import type { Refusals } from "./refusals.js";
 
 export const SESSION_COOKIE = "plotwright_session";
@@ -31,12 +32,14 @@ export interface Caller {
   readonly isLocal: boolean;
 }
 
-/** Null for a client that has not identified itself. */
+/** Null for a client that has not identified itself. Pages of other origins do so only with a key. */
 export function callerOf(request: IncomingMessage, access: Access): Caller | null {
   if (isTrusted(request, access)) return { id: "this computer", role: "operate", isLocal: true };
-  const secret = bearerOf(request) ?? cookieOf(request, SESSION_COOKIE);
+  const needsKey = isCrossOrigin(request);
+  const secret = bearerOf(request) ?? (needsKey ? null : cookieOf(request, SESSION_COOKIE));
   const entry = secret === null ? null : access.entryOf(secret);
-  return entry === null ? null : { id: entry.id, role: entry.role, isLocal: false };
+  if (entry === null || (needsKey && entry.kind !== "key")) return null;
+  return { id: entry.id, role: entry.role, isLocal: false };
 }
 
 /**
@@ -56,9 +59,13 @@ export function requireRole(access: Access, isRunning: IsRunning, refusals: Refu
   };
 }
 
-function whyNot({ headers }: Request, role: Role | null): string {
+function whyNot(request: Request, role: Role | null): string {
   if (role !== null) return "This device may only watch. To operate, pair it with the link for operating.";
-  return headers.authorization === undefined
+  const hasNoKey = request.headers.authorization === undefined;
+  if (hasNoKey && isCrossOrigin(request)) {
+    return "A page of another site needs an access key, sent as “Authorization: Bearer KEY”. You make one on the server's page, under Sharing, Access.";
+  }
+  return hasNoKey
     ? "Pair this device first: open the link or scan the QR code that the server shows on its own computer."
     : "This access key is not valid: it may have been revoked. Make another one on the server's page, under Sharing, Access.";
 }
@@ -141,9 +148,15 @@ export function pairRoutes(access: Access, refusals: Refusals, log: (line: strin
 
 /**
  * Limits requests from the network; this computer is not limited. Each session and key has its own limit, so that other
- * clients at the same address can't use it up. Stops of paired devices are not limited.
+ * clients at the same address can't use it up. Stops of paired devices are not limited, nor are the questions that
+ * browsers ask before them.
  */
-export function limitRequests(access: Access, isRunning: IsRunning, refusals: Refusals): RequestHandler {
+export function limitRequests(
+  access: Access,
+  isRunning: IsRunning,
+  allowedOrigins: readonly string[],
+  refusals: Refusals,
+): RequestHandler {
   const addressOf = ({ socket }: Request): string => ipKeyGenerator(socket.remoteAddress ?? "");
   const callerKey = (request: Request): string => callerOf(request, access)?.id ?? addressOf(request);
   const ofPairings = limitBy(MAX_PAIRINGS, addressOf, refusals);
@@ -151,7 +164,8 @@ export function limitRequests(access: Access, isRunning: IsRunning, refusals: Re
   const ofRest = limitBy(MAX_REQUESTS, callerKey, refusals);
   return (request, response, next) => {
     const caller = callerOf(request, access);
-    if (caller !== null && (caller.isLocal || isStop(request, isRunning))) next();
+    const isFree = caller !== null && (caller.isLocal || isStop(request, isRunning));
+    if (isFree || isPreflight(request, allowedOrigins)) next();
     else if (/^\/pair\/?$/i.test(request.path)) ofPairings(request, response, next);
     else if (request.path.startsWith("/assets/")) ofFiles(request, response, next);
     else ofRest(request, response, next);
@@ -174,9 +188,9 @@ function limitBy(limit: number, keyGenerator: (request: Request) => string, refu
   });
 }
 
-/** Whether the request comes from this computer and this computer needs no pairing. */
+/** Whether the request comes from this computer, not from a page of another site, and this computer needs no pairing. */
 const isTrusted = (request: IncomingMessage, access: Access): boolean =>
-  isTrustedAddress(request.socket.remoteAddress, access);
+  isTrustedAddress(request.socket.remoteAddress, access) && !isCrossOrigin(request);
 
 export const isTrustedAddress = (address: string | undefined, access: Access): boolean =>
   access.trustsLoopback && LOOPBACK.test(address ?? "");

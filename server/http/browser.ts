@@ -10,6 +10,7 @@ import { Router, type Request } from "express";
 import { OPERATIONS, type Operator } from "../../src/schema/index.js";
 import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
+import { isCrossOrigin } from "./cross-origin.js";
 import { SESSION_COOKIE, bearerOf, cookieOf, isStop, type IsRunning } from "./auth.js";
 
 /** Max number of browser names to store; the oldest are forgotten. */
@@ -68,7 +69,7 @@ export class Browsers {
     const router = Router();
     router.use((request, response, next) => {
       const isBrowser = request.headers["user-agent"]?.startsWith("Mozilla/") === true;
-      if (isBrowser && cookieOf(request, BROWSER_COOKIE) === null) {
+      if (isBrowser && !isCrossOrigin(request) && cookieOf(request, BROWSER_COOKIE) === null) {
         const secret = randomBytes(24).toString("base64url");
         this.fresh.set(request, secret);
         response.cookie(BROWSER_COOKIE, secret, {

@@ -5,11 +5,13 @@
  * server. But it can't choose the Host header, which contains that name. A numeric address can't be rebound.
  * So addresses are accepted, and of all names only localhost and the configured ones.
  *
- * Origin: browsers add it to every cross-site POST and event stream. It must match the host of the request.
+ * Origin: browsers add it to every cross-site POST and event stream. It must match the host of the request, or be one
+ * of those that the server was started with (cross-origin.ts).
  */
 import type { RequestHandler } from "express";
 import { isIP } from "node:net";
 import { PlotwrightError } from "../../src/index.js";
+import { isAllowedOrigin, isApi, isCrossOrigin } from "./cross-origin.js";
 import type { Refusals } from "./refusals.js";
 
 const MAX_LOGGED = 150;
@@ -36,6 +38,7 @@ function decoded(path: string): string {
 
 export function guardHosts(
   extraNames: readonly string[],
+  allowedOrigins: readonly string[],
   localName: () => string | null,
   refusals: Refusals,
 ): RequestHandler {
@@ -57,8 +60,9 @@ export function guardHosts(
       );
     }
     const { origin } = request.headers;
-    if (origin !== undefined && !isSameOrigin(origin, request.headers.host ?? "")) {
-      refuse(`Pages of ${origin} may not use this server.`);
+    const mayUse = isAllowedOrigin(origin, allowedOrigins) && isApi(request.path);
+    if (origin !== undefined && isCrossOrigin(request) && !mayUse) {
+      refuse(`Pages of ${origin} may not use this server.${adviceFor(origin, allowedOrigins)}`);
     }
     if (origin === undefined && isForeign(request.headers["sec-fetch-site"]) && isApi(request.path)) {
       refuse("Pages of other sites may not use this server.");
@@ -67,18 +71,15 @@ export function guardHosts(
   };
 }
 
-/** Case-insensitive, because express also matches routes in upper case. */
-const isApi = (path: string): boolean => path.toLowerCase().startsWith("/api/");
+function adviceFor(origin: string, allowedOrigins: readonly string[]): string {
+  if (!/^https?:/.test(origin) || allowedOrigins.includes(origin)) return "";
+  return ` To allow them, with a key, start it with --allow-origin ${origin}.`;
+}
 
 /** The Host header without port and brackets; null if it is invalid. */
 function hostName(header: string | undefined): string | null {
   const match = /^(?:\[([0-9a-fA-F:.]+)\]|([A-Za-z0-9._-]+))(?::\d{1,5})?$/.exec(header ?? "");
   return (match?.[1] ?? match?.[2])?.toLowerCase() ?? null;
-}
-
-function isSameOrigin(origin: string, host: string): boolean {
-  const match = /^https?:\/\/(.+)$/.exec(origin);
-  return match?.[1]?.toLowerCase() === host.toLowerCase();
 }
 
 /** Sec-Fetch-Site is set by the browser and can't be set by a page. Absent from curl and scripts. */

@@ -21,6 +21,7 @@ export interface ServeCommandOptions {
   readonly port: number;
   readonly host?: string;
   readonly allowHost?: readonly string[];
+  readonly allowOrigin?: readonly string[];
   readonly device?: string;
   readonly virtualSpeed?: number;
   readonly virtualSprings?: Springs;
@@ -53,6 +54,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...tlsOf(options),
     maxUploadBytes: options.maxUploadMb * 1e6,
     ...(options.allowHost === undefined ? {} : { allowedHosts: options.allowHost }),
+    ...(options.allowOrigin === undefined ? {} : { allowedOrigins: options.allowOrigin }),
     ...(options.device === undefined ? {} : { device: options.device }),
     ...(options.virtualSpeed === undefined ? {} : { virtualSpeed: options.virtualSpeed }),
     ...(options.virtualSprings === undefined ? {} : { virtualSprings: options.virtualSprings }),

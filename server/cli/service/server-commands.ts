@@ -1,7 +1,7 @@
 /** The server on this computer: serve, service, logs. */
 import { Command, Option } from "commander";
 import { PlotwrightError } from "../../../src/index.js";
-import { addData, addPort, hostNames, port, positive, springs, type Declare } from "../options.js";
+import { addData, addPort, hostNames, origins, port, positive, springs, type Declare } from "../options.js";
 import type { ServeCommandOptions } from "./serve.js";
 import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
 import { OPERATIONS, requestOf } from "../../../src/schema/index.js";
@@ -62,6 +62,7 @@ function addServe(command: Command): Command {
     .option("--cert <file>", "certificate (PEM): serve https")
     .option("--key <file>", "the certificate's key (PEM)")
     .option("--allow-host <name...>", "host name to answer to, besides localhost and addresses", hostNames)
+    .option("--allow-origin <url...>", "site whose pages may use the HTTP interface with a key", origins)
     .addOption(
       new Option(
         "--virtual-springs <x,y>",

@@ -164,6 +164,7 @@ const VALUES: Readonly<Record<string, string>> = {
   "--cert": TLS.cert,
   "serve --key": TLS.key,
   "--allow-host": "studio.local",
+  "--allow-origin": "https://editor.example",
   "--watch": "drawings",
   "--max-upload-mb": "20",
   "--out": "plotwright.log",

@@ -61,6 +61,7 @@ export async function startApp(
     readonly planning?: Planning;
     readonly maxUploadBytes?: number;
     readonly trustsLoopback?: boolean;
+    readonly allowedOrigins?: readonly string[];
     readonly lapseMs?: number;
     /** How long an upload waits for its job. */
     readonly keepUploadsMs?: number;
@@ -139,6 +140,7 @@ export async function startApp(
     serverLog: () => Promise.resolve(logged.join("\n")),
     machines: new MachineFiles(dir, announce),
     allowedHosts: ["plotter.lan"],
+    allowedOrigins: options.allowedOrigins ?? [],
     localName: () => "plotwright-2.local",
     webDir: join(dir, "web"),
     samplesDir: fileURLToPath(new URL("../../../samples", import.meta.url)),
