@@ -199,26 +199,28 @@ export class Resampler {
 
   /** Step 4, and the lengths of the new segments. */
   private write(path: RunPath, last: number): void {
-    const { x, y, kept, at, smooth } = this;
+    const { x, y, along, kept, at, smooth } = this;
     this.segment = 0;
     let count = 0;
     let begin = 0;
     for (let i = 1; i <= last; i++) {
       let px = x[kept[i]];
       let py = y[kept[i]];
+      let place = along[kept[i]];
       if (smooth[i] > 0) {
         this.findMean(i);
         px += smooth[i] * (this.meanX - px);
         py += smooth[i] * (this.meanY - py);
+        place += smooth[i] * (at[i] - place);
       }
       const isNew = Math.hypot(px - path.x[count], py - path.y[count]) >= 2 * SHORTEST_MM;
       if (isNew) {
-        path.drawn[count++] = at[i] - begin;
-        begin = at[i];
+        path.drawn[count++] = place - begin;
+        begin = place;
       } else if (count > 0) {
         // At the place of the point before it, so both are one.
-        path.drawn[count - 1] += at[i] - begin;
-        begin = at[i];
+        path.drawn[count - 1] += place - begin;
+        begin = place;
       }
       if (count > 0) {
         path.x[count] = px;

@@ -5,8 +5,10 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt } from "../../../src/index.js";
 import { MOTION_MODES } from "../../../src/internal.js";
+import { newMotionState, SAME_TIME_S } from "../../../src/plan/trajectory.js";
 import { pointAt } from "../../../src/position/on-drawing.js";
 import { strokesOf } from "../../support/plots/local-planner.js";
+import { sampleStrokes } from "../../support/drawings/sample-strokes.js";
 import { RETRACED } from "../../support/drawings/stop-truth.js";
 
 /**
@@ -44,5 +46,32 @@ describe.each(MOTION_MODES)("mm along the drawing in %s mode", (mode) => {
       farthestMm = Math.max(farthestMm, Math.hypot(point.x - x, point.y - y));
     }
     expect(farthestMm).toBeLessThan(WITHIN_MM);
+  });
+});
+
+/** Points of smooth lines are moved along them. A merged pair is interpolated. */
+describe("mm along the drawing on smooth lines", () => {
+  it.each([
+    ["three-colour-hills", "not merged", null, 0.03],
+    ["three-colour-hills", "merged", DEFAULT_MOTION.fit, 0.1],
+    ["flower-meadow", "not merged", null, 0.03],
+    ["harmonograph", "merged", DEFAULT_MOTION.fit, 0.1],
+  ] as const)("match the pen's position on %s, %s", (name, _, fit, withinMm) => {
+    const strokes = sampleStrokes(name);
+    const trajectory = plan(strokes, { ...DEFAULT_MOTION, fit }, DEFAULT_PEN);
+    const state = newMotionState();
+    const { runs, startS } = trajectory;
+    let farthestMm = 0;
+    for (let run = 0; run < runs.count; run++) {
+      // Harmonograph is one line of 100 m: some of its blocks are enough.
+      const every = Math.ceil((runs.firstBlock[run + 1] - runs.firstBlock[run]) / 500);
+      for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k += every) {
+        const { stroke, alongMm, x, y } = stateAt(trajectory, startS[k] + SAME_TIME_S, state);
+        if (stroke < 0) continue;
+        const point = pointAt(strokes, { stroke, alongMm });
+        farthestMm = Math.max(farthestMm, Math.hypot(point.x - x, point.y - y));
+      }
+    }
+    expect(farthestMm).toBeLessThan(withinMm);
   });
 });
