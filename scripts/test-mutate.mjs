@@ -8,7 +8,7 @@ import { spawnSync } from "node:child_process";
 import { existsSync, writeFileSync, mkdirSync } from "node:fs";
 
 const AREAS = {
-  machines: { code: ["src/machines"], tests: ["test/src/machines"] },
+  machines: { code: ["src/machines"], tests: ["test/src/machines", "test/src/drivers/ebb/compile"] },
   plan: { code: ["src/plan"], tests: ["test/src/plan"] },
   compile: { code: ["src/drivers/ebb/compile"], tests: ["test/src/drivers/ebb/compile"] },
   queue: { code: ["host/queue"], tests: ["test/host/queue"] },

@@ -45,10 +45,14 @@ describe("a machine corrected by its observed directions", () => {
     );
   });
 
-  it("cannot be made from two moves along one line: a motor does not turn", () => {
-    expect(() => machineTurned(machineById("axidraw-v3"), "right", "left")).toThrow(
-      /one motor does not turn/,
-    );
+  it.each([
+    ["right", "left"],
+    ["right", "right"],
+    ["up", "down"],
+    ["down", "down"],
+  ] as const)("cannot be made from a move %s and one %s: a motor does not turn", (xWent, yWent) => {
+    const turned = () => machineTurned(machineById("axidraw-v3"), xWent, yWent);
+    expect(turned).toThrow(/one motor does not turn/);
   });
 });
 
@@ -71,6 +75,8 @@ describe("the steps for one mm", () => {
     for (const [x, y] of [
       [0, 50],
       [-50, 50],
+      [-50, -50],
+      [2, 2],
       [NaN, 50],
       [50, 5],
       [50_000, 50_000],
