@@ -1,4 +1,7 @@
-/** `npm run docs`: writes the generated parts of docs/*.md: parts of cli.md, motion.md and comparison.md, and both references. */
+/**
+ * `npm run docs`: writes the types of the settings, and the generated parts of docs/*.md: parts of cli.md, motion.md and
+ * comparison.md, and both references.
+ */
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { cliReference } from "./cli-reference.js";
@@ -7,9 +10,12 @@ import { libraryReference } from "./library-reference.js";
 import { penGainsTable } from "./pen-gains.js";
 import { sampleTimesTable } from "./sample-times.js";
 import { settingsTable } from "./settings-table.js";
+import { SETTINGS_TYPES_FILE, settingsTypes } from "./settings-types.js";
 
 const DOCS = path.join(import.meta.dirname, "..", "docs");
 
+// First, because the library's reference is made from them.
+writeFileSync(SETTINGS_TYPES_FILE, await settingsTypes());
 writePart("cli.md", "settings", settingsTable());
 writePart("cli.md", "commands", await cliReference());
 writePart("motion.md", "pen gains", penGainsTable());

@@ -2,7 +2,6 @@
 import path from "node:path";
 import prettier from "prettier";
 import ts from "typescript-6";
-import { rangeInWords, type Setting } from "../src/internal.js";
 
 const ROOT = path.join(import.meta.dirname, "..");
 const TITLE = `# Reference of the library
@@ -100,8 +99,7 @@ class ReferenceWriter {
       const declaration = declarationOf(member);
       const isOptional = (member.flags & ts.SymbolFlags.Optional) !== 0;
       this.noteTypesIn(declaration);
-      const about =
-        this.settingInWords(declaration, isOptional) ?? this.docOf(member, `${owner}.${member.name}`);
+      const about = this.docOf(member, `${owner}.${member.name}`);
       const name = `${member.name}${isOptional ? "?" : ""}`;
       const type = this.memberType(member, declaration);
       return `- \`${name}${type}\`${about === "" ? "" : ` — ${about.replace(/\s*\n\s*/g, " ")}`}`;
@@ -121,28 +119,6 @@ class ReferenceWriter {
     const node = hasType ? declaration.type : undefined;
     const type = node ? this.text(node) : this.typeText(this.checker.getTypeOfSymbol(member), declaration);
     return `: ${type.replace(/ \| undefined$/, "")}`;
-  }
-
-  /**
-   * For a field that is a row of a settings table: the row's label, default and range. An override has no
-   * default.
-   */
-  private settingInWords(field: ts.Declaration, isOverride: boolean): string | null {
-    if (!ts.isPropertyAssignment(field)) return null;
-    const row = this.literalsOf(this.checker.getTypeAtLocation(field.initializer)) as unknown as Setting;
-    const range = row.kind === "number" ? ` (${rangeInWords(row)})` : "";
-    const initial = isOverride ? "" : ` Default ${String(row.default)}.`;
-    return `${row.about.charAt(0).toUpperCase()}${row.about.slice(1)}${range}.${initial}`;
-  }
-
-  /** The values of a literal object, by its type. Only `true` and single values are used. */
-  private literalsOf(type: ts.Type): Record<string, unknown> {
-    const fields = this.checker.getPropertiesOfType(type).map((field): [string, unknown] => {
-      const value = this.checker.getTypeOfSymbol(field);
-      if (value.isLiteral()) return [field.name, value.value];
-      return [field.name, this.checker.typeToString(value) === "true"];
-    });
-    return Object.fromEntries(fields);
   }
 
   private docOf(symbol: ts.Symbol, name: string): string {
@@ -230,11 +206,9 @@ function sectionsOf(index: ts.SourceFile): { title: string; names: ts.ExportSpec
 const declarationOf = (symbol: ts.Symbol): ts.Declaration =>
   symbol.declarations?.[0] ?? raise(`${symbol.name} is declared nowhere`);
 
-/** Declared in src, and not internal to the settings tables. */
-function isOurs(symbol: ts.Symbol): boolean {
-  const file = path.relative(path.join(ROOT, "src"), declarationOf(symbol).getSourceFile().fileName);
-  return !file.startsWith("..") && file !== path.join("settings", "setting.ts");
-}
+/** Declared in src. */
+const isOurs = (symbol: ts.Symbol): boolean =>
+  !path.relative(path.join(ROOT, "src"), declarationOf(symbol).getSourceFile().fileName).startsWith("..");
 
 const isPublicMember = (node: ts.Node): boolean =>
   !hasInternalTag(node) &&

@@ -120,7 +120,7 @@ function inFile<T>(config: unknown, work: () => T): T {
 
 /** Throws `bad-setting` naming the flag at fault. */
 function withFlags(before: PlotSettings, values: OptionValues): PlotSettings {
-  const settings: Record<string, unknown> = structuredClone(before);
+  const settings: Record<string, unknown> = { ...structuredClone(before) };
   const size = values["paper"];
   if (isOwnSize(size)) setPath(settings, ["prepare", "landscape"], size.widthMm > size.heightMm);
   setSprings(settings, values);
@@ -148,7 +148,7 @@ const isStored = ({ path }: SettingOption): boolean =>
 function setSprings(settings: Record<string, unknown>, values: OptionValues): void {
   const { springX, springY, damping } = values;
   if (springX === undefined && springY === undefined && damping === undefined) return;
-  const machine = findMachine(settings as PlotSettings);
+  const machine = findMachine(settings as unknown as PlotSettings);
   if (machine === null) return;
   const known = machine.springs ?? null;
   const xHz = springX ?? known?.xHz;
@@ -171,9 +171,9 @@ function setSprings(settings: Record<string, unknown>, values: OptionValues): vo
 
 function setQuality(settings: Record<string, unknown>, values: OptionValues): void {
   const { quality } = values;
-  const machine = quality === undefined ? null : findMachine(settings as PlotSettings);
+  const machine = quality === undefined ? null : findMachine(settings as unknown as PlotSettings);
   if (machine === null) return;
-  const { motion } = settings as PlotSettings;
+  const { motion } = settings as unknown as PlotSettings;
   settings["motion"] = withQuality(motion, quality as Quality, machine.springs ?? null);
 }
 

@@ -6,6 +6,7 @@ import type { MachineChoice } from "../machines/profiles.js";
 import type { StrokePosition, Trajectory } from "../plan/trajectory.js";
 import type { MotionSettings } from "../settings/motion.js";
 import type { PenSettings } from "../settings/pen.js";
+import type { StreamValues } from "../settings/values.js";
 
 /** The part of a job's settings that determines its motion. */
 export interface JobSettings {
@@ -16,10 +17,7 @@ export interface JobSettings {
 }
 
 /** The settings that a connected machine needs. */
-export interface MachineSettings extends JobSettings, MachineChoice {
-  /** How much motion is sent ahead, so that the pen does not stop when the computer is busy. */
-  readonly sendAheadMs: number;
-}
+export interface MachineSettings extends JobSettings, MachineChoice, StreamValues {}
 
 /**
  * The state of a machine between two jobs. Only its driver reads the content. Plain data, so that it can be passed

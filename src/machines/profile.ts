@@ -1,4 +1,7 @@
 import type { Setting } from "../settings/setting.js";
+import type { Springs } from "../settings/values.js";
+
+export type { Springs } from "../settings/values.js";
 
 /** The properties of a plotter, as data. */
 export interface MachineProfile<C extends Controller = Controller> {
@@ -22,13 +25,6 @@ export interface MachineProfile<C extends Controller = Controller> {
   readonly springs?: Springs | null | undefined;
   /** The controller of the motors and the pen. */
   readonly controller: C;
-}
-
-/** How a gantry swings, modelled as a spring in each axis: natural frequencies, Hz, and the damping ratio of both. */
-export interface Springs {
-  readonly xHz: number;
-  readonly yHz: number;
-  readonly damping: number;
 }
 
 /**

@@ -18,7 +18,12 @@ const STANDARD_SERVO = {
 };
 const BRUSHLESS_SERVO = { ...STANDARD_SERVO, servoPosAt0Pct: 5_400, servoPosAt100Pct: 12_600, servoPin: 5 };
 
-const axidraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
+/** A profile whose type knows its id. */
+interface Named<Id extends string> extends MachineProfile {
+  readonly id: Id;
+}
+
+const axidraw = <Id extends string>(id: Id, name: string, widthMm: number, heightMm: number): Named<Id> => ({
   id,
   name,
   widthMm,
@@ -27,7 +32,7 @@ const axidraw = (id: string, name: string, widthMm: number, heightMm: number): M
   motors: "mixed",
   controller: STANDARD_SERVO,
 });
-const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): MachineProfile => ({
+const nextdraw = <Id extends string>(id: Id, name: string, widthMm: number, heightMm: number): Named<Id> => ({
   ...axidraw(id, name, widthMm, heightMm),
   controller: BRUSHLESS_SERVO,
 });
@@ -36,8 +41,7 @@ const nextdraw = (id: string, name: string, widthMm: number, heightMm: number): 
 const EGG_STEPS_PER_TURN = 3_200;
 const EGG_TURN_MM = Math.PI * 40;
 
-/** The built-in plotters. */
-export const MACHINES: readonly MachineProfile[] = [
+const BUILT_IN = [
   axidraw("axidraw-v3", "AxiDraw V3", 300, 218),
   axidraw("axidraw-v3-a3", "AxiDraw V3/A3", 430, 297),
   axidraw("axidraw-se-a4", "AxiDraw SE/A4", 300, 218),
@@ -68,14 +72,23 @@ export const MACHINES: readonly MachineProfile[] = [
     motors: "direct",
     controller: STANDARD_SERVO,
   },
-];
+] as const satisfies readonly MachineProfile[];
+
+/** Id of a built-in plotter. */
+export type MachineId = (typeof BUILT_IN)[number]["id"];
+
+/** The built-in plotters. */
+export const MACHINES: readonly MachineProfile[] = BUILT_IN;
+
+/** Any text. Beside literals, unlike `string`, it leaves editors the literals to offer. */
+export type OtherText = string & {};
 
 /**
  * The built-in plotter with that id.
  *
  * @throws PlotwrightError "bad-setting" for an unknown id, with the list of known ids
  */
-export function machineById(id: string): MachineProfile {
+export function machineById(id: MachineId | OtherText): MachineProfile {
   if (typeof id !== "string")
     refuseSetting(
       "machine",
@@ -92,8 +105,8 @@ export function machineById(id: string): MachineProfile {
 
 /** The machine in a job's settings. */
 export interface MachineChoice {
-  /** Id of a profile. Default "axidraw-v3". */
-  readonly machine: string;
+  /** Id of a built-in plotter, or of `customMachine`. Default "axidraw-v3". */
+  readonly machine: MachineId | OtherText;
   /** A custom profile, used if its id is `machine`. */
   readonly customMachine?: MachineProfile | null | undefined;
 }

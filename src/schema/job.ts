@@ -1,6 +1,6 @@
 /** A job in the queue, as stored by the server and shown in every browser. */
 import { z } from "zod";
-import { plotSettingsSchema } from "./settings.js";
+import { plotSettingsSchema, type PlotSettings } from "./settings.js";
 
 /**
  *   queued ──start──> plotting ──finish──> done
@@ -65,12 +65,15 @@ export const plotWaitSchema = z.object({
 });
 export type PlotWait = z.infer<typeof plotWaitSchema>;
 
+/** With the type of its own, which has the docstrings. */
+const settingsSchema: z.ZodType<PlotSettings> = plotSettingsSchema;
+
 export const jobSchema = z.object({
   id: z.string(),
   plotterId: z.string(),
   name: z.string(),
   state: jobStateSchema,
-  settings: plotSettingsSchema,
+  settings: settingsSchema,
   /** Null until the server has planned it. */
   stats: jobStatsSchema.nullable(),
   /** Parts of the drawing that are left out, and changes by the planner. Plain text. */

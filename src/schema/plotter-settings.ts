@@ -3,9 +3,13 @@
  * one such record for each plotter. The plotter's model is `Plotter.machine`.
  */
 import { z } from "zod";
+import type { JobSettings } from "../drivers/machine-job.js";
 import { PlotwrightError } from "../errors.js";
 import { findMachine } from "../machines/profiles.js";
 import { withoutShaperIfUnmeasured } from "../plan/quality.js";
+import type { PenSetup, PlotPen } from "../prepare/layers/pens.js";
+import type { PenSettings } from "../settings/pen.js";
+import type { PrepareSettings } from "../settings/prepare.js";
 import type { GivenSettings } from "./given-settings.js";
 import {
   motionSettingsSchema,
@@ -20,6 +24,15 @@ const { pens, layerPens, penStops, layerStops } = plotSettingsSchema.shape;
 const prepare = prepareSettingsSchema.shape;
 
 /** Settings under a name: how pens move and which layers they draw, not where the drawing is on the paper. */
+export interface Preset extends JobSettings {
+  readonly name: string;
+  readonly pens: PenSetup;
+  readonly layers: Pick<
+    PrepareSettings,
+    "layers" | "hiddenLayers" | "shownLayers" | "layerOrder" | "layerRepeats" | "layerHatches"
+  >;
+}
+
 export const presetSchema = z.object({
   name: z.string().trim().min(1).max(60),
   motion: motionSettingsSchema,
@@ -33,22 +46,27 @@ export const presetSchema = z.object({
     layerRepeats: prepare.layerRepeats,
     layerHatches: prepare.layerHatches,
   }),
-});
-export type Preset = z.infer<typeof presetSchema>;
+}) satisfies z.ZodType<Preset>;
 
 export const MAX_PRESETS = 100;
 
-export const plotterSettingsSchema = z.object({
+export interface PlotterSettings {
+  /** Without the heights of single layers, which belong to a drawing. */
+  readonly pen: Omit<PenSettings, "layers">;
+  readonly pens: readonly PlotPen[];
+  readonly presets: readonly Preset[];
+}
+
+export const plotterSettingsSchema: z.ZodType<PlotterSettings> = z.object({
   pen: plotterPenSchema,
   pens,
   presets: z.array(presetSchema).max(MAX_PRESETS).default([]),
 });
-export type PlotterSettings = z.infer<typeof plotterSettingsSchema>;
 
 /** The plotter's part of a drawing's settings. */
 export function plotterPartOf(settings: PlotSettings): Pick<PlotterSettings, "pen" | "pens"> {
   // Parsing leaves out `layers`.
-  return { pen: plotterSettingsSchema.shape.pen.parse(settings.pen), pens: settings.pens };
+  return { pen: plotterPenSchema.parse(settings.pen), pens: settings.pens };
 }
 
 /** The settings of a drawing for some other plotter: without this plotter's heights, and only with the pens it needs. */

@@ -27,12 +27,17 @@ import {
   DEFAULT_PREPARE,
   HATCH_TABLE,
   LAYER_REPEATS,
+  MARGINS_TABLE,
   PAPER_TABLE,
   PREPARE_TABLE,
   type PrepareSettings,
 } from "../settings/prepare.js";
 import { STREAM_TABLE } from "../settings/machine.js";
-import { NO_PENS, PEN_STOP_MODES, type PlotPen } from "../prepare/layers/pens.js";
+import type { StreamValues } from "../settings/values.js";
+import type { JobSettings } from "../drivers/machine-job.js";
+import type { MachineProfile } from "../machines/profile.js";
+import type { MachineChoice } from "../machines/profiles.js";
+import { NO_PENS, PEN_STOP_MODES, type PenSetup, type PlotPen } from "../prepare/layers/pens.js";
 import { machineProfileSchema } from "./machine.js";
 import { numberSchema, shapeOf, shapeWithDefaults } from "./setting.js";
 
@@ -58,15 +63,7 @@ export const prepareSettingsSchema = z.object({
   shownLayers: layerIds.default([]),
   layerOrder: layerIds.default([]),
   layerRepeats: byLayer(numberSchema(LAYER_REPEATS)).default({}),
-  margins: z
-    .object({
-      topMm: numberSchema(PREPARE_TABLE.marginMm),
-      rightMm: numberSchema(PREPARE_TABLE.marginMm),
-      bottomMm: numberSchema(PREPARE_TABLE.marginMm),
-      leftMm: numberSchema(PREPARE_TABLE.marginMm),
-    })
-    .nullable()
-    .default(null),
+  margins: z.object(shapeOf(MARGINS_TABLE)).nullable().default(null),
   layout: z
     .object({
       xMm: anywhere.default(0),
@@ -146,8 +143,15 @@ export const plotSettingsSchema = z.object({
   ...shapeWithDefaults(STREAM_TABLE),
   /** The complete profile of a machine that is not built in; used if `machine` is its id. */
   customMachine: machineProfileSchema.nullable().default(null),
-});
-export type PlotSettings = z.infer<typeof plotSettingsSchema>;
+}) satisfies z.ZodType<PlotSettings>;
+
+/** All settings of a job. */
+export interface PlotSettings extends JobSettings, MachineChoice, PenSetup, StreamValues {
+  /** Paper, placing, hatching, order of strokes … */
+  readonly prepare: PrepareSettings;
+  /** A custom profile, used if its id is `machine`. */
+  readonly customMachine: MachineProfile | null;
+}
 
 /** Every setting that is left out here has its default. */
 export const DEFAULT_PLOT_SETTINGS: PlotSettings = plotSettingsSchema.parse({

@@ -1,5 +1,16 @@
 import { MIN_SPEED_FACTOR } from "../drawing/drawing.js";
-import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
+import { defaultsOf, type NumberSetting, type SettingsTable } from "./setting.js";
+import type {
+  AxisLimits,
+  EaseSettings,
+  FitSettings,
+  LayerMotion,
+  MotionLimits,
+  MotionValues,
+  TravelLimits,
+} from "./values.js";
+
+export type { AxisLimits, EaseSettings, FitSettings, LayerMotion, MotionLimits } from "./values.js";
 
 /**
  * The motion settings: one set of limits with the pen down (`draw`), one with the pen up (`travel`).
@@ -136,9 +147,6 @@ export const TRAVEL_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** Limits of speed, acceleration, corner and jerk. */
-export type MotionLimits = ValuesOf<typeof DRAW_TABLE>;
-
 export const MOTION_TABLE = {
   mode: {
     kind: "choice",
@@ -196,9 +204,6 @@ export const AXIS_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** Limits of single axes; null or left out: only the limits of the whole motion apply. */
-export type AxisLimits = { readonly [K in keyof typeof AXIS_TABLE]?: number | null | undefined };
-
 export const FIT_TABLE = {
   toleranceMm: {
     kind: "number",
@@ -224,9 +229,6 @@ export const FIT_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** Merging of a plan's blocks into fewer, longer ones. */
-export type FitSettings = ValuesOf<typeof FIT_TABLE>;
-
 export const EASE_TABLE = {
   lengthMm: {
     kind: "number",
@@ -241,9 +243,6 @@ export const EASE_TABLE = {
   },
   speedMmPerS: { ...speed, label: "Speed", about: "speed of the slow start and end", default: 10 },
 } as const satisfies SettingsTable;
-
-/** Slow-in and slow-out: the first and last millimetres of every stroke are drawn no faster than this. */
-export type EaseSettings = ValuesOf<typeof EASE_TABLE>;
 
 /** Limit of one motor; matters on mixed machines, where a diagonal loads one motor more. */
 export const MOTOR_ACCEL = {
@@ -270,28 +269,16 @@ export const SPEED_FACTOR = {
   step: 0.05,
 } as const satisfies NumberSetting;
 
-/** Overrides for one layer; limits that are left out are those of all layers. */
-export type LayerMotion = { readonly [K in keyof MotionLimits]?: number | undefined } & {
-  /** The layer is drawn at this share of the speed, from 0.01 to 1. */
-  readonly speedFactor?: number | undefined;
-};
-
 /** How the pen moves. Start from `DEFAULT_MOTION`. The formulas are in docs/motion.md. */
-export interface MotionSettings extends AxisLimits {
-  /** How corners are taken. */
-  readonly mode: MotionMode;
-  /** Input shaper against the machine's swinging; default none. All others need the machine's `springs`. */
-  readonly shaper?: Shaper | undefined;
+export interface MotionSettings extends MotionValues, AxisLimits {
   /** Limits with the pen down. */
   readonly draw: MotionLimits;
   /** Limits with the pen up. */
-  readonly travel: MotionLimits;
+  readonly travel: TravelLimits;
   /** Merges blocks into fewer, longer ones; null or left out: no merging. */
   readonly fit?: FitSettings | null | undefined;
   /** Slow start and end of every stroke; null or left out: none. */
   readonly ease?: EaseSettings | null | undefined;
-  /** Max acceleration of one motor; matters on mixed machines, where a diagonal loads one motor more. */
-  readonly motorAccelStepsPerS2?: number | null | undefined;
   /** By layer id: limits with the pen down. */
   readonly layers?: Readonly<Record<string, LayerMotion>> | undefined;
 }

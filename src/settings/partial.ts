@@ -1,7 +1,7 @@
 /** Settings that give only a part, laid over complete ones. */
 
 /** Any part of T. Lists are given as a whole. */
-export type DeepPartial<T> = T extends readonly unknown[]
+export type DeepPartial<T> = T extends string | readonly unknown[]
   ? T
   : T extends object
     ? { readonly [K in keyof T]?: DeepPartial<T[K]> | undefined }

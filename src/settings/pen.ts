@@ -1,5 +1,8 @@
 /** The pen's settings. Heights are percent of the servo's range, 100 = highest. */
-import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
+import { defaultsOf, type NumberSetting, type SettingsTable } from "./setting.js";
+import type { LayerPen, PenRates, PenValues } from "./values.js";
+
+export type { LayerPen } from "./values.js";
 
 const height = { kind: "number", min: 0, max: 100, unit: "%", step: 1 } as const;
 const delay = { kind: "number", min: 0, max: 10_000, unit: "ms", step: 10 } as const;
@@ -115,18 +118,8 @@ export const LAYER_WAIT = {
   step: 500,
 } as const satisfies NumberSetting;
 
-/** Overrides for one layer's pen; settings that are left out are those of all layers. */
-export type LayerPen = { readonly [K in keyof typeof PEN_TABLE]?: number | undefined } & {
-  /** A wait with the pen up before the layer's first stroke. */
-  readonly beforeMs?: number | undefined;
-};
-
 /** Pen heights, and how long the carriage waits for the pen. Start from `DEFAULT_PEN`. */
-export interface PenSettings extends ValuesOf<typeof PEN_TABLE>, ValuesOf<typeof OVERLAP_TABLE> {
-  /** How fast the pen rises; null or left out: as fast as the servo can. */
-  readonly liftPctPerS?: number | null | undefined;
-  /** How fast the pen is lowered; null or left out: as fast as the servo can. */
-  readonly dropPctPerS?: number | null | undefined;
+export interface PenSettings extends PenValues, PenRates {
   /** By layer id: heights and waits of that layer. */
   readonly layers?: Readonly<Record<string, LayerPen>> | undefined;
 }

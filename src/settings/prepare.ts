@@ -1,5 +1,8 @@
 import type { PaperSize } from "../drawing/paper.js";
-import { defaultsOf, type NumberSetting, type SettingsTable, type ValuesOf } from "./setting.js";
+import { defaultsOf, type NumberSetting, type SettingsTable } from "./setting.js";
+import type { FourMargins, HatchSettings, PaperSettings, PrepareValues } from "./values.js";
+
+export type { FourMargins, HatchSettings } from "./values.js";
 
 const LAYER_MODES = ["group", "sublayer", "stroke", "all"] as const;
 export type LayerMode = (typeof LAYER_MODES)[number];
@@ -15,17 +18,11 @@ export type OutsideMode = (typeof OUTSIDE_MODES)[number];
 const SPREAD_MODES = ["none", "interleave", "shuffle"] as const;
 export type SpreadMode = (typeof SPREAD_MODES)[number];
 
-/** Margins of the paper, in the orientation in which it lies. */
-export interface FourMargins {
-  readonly topMm: number;
-  readonly rightMm: number;
-  readonly bottomMm: number;
-  readonly leftMm: number;
-}
-
 /** Where the drawing's bounding box is placed, mm from the paper's top left corner. */
 export interface PlacedBox {
+  /** From the left edge. */
   readonly xMm: number;
+  /** From the top edge. */
   readonly yMm: number;
   /** If one is null, the drawing keeps its proportions. If both are null, it has its true size. */
   readonly widthMm: number | null;
@@ -36,7 +33,9 @@ export interface PlacedBox {
 
 /** An offset on the paper, mm. */
 export interface ShiftMm {
+  /** To the right. */
   readonly xMm: number;
+  /** Down. */
   readonly yMm: number;
 }
 
@@ -82,9 +81,6 @@ export const HATCH_TABLE = {
   },
 } as const satisfies SettingsTable;
 
-/** How areas are filled with lines. */
-export type HatchSettings = ValuesOf<typeof HATCH_TABLE>;
-
 /** Hatch settings of one layer. */
 export interface LayerHatch extends HatchSettings {
   /** Layer id. */
@@ -121,7 +117,7 @@ export const PREPARE_TABLE = {
     words: "scale, size, zoom, fit to page, true size",
     about: "scale the drawing to the paper inside the margins",
     aboutOff: "draw at true size, page corner on paper corner",
-    aboutAuto: "true size if the file's page fits the paper, otherwise --fit",
+    aboutAuto: "true size if the file's page fits the paper, otherwise fitted",
     flag: "--fit",
     default: "auto",
   },
@@ -355,6 +351,16 @@ export const PREPARE_TABLE = {
   },
 } as const satisfies SettingsTable;
 
+const { marginMm } = PREPARE_TABLE;
+
+/** One margin per side. */
+export const MARGINS_TABLE = {
+  topMm: { ...marginMm, about: "free edge at the top of the paper" },
+  rightMm: { ...marginMm, about: "free edge at the right of the paper" },
+  bottomMm: { ...marginMm, about: "free edge at the bottom of the paper" },
+  leftMm: { ...marginMm, about: "free edge at the left of the paper" },
+} as const satisfies SettingsTable;
+
 /** How often a layer is drawn, in `layerRepeats`. */
 export const LAYER_REPEATS = {
   kind: "number",
@@ -369,16 +375,16 @@ export const LAYER_REPEATS = {
 } as const satisfies NumberSetting;
 
 /** How the drawing is placed on the paper and turned into strokes. Start from `DEFAULT_PREPARE`. */
-export interface PrepareSettings extends ValuesOf<typeof PREPARE_TABLE> {
+export interface PrepareSettings extends PrepareValues {
   /** Portrait size; `landscape` rotates it. */
-  readonly paper: PaperSize;
+  readonly paper: PaperSettings;
   /** Layer ids to leave out. */
   readonly hiddenLayers: readonly string[];
   /** Layers to draw although their name begins with "%". */
   readonly shownLayers: readonly string[];
   /** Layer ids to draw first, in this order; the rest follow in the file's order. */
   readonly layerOrder: readonly string[];
-  /** By layer id: how many times to draw it; default once. */
+  /** By layer id: how many times to draw it (a whole number, 1 to 20). Default once. */
   readonly layerRepeats: Readonly<Record<string, number>>;
   /** By layer id: an offset, applied last, that aligns a pen mounted off-centre with the others. */
   readonly layerShifts?: Readonly<Record<string, ShiftMm>> | undefined;

@@ -62,7 +62,7 @@ export const parseRemembered = (stored: string | null): Remembered => {
  * Parses each part (paper and fill, speeds, pen, machine …) separately, so that one bad part does not reset the rest.
  */
 const settingsOr = (stored: Record<string, unknown>): PlotSettings => {
-  const defaults: Record<string, unknown> = DEFAULT_PLOT_SETTINGS;
+  const defaults: Record<string, unknown> = { ...DEFAULT_PLOT_SETTINGS };
   const parts = Object.entries(plotSettingsSchema.shape).map(([name, schema]) => [
     name,
     partOr<unknown>(schema, defaults[name], stored[name]),

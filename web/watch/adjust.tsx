@@ -108,7 +108,6 @@ const ApplyChanges = ({ job }: { job: Job }) => {
 };
 
 type Settings = Pick<PlotSettings, "pen" | "motion">;
-type Values = Readonly<Record<string, unknown>>;
 type Rows = Readonly<Record<string, Setting>>;
 
 const PEN_ROWS: Rows = { ...PEN_TABLE, ...OVERLAP_TABLE, dropPctPerS: DROP_RATE };
@@ -127,8 +126,8 @@ export const changedSettings = (before: Settings, now: Settings): readonly strin
   ];
 };
 
-const changed = (before: Values, now: Values, rows: Rows): readonly string[] => {
-  const keys = [...new Set([...Object.keys(before), ...Object.keys(now)])];
+const changed = <T extends object>(before: T, now: T, rows: Rows): readonly string[] => {
+  const keys = [...new Set([...Object.keys(before), ...Object.keys(now)])] as (keyof T & string)[];
   // A setting that is left out is the same as null.
   return keys
     .filter((key) => !isSameJson(before[key] ?? null, now[key] ?? null))

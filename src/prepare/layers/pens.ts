@@ -17,22 +17,18 @@ import {
 } from "../../drawing/stroke-set.js";
 import { parseLayerName, shownLayerName } from "./layer-codes.js";
 import type { PrepareSettings, ShiftMm } from "../../settings/prepare.js";
+import type { PlotPenValues } from "../../settings/values.js";
 
 export const PEN_STOP_MODES = ["never", "pens", "layers"] as const;
 /** Where a plot stops for another pen: where the pen changes, before every layer, or nowhere. */
 export type PenStopMode = (typeof PEN_STOP_MODES)[number];
 
 /** A pen that the user has. */
-export interface PlotPen {
+export interface PlotPen extends PlotPenValues {
   readonly id: string;
   readonly name: string;
   /** "#rrggbb", or null to use the layer's colour. */
   readonly color: string | null;
-  /** Line width. */
-  readonly widthMm: number;
-  /** Offset of its line on paper from the intended position: to the right, and away from home. */
-  readonly offsetXMm: number;
-  readonly offsetYMm: number;
 }
 
 /** The user's pens, the pen of each layer, and where the plot stops to change pens. */

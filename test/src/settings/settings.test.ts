@@ -2,6 +2,7 @@ import { readFileSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
 import { settingsTable } from "../../../scripts/settings-table.js";
+import { SETTINGS_TYPES_FILE, settingsTypes } from "../../../scripts/settings-types.js";
 import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema } from "../../../src/schema/index.js";
 import { isSameJson } from "../../../src/settings/partial.js";
 import { isAllowed, rangeInWords, type NumberSetting } from "../../../src/settings/setting.js";
@@ -41,6 +42,10 @@ describe("the settings tables", () => {
     expect(accepts(at, justAbove)).toBe(false);
     expect(accepts(at, justBelow)).toBe(false);
     expect(accepts(at, row.min)).toBe(row.minExcluded !== true);
+  });
+
+  it("have the types that `npm run docs` writes", async () => {
+    expect(readFileSync(SETTINGS_TYPES_FILE, "utf8")).toBe(await settingsTypes());
   });
 
   it("fill in what an older version did not store", () => {
