@@ -1,3 +1,5 @@
+import { tmpdir } from "node:os";
+import path from "node:path";
 import { defineConfig } from "vitest/config";
 import { BaseSequencer, type TestSpecification } from "vitest/node";
 
@@ -41,6 +43,8 @@ const COMMON = {
   pool: "forks" as const,
   execArgv: EXEC_ARGV,
   setupFiles: ["test/support/runs/fixed-seed.ts"],
+  // The config file of whoever runs the tests does not apply. Tests of that file set the folder themselves.
+  env: { XDG_CONFIG_HOME: path.join(tmpdir(), "plotwright-tests-have-no-config") },
 };
 
 /** These tests leave nothing behind, so they share workers that have loaded the product once. */

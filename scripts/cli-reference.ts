@@ -43,8 +43,8 @@ function optionsOf(command: Command): string[] {
   if (settings.length === 0) return table;
   const which =
     settings.length === SETTING_OPTIONS.length
-      ? "It follows all [settings](#settings)."
-      : `[Settings](#settings) that it follows: ${settings.map((one) => `\`${one.long ?? ""}\``).join(", ")}.`;
+      ? "It follows all [settings](#all-settings)."
+      : `[Settings](#all-settings) that it follows: ${settings.map((one) => `\`${one.long ?? ""}\``).join(", ")}.`;
   return [...table, which];
 }
 

@@ -63,7 +63,7 @@ export {
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
-export { isSameJson, withGiven } from "./settings/partial.js";
+export { GIVEN_WHOLE, isSameJson, withGiven } from "./settings/partial.js";
 export { isAllowed, rangeInWords, type NumberSetting, type Setting } from "./settings/setting.js";
 export {
   QUALITY_PATH,

@@ -188,6 +188,17 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await list()).declareMachines,
   },
   {
+    name: "settings",
+    about: "show and keep settings: for all drawings, or under a name",
+    examples: [
+      "plotwright settings",
+      "plotwright settings set paper A3",
+      "plotwright settings save Fineliner --speed 40 --pen-down 25",
+      "plotwright settings presets",
+    ],
+    load: async () => (await import("./settings-command.js")).declareSettings,
+  },
+  {
     name: "service",
     about: "run the server as a systemd service",
     examples: ["plotwright service install --print -- --port 9381", "plotwright service status"],

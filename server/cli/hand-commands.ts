@@ -25,7 +25,8 @@ import {
   type HandPlotter,
   type ServedPlotter,
 } from "./client/served-plotter.js";
-import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "./settings-options.js";
+import { settingsOfOwnPlotter, withPortByName } from "./client/known-plotters.js";
+import { addSettingOptions, type OptionValues } from "./settings-options.js";
 
 type HandOptions = OptionValues & DeviceOptions;
 
@@ -135,9 +136,7 @@ export const declareFrame: Declare = (command, { io }) => {
     .action(async (file: string, options: HandOptions & { readonly only?: readonly string[] }) => {
       const found = await findPlotter(options, io);
       const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, found.settings, options.only));
-      await usePlotter(found, options, io, (plotter) =>
-        plotter.move({ kind: "frame", boxMm }, found.settings),
-      );
+      await usePlotter(found, io, (plotter) => plotter.move({ kind: "frame", boxMm }, found.settings));
     });
 };
 
@@ -166,15 +165,18 @@ interface Found {
   /** Null: the command opens the plotter itself. */
   readonly served: ServedPlotter | null;
   readonly settings: PlotSettings;
+  /** Their --device is a port. */
+  readonly options: HandOptions;
 }
 
 /** The plotter's settings with the options. Says if they name another model than the plotter's. */
-async function findPlotter(options: HandOptions, io: CliIo): Promise<Found> {
-  mustBeDataFolder(typeof options["data"] === "string" ? options["data"] : undefined);
-  const served = await servedPlotter(options);
-  const { settings, note } = served?.settings ?? plotterSettingsFromOptions(options);
-  if (note !== null) io.err(`note: ${note}\n`);
-  return { served, settings };
+async function findPlotter(given: HandOptions, io: CliIo): Promise<Found> {
+  mustBeDataFolder(typeof given["data"] === "string" ? given["data"] : undefined);
+  const served = await servedPlotter(given);
+  const options = served === null ? await withPortByName(given) : given;
+  const { settings, note } = served?.settings ?? (await settingsOfOwnPlotter(options));
+  if (note !== null) io.err(printed`note: ${note}\n`);
+  return { served, settings, options };
 }
 
 async function byHand(
@@ -183,13 +185,12 @@ async function byHand(
   use: (plotter: HandPlotter, settings: PlotSettings) => Promise<void> | void,
 ): Promise<void> {
   const found = await findPlotter(options, io);
-  await usePlotter(found, options, io, (plotter) => use(plotter, found.settings));
+  await usePlotter(found, io, (plotter) => use(plotter, found.settings));
 }
 
 /** Through the server that has the plotter, or else directly. An interrupt stops the move, and the pen is lifted. */
 async function usePlotter(
-  { served, settings }: Found,
-  options: DeviceOptions,
+  { served, settings, options }: Found,
   io: CliIo,
   use: (plotter: HandPlotter) => Promise<void> | void,
 ): Promise<void> {

@@ -35,6 +35,13 @@ export interface CliIo {
 export const printed = (parts: TemplateStringsArray, ...values: readonly unknown[]): string =>
   String.raw({ raw: parts }, ...values.map((value) => printable(String(value))));
 
+/** A time as hours, minutes and seconds: "00:01:30". */
+export function minutes(seconds: number): string {
+  const whole = Math.round(seconds);
+  const parts = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
+  return parts.map((part) => String(part).padStart(2, "0")).join(":");
+}
+
 /** A second safeguard, for messages of several lines: without what could control a terminal, except line ends and tabs. */
 const harmless = (text: string): string =>
   text

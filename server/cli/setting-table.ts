@@ -66,6 +66,14 @@ function optionsOf(setting: SettingFlag): SettingOption[] {
 
 export const SETTING_OPTIONS: readonly SettingOption[] = [...STRUCTURED, ...SETTING_FLAGS.flatMap(optionsOf)];
 
+/** The option with that name, without its hyphens. */
+export const optionOf = (name: string): SettingOption | undefined =>
+  SETTING_OPTIONS.find(({ flags }) => flags.split(" ")[0] === `--${name}` && !name.startsWith("no-"));
+
+/** The option for the setting at that path. */
+export const optionAt = (path: string): SettingOption | undefined =>
+  SETTING_OPTIONS.find((option) => option.path === path);
+
 const NAMED_SIZES: readonly unknown[] = Object.values(PAPER_SIZES);
 
 /** A size in numbers: its own orientation applies. */

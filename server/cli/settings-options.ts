@@ -1,6 +1,6 @@
 /**
- * From the command line to PlotSettings: those of the plotter, then the file of --config, then the flags. Values are
- * checked by the same schema as the web's; an error names the flag, or the field in the file.
+ * From the command line to PlotSettings: those of the plotter, with config files, a preset and the flags laid over them.
+ * Values are checked by the same schema as the web's; an error names the flag, or the field in the file.
  */
 import { Option, type Command } from "commander";
 import { PlotwrightError, type MachineProfile } from "../../src/index.js";
@@ -19,8 +19,9 @@ import {
 import {
   DEFAULT_PLOT_SETTINGS,
   firstFault,
-  givenSettingsSchema,
+  fromPreset,
   plotSettingsSchema,
+  presetNamed,
   type GivenSettings,
   type PlotSettings,
 } from "../../src/schema/index.js";
@@ -30,10 +31,9 @@ import {
   type StoredOfPlotter,
   type WithMachine,
 } from "../../host/plotter/settings-of-plotter.js";
-import { fileFault } from "../storage/file-fault.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles, machineOfText } from "../storage/machine-files.js";
-import { readText } from "./files.js";
+import { fromFile, readConfig, readUsualConfig, usualConfigPath } from "./config-file.js";
 import { NOTHING_STORED, storedPlotter } from "./stored-plotter.js";
 import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
@@ -52,13 +52,24 @@ export function addSettingOptions(command: Command, parts?: readonly string[]): 
   }
   return command
     .addOption(new Option("--machine-file <file>", "JSON file with the profile of your own plotter, or -"))
-    .addOption(new Option("--config <file>", "JSON file with settings, or -; flags override it"));
+    .addOption(new Option("--config <file>", "JSON file with settings, or -; flags override it"))
+    .addOption(new Option("--no-config", "leave out the config file that always applies"))
+    .addOption(new Option("--preset <name>", "settings that are stored for the plotter under a name"));
 }
 
 /** Settings of a command, and what to tell its user about the machine; null: nothing. */
 export interface FoundSettings {
   readonly settings: PlotSettings;
   readonly note: string | null;
+}
+
+/** The settings after one of the things that they are laid together from. */
+export interface SettingsLayer {
+  /** What they are from, in words. */
+  readonly source: string;
+  readonly settings: PlotSettings;
+  /** Settings that it names, also where they were the same before. */
+  readonly given: GivenSettings;
 }
 
 /** For a command without a plotter. Throws `bad-setting` naming the flag at fault. */
@@ -70,51 +81,126 @@ export const settingsFromOptions = (values: OptionValues): PlotSettings =>
  * `busy` while that server runs.
  */
 export function plotterSettingsFromOptions(values: OptionValues): FoundSettings {
-  const { machine, machineFile, device = "auto" } = values;
+  const { machine, machineFile, preset, device = "auto" } = values;
   const stored = storedPlotter({
     dataDir: dataDirOf(values),
     device: String(device),
-    isOptional: (machine ?? machineFile) !== undefined || device === "virtual",
+    isOptional: preset === undefined && ((machine ?? machineFile) !== undefined || device === "virtual"),
   });
   return settingsOver(values, stored);
 }
 
 /**
- * The settings of the plotter, then the file of --config, then the flags. A model that is given by a flag is the plotter's
- * model. The model in the file is that of a job, and only counts if nothing else names one.
+ * The settings of the plotter; over them those of the config file that always applies, of --preset, of --config, and the
+ * flags. A model that is given by a flag is the plotter's model. The model in a file is that of a job, and only counts if
+ * nothing else names one.
  *
  * @param serverMachine adds the profile of a custom machine that is not in the data folder
  */
 export function settingsOver(
   values: OptionValues,
   stored: StoredOfPlotter,
-  serverMachine: WithMachine = (settings) => settings,
+  serverMachine?: WithMachine,
 ): FoundSettings {
-  const { config, machineFile, machine } = values;
+  const { layers, note } = settingsInLayers(values, stored, serverMachine);
+  return { settings: layers[layers.length - 1].settings, note };
+}
+
+export interface LayeredSettings {
+  /** At least one; the last one has the settings that apply. */
+  readonly layers: readonly SettingsLayer[];
+  /** What the machine is from: the source of its layer, or words of its own. */
+  readonly machineSource: string;
+  readonly note: string | null;
+}
+
+/** As `settingsOver`, step by step. */
+export function settingsInLayers(
+  values: OptionValues,
+  stored: StoredOfPlotter,
+  serverMachine: WithMachine = (settings) => settings,
+): LayeredSettings {
+  const { config, machineFile, machine, preset } = values;
   const profile =
     typeof machineFile === "string" ? fromFile("--machine-file", machineFile, machineOfText) : null;
+  const usual = config === false ? {} : readUsualConfig();
   const given = typeof config === "string" ? readConfig(config) : {};
-  const profiles = [profile, plotSettingsSchema.shape.customMachine.parse(given.customMachine ?? null)];
+  const profiles = [
+    profile,
+    ...[given, usual].map((one) => plotSettingsSchema.shape.customMachine.parse(one.customMachine ?? null)),
+  ];
   const withMachine: WithMachine = (settings) => {
     const own = profiles.find((one) => one?.id === settings.machine);
     return own ? { ...settings, customMachine: own } : serverMachine(withOwnMachine(settings, values));
   };
   const named = profile?.id ?? (typeof machine === "string" ? machine : null);
   if (named !== null) machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: named }));
-  const model =
-    named ?? stored.machine ?? (stored.last ? null : (given.machine ?? given.customMachine?.id ?? null));
-  const plotter = settingsOfPlotter({ ...stored, machine: model }, withMachine);
-  const { settings, note } = inFile(config, () => settingsWith(plotter, given, withMachine));
-  return { settings: withFlags(settings, values), note };
+  const usualPath = usualConfigPath();
+  const configSource = `--config ${String(config)}`;
+  const models: readonly (readonly [source: string, machine: string | null | undefined])[] = [
+    [profile === null ? "--machine" : "--machine-file", named],
+    [PLOTTER, stored.machine],
+    [LAST_JOB, stored.last?.machine],
+    [configSource, machineIn(given)],
+    [usualPath, machineIn(usual)],
+  ];
+  const [machineSource, model = null] = models.find(([, one]) => (one ?? null) !== null) ?? [DEFAULT];
+  if ([usualPath, configSource].includes(machineSource)) {
+    inFile(machineSource, () => machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: model ?? "" })));
+  }
+  // settingsOfPlotter takes the machine of the last job by itself, with its profile.
+  const machineOfPlotter = machineSource === LAST_JOB ? null : model;
+  const plotter = settingsOfPlotter({ ...stored, machine: machineOfPlotter }, withMachine);
+  const layers: SettingsLayer[] = [
+    { source: DEFAULT, settings: DEFAULT_PLOT_SETTINGS, given: {} },
+    {
+      source: PLOTTER,
+      settings: plotter.settings,
+      given: stored.own === undefined ? {} : { pen: stored.own.pen },
+    },
+  ];
+  const lay = (source: string, settings: PlotSettings, ofIt: GivenSettings): PlotSettings => {
+    layers.push({ source, settings, given: ofIt });
+    return settings;
+  };
+  let settings = plotter.settings;
+  // That its model is not the plotter's is no mistake: it is the user's usual one.
+  settings = lay(
+    usualPath,
+    inFile(usualPath, () => settingsWith(plotter, usual, withMachine, settings)).settings,
+    usual,
+  );
+  if (typeof preset === "string") {
+    const chosen = presetNamed(stored.own?.presets ?? [], preset);
+    const { motion, pen, pens, layers: drawn } = chosen;
+    settings = lay(`preset ${chosen.name}`, fromPreset(settings, chosen), {
+      motion,
+      pen,
+      ...pens,
+      prepare: drawn,
+    });
+  }
+  const over = inFile(configSource, () => settingsWith(plotter, given, withMachine, settings));
+  if (typeof config === "string") lay(configSource, over.settings, given);
+  lay(OPTIONS, withFlags(over.settings, values), givenByFlags(values));
+  return { layers, machineSource, note: over.note };
 }
 
-/** An error of the settings in the file of --config names that file. */
-function inFile<T>(config: unknown, work: () => T): T {
+export const DEFAULT = "default";
+export const PLOTTER = "the plotter";
+export const OPTIONS = "options";
+const LAST_JOB = "the plotter's last job";
+
+const machineIn = ({ machine, customMachine }: GivenSettings): string | undefined =>
+  machine ?? customMachine?.id;
+
+/** An error of the settings in a file names that file. */
+function inFile<T>(file: string, work: () => T): T {
   try {
     return work();
   } catch (cause) {
-    if (typeof config !== "string" || !(cause instanceof PlotwrightError)) throw cause;
-    throw new PlotwrightError(cause.code, `--config ${config}: ${cause.message}`, { cause });
+    if (!(cause instanceof PlotwrightError)) throw cause;
+    throw new PlotwrightError(cause.code, `${file}: ${cause.message}`, { cause });
   }
 }
 
@@ -138,6 +224,15 @@ function withFlags(before: PlotSettings, values: OptionValues): PlotSettings {
   const option = SETTING_OPTIONS.find((one) => path.startsWith(one.path) && values[keyOf(one)] !== undefined);
   const where = option?.flags.split(" ")[0] ?? path;
   throw new PlotwrightError("bad-setting", `${where}: ${words}.`);
+}
+
+function givenByFlags(values: OptionValues): GivenSettings {
+  const given: Record<string, unknown> = {};
+  for (const option of SETTING_OPTIONS.filter(isStored)) {
+    const value = values[keyOf(option)];
+    if (value !== undefined) setPath(given, option.path.split("."), value);
+  }
+  return given;
 }
 
 /** Whether the option is part of a job's settings, and not handled before. */
@@ -177,12 +272,23 @@ function setQuality(settings: Record<string, unknown>, values: OptionValues): vo
   settings["motion"] = withQuality(motion, quality as Quality, machine.springs ?? null);
 }
 
-const keyOf = (option: SettingOption): string => new Option(option.flags).attributeName();
+export const keyOf = (option: SettingOption): string => new Option(option.flags).attributeName();
 
-function setPath(target: Record<string, unknown>, path: readonly string[], value: unknown): void {
-  const [first = "", ...rest] = path;
-  if (rest.length === 0) target[first] = value;
-  else setPath(target[first] as Record<string, unknown>, rest, value);
+/** Objects on the way that are missing are made. */
+export function setPath(
+  target: Record<string, unknown>,
+  [first = "", ...rest]: readonly string[],
+  value: unknown,
+): void {
+  if (rest.length === 0) {
+    target[first] = value;
+    return;
+  }
+  const inner = target[first];
+  const isObject = typeof inner === "object" && inner !== null && !Array.isArray(inner);
+  const next = isObject ? (inner as Record<string, unknown>) : {};
+  target[first] = next;
+  setPath(next, rest, value);
 }
 
 function setMachine(settings: Record<string, unknown>, machine: MachineProfile): void {
@@ -190,31 +296,9 @@ function setMachine(settings: Record<string, unknown>, machine: MachineProfile):
   settings["customMachine"] = machine;
 }
 
-/** Reads a JSON file; an error names the option and the file. */
-function fromFile<T>(option: "--config" | "--machine-file", path: string, read: (text: string) => T): T {
-  try {
-    return read(readText(path, option));
-  } catch (cause) {
-    if (cause instanceof PlotwrightError) throw cause;
-    const why = cause instanceof SyntaxError ? `it is not JSON (${cause.message})` : fileFault(cause);
-    throw new PlotwrightError("bad-setting", `${option} ${path}: ${why}.`, { cause });
-  }
-}
-
 /** Adds the profile of a custom machine that is stored in the data folder. */
-const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSettings =>
+export const withOwnMachine = (settings: PlotSettings, values: OptionValues): PlotSettings =>
   new MachineFiles(dataDirOf(values)).withMachine(settings);
 
-const dataDirOf = ({ data }: OptionValues): string => (typeof data === "string" ? data : defaultDataDir());
-
-/** The settings in a file of --config, of which any part may be there. An unknown name is an error. */
-function readConfig(path: string): GivenSettings {
-  const value = fromFile("--config", path, (text): unknown => JSON.parse(text));
-  if (typeof value !== "object" || value === null || Array.isArray(value)) {
-    throw new PlotwrightError("bad-setting", `--config ${path}: it is not a JSON object.`);
-  }
-  const result = givenSettingsSchema.safeParse(value);
-  if (result.success) return result.data;
-  const { path: field, words } = firstFault(result.error);
-  throw new PlotwrightError("bad-setting", `--config ${path}: ${field}: ${words}.`);
-}
+export const dataDirOf = ({ data }: OptionValues): string =>
+  typeof data === "string" ? data : defaultDataDir();

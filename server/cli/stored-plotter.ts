@@ -1,14 +1,24 @@
-/** What a server has stored of a plotter, for commands that use the plotter without the server. */
+/** What is stored in the data folder of plotters, for commands that use it without a server. */
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import { plotterSettingsSchema } from "../../src/schema/index.js";
+import { FIRST_PLOTTER } from "../../host/plotter/named-plotter.js";
 import type { StoredOfPlotter } from "../../host/plotter/settings-of-plotter.js";
-import type { PlotterRow } from "../../host/storage.js";
+import { prepareDataDir } from "../storage/data-dir.js";
 import { Store } from "../storage/store.js";
 
 /** Nothing is stored of the plotter. */
 export const NOTHING_STORED: StoredOfPlotter = { machine: null, own: undefined, last: undefined };
+
+/** A plotter of a server, or of its data folder. */
+export interface KnownPlotter {
+  readonly id: string;
+  readonly name: string;
+  /** Null: a server does not have it connected. */
+  readonly device: string | null;
+  readonly stored: StoredOfPlotter;
+}
 
 interface StoredChoice {
   readonly dataDir: string;
@@ -23,36 +33,64 @@ interface StoredChoice {
  * runs with that folder, since the wrong machine would drive the wrong servo.
  */
 export function storedPlotter({ dataDir, device, isOptional }: StoredChoice): StoredOfPlotter {
-  if (!existsSync(join(dataDir, "plotwright.db"))) return NOTHING_STORED;
+  if (!hasStore(dataDir)) return NOTHING_STORED;
   const store = openStore(dataDir, isOptional);
   if (store === null) return NOTHING_STORED;
   try {
-    const row = rowOf(store.plotters(), device);
-    if (row === undefined) return NOTHING_STORED;
-    const [last] = store
-      .jobs()
-      .filter((job) => job.plotterId === row.id && job.startedAt !== null)
-      .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""));
-    return {
-      machine: row.machine,
-      own: plotterSettingsSchema.safeParse(store.plotterSettings()[row.id]).data,
-      last: last?.settings,
-    };
+    return plotterAt(plottersIn(store), device)?.stored ?? NOTHING_STORED;
   } finally {
     store.close();
   }
 }
 
-const rowOf = (rows: readonly PlotterRow[], device: string): PlotterRow | undefined =>
-  rows.find((one) => one.device === device) ??
-  rows.find((one) => one.device === "auto") ??
-  (rows.length === 1 ? rows[0] : undefined);
+export const plotterAt = (plotters: readonly KnownPlotter[], device: string): KnownPlotter | undefined =>
+  plotters.find((one) => one.device === device) ??
+  plotters.find((one) => one.device === "auto") ??
+  (plotters.length === 1 ? plotters[0] : undefined);
+
+export const hasStore = (dataDir: string): boolean => existsSync(join(dataDir, "plotwright.db"));
+
+/**
+ * Uses the database of the data folder. A new one has one plotter, as a server's has. Throws `busy` while a server runs.
+ */
+export async function withStore<T>(dataDir: string, use: (store: Store) => T | Promise<T>): Promise<T> {
+  prepareDataDir(dataDir);
+  const store = openStore(dataDir, false);
+  try {
+    if (store.plotters().length === 0) {
+      store.savePlotter({ id: FIRST_PLOTTER, name: null, device: "auto", machine: null });
+    }
+    return await use(store);
+  } finally {
+    store.close();
+  }
+}
+
+export function plottersIn(store: Store): KnownPlotter[] {
+  const settings = store.plotterSettings();
+  const begun = store
+    .jobs()
+    .filter(({ startedAt }) => startedAt !== null)
+    .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""));
+  return store.plotters().map(({ id, name, device, machine }) => ({
+    id,
+    name: name ?? id,
+    device,
+    stored: {
+      machine,
+      own: plotterSettingsSchema.safeParse(settings[id]).data,
+      last: begun.find(({ plotterId }) => plotterId === id)?.settings,
+    },
+  }));
+}
 
 /** Another command may read the database at this moment, which takes it a few tenths of a second. */
 const ATTEMPTS = 6;
 const PAUSE_MS = 200;
 
 /** Null if a server runs, and its settings are not needed. */
+function openStore(dataDir: string, isOptional: false): Store;
+function openStore(dataDir: string, isOptional: boolean): Store | null;
 function openStore(dataDir: string, isOptional: boolean): Store | null {
   for (let attempt = 1; ; attempt++) {
     try {

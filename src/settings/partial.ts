@@ -8,7 +8,7 @@ export type DeepPartial<T> = T extends string | readonly unknown[]
     : T;
 
 /** Tables by layer, which belong to one drawing, and a machine's profile: a part of these would be a mixture. */
-const GIVEN_WHOLE: readonly string[] = [
+export const GIVEN_WHOLE: readonly string[] = [
   "layers",
   "layerRepeats",
   "layerPens",

@@ -6,9 +6,8 @@ import { ENDED_STATES, type Job, type PlotSettings } from "../../../src/schema/i
 import { withLayerPens, withOnlyLayers, type PenChoice } from "../../planning/layers-by-name.js";
 import { readBytes } from "../../planning/read-drawing.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "../files.js";
-import { printed, type CliIo } from "../io.js";
+import { minutes, printed, type CliIo } from "../io.js";
 import { addJson, addLayerOptions, copies, type Declare } from "../options.js";
-import { minutes } from "../plan/plan.js";
 import {
   accessOf,
   addJob,

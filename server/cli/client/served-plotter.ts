@@ -43,16 +43,18 @@ export async function servedPlotter(options: OptionValues): Promise<ServedPlotte
   return { access, client: serverClient(access), plotter, settings };
 }
 
-function keyInEnvironment(): { readonly key?: string } {
+export function keyInEnvironment(): { readonly key?: string } {
   const { PLOTWRIGHT_KEY: key } = process.env;
   return key === undefined ? {} : { key };
 }
 
-/** By the port's path, also through a link such as /dev/serial/by-id/…, or by the plotter's name. */
+/** By the port's path, also through a link such as /dev/serial/by-id/…, or by the name of plotter or board. */
 function withDevice({ plotters }: ServerState, device: string): ServerPlotter | undefined {
   const port = realPath(device);
   return plotters.find(
-    (one) => one.name === device || (one.device !== null && realPath(one.device) === port),
+    ({ id, name, boardName, device: its }) =>
+      [id, name.toLowerCase(), boardName?.toLowerCase()].includes(device.toLowerCase()) ||
+      (its !== null && realPath(its) === port),
   );
 }
 
@@ -65,14 +67,24 @@ function realPath(path: string): string {
 }
 
 /** The server's first plotter, or the one with that id or name. */
-export function plotterOf({ plotters }: ServerState, wanted: string | undefined): ServerPlotter | undefined {
-  if (wanted === undefined) return plotters[0];
-  const plotter = plotters.find((one) => one.id === wanted) ?? plotters.find((one) => one.name === wanted);
-  if (plotter !== undefined) return plotter;
-  throw new PlotwrightError(
-    "bad-setting",
-    `--plotter: the server has no plotter ${wanted}. It has ${plotters.map(({ id, name }) => `${id} (${name})`).join(", ")}.`,
-  );
+export const plotterOf = (
+  { plotters }: ServerState,
+  wanted: string | undefined,
+): ServerPlotter | undefined => (wanted === undefined ? plotters[0] : plotterNamed(plotters, wanted));
+
+/** The plotter with that id or name. Throws `bad-setting` with the names that there are. */
+export function plotterNamed<T extends { readonly id: string; readonly name: string }>(
+  plotters: readonly T[],
+  wanted: string,
+): T {
+  const found =
+    plotters.find(({ id }) => id === wanted) ??
+    plotters.find(({ name }) => name === wanted) ??
+    plotters.find(({ name }) => name.toLowerCase() === wanted.toLowerCase());
+  if (found !== undefined) return found;
+  const known = plotters.map(({ id, name }) => (id === name ? id : `${id} (${name})`)).join(", ");
+  const all = known === "" ? "None is stored." : `There is ${known}.`;
+  throw new PlotwrightError("bad-setting", `--plotter: there is no plotter ${wanted}. ${all}`);
 }
 
 /** What the server has stored of a plotter. */

@@ -59,6 +59,7 @@ const stateSchema = z.object({
       name: z.string(),
       machine: z.string().nullable(),
       device: z.string().nullable().catch(null),
+      boardName: z.string().nullable().catch(null),
     }),
   ),
   jobs: z.array(jobSchema),

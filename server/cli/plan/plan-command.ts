@@ -3,13 +3,16 @@ import { PlotwrightError } from "../../../src/index.js";
 import { withDrawingFile } from "../files.js";
 import type { PlanCommandOptions } from "./plan.js";
 import { runPlanInThread } from "./plan-thread.js";
-import { addLayerOptions, type Declare } from "../options.js";
-import { addSettingOptions, settingsFromOptions, type OptionValues } from "../settings-options.js";
+import { addData, addLayerOptions, type Declare } from "../options.js";
+import { printed } from "../io.js";
+import { addSettingOptions, type OptionValues } from "../settings-options.js";
+import { settingsByPlotter } from "../client/known-plotters.js";
 
 export const declarePlan: Declare = (command, { io }) => {
   addLayerOptions(
-    addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin")),
+    addData(addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin"))),
   )
+    .option("--plotter <name>", "with the model, heights and presets of this plotter, by name or id")
     .option("--json", "print one JSON object")
     .option("--pen-error", "report how far the pen deviates from the drawing when the machine swings")
     .option("--commands <out>", "write the machine's commands, one per line, to a file or - for stdout")
@@ -20,10 +23,11 @@ export const declarePlan: Declare = (command, { io }) => {
       "write the prepared drawing, its layers' settings as codes in their names, to a file or -",
     )
     .option("--strokes <out.json>", "write the prepared drawing as polylines in mm, to a file or -")
-    .action((file: string, options: PlanCommandOptions & OptionValues) => {
-      const settings = settingsFromOptions(options);
+    .action(async (file: string, options: PlanCommandOptions & OptionValues) => {
+      const { settings, note } = await settingsByPlotter(options);
+      if (note !== null) io.err(printed`note: ${note}\n`);
       mustKeepDrawing(file, options);
-      return withDrawingFile(file, (path) => runPlanInThread({ file: path, settings, options }, io));
+      await withDrawingFile(file, (path) => runPlanInThread({ file: path, settings, options }, io));
     });
 };
 

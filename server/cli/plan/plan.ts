@@ -30,7 +30,7 @@ import type { PlotSettings } from "../../../src/schema/index.js";
 import { withLayerPens, withOnlyLayers, type PenChoice } from "../../planning/layers-by-name.js";
 import { readDrawing } from "../../planning/read-drawing.js";
 import { writeOut } from "../files.js";
-import { printed } from "../io.js";
+import { minutes, printed } from "../io.js";
 
 export interface PlanCommandOptions {
   readonly json?: boolean;
@@ -208,12 +208,6 @@ function words(report: PlanReport, size: DrawnSize): string {
 
 const penErrorInWords = ({ maxMm, p99Mm, rmsMm }: PenError): string =>
   `pen beside the drawing by up to ${maxMm} mm, 99 % of the time less than ${p99Mm} mm, rms ${rmsMm} mm`;
-
-export function minutes(seconds: number): string {
-  const whole = Math.round(seconds);
-  const parts = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
-  return parts.map((part) => String(part).padStart(2, "0")).join(":");
-}
 
 const many = (count: number, what: string): string => `${count} ${what}${count === 1 ? "" : "s"}`;
 const metres = (mm: number): string => `${(mm / 1000).toFixed(2)} m`;

@@ -2,8 +2,7 @@
 import type { PlotProgress } from "../../../host/plotter/plotter-port.js";
 import { printableJson } from "../../../src/internal.js";
 import type { PlotWait } from "../../../src/schema/index.js";
-import { printed, type CliIo } from "../io.js";
-import { minutes } from "../plan/plan.js";
+import { minutes, printed, type CliIo } from "../io.js";
 
 /** How far a plot is. */
 export type PlotAmounts = Pick<PlotProgress, "progress" | "elapsedS" | "remainingS">;

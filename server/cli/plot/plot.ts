@@ -35,7 +35,8 @@ import { plotReport } from "./plot-report.js";
 import { CANCELLED, cancelled, waitForPaper, watch } from "./plot-watch.js";
 import type { Command, Option } from "commander";
 import { servedPlotter } from "../client/served-plotter.js";
-import { addSettingOptions, plotterSettingsFromOptions, type OptionValues } from "../settings-options.js";
+import { addSettingOptions, type OptionValues } from "../settings-options.js";
+import { settingsOfOwnPlotter, withPortByName } from "../client/known-plotters.js";
 
 export interface PlotCommandOptions extends DeviceOptions {
   readonly only?: readonly string[];
@@ -301,14 +302,15 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
     .option("--restart", "discard an interrupted plot and start from the beginning")
     .option("--quiet", "print nothing but errors")
     .option("--json", "print progress and stops as JSON, one line for each")
-    .action(async (files: string[], options: PlotCommandOptions & OptionValues) => {
-      if (options.resume === true) {
+    .action(async (files: string[], given: PlotCommandOptions & OptionValues) => {
+      if (given.resume === true) {
         mustFitResume(command);
-        setExitCode(await resumePlot(files, options, io));
+        setExitCode(await resumePlot(files, await withPortByName(given), io));
         return;
       }
-      const served = await servedPlotter(options);
-      const { settings, note } = served?.settings ?? plotterSettingsFromOptions(options);
+      const served = await servedPlotter(given);
+      const options = served === null ? await withPortByName(given) : given;
+      const { settings, note } = served?.settings ?? (await settingsOfOwnPlotter(options));
       if (note !== null && options.quiet !== true) io.err(printed`note: ${note}\n`);
       setExitCode(
         served === null

@@ -53,6 +53,31 @@ describe("without a plotter", () => {
     expect([code, err]).toEqual([2, expect.stringMatching(/There is no machine "typewriter"\. Known/)]);
   });
 
+  it("a plotter of the data folder is found by its name or id, in any case", async () => {
+    const store = Store.open(data);
+    store.savePlotter({ id: "main", name: null, device: "auto", machine: null });
+    store.savePlotter({ id: "studio-1", name: "Studio", device: "virtual", machine: "axidraw-v3-a3" });
+    store.savePlotter({ id: "far", name: "Far", device: join(data, "none"), machine: null });
+    store.close();
+    for (const device of ["Studio", "studio", "studio-1"]) {
+      const { code, out } = await cli("info", "--json", "--device", device, "--data", data);
+      expect([code, JSON.parse(out)]).toEqual([0, expect.objectContaining({ kind: "virtual" })]);
+    }
+    // It has the settings of that plotter: 400 mm are beyond the other's machine.
+    const fast = ["--virtual-speed", "100", "--data", data];
+    expect((await cli("move-to", "400", "10", "--device", "Studio", ...fast)).code).toBe(0);
+    expect((await cli("plot", file(), "--device", "studio", ...fast)).code).toBe(0);
+    const far = await cli("info", "--device", "Far", "--data", data);
+    expect([far.code, far.err]).toEqual([4, expect.stringContaining(join(data, "none"))]);
+    for (const args of [["info"], ["plot", file()], ["plot", "--resume"]]) {
+      const { code, err } = await cli(...args, "--device", "Atelier", "--data", data);
+      expect([code, err]).toEqual([
+        4,
+        "plotwright: --device Atelier: there is no such serial port, and no plotter with that name. Plotters: main, Studio, Far. To list the boards that are plugged in: plotwright devices\n",
+      ]);
+    }
+  });
+
   it("the virtual board is used on request", async () => {
     const virtual = ["--device", "virtual", "--virtual-speed", "100"];
     expect(await cli("pen", "up", "--data", data, ...virtual)).toEqual({ code: 0, out: "", err: "" });

@@ -309,7 +309,7 @@ describe("plotwright add and queue", () => {
       const nowhere = await cli("add", file, "--plotter", "nope", ...at);
       expect(nowhere).toMatchObject({
         code: 2,
-        err: expect.stringMatching(/no plotter nope\. It has main \(/),
+        err: expect.stringMatching(/no plotter nope\. There is main \(/),
       });
       const missing = await cli("add", file, join(dir, "none.svg"), ...at);
       expect(missing).toMatchObject({ code: 3, out: "" });

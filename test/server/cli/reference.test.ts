@@ -6,6 +6,7 @@ import { fileURLToPath } from "node:url";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { Command } from "commander";
 import { COMMANDS } from "../../../server/cli/commands.js";
+import { usualConfigPath } from "../../../server/cli/config-file.js";
 import { buildProgram } from "../../../server/cli/program.js";
 import { SETTING_OPTIONS } from "../../../server/cli/setting-table.js";
 import { addSettingOptions, settingsFromOptions } from "../../../server/cli/settings-options.js";
@@ -61,9 +62,15 @@ beforeAll(async () => {
   writeFileSync(join(folder, "settings.json"), "{}");
   for (const name of ["drawings", "data"]) mkdirSync(join(folder, name));
   vi.stubEnv("XDG_CONFIG_HOME", folder);
+  vi.stubEnv("XDG_DATA_HOME", folder);
   process.chdir(folder);
   const options = { port: 0, dataDir: join(folder, "server"), device: "virtual", log: () => undefined };
   server = await createServer({ ...options, maxUploadBytes: 1e6 });
+  for (const where of [
+    ["--url", server.url],
+    ["--data", "data"],
+  ])
+    await cliWith(new CaughtIo(), "settings", "save", "Fine", ...where);
 });
 afterAll(async () => {
   await server.close();
@@ -77,12 +84,13 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
   const data = ["--data", join(folder, "data")];
   const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
   switch (command) {
-    case "plan":
     case "ringing":
     case "devices":
     case "service":
       return [];
+    case "plan":
     case "machines":
+    case "settings":
     case "logs":
       return data;
     case "serve":
@@ -144,6 +152,7 @@ const VALUES: Readonly<Record<string, string>> = {
   "--machine": "axidraw-v3",
   "--machine-file": "machine.json",
   "--config": "settings.json",
+  "--preset": "Fine",
   "--only": "Layer 1",
   "--pen": "Layer 1=Blue",
   "serve --port": "0",
@@ -423,7 +432,10 @@ async function runLine(name: string, args: readonly string[]): Promise<CliRun> {
     await Promise.race([running, expect.poll(() => io.outText + io.errText).toMatch(ready)]);
     io.interrupt();
   }
-  return running;
+  const run = await running;
+  // The other lines are for someone without it.
+  if (name === "settings") rmSync(usualConfigPath(), { force: true });
+  return run;
 }
 
 /** Leaves one job in the server's queue, in that state. */
