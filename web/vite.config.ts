@@ -1,30 +1,13 @@
 import react from "@vitejs/plugin-react";
 import { defineConfig, type Plugin } from "vite";
 import { licencePlugins } from "../scripts/licences.mjs";
+import { NEVER_CALLED, emptied } from "../scripts/never-called.mjs";
 
-/**
- * Library files that are referenced, so tree-shaking keeps them, but never called here: zod's JSON schema writer, and
- * the parts of css-select's default adapter that write and change documents (we pass our own adapter). The
- * first visit would load them.
- */
-const NEVER_CALLED =
-  /\/(zod\/v4\/core\/(json-schema-processors|to-json-schema)|domutils\/dist\/(feeds|legacy|manipulation|stringify))\.js$/;
-
-/** A library whose unused files may be left out although its package.json does not say so ("sideEffects"). */
-const ONLY_WHAT_IS_USED = /\/clipper2-ts\/dist\//;
-
-/** Replaces the exports of those files by empty functions. */
+/** The first visit would load them. */
 const withoutNeverCalled = (): Plugin => ({
   name: "without-never-called",
   apply: "build",
-  transform(source, id) {
-    const file = id.replaceAll("\\", "/");
-    if (ONLY_WHAT_IS_USED.test(file)) return { code: source, map: null, moduleSideEffects: false };
-    if (!NEVER_CALLED.test(file)) return null;
-    const names = [...source.matchAll(/^export (?:function|const) (\w+)/gm)].map((match) => match[1]);
-    const renamed = [...source.matchAll(/^export \{ \w+ as (\w+) \};$/gm)].map((match) => match[1]);
-    return [...names, ...renamed].map((name) => `export const ${name} = () => undefined;`).join("\n");
-  },
+  transform: (source, id) => (NEVER_CALLED.test(id) ? emptied(source) : null),
 });
 
 /** The files of public/ that the page needs when it is opened offline. The other icons are only used to install it. */

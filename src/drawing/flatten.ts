@@ -1,5 +1,5 @@
 /** Verbs to polylines: curves become chords within a tolerance in mm, after mapping to the paper. Clips to rings. */
-import { FillRule, type Paths64 } from "clipper2-ts";
+import { FillRule, type Paths64 } from "clipper2-ts/dist/Core.js";
 import { applyX, applyY, type Affine } from "../geometry/affine.js";
 import { flattenCubic } from "../geometry/cubic.js";
 import { PointBuffer } from "../geometry/growable.js";

@@ -15,7 +15,7 @@
  * that leaves to the kept side at both ends.
  */
 import Flatbush from "flatbush";
-import type { Paths64 } from "clipper2-ts";
+import type { Paths64 } from "clipper2-ts/dist/Core.js";
 import { boxOfPoints, insideRange } from "./box.js";
 import { SAME_POINT_MM, isClosedLine, mix, type Lines } from "./polyline.js";
 

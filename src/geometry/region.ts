@@ -6,7 +6,8 @@
  * and their winding makes holes under the non-zero rule.
  */
 import Flatbush from "flatbush";
-import { Clipper64, ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts";
+import { ClipType, FillRule, type Path64, type Paths64 } from "clipper2-ts/dist/Core.js";
+import { Clipper64 } from "clipper2-ts/dist/Engine.js";
 import type { Box } from "./box.js";
 import { type LineBuilder, type Lines } from "./polyline.js";
 import { RegionEdges } from "./region-edges.js";

@@ -2,6 +2,8 @@
 import { mkdirSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
+import { gzipSync } from "node:zlib";
+import { build } from "esbuild";
 import ts from "typescript-6";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
@@ -171,5 +173,48 @@ describe("the compiler", () => {
     expect(call('{ prepare: { order: "quick" } }')).toEqual([expect.stringContaining('"quick"')]);
     expect(call("{ prepare: { marginMM: 5 } }")).toEqual([expect.stringContaining("marginMM")]);
     expect(call("{ motion: { draw: { speed: 5 } } }")).toEqual([expect.stringContaining("speed")]);
+  });
+});
+
+describe("a bundler of a program", () => {
+  /** kB of code, minified and gzipped, that a program loads at once which only re-exports these names. */
+  async function firstLoadKb(names: string): Promise<number> {
+    const { metafile, outputFiles } = await build({
+      stdin: { contents: `export { ${names} } from "plotwright";`, resolveDir: folder },
+      bundle: true,
+      splitting: true,
+      minify: true,
+      format: "esm",
+      outdir: folder,
+      write: false,
+      metafile: true,
+      logLevel: "error",
+    });
+    const entry = Object.keys(metafile.outputs).find(
+      (name) => metafile.outputs[name].entryPoint === "<stdin>",
+    )!;
+    const loaded = new Set([entry]);
+    for (const name of loaded) {
+      const atOnce = metafile.outputs[name].imports.filter(({ kind }) => kind === "import-statement");
+      for (const { path: next } of atOnce) loaded.add(next);
+    }
+    const sizes = [...loaded].map((name) => {
+      const file = outputFiles.find((one) => one.path.endsWith(path.basename(name)))!;
+      return gzipSync(file.contents, { level: 9 }).length;
+    });
+    return sizes.reduce((sum, size) => sum + size, 0) / 1000;
+  }
+
+  it.each([
+    ["PAPER_SIZES", 2],
+    ["MACHINES, machineById", 2],
+    ["DEFAULT_MOTION, DEFAULT_PEN, DEFAULT_PREPARE", 6],
+    ["stateAt, trajectoryStats", 6],
+    ["plan, VirtualBoard", 30],
+    ["planSvg", 160],
+  ])("takes for %s at most %d kB", async (names, limitKb) => {
+    const kb = await firstLoadKb(names);
+    expect(kb).toBeGreaterThan(0.2);
+    expect(kb).toBeLessThanOrEqual(limitKb);
   });
 });

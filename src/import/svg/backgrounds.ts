@@ -7,7 +7,7 @@
  *   - it is white, or nearly so, and lies on nothing but white background.
  * If the file has nothing else, nothing is background.
  */
-import { FillRule, type Paths64 } from "clipper2-ts";
+import { FillRule, type Paths64 } from "clipper2-ts/dist/Core.js";
 import Flatbush from "flatbush";
 import { curveBoxOf } from "../../drawing/curve-box.js";
 import { curvesOf, RULE_EVENODD, type Drawing } from "../../drawing/drawing.js";

@@ -1,5 +1,5 @@
 /** The areas of filled shapes on the paper, used for hatching and for hiding lines. */
-import { ClipType, FillRule, type Paths64 } from "clipper2-ts";
+import { ClipType, FillRule, type Paths64 } from "clipper2-ts/dist/Core.js";
 import { RULE_EVENODD, type Drawing } from "../../drawing/drawing.js";
 import { boxContains, type Box } from "../../geometry/box.js";
 import { isClosedLine, tagRanges, type Lines } from "../../geometry/polyline.js";

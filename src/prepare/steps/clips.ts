@@ -2,7 +2,7 @@
  * The file's clip paths: as regions on the paper, and lines cut by them. A fill without a stroke is drawn as the outline
  * of its clipped area, so the clip's edge becomes part of its outline.
  */
-import { ClipType } from "clipper2-ts";
+import { ClipType } from "clipper2-ts/dist/Core.js";
 import type { Drawing } from "../../drawing/drawing.js";
 import { gapOf, ringsOfClip } from "../../drawing/flatten.js";
 import type { Affine } from "../../geometry/affine.js";

@@ -13,7 +13,8 @@
  *
  * Symbols: u along the lines, v across, both mm; level n is v = n · spacing.
  */
-import { ClipperOffset, EndType, JoinType, type Paths64 } from "clipper2-ts";
+import type { Paths64 } from "clipper2-ts/dist/Core.js";
+import { ClipperOffset, EndType, JoinType } from "clipper2-ts/dist/Offset.js";
 import { firstWhere } from "../../geometry/binary-search.js";
 import { LineBuilder } from "../../geometry/polyline.js";
 import { SCALE, heaps, regionContains, regionOf, type Region } from "../../geometry/region.js";

@@ -6,7 +6,7 @@
  * there, so that a pile of shapes costs no more than its visible part. In a tile that is not divided, the shapes are
  * joined from the top down, and each segment is cut by what was joined above it.
  */
-import { FillRule, type Paths64 } from "clipper2-ts";
+import { FillRule, type Paths64 } from "clipper2-ts/dist/Core.js";
 import { PlotwrightError } from "../../errors.js";
 import { boxContains, boxOfPoints, boxesTouch, grownBox, insideRange, type Box } from "../../geometry/box.js";
 import { addParts, addPieces } from "../../geometry/cut-line.js";

@@ -1,5 +1,5 @@
 /** Cutting a line by a region, checked against cutting each of its segments by itself, and point by point. */
-import { FillRule } from "clipper2-ts";
+import { FillRule } from "clipper2-ts/dist/Core.js";
 import fc from "fast-check";
 import { expect, it } from "vitest";
 import { LineBuilder, lineCount, totalLength, type Lines } from "../../../src/geometry/polyline.js";

@@ -1,5 +1,5 @@
 /** Clip shapes as rings for Clipper: to clip the shapes of a clipPath, and to combine those of a mask. */
-import { ClipType, type Path64, type Paths64 } from "clipper2-ts";
+import { ClipType, type Path64, type Paths64 } from "clipper2-ts/dist/Core.js";
 import type { ClipRegion, Curves } from "../../../drawing/drawing.js";
 import { ringsOfClip, subpathsOf } from "../../../drawing/flatten.js";
 import { IDENTITY } from "../../../geometry/affine.js";

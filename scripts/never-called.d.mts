@@ -1,0 +1,2 @@
+export const NEVER_CALLED: RegExp;
+export function emptied(source: string): string;
