@@ -5,6 +5,7 @@ import {
   type FrameRequest,
   type HandMove,
   type HandMoveRequest,
+  type Job,
   type OperationHandlers,
   type Plotter,
   handlerArguments,
@@ -38,7 +39,7 @@ export interface HostParts {
 export const hostOperations = (parts: HostParts) =>
   ({
     state: {
-      history: (wanted) => parts.queue.older(wanted),
+      history: (wanted, { submitter }) => parts.queue.older(wanted, submitter?.id),
       queue: () => parts.queue.settings(),
       setQueue: (settings) => parts.queue.saveSettings(settings),
     },
@@ -55,8 +56,12 @@ export const hostOperations = (parts: HostParts) =>
 const jobOperations = ({ queue, uploads, storeText }: HostParts) =>
   ({
     add: async ({ drawing, drawingId, settings = {}, ...rest }, requester) => {
-      const stored = drawingId === undefined ? await storeText(drawing ?? "") : uploads.claim(drawingId);
-      return queue.add({ ...rest, settings, drawing: stored }, requester);
+      const { submitter: submittedBy } = requester;
+      const stored =
+        drawingId === undefined
+          ? await storeText(drawing ?? "")
+          : uploads.claim(drawingId, submittedBy?.id ?? null);
+      return queue.add({ ...rest, settings, drawing: stored, submittedBy }, requester);
     },
     get: (id) => queue.get(id),
     patch: (id, patch, requester) => queue.patch(id, patch, requester),
@@ -79,8 +84,20 @@ const jobOperations = ({ queue, uploads, storeText }: HostParts) =>
     place: (id, by) => queue.plots.movePlace(id, by),
     "check-place": (id) => queue.plots.checkPlace(id),
     duplicate: (id) => queue.duplicate(id),
-    remove: (id) => queue.remove(id),
+    remove: (id, { submitter }) => {
+      if (submitter !== undefined) mustNotHaveBegun(queue.get(id));
+      return queue.remove(id);
+    },
   }) satisfies OperationHandlers<Requester>["jobs"];
+
+/** What was plotted stays in the history, for whoever looks after the plotter. */
+function mustNotHaveBegun({ name, startedAt }: Job): void {
+  if (startedAt === null) return;
+  throw new PlotwrightError(
+    "conflict",
+    `"${name}" has been plotted, at least in part. Only an operator removes it from the history.`,
+  );
+}
 
 const plotterOperations = ({ queue, registry, log }: HostParts) => {
   const find = (id: string): PlotterPort => findPlotter(registry.ports, id);

@@ -3,13 +3,16 @@
  * others.
  */
 import { PlotwrightError } from "../../src/index.js";
+import type { Submitter } from "../../src/schema/index.js";
 
-/** The client that requests planning. */
+/** The client that asks for something. */
 export interface Requester {
   /** Requests of one client run one after the other; default: the server itself. */
   readonly client?: string | undefined;
   /** Aborted when the result is no longer needed. */
   readonly signal?: AbortSignal | undefined;
+  /** Who it is, if it may only submit jobs: it gets its own jobs only. Default: it may have all. */
+  readonly submitter?: Submitter | undefined;
 }
 
 type Lane = <T>(requester: Requester, work: () => Promise<T>) => Promise<T>;

@@ -47,17 +47,17 @@ export class JobList {
     return this.storedOrder;
   }
 
-  /** The whole queue, and the newest jobs of the history. */
-  recent(): JobPage {
+  /** The whole queue, and the newest jobs of the history: of all, or of one submitter. */
+  recent(submitterId?: string): JobPage {
     let endedCount = 0;
-    const ids = this.order().filter((id) => !this.isEnded(id) || ++endedCount <= HISTORY_PAGE);
+    const ids = this.orderFor(submitterId).filter((id) => !this.isEnded(id) || ++endedCount <= HISTORY_PAGE);
     return { jobs: ids.map((id) => this.get(id)), hasOlderJobs: endedCount > HISTORY_PAGE };
   }
 
   /** The next jobs of the history. Throws `not-found` if there is no job `after`. */
-  older({ after, plotterId }: HistoryRequest): JobPage {
-    const order = this.order();
-    const from = after === undefined ? 0 : order.indexOf(this.get(after).id) + 1;
+  older({ after, plotterId }: HistoryRequest, submitterId?: string): JobPage {
+    const order = this.orderFor(submitterId);
+    const from = after === undefined ? 0 : order.indexOf(this.getFor(after, submitterId).id) + 1;
     const older = order
       .slice(from)
       .filter((id) => this.isEnded(id) && (plotterId ?? this.get(id).plotterId) === this.get(id).plotterId);
@@ -65,6 +65,21 @@ export class JobList {
       jobs: older.slice(0, HISTORY_PAGE).map((id) => this.get(id)),
       hasOlderJobs: older.length > HISTORY_PAGE,
     };
+  }
+
+  private orderFor(submitterId?: string): readonly string[] {
+    const order = this.order();
+    return submitterId === undefined
+      ? order
+      : order.filter((id) => this.get(id).submittedBy?.id === submitterId);
+  }
+
+  /** As `get`: to a submitter, the jobs of others do not exist. */
+  getFor(id: string, submitterId?: string): Job {
+    const job = this.jobs.get(id);
+    const isHidden = submitterId !== undefined && job?.submittedBy?.id !== submitterId;
+    if (job === undefined || isHidden) throw new PlotwrightError("not-found", `There is no job ${id}.`);
+    return job;
   }
 
   private isEnded(id: string): boolean {
@@ -77,9 +92,7 @@ export class JobList {
 
   /** Throws `not-found`. */
   get(id: string): Job {
-    const job = this.jobs.get(id);
-    if (job === undefined) throw new PlotwrightError("not-found", `There is no job ${id}.`);
-    return job;
+    return this.getFor(id);
   }
 
   /**

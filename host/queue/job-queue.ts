@@ -12,6 +12,7 @@ import {
   type JobPatch,
   type PlotSettings,
   type QueueSettings,
+  type Submitter,
 } from "../../src/schema/index.js";
 import type { Requester } from "../planning/lane.js";
 import { expectedS, timeRatio } from "./expected-time.js";
@@ -28,6 +29,9 @@ import type { NewQueueJob, QueueParts } from "./queue-parts.js";
  * become that large: at 100 bytes each, those of a thousand layers.
  */
 const MAX_SETTINGS_BYTES = 100_000;
+
+/** Waiting jobs of one device or key that may only submit jobs. */
+const MAX_SUBMITTED = 20;
 
 export class JobQueue {
   /** The jobs that are on a plotter: pause, resume, cancel and the like. */
@@ -49,19 +53,19 @@ export class JobQueue {
     return this.jobs.list();
   }
 
-  /** The whole queue, and the newest 50 jobs of the history. */
-  recent(): JobPage {
-    return this.jobs.recent();
+  /** The whole queue, and the newest 50 jobs of the history: of all, or of one submitter. */
+  recent(submitterId?: string): JobPage {
+    return this.jobs.recent(submitterId);
   }
 
   /** The next 50 jobs of the history. Throws `not-found` if there is no job `after`. */
-  older(wanted: HistoryRequest): JobPage {
-    return this.jobs.older(wanted);
+  older(wanted: HistoryRequest, submitterId?: string): JobPage {
+    return this.jobs.older(wanted, submitterId);
   }
 
-  /** Throws `not-found`. */
-  get(id: string): Job {
-    return this.jobs.get(id);
+  /** Throws `not-found`. To a submitter, the jobs of others do not exist. */
+  get(id: string, submitterId?: string): Job {
+    return this.jobs.getFor(id, submitterId);
   }
 
   /** The settings of one plotter; default: the first one. */
@@ -98,6 +102,7 @@ export class JobQueue {
   /** Adds a queued copy with the same drawing and settings: directly after a queued job, otherwise last. */
   duplicate(id: string): Job {
     const job = this.get(id);
+    this.mustHaveRoom(job.submittedBy, 1);
     const waiting = this.jobs.order().filter((queuedId) => this.get(queuedId).state === "queued");
     const beforeId = job.state === "queued" ? (waiting[waiting.indexOf(id) + 1] ?? null) : null;
     const copy = this.newJob({ ...job, plotterId: this.existingPlotter(job) });
@@ -118,8 +123,9 @@ export class JobQueue {
   }
 
   private async addJob(wanted: NewQueueJob, requester: Requester): Promise<Job> {
-    const { name, drawing, from, plotterId = this.firstPlotter() } = wanted;
+    const { name, drawing, from, submittedBy, plotterId = this.firstPlotter() } = wanted;
     findPlotter(this.parts.plotters, plotterId);
+    this.mustHaveRoom(submittedBy, wanted.copies);
     const { settings, note } =
       wanted.sharedId === undefined
         ? this.jobSettings.with(plotterId, wanted.settings)
@@ -135,7 +141,15 @@ export class JobQueue {
     }
     // The plotter may have been removed meanwhile.
     findPlotter(this.parts.plotters, plotterId);
-    const job = this.newJob({ plotterId, name, settings, stats, warnings: noted(note, warnings) });
+    this.mustHaveRoom(submittedBy, wanted.copies);
+    const job = this.newJob({
+      plotterId,
+      name,
+      settings,
+      stats,
+      warnings: noted(note, warnings),
+      submittedBy,
+    });
     const { watched, sharedId, copies } = wanted;
     return this.jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId, copies });
   }
@@ -198,6 +212,7 @@ export class JobQueue {
     const plotterId = this.existingPlotter(job);
     // Check first: a job that is already queued must not lose its place in the queue.
     applyJobEvent(job, { type: "requeue" }, this.parts.nowIso());
+    this.mustHaveRoom(job.submittedBy, 1);
     this.parts.store.moveJob(id, null);
     return this.jobs.apply(
       id,
@@ -336,7 +351,22 @@ export class JobQueue {
     if (!this.plots.isClosing && this.jobs.has(id)) this.jobs.note(id, message);
   }
 
-  private newJob(from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">): Job {
+  /** Throws `conflict`: nobody who may only submit jobs fills the queue, or the disk. */
+  private mustHaveRoom(submitter: Submitter | undefined, moreCount = 1): void {
+    if (submitter === undefined) return;
+    const waiting = this.list().filter(
+      ({ state, submittedBy }) => state === "queued" && submittedBy?.id === submitter.id,
+    );
+    if (waiting.length + moreCount <= MAX_SUBMITTED) return;
+    throw new PlotwrightError(
+      "conflict",
+      `${waiting.length} jobs of ${submitter.name} are waiting, and there may be ${MAX_SUBMITTED}. Remove some, or wait until they are plotted.`,
+    );
+  }
+
+  private newJob(
+    from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings" | "submittedBy">,
+  ): Job {
     return { ...queuedJob(from, this.parts.nowIso()), expectedS: this.expectedS(from) };
   }
 

@@ -39,10 +39,11 @@ export const TRANSITIONS: Readonly<Record<JobEvent["type"], Transition>> = {
 
 /** A new queued job with a new id; plotter, name, settings and figures come from `from`. */
 export function queuedJob(
-  from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings">,
+  from: Pick<Job, "plotterId" | "name" | "settings" | "stats" | "warnings" | "submittedBy">,
   nowIso: string,
 ): Job {
   return {
+    ...(from.submittedBy === undefined ? {} : { submittedBy: from.submittedBy }),
     id: crypto.randomUUID(),
     plotterId: from.plotterId,
     name: from.name,

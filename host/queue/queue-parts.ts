@@ -1,5 +1,12 @@
 /** The parts the queue depends on, injected so that tests can control each of them. */
-import type { GivenSettings, Job, JobPlace, PlotSettings, ServerEvent } from "../../src/schema/index.js";
+import type {
+  GivenSettings,
+  Job,
+  JobPlace,
+  PlotSettings,
+  ServerEvent,
+  Submitter,
+} from "../../src/schema/index.js";
 import type { Planning } from "../planning/planning.js";
 import type { PlotterPort } from "../plotter/plotter-port.js";
 import type { SettingsOfPlotter, WithMachine } from "../plotter/settings-of-plotter.js";
@@ -53,6 +60,8 @@ export interface NewQueueJob {
   readonly from?: JobPlace | undefined;
   /** Number of jobs to add; left out: 1. */
   readonly copies?: number | undefined;
+  /** Who adds it, if that may only submit jobs. */
+  readonly submittedBy?: Submitter | undefined;
   /** The watched file it comes from; marked as handled in the same transaction. */
   readonly watched?: WatchedFile | undefined;
   /** Its id in the shared queue; stored in the same transaction. */

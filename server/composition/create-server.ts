@@ -21,7 +21,7 @@ import { packagePath, packageVersion } from "../storage/package-files.js";
 import { Store } from "../storage/store.js";
 import { Access } from "../security/access.js";
 import { OperatorLock } from "../security/operator-lock.js";
-import { lanAddresses, LOCAL_NAME, pairingLinks } from "../security/network.js";
+import { lanAddresses, LOCAL_NAME, pairingLinks, type PairingPaths } from "../security/network.js";
 import { FIRST_PLOTTER, openNamedPlotter } from "../../host/plotter/named-plotter.js";
 import { NODE_PARTS } from "../plotter/node-plotter.js";
 import { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
@@ -40,7 +40,7 @@ export interface PlotwrightServer {
    * Paths of the links that pair a device, to append to an address of this computer. They are replaced when a device is
    * removed.
    */
-  readonly pairing: { readonly operatePath: string; readonly watchPath: string };
+  readonly pairing: PairingPaths;
   /** Stops plotting (the pen lifts), stores the state, and releases port, board and data folder. */
   close(): Promise<void>;
 }
@@ -79,8 +79,9 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
     const parts = await openParts(options, dataDir, store, log, closing);
     const { access, registry, refusals, plugins } = parts;
     const isTls = options.tls !== undefined;
-    const paths = (): PlotwrightServer["pairing"] => ({
+    const paths = (): PairingPaths => ({
       operatePath: access.pairingPath("operate"),
+      submitPath: access.pairingPath("submit"),
       watchPath: access.pairingPath("watch"),
     });
     const pairing = (): Promise<Pairing> => {

@@ -11,7 +11,7 @@ import { answerPreflights, crossOriginHeaders } from "./cross-origin.js";
 import { errorResponder, notFound } from "./errors.js";
 import { guardHosts, guardPaths } from "./guard.js";
 import { openApiText } from "./openapi.js";
-import { missingPlugins, offeredOperations, operationRoutes } from "./operation-routes.js";
+import { missingPlugins, offeredOperations, operationRoutes, requireOwnJob } from "./operation-routes.js";
 import type { Refusals } from "./refusals.js";
 import { serverHandlers, serverResponders, type ServerParts } from "./server-operations.js";
 
@@ -67,6 +67,7 @@ export function apiRoutes(
     responders,
     maxBytes: parts.files.maxBytes,
     requireLocal: requireLocal(parts.access, parts.refusals),
+    requireOwnJob: requireOwnJob(parts.queue),
   });
   router.use(missingPlugins(handlers));
   return { router, operations };

@@ -3,10 +3,16 @@
  * route.
  */
 import type { IncomingMessage } from "node:http";
-import { Router, type Request, type RequestHandler } from "express";
+import { Router, type Request, type RequestHandler, type Response } from "express";
 import { ipKeyGenerator, rateLimit } from "express-rate-limit";
 import { PlotwrightError } from "../../src/index.js";
-import { API_PATH, OPERATIONS, type Operation, type Role } from "../../src/schema/index.js";
+import {
+  API_PATH,
+  maySubmitterPerform,
+  OPERATIONS,
+  type Operation,
+  type Role,
+} from "../../src/schema/index.js";
 import { SESSION_DAYS, type Access } from "../security/access.js";
 import { isCrossOrigin, isPreflight } from "./cross-origin.js";
 import type { Refusals } from "./refusals.js";
@@ -30,37 +36,58 @@ export interface Caller {
   readonly id: string;
   readonly role: Role;
   readonly isLocal: boolean;
+  /** The name of a key; null for others. */
+  readonly keyName: string | null;
 }
 
 /** Null for a client that has not identified itself. Pages of other origins do so only with a key. */
 export function callerOf(request: IncomingMessage, access: Access): Caller | null {
-  if (isTrusted(request, access)) return { id: "this computer", role: "operate", isLocal: true };
+  if (isTrusted(request, access))
+    return { id: "this computer", role: "operate", isLocal: true, keyName: null };
   const needsKey = isCrossOrigin(request);
   const secret = bearerOf(request) ?? (needsKey ? null : cookieOf(request, SESSION_COOKIE));
   const entry = secret === null ? null : access.entryOf(secret);
   if (entry === null || (needsKey && entry.kind !== "key")) return null;
-  return { id: entry.id, role: entry.role, isLocal: false };
+  const { id, role, kind, name } = entry;
+  return { id, role, isLocal: false, keyName: kind === "key" ? name : null };
 }
 
-/**
- * For everything under /api: requires a role, and the role "operate" for everything that changes something.
- */
+/** For everything under /api: requires a role, and one that may do what is asked. The routes find the caller in `callerIn`. */
 export function requireRole(access: Access, isRunning: IsRunning, refusals: Refusals): RequestHandler {
-  return (request, _response, next) => {
-    const role = callerOf(request, access)?.role ?? null;
-    const isAllowed =
-      role === "operate" || (role === "watch" && (isStop(request, isRunning) || maySee(request)));
-    if (isAllowed) {
+  const isAllowed: Readonly<Record<Role, (request: Request) => boolean>> = {
+    operate: () => true,
+    submit: maySubmit,
+    watch: (request) => isStop(request, isRunning) || maySee(request),
+  };
+  return (request, response, next) => {
+    const caller = callerOf(request, access);
+    if (caller !== null && isAllowed[caller.role](request)) {
+      (response.locals as CallerLocals).caller = caller;
       next();
       return;
     }
-    refusals.note(request, role === null ? "not paired" : "may only watch");
+    const role = caller?.role ?? null;
+    refusals.note(request, role === null ? "not paired" : `may only ${role}`);
     throw new PlotwrightError("not-allowed", whyNot(request, role));
   };
 }
 
+interface CallerLocals {
+  caller?: Caller;
+}
+
+/** Who sent the request, behind `requireRole`. */
+export function callerIn({ locals }: Pick<Response, "locals">): Caller {
+  const { caller } = locals as CallerLocals;
+  if (caller === undefined) throw new Error("This route is not behind requireRole.");
+  return caller;
+}
+
 function whyNot(request: Request, role: Role | null): string {
-  if (role !== null) return "This device may only watch. To operate, pair it with the link for operating.";
+  if (role === "submit") {
+    return "This device may only add drawings to the queue. To operate, pair it with the link for operating.";
+  }
+  if (role === "watch") return "This device may only watch. To operate, pair it with the link for operating.";
   const hasNoKey = request.headers.authorization === undefined;
   if (hasNoKey && isCrossOrigin(request)) {
     return "A page of another site needs an access key, sent as “Authorization: Bearer KEY”. You make one on the server's page, under Sharing, Access.";
@@ -76,9 +103,15 @@ export type IsRunning = (jobId: string) => boolean;
 const ALL: readonly Operation[] = Object.values<Readonly<Record<string, Operation>>>(OPERATIONS).flatMap(
   (group) => Object.values(group),
 );
+const pathPattern = ({ path }: Operation): RegExp =>
+  new RegExp(`^${API_PATH}${path.replace(/:\w+/, "([^/]+)").replaceAll(".", "\\.")}$`, "i");
 const STOPS = ALL.filter(({ role }) => role === "stop").map((one) => ({
   isCancel: one === OPERATIONS.jobs.cancel,
-  path: new RegExp(`^${API_PATH}${one.path.replace(":id", "([^/]+)")}$`, "i"),
+  path: pathPattern(one),
+}));
+const OF_SUBMITTERS = ALL.filter(maySubmitterPerform).map((one) => ({
+  method: one.method.toUpperCase(),
+  path: pathPattern(one),
 }));
 /** The first parts of the paths whose answers only operators may read. */
 const SECRETS: ReadonlySet<string> = new Set(
@@ -96,6 +129,12 @@ export function isStop({ method, baseUrl, path }: Request, isRunning: IsRunning)
     return match !== null && (!stop.isCancel || isRunning(match[1] ?? ""));
   });
 }
+
+/** Whether the role "submit" may do it at all; the routes refuse the jobs of others. */
+const maySubmit = ({ method, baseUrl, path }: Request): boolean =>
+  OF_SUBMITTERS.some(
+    (one) => one.method === (method === "HEAD" ? "GET" : method) && one.path.test(baseUrl + path),
+  );
 
 /** Access keys, webhooks and logs may contain secrets, so only operators may read them, and whatever is below them. */
 const maySee = ({ method, path }: Request): boolean =>
@@ -148,8 +187,8 @@ export function pairRoutes(access: Access, refusals: Refusals, log: (line: strin
 
 /**
  * Limits requests from the network; this computer is not limited. Each session and key has its own limit, so that other
- * clients at the same address can't use it up. Stops of paired devices are not limited, nor are the questions that
- * browsers ask before them.
+ * clients at the same address can't use it up. Stops of operators and watchers are not limited, nor are the questions
+ * that browsers ask before them.
  */
 export function limitRequests(
   access: Access,
@@ -164,7 +203,8 @@ export function limitRequests(
   const ofRest = limitBy(MAX_REQUESTS, callerKey, refusals);
   return (request, response, next) => {
     const caller = callerOf(request, access);
-    const isFree = caller !== null && (caller.isLocal || isStop(request, isRunning));
+    const mayStop = caller !== null && caller.role !== "submit" && isStop(request, isRunning);
+    const isFree = caller?.isLocal === true || mayStop;
     if (isFree || isPreflight(request, allowedOrigins)) next();
     else if (/^\/pair\/?$/i.test(request.path)) ofPairings(request, response, next);
     else if (request.path.startsWith("/assets/")) ofFiles(request, response, next);

@@ -11,7 +11,7 @@ import { OPERATIONS, type Operator } from "../../src/schema/index.js";
 import type { Access } from "../security/access.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import { isCrossOrigin } from "./cross-origin.js";
-import { SESSION_COOKIE, bearerOf, cookieOf, isStop, type IsRunning } from "./auth.js";
+import { SESSION_COOKIE, bearerOf, callerIn, cookieOf, isStop, type IsRunning } from "./auth.js";
 
 /** Max number of browser names to store; the oldest are forgotten. */
 const MAX_NAMES = 1_000;
@@ -86,15 +86,19 @@ export class Browsers {
   }
 }
 
-/** For everything under /api: a browser needs the operator lock to change anything, except to stop a plot. */
+/**
+ * For everything under /api: a browser needs the operator lock to change anything, except to stop a plot. Those that only
+ * submit jobs do not operate.
+ */
 export function requireOperator(
   browsers: Browsers,
   operatorLock: OperatorLock,
   isRunning: IsRunning,
 ): Router {
   const router = Router();
-  router.use((request, _response, next) => {
-    const isFree = SAFE_METHODS.has(request.method) || isStop(request, isRunning);
+  router.use((request, response, next) => {
+    const isSubmitter = callerIn(response).role === "submit";
+    const isFree = isSubmitter || SAFE_METHODS.has(request.method) || isStop(request, isRunning);
     const browser =
       isFree || request.path === `/v1${OPERATIONS.operator.take.path}` ? null : browsers.of(request);
     if (browser !== null) operatorLock.act(browser);
@@ -119,8 +123,12 @@ const SYSTEMS: readonly (readonly [RegExp, string])[] = [
   [/Linux/, "Linux"],
 ];
 
+/** "Firefox on Android (192.168.1.20)". */
+export const deviceName = (request: Pick<Request, "headers" | "socket">): string =>
+  browserWords(request).join(" on ");
+
 /** "Firefox" and "Android (192.168.1.20)": enough for people to recognize the device. */
-function browserWords(request: Request): readonly [what: string, where: string] {
+function browserWords(request: Pick<Request, "headers" | "socket">): readonly [what: string, where: string] {
   const agent = request.headers["user-agent"] ?? "";
   const find = (table: typeof BROWSERS, other: string): string =>
     table.find(([pattern]) => pattern.test(agent))?.[1] ?? other;

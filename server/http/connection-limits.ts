@@ -1,6 +1,6 @@
 /**
  * Limits the connections of each client. A client is unknown until it has sent a valid session or key. Unknown clients,
- * watchers, operators and this computer each have a share of the server's connections, and each client has a limit
+ * watchers, those who submit jobs, operators and this computer each have a share of the server's connections, and each client has a limit
  * within its share. So no client, and no number of unknown clients or watchers, can take the connections of operators.
  *
  * A new connection is always accepted; at a limit, the oldest one of the client that has the most is closed.
@@ -18,12 +18,13 @@ type Share = "unknown" | "local" | Role;
 const LIMITS: Readonly<Record<Share, { readonly each: number; readonly all: number }>> = {
   unknown: { each: 60, all: 300 },
   watch: { each: 50, all: 300 },
+  submit: { each: 20, all: 300 },
   operate: { each: 100, all: 300 },
   local: { each: 300, all: 300 },
 };
 
 /** A last limit, higher than all shares together: at it, Node would refuse connections of operators too. */
-export const MAX_CONNECTIONS = 1_300;
+export const MAX_CONNECTIONS = 1_600;
 
 interface Member {
   readonly socket: Socket;

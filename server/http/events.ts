@@ -29,15 +29,28 @@ const STUCK_MS = 2_000;
 /** What is written to one client before others have their turn. The system takes megabytes at once, which takes time. */
 const SLICE_BYTES = 65_536;
 
+/** Who gets the state and the events. */
+export interface Viewer {
+  /** Its session or key, so that its streams can be ended with it. */
+  readonly id: string;
+  /** Only the jobs that it has added: the role "submit". */
+  readonly seesOnlyOwn: boolean;
+}
+
+/** Makes a snapshot: of all, or as one submitter sees it. */
+type Make = (submitterId?: string) => Snapshot;
+
 interface Stream {
-  readonly callerId: string;
+  readonly viewer: Viewer;
+  /** The jobs that the client knows, if it sees only its own. */
+  readonly ownJobs: Set<string>;
   /** Events after the snapshot that wait until it is sent; "snapshot": it is not made yet; null: all is sent. */
   waiting: Buffer[] | "snapshot" | null;
 }
 
 export class EventHub {
   private readonly streams = new Map<Response, Stream>();
-  private readonly events = new LimitedProgress((event) => this.write(`data: ${JSON.stringify(event)}\n\n`));
+  private readonly events = new LimitedProgress((event) => this.send(event));
   private readonly heartbeat: NodeJS.Timeout;
   private snapshot: { readonly text: Buffer; readonly atMs: number } | null = null;
   /** The callers to whom a snapshot is being sent, with the clients that wait for their turn. */
@@ -47,7 +60,7 @@ export class EventHub {
   private isClosed = false;
 
   constructor() {
-    this.heartbeat = setInterval(() => this.write(":\n\n"), HEARTBEAT_MS);
+    this.heartbeat = setInterval(() => this.writeToAll(":\n\n"), HEARTBEAT_MS);
     this.heartbeat.unref();
   }
 
@@ -66,18 +79,17 @@ export class EventHub {
     return this.snapshot.text;
   }
 
-  /** Answers with the snapshot. `callerId`: the session or key that asks. */
-  answer(response: Response, callerId: string, make: () => Snapshot): Promise<void> {
-    return this.inTurn(response, callerId, async (isRead) => {
-      const text = this.snapshotText(make);
+  /** Answers with the snapshot. */
+  answer(response: Response, viewer: Viewer, make: Make): Promise<void> {
+    return this.inTurn(response, viewer.id, async (isRead) => {
+      const text = viewer.seesOnlyOwn ? Buffer.from(jsonOf(make(viewer.id))) : this.snapshotText(make);
       response.type("json").set("Content-Length", String(text.length));
       await send(text, response, isRead);
       response.end();
     });
   }
 
-  /** `callerId`: the session or key that asks, so that the stream can be ended with it. */
-  async open(request: Request, response: Response, callerId: string, make: () => Snapshot): Promise<void> {
+  async open(request: Request, response: Response, viewer: Viewer, make: Make): Promise<void> {
     response.writeHead(200, {
       "Content-Type": "text/event-stream; charset=utf-8",
       "Cache-Control": "no-store",
@@ -85,11 +97,11 @@ export class EventHub {
     });
     const retryMs = Math.round(RETRY_FROM_MS + RETRY_RANGE_MS * Math.random());
     response.write(`retry: ${retryMs}\n\ndata: {"type":"snapshot","snapshot":`);
-    const stream: Stream = { callerId, waiting: "snapshot" };
+    const stream: Stream = { viewer, ownJobs: new Set(), waiting: "snapshot" };
     this.streams.set(response, stream);
     request.on("close", () => this.streams.delete(response));
-    await this.inTurn(response, callerId, async (isRead) => {
-      const text = this.snapshotText(make);
+    await this.inTurn(response, viewer.id, async (isRead) => {
+      const text = viewer.seesOnlyOwn ? this.ownSnapshot(stream, make) : this.snapshotText(make);
       const events: Buffer[] = [];
       stream.waiting = events;
       if (!(await send(text, response, isRead))) return;
@@ -97,6 +109,12 @@ export class EventHub {
       for (const event of events) response.write(event);
       stream.waiting = null;
     });
+  }
+
+  private ownSnapshot({ viewer, ownJobs }: Stream, make: Make): Buffer {
+    const snapshot = make(viewer.id);
+    for (const { id } of snapshot.jobs) ownJobs.add(id);
+    return Buffer.from(jsonOf(snapshot));
   }
 
   /** Transfers to a caller one after the other. `transfer` calls `isRead` whenever the client reads on. */
@@ -134,7 +152,7 @@ export class EventHub {
 
   /** Ends the streams of a session or key that has ended. */
   drop(callerId: string): void {
-    for (const [response, stream] of this.streams) if (stream.callerId === callerId) this.end(response);
+    for (const [response, stream] of this.streams) if (stream.viewer.id === callerId) this.end(response);
   }
 
   close(): void {
@@ -150,18 +168,66 @@ export class EventHub {
     response.end();
   }
 
-  private write(text: string): void {
-    const bytes = Buffer.from(text);
-    for (const [response, { waiting }] of this.streams) {
+  private send(event: ServerEvent): void {
+    const bytes = bytesOf(event);
+    for (const [response, stream] of this.streams) {
       // The snapshot will have everything that is announced before.
-      if (waiting === "snapshot") continue;
-      const unsentBytes = waiting?.reduce((sum, { length }) => sum + length, 0) ?? response.writableLength;
-      if (unsentBytes > MAX_UNSENT_BYTES) {
-        this.streams.delete(response);
-        response.destroy();
-      } else if (waiting !== null) waiting.push(bytes);
-      else response.write(bytes);
+      if (stream.waiting === "snapshot") continue;
+      const own = stream.viewer.seesOnlyOwn ? ownPart(event, stream) : event;
+      if (own !== null) this.write(response, stream, own === event ? bytes : bytesOf(own));
     }
+  }
+
+  private writeToAll(text: string): void {
+    const bytes = Buffer.from(text);
+    for (const [response, stream] of this.streams) this.write(response, stream, bytes);
+  }
+
+  private write(response: Response, { waiting }: Stream, bytes: Buffer): void {
+    if (waiting === "snapshot") return;
+    const unsentBytes = waiting?.reduce((sum, { length }) => sum + length, 0) ?? response.writableLength;
+    if (unsentBytes > MAX_UNSENT_BYTES) {
+      this.streams.delete(response);
+      response.destroy();
+    } else if (waiting !== null) waiting.push(bytes);
+    else response.write(bytes);
+  }
+}
+
+const bytesOf = (event: ServerEvent): Buffer => Buffer.from(`data: ${JSON.stringify(event)}\n\n`);
+
+/** What a client that sees only its own jobs gets of an event; null: nothing. */
+function ownPart(event: ServerEvent, { viewer, ownJobs }: Stream): ServerEvent | null {
+  switch (event.type) {
+    case "job":
+      if (event.job.submittedBy?.id !== viewer.id) return null;
+      ownJobs.add(event.job.id);
+      return event;
+    case "job-removed":
+      return ownJobs.delete(event.id) ? event : null;
+    case "progress":
+      return ownJobs.has(event.jobId) ? event : null;
+    case "order":
+      return { ...event, ids: event.ids.filter((id) => ownJobs.has(id)) };
+    case "expected":
+      return {
+        ...event,
+        expectedS: Object.fromEntries(Object.entries(event.expectedS).filter(([id]) => ownJobs.has(id))),
+      };
+    // They name the drawings of others.
+    case "notice":
+    case "notice-removed":
+      return null;
+    case "snapshot":
+    case "plotter":
+    case "plotters":
+    case "plotter-settings":
+    case "machines":
+    case "queue":
+    case "queues":
+    case "operator":
+    case "local-name":
+      return event;
   }
 }
 

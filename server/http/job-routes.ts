@@ -34,7 +34,8 @@ const addFromFile =
     }
     const wanted = wantedIn(request);
     const drawing = await files.addFile(bytesOf(request));
-    const job = await queue.add({ ...wanted, drawing }, requesterOf(request, response));
+    const requester = requesterOf(request, response);
+    const job = await queue.add({ ...wanted, drawing, submittedBy: requester.submitter }, requester);
     response.status(201).location(`${API_PATH}/jobs/${job.id}`).json(job);
   };
 

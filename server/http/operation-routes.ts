@@ -3,14 +3,19 @@ import express, { Router, type Request, type RequestHandler, type Response } fro
 import { PlotwrightError } from "../../src/index.js";
 import {
   API_PATH,
+  JOB_PATH,
   OPERATIONS,
   type Operation,
   type OperationGroup,
   type OperationHandlers,
   type OperationTable,
+  type Submitter,
 } from "../../src/schema/index.js";
 import { performOperation } from "../../host/operations/host-operations.js";
 import type { Requester } from "../../host/planning/lane.js";
+import type { JobQueue } from "../../host/queue/job-queue.js";
+import { callerIn } from "./auth.js";
+import { deviceName } from "./browser.js";
 
 /** The handlers of operations that a server offers. */
 export type ServerHandlers = OperationHandlers<Requester>;
@@ -32,6 +37,8 @@ interface RouteParts {
   readonly maxBytes: number;
   /** Throws `not-allowed` for requests of other computers. */
   readonly requireLocal: RequestHandler<Record<string, string>>;
+  /** Throws `not-found` for a submitter's requests about jobs of others. */
+  readonly requireOwnJob: RequestHandler<Record<string, string>>;
 }
 
 type HandlerOf = Readonly<Record<string, (...args: never[]) => unknown>>;
@@ -61,7 +68,7 @@ function stepsOf(
   one: Operation,
   handler: HandlerOf[string] | undefined,
   responder: ResponderOf[string] | undefined,
-  { maxBytes, requireLocal }: RouteParts,
+  { maxBytes, requireLocal, requireOwnJob }: RouteParts,
 ): RequestHandler<Record<string, string>>[] {
   const performers = [
     ...(responder === undefined ? [] : [responder]),
@@ -71,6 +78,7 @@ function stepsOf(
   const hasJson = one.body !== undefined && one.body !== "file";
   return [
     ...(one.role === "local" ? [requireLocal] : []),
+    ...(one.path.startsWith(JOB_PATH) ? [requireOwnJob] : []),
     ...(hasJson ? [express.json({ limit: Math.min(one.maxBodyBytes, maxBytes) })] : []),
     ...performers,
   ];
@@ -102,13 +110,32 @@ const ITEM_PATHS: ReadonlySet<string> = new Set(
     .map(({ path }) => path),
 );
 
+/** The operations on a job, which has its id in their path. */
+export const requireOwnJob =
+  (queue: Pick<JobQueue, "get">): RequestHandler<Record<string, string>> =>
+  (request, response, next) => {
+    const submitter = submitterOf(request, response);
+    if (submitter !== undefined) queue.get(request.params["id"], submitter.id);
+    next();
+  };
+
+/** Undefined: the caller may see all jobs. */
+export function submitterOf(
+  request: Request<Record<string, string>>,
+  response: Response,
+): Submitter | undefined {
+  const { id, role, keyName } = callerIn(response);
+  return role === "submit" ? { id, name: keyName ?? deviceName(request) } : undefined;
+}
+
 /** Identifies the client; planning is aborted when it disconnects before the answer. */
 export function requesterOf(request: Request<Record<string, string>>, response: Response): Requester {
   const disconnected = new AbortController();
   response.on("close", () => {
     if (!response.writableFinished) disconnected.abort();
   });
-  return { client: request.socket.remoteAddress, signal: disconnected.signal };
+  const submitter = submitterOf(request, response);
+  return { client: request.socket.remoteAddress, signal: disconnected.signal, submitter };
 }
 
 /** Leaves the connection open when reading stops early, so that an error can still be sent. */

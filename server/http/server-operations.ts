@@ -1,5 +1,5 @@
 /** The operations of a server: those of every host, and those about its state, its files, its users and its log. */
-import type { RequestHandler, Request } from "express";
+import type { RequestHandler } from "express";
 import { readFile, readdir } from "node:fs/promises";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
@@ -13,14 +13,14 @@ import type { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
 import type { Access } from "../security/access.js";
 import type { Browsers } from "./browser.js";
 import { jobResponders } from "./job-routes.js";
-import { bytesOf, type Responders, type ServerHandlers } from "./operation-routes.js";
+import { bytesOf, submitterOf, type Responders, type ServerHandlers } from "./operation-routes.js";
 import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { Notices } from "../../host/queue/notices.js";
 import type { OperatorLock } from "../security/operator-lock.js";
 import type { MachineFiles } from "../storage/machine-files.js";
-import { callerOf } from "./auth.js";
-import type { EventHub } from "./events.js";
+import { callerIn, type Caller } from "./auth.js";
+import type { EventHub, Viewer } from "./events.js";
 
 export interface ServerParts {
   readonly version: string;
@@ -111,7 +111,7 @@ const receiveDrawing =
   ({ files, uploads }: ServerParts): RequestHandler<Record<string, string>> =>
   async (request, response) => {
     const drawing = await files.addFile(bytesOf(request));
-    uploads.keep(drawing);
+    uploads.keep(drawing, submitterOf(request, response)?.id);
     response.status(201).json({ id: drawing.id });
   };
 
@@ -142,37 +142,39 @@ function titleOf(name: string): string {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
+const viewerOf = ({ id, role }: Caller): Viewer => ({ id, seesOnlyOwn: role === "submit" });
+
 /** `openApi`: the text of the OpenAPI document. */
 const stateResponders = (parts: ServerParts, browsers: Browsers, openApi: () => Promise<string>) => {
   const { queue, registry, operatorLock, hub } = parts;
-  const snapshot = (): Snapshot => ({
+  const snapshot = (submitterId?: string): Snapshot => ({
     version: parts.version,
     plotters: registry.list(),
     plotterSettings: registry.settings(),
     queue: queue.settings(),
     queues: queue.allSettings(),
     operator: operatorLock.operator,
-    serverNotices: parts.notices.list(),
+    // They name the drawings of others.
+    serverNotices: submitterId === undefined ? parts.notices.list() : [],
     localName: parts.localName(),
     machines: parts.machines.list(),
-    ...queue.recent(),
+    ...queue.recent(submitterId),
   });
-  const callerIdOf = (request: Request): string => callerOf(request, parts.access)?.id ?? "";
   return {
     openApi: async (_request, response) => {
       response.type("json").send(await openApi());
     },
-    get: async (request, response) => {
-      await hub.answer(response, callerIdOf(request), snapshot);
+    get: async (_request, response) => {
+      await hub.answer(response, viewerOf(callerIn(response)), snapshot);
     },
     events: async (request, response) => {
       const browser = browsers.of(request);
       if (browser !== null) request.on("close", operatorLock.streamOpened(browser.id));
-      await hub.open(request, response, callerIdOf(request), snapshot);
+      await hub.open(request, response, viewerOf(callerIn(response)), snapshot);
     },
     me: (request, response) => {
       const { id = null, name = null } = browsers.of(request) ?? {};
-      response.json({ role: callerOf(request, parts.access)?.role, id, name });
+      response.json({ role: callerIn(response).role, id, name });
     },
   } satisfies Responders["state"];
 };

@@ -2,10 +2,11 @@
  * Access control when the server listens on the network.
  *
  *   loopback     this computer: may do everything, as its user could anyway
- *   pairing      a link with a secret, printed by the server (also as a QR code): opens a session in a browser. Both
+ *   pairing      a link with a secret, printed by the server (also as a QR code): opens a session in a browser. All
  *                links are replaced when a session is revoked: its device knows the old one
  *   session      a cookie that only this server's pages send (HttpOnly, SameSite=Strict); can be revoked, and ends
- *                SESSION_DAYS after the pairing. A device has one: pairing it again replaces the earlier one
+ *                SESSION_DAYS after the pairing. A device has one: pairing it again replaces the earlier one, whose id
+ *                it keeps in the same role, so that the jobs that it has submitted stay its own
  *   key          "Authorization: Bearer …" for scripts; created by an operator, shown once, can be revoked
  *
  * Secrets are stored as SHA-256. They are 256 random bits, so a slow hash would add nothing.
@@ -73,9 +74,12 @@ export class Access {
     }
     const entries = this.valid();
     const beforeSha256 = before === null ? null : hashOf(before);
-    const others = entries.filter((entry) => entry.kind === "key" || entry.secretSha256 !== beforeSha256);
+    const isBefore = (entry: StoredEntry): boolean =>
+      entry.kind === "session" && entry.secretSha256 === beforeSha256;
+    const others = entries.filter((entry) => !isBefore(entry));
     const kept = withRoom(others, role);
-    const { secret } = this.add("session", role, name, kept);
+    const again = entries.find((entry) => isBefore(entry) && entry.role === role);
+    const { secret } = this.add("session", role, name, kept, again?.id);
     for (const { id } of entries.filter((entry) => !kept.includes(entry))) this.revokeListener(id);
     return secret;
   }
@@ -146,11 +150,12 @@ export class Access {
     role: Role,
     name: string,
     others: readonly StoredEntry[],
+    id = randomBytes(8).toString("hex"),
   ): { entry: AccessEntry; secret: string } {
     const secret = newSecret();
     const at = this.now().toISOString();
     const entry: AccessEntry = {
-      id: randomBytes(8).toString("hex"),
+      id,
       kind,
       role,
       name: name.slice(0, 200),
@@ -182,7 +187,11 @@ const hashOf = (secret: string): string => createHash("sha256").update(secret).d
 const byHash = (entries: readonly StoredEntry[]): ReadonlyMap<string, StoredEntry> =>
   new Map(entries.map((entry) => [entry.secretSha256, entry]));
 
-const newPairing = (): Readonly<Record<Role, string>> => ({ operate: newSecret(), watch: newSecret() });
+const newPairing = (): Readonly<Record<Role, string>> => ({
+  operate: newSecret(),
+  submit: newSecret(),
+  watch: newSecret(),
+});
 
 /** The entries without the least recently used sessions of a role, so that another one can be added. */
 function withRoom(entries: readonly StoredEntry[], role: Role): StoredEntry[] {

@@ -15,7 +15,7 @@ type Row = Record<string, number | bigint | string | Uint8Array | null>;
 type Value = number | string | null;
 
 const COLUMNS =
-  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, plotted_s, expected_s, wait, created_at, started_at, ended_at";
+  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, plotted_s, expected_s, wait, submitted_by, created_at, started_at, ended_at";
 const PLACES = COLUMNS.split(", ")
   .map(() => "?")
   .join(", ");
@@ -316,6 +316,7 @@ function rowFromJob(job: Job): Value[] {
     job.plottedS,
     job.expectedS,
     job.wait === null ? null : JSON.stringify(job.wait),
+    job.submittedBy === undefined ? null : JSON.stringify(job.submittedBy),
     job.createdAt,
     job.startedAt,
     job.endedAt,
@@ -341,6 +342,9 @@ function jobFromRow(row: Row): Job {
     plottedS: row["plotted_s"],
     expectedS: row["expected_s"],
     wait: row["wait"] === null ? null : (JSON.parse(String(row["wait"])) as unknown),
+    ...(row["submitted_by"] === null
+      ? {}
+      : { submittedBy: JSON.parse(String(row["submitted_by"])) as unknown }),
     createdAt: row["created_at"],
     startedAt: row["started_at"],
     endedAt: row["ended_at"],

@@ -2,7 +2,7 @@
 import type { Database } from "node-sqlite3-wasm";
 import { PlotwrightError } from "../../src/index.js";
 
-const VERSION = 9;
+const VERSION = 10;
 
 const TABLES = `
   CREATE TABLE drawings (
@@ -28,6 +28,7 @@ const TABLES = `
     plotted_s  REAL,
     expected_s REAL,
     wait       TEXT,                 -- JSON
+    submitted_by TEXT,               -- JSON; null: an operator added it
     created_at TEXT NOT NULL,
     started_at TEXT,
     ended_at   TEXT
@@ -56,7 +57,8 @@ const TABLES = `
     events     TEXT NOT NULL,        -- JSON
     secret     TEXT NOT NULL,
     created_at TEXT NOT NULL,
-    last       TEXT                  -- JSON
+    last       TEXT,                 -- JSON
+    progress   TEXT                  -- JSON; null: the defaults
   );
   CREATE TABLE deliveries (
     id         TEXT PRIMARY KEY,
@@ -77,12 +79,18 @@ const TABLES = `
     is_told    INTEGER NOT NULL DEFAULT 0 -- the other servers know that it has begun
   );`;
 
-/** Makes the tables of a new database. One of another version is refused, and stays as it is. */
+/** What version 10 has more than version 9. */
+const FROM_9 = `
+  ALTER TABLE jobs ADD COLUMN submitted_by TEXT;
+  ALTER TABLE webhooks ADD COLUMN progress TEXT;`;
+
+/** Makes the tables of a new database, or updates them. One of another version is refused, and stays as it is. */
 export function prepareTables(db: Database, path: string): void {
   const version = Number(db.get("PRAGMA user_version")?.["user_version"] ?? 0);
   if (version === VERSION) return;
-  if (version === 0) {
-    db.exec(`BEGIN IMMEDIATE; ${TABLES}\nPRAGMA user_version = ${VERSION}; COMMIT;`);
+  if (version === 0 || version === 9) {
+    const changes = version === 0 ? TABLES : FROM_9;
+    db.exec(`BEGIN IMMEDIATE; ${changes}\nPRAGMA user_version = ${VERSION}; COMMIT;`);
     return;
   }
   const advice = version > VERSION ? "Update plotwright" : "Use the plotwright that made it";

@@ -68,6 +68,15 @@ export type PlotWait = z.infer<typeof plotWaitSchema>;
 /** With the type of its own, which has the docstrings. */
 const settingsSchema: z.ZodType<PlotSettings> = plotSettingsSchema;
 
+/** Who added a job, if that may only submit jobs. */
+export const submitterSchema = z.object({
+  /** That of its session or key. */
+  id: z.string(),
+  /** The key's name, or the browser and its address. */
+  name: z.string(),
+});
+export type Submitter = z.infer<typeof submitterSchema>;
+
 export const jobSchema = z.object({
   id: z.string(),
   plotterId: z.string(),
@@ -97,6 +106,8 @@ export const jobSchema = z.object({
   expectedS: z.number().nullable().default(null),
   /** What a job that is not moving waits for; null if for nothing. A cancelled job waits for it again once it is recovered. */
   wait: plotWaitSchema.nullable().default(null),
+  /** Left out: an operator added it. */
+  submittedBy: submitterSchema.optional(),
   createdAt: z.string(),
   startedAt: z.string().nullable(),
   endedAt: z.string().nullable(),

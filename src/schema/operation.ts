@@ -1,15 +1,29 @@
 /** What an operation of the table in operations.ts is, and the types of its clients and handlers. */
 import type { z, ZodType } from "zod";
 
-/** Who may perform an operation. */
+/**
+ * Who may perform an operation. Who may only submit jobs is refused any other job than its own, as if there were none:
+ * that concerns all paths that begin with JOB_PATH.
+ */
 export type OperationRole =
   /** Everybody with access: it changes nothing and shows no secrets. */
+  | "all"
+  /** Operators and watchers: it shows the jobs of all. */
   | "watch"
   /** As "watch", although it changes something: the person closest to the plotter must be able to stop it. */
   | "stop"
+  /** Operators, and those who submit jobs. */
+  | "submit"
   | "operate"
   /** Only users at the computer where the server runs. */
   | "local";
+
+/** The beginning of the paths of operations on one job. */
+export const JOB_PATH = "/jobs/:id";
+
+/** Whether the role "submit" may perform an operation. Of stops only those of its own jobs. */
+export const maySubmitterPerform = ({ role, path }: Operation): boolean =>
+  role === "all" || role === "submit" || (role === "stop" && path.startsWith(JOB_PATH));
 
 export interface Operation {
   readonly method: "get" | "post" | "put" | "patch" | "delete";
@@ -59,7 +73,7 @@ export const operation = <
     about,
     answer,
     status: 200,
-    role: method === "get" ? "watch" : "operate",
+    role: method === "get" ? "all" : "operate",
     maxBodyBytes: MAX_BODY_BYTES,
     ...more,
   }) as unknown as Row<Path, Answer, More>;

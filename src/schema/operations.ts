@@ -53,11 +53,13 @@ const idSchema = z.object({ id: z.string() });
 
 /** A change of a job or plotter. */
 const CHANGE = { maxBodyBytes: 200_000 } as const;
+/** What those who submit jobs may do with their own. */
+const SUBMIT = { role: "submit" } as const;
 /** Small enough to be parsed in the server's thread, which also streams to the board. */
 const NEW_JOB = { maxBodyBytes: 8_000_000, status: 201 } as const;
 
 /** An action on a job that needs no further data. */
-const action = <const Name extends string, const More extends { readonly role?: "stop" }>(
+const action = <const Name extends string, const More extends { readonly role?: "stop" | "submit" }>(
   name: Name,
   about: string,
   more?: More,
@@ -109,7 +111,7 @@ export const OPERATIONS = {
       "/drawings",
       "Uploads a drawing, the file as the body; use its id in POST /jobs within ten minutes",
       idSchema,
-      { body: "file", status: 201 },
+      { body: "file", status: 201, ...SUBMIT },
     ),
   },
 
@@ -119,13 +121,14 @@ export const OPERATIONS = {
       "/jobs",
       "Adds a job from JSON with an uploaded drawing's id or, up to 8 MB, with its text; or from the file itself as the body with ?name=",
       jobSchema,
-      { body: newJobSchema, ...NEW_JOB },
+      { body: newJobSchema, ...NEW_JOB, ...SUBMIT },
     ),
     get: operation("get", "/jobs/:id", "Returns a job", jobSchema),
     drawing: operation("get", "/jobs/:id/drawing", "Returns the uploaded file", "file"),
     patch: operation("patch", "/jobs/:id", "Changes name, settings or plotter of a job", jobSchema, {
       body: jobPatchSchema,
       ...CHANGE,
+      ...SUBMIT,
     }),
     move: operation("post", "/jobs/:id/move", "Moves a job in the queue", okSchema, {
       body: moveJobSchema,
@@ -135,7 +138,7 @@ export const OPERATIONS = {
     pause: action("pause", "Slows down to a stop and lifts the pen", { role: "stop" }),
     resume: action("resume", "Resumes a paused job"),
     cancel: action("cancel", "Cancels a job: the pen lifts and goes home", { role: "stop" }),
-    requeue: action("requeue", "Queues an ended job again"),
+    requeue: action("requeue", "Queues an ended job again", SUBMIT),
     recover: action("recover", "Continues an interrupted or cancelled job, paused at first"),
     "emergency-stop": action("emergency-stop", "Stops at once, without slowing down", { role: "stop" }),
     change: operation(
@@ -153,8 +156,11 @@ export const OPERATIONS = {
       { body: movePlaceSchema, ...CHANGE },
     ),
     "check-place": action("check-place", "Moves to the place where a paused job resumes, with the pen up"),
-    duplicate: operation("post", "/jobs/:id/duplicate", "Queues a copy of a job", jobSchema, { status: 201 }),
-    remove: operation("delete", "/jobs/:id", "Removes a job", okSchema),
+    duplicate: operation("post", "/jobs/:id/duplicate", "Queues a copy of a job", jobSchema, {
+      status: 201,
+      ...SUBMIT,
+    }),
+    remove: operation("delete", "/jobs/:id", "Removes a job", okSchema, SUBMIT),
   },
 
   plotters: {
@@ -204,6 +210,7 @@ export const OPERATIONS = {
       { body: plotterSettingsSchema, maxBodyBytes: 2_097_152 },
     ),
     log: operation("get", "/plotters/:id/log", "Returns the commands and replies of the connection", "text", {
+      role: "watch",
       attachment: "plotwright-:id.log",
     }),
     pen: operation("post", "/plotters/:id/pen", "Lifts or lowers the pen", plotterSchema, {
@@ -338,6 +345,7 @@ export const OPERATIONS = {
       "/shared-jobs",
       "Lists the jobs of the shared queue, newest first",
       z.object({ jobs: z.array(sharedJobSchema) }),
+      { role: "watch" },
     ),
     add: operation(
       "post",

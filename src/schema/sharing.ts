@@ -78,14 +78,19 @@ export const pairingSchema = z.object({
   /** False: the server listens on this computer only, so other devices cannot use the links. */
   isOnLan: z.boolean(),
   operateUrl: z.string(),
+  submitUrl: z.string(),
   watchUrl: z.string(),
   operateQrSvg: z.string(),
+  submitQrSvg: z.string(),
   watchQrSvg: z.string(),
 });
 export type Pairing = z.infer<typeof pairingSchema>;
 
-/** "watch": may see everything but change nothing. */
-export const ROLES = ["operate", "watch"] as const;
+/**
+ * "submit": may add jobs and sees only its own, for a classroom; "watch": may see everything and stop a plot, but change
+ * nothing.
+ */
+export const ROLES = ["operate", "submit", "watch"] as const;
 export const roleSchema = z.enum(ROLES);
 export type Role = z.infer<typeof roleSchema>;
 

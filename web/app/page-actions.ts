@@ -2,7 +2,7 @@
 import { PLOTTER_ACTIONS } from "../plotter/plotter-actions.js";
 import { PREVIEW_ACTIONS } from "../preview/preview-actions.js";
 import { PLOT_ACTIONS } from "../queue/plot-actions.js";
-import { isForOperator, type PageAction } from "../state/page-action.js";
+import { isForOperator, isForSubmitter, type PageAction } from "../state/page-action.js";
 import { THEMES, type Theme } from "../state/persist.js";
 import { shownView, type PageState, type PageView } from "../state/store.js";
 import {
@@ -38,7 +38,7 @@ export const REDO: PageAction = {
 const showView = (view: PageView): PageAction => ({
   id: view,
   label: viewText.show[view],
-  isOffered: isForOperator,
+  isOffered: isForSubmitter,
   whyOff: (state) => (shownView(state) === view ? viewText.isShown : null),
   perform: ({ actions }) => actions.showView(view),
 });

@@ -1,4 +1,4 @@
-import { activeJob, otherOperator, penWait, shownView } from "../state/store.js";
+import { activeJob, onlySubmits, otherOperator, penWait, shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { stripsText as words } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -50,9 +50,11 @@ const PenStrip = () => {
 
 const OperatorStrip = () => {
   const isWatching = usePageState((state) => state.me?.role === "watch");
+  const isSubmitting = usePageState(onlySubmits);
   const other = usePageState(otherOperator);
   const { takeOver } = useActions();
   if (isWatching) return <p className="strip">{words.watching(other?.name ?? null)}</p>;
+  if (isSubmitting) return <p className="strip">{words.submitting}</p>;
   if (!other) return null;
   return (
     <p className="strip">

@@ -62,6 +62,7 @@ export const stripsText = {
     operator === null
       ? "This device can watch and stop a plot, nothing else."
       : `${operator} is operating. This device can watch and stop a plot, nothing else.`,
+  submitting: "This device can add drawings to the queue. Another device starts the plots.",
   operating: (name: string) => `${name} is operating.`,
   takeOver: "Take over",
   read: "Dismiss",

@@ -1,4 +1,4 @@
-import { currentPlotter, mayOperate, shownView, unfinishedJob, type ServerLink } from "../state/store.js";
+import { currentPlotter, maySubmit, shownView, unfinishedJob, type ServerLink } from "../state/store.js";
 import type { Theme } from "../state/persist.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ActionButton } from "../ui/action-button.js";
@@ -39,9 +39,9 @@ export const TopBar = () => {
 /** Switches between Prepare and Watch. Not shown to a watcher, who has only Watch. */
 const ViewSwitch = () => {
   const view = usePageState((state) => state.pageView);
-  const isMine = usePageState(mayOperate);
+  const isShown = usePageState(maySubmit);
   const { showView } = useActions();
-  if (!isMine) return null;
+  if (!isShown) return null;
   return (
     <div className="view-switch" role="group" aria-label={viewText.label}>
       {(["prepare", "watch"] as const).map((name) => (

@@ -1,7 +1,14 @@
 /** Actions on the plotter: moves by hand, and its dialogs. */
 import type { HandMove, BoxMm } from "../../src/schema/index.js";
 import { isForOperator, type Page, type PageAction } from "../state/page-action.js";
-import { activeJob, currentPlotter, isReady, type DialogName, type PageState } from "../state/store.js";
+import {
+  activeJob,
+  currentPlotter,
+  isReady,
+  onlySubmits,
+  type DialogName,
+  type PageState,
+} from "../state/store.js";
 import { stateText } from "../state/text.js";
 import { saveFile } from "../ui/files/save-file.js";
 import { movesText } from "./hand/text.js";
@@ -55,6 +62,7 @@ export const STOP_MOVE: PageAction = {
   id: "stop-move",
   label: penText.stop,
   words: "halt, abort the move",
+  isOffered: ({ store }) => !onlySubmits(store.getState()),
   whyOff: (state) => {
     if (isMovingByHand(state)) return null;
     return state.link === "connected" ? why.still : stateText.notConnected;
@@ -118,7 +126,7 @@ export const SAVE_LOG: PageAction = {
   id: "log",
   label: plotterText.log,
   words: "debug, report a problem",
-  isOffered: ({ store }) => currentPlotter(store.getState()) !== null,
+  isOffered: ({ store }) => !onlySubmits(store.getState()) && currentPlotter(store.getState()) !== null,
   perform: ({ store, backend, actions }) => {
     const plotter = currentPlotter(store.getState());
     if (!plotter) return;

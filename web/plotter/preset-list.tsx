@@ -1,4 +1,5 @@
 import { useState } from "react";
+import { mayOperate } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { presetsText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -7,6 +8,8 @@ import { TextField } from "../ui/fields/text-field.js";
 /** Presets: speeds, heights, pens and layers under a name. */
 export const PresetList = () => {
   const presets = usePageState((state) => state.presets);
+  // They are stored with the plotter.
+  const mayChange = usePageState(mayOperate);
   const { takePreset, removePreset } = useActions();
   return (
     <>
@@ -15,16 +18,18 @@ export const PresetList = () => {
         {presets.map((preset) => (
           <li key={preset.name}>
             <Button onClick={() => takePreset(preset)}>{preset.name}</Button>
-            <IconButton
-              kind="icon"
-              icon="close"
-              label={words.remove(preset.name)}
-              onClick={() => removePreset(preset.name)}
-            />
+            {mayChange && (
+              <IconButton
+                kind="icon"
+                icon="close"
+                label={words.remove(preset.name)}
+                onClick={() => removePreset(preset.name)}
+              />
+            )}
           </li>
         ))}
       </ul>
-      <SavePreset />
+      {mayChange && <SavePreset />}
     </>
   );
 };

@@ -1,6 +1,6 @@
 /** Actions on the preview and the place of the drawing. */
 import { layoutOfFrame } from "../scene/placing.js";
-import { isForOperator, type PageAction } from "../state/page-action.js";
+import { isForSubmitter, type PageAction } from "../state/page-action.js";
 import { previewText, timeLineText } from "./text.js";
 
 const needsPlan: PageAction["whyOff"] = ({ planned }) => (planned ? null : previewText.needsDrawing);
@@ -37,7 +37,7 @@ export const PLACE: PageAction = {
   label: previewText.place,
   words: "move, drag, scale, resize, position",
   isForDrawing: true,
-  isOffered: isForOperator,
+  isOffered: isForSubmitter,
   whyOff: ({ planned }) => (planned?.frameMm ? null : previewText.needsDrawing),
   perform: ({ store, actions }) => {
     const { planned, settings } = store.getState();
@@ -52,7 +52,7 @@ const TURN_PAPER: PageAction = {
   label: previewText.turnPaper,
   words: "landscape, portrait, rotate, orientation",
   isForDrawing: true,
-  isOffered: isForOperator,
+  isOffered: isForSubmitter,
   perform: ({ actions }) =>
     actions.changeSettings("orientation", (now) => ({
       ...now,

@@ -1,5 +1,5 @@
 import type { Job } from "../../src/schema/index.js";
-import { activeJob, mayOperate } from "../state/store.js";
+import { activeJob, mayOperate, maySubmit } from "../state/store.js";
 import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -7,12 +7,13 @@ import { Button } from "../ui/button.js";
 /** Buttons of a waiting or ended job: start it, resume it, or plot it again. */
 export const EndedButtons = ({ job }: { job: Job }) => {
   const { actOnJob } = useActions();
-  const isMine = usePageState(mayOperate);
+  const isOperator = usePageState(mayOperate);
+  const isShown = usePageState(maySubmit);
   const isOff = !useIsConnected();
   const isFree = usePageState((state) => activeJob(state) === null);
-  if (!isMine) return null;
+  if (!isShown) return null;
   if (job.state === "queued") {
-    return (
+    return isOperator ? (
       <Button
         kind="primary"
         disabled={isOff || !isFree}
@@ -21,11 +22,11 @@ export const EndedButtons = ({ job }: { job: Job }) => {
       >
         {words.start}
       </Button>
-    );
+    ) : null;
   }
   return (
     <div className="button-row ended-buttons">
-      {canGoOn(job) && (
+      {isOperator && canGoOn(job) && (
         <Button
           disabled={isOff || !isFree}
           aria-label={words.goOnNamed(job.name)}

@@ -1,6 +1,6 @@
 import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
-import { mayOperate } from "../state/store.js";
+import { mayOperate, maySubmit } from "../state/store.js";
 import { useActions, useIsConnected, useOlderJobs, usePageState } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -42,12 +42,16 @@ export const HistoryList = ({ jobs }: { jobs: readonly Job[] }) => {
 
 const EndedJob = ({ job }: { job: Job }) => {
   const { actOnJob, openJob, removeJob } = useActions();
-  const isMine = usePageState(mayOperate);
+  const isOperator = usePageState(mayOperate);
+  const hasMenu = usePageState(maySubmit);
   const isOff = !useIsConnected();
   const { name } = job;
   const again = [words.again, words.againNamed(name), isOff, () => void actOnJob(job.id, "requeue")] as const;
   const open = [words.open, words.openNamed(name), false, () => void openJob(job)] as const;
   const remove = [words.remove, words.removeNamed(name), isOff, () => void removeJob(job.id)] as const;
+  // What was plotted stays in the history of those who look after the plotter.
+  const mayRemove = isOperator || job.startedAt === null;
+  const items = [...(isOperator && canGoOn(job) ? [] : [again]), open, ...(mayRemove ? [remove] : [])];
   return (
     <article className="job" data-state={job.state}>
       <div className="job-row">
@@ -57,11 +61,9 @@ const EndedJob = ({ job }: { job: Job }) => {
           <span className="note">{timesOf(job)}</span>
         </div>
         <StateBadge job={job} />
-        {isMine && (
-          <RowMenu label={words.more(name)} items={canGoOn(job) ? [open, remove] : [again, open, remove]} />
-        )}
+        {hasMenu && <RowMenu label={words.more(name)} items={items} />}
       </div>
-      {isMine && canGoOn(job) && <EndedButtons job={job} />}
+      {isOperator && canGoOn(job) && <EndedButtons job={job} />}
       {job.message && <p className={job.state === "failed" ? "note note-error" : "note"}>{job.message}</p>}
     </article>
   );

@@ -1,5 +1,5 @@
 import type { Job } from "../../src/schema/index.js";
-import { ACTIVE_STATES, mayOperate, penWait } from "../state/store.js";
+import { ACTIVE_STATES, maySubmit, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { queueText as words } from "./text.js";
 import "./jobs.css";
@@ -10,9 +10,9 @@ import "./jobs.css";
  */
 export const JobName = ({ job }: { job: Job }) => {
   const { openJob, showView } = useActions();
-  const isMine = usePageState(mayOperate);
+  const mayOpen = usePageState(maySubmit);
   const isActive = ACTIVE_STATES.includes(job.state);
-  if (!isMine && !isActive) return <span className="job-name">{job.name}</span>;
+  if (!mayOpen && !isActive) return <span className="job-name">{job.name}</span>;
   return (
     <button
       type="button"

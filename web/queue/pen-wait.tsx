@@ -1,4 +1,5 @@
 import type { Job, PlotWait } from "../../src/schema/index.js";
+import { mayOperate } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { penWaitText as words } from "./text.js";
 import { JobButtons } from "./job-buttons.js";
@@ -18,8 +19,8 @@ export const PenWait = ({ job, wait }: { job: Job; wait: PlotWait }) => (
 );
 
 const Hint = () => {
-  const isWatching = usePageState((state) => state.me?.role === "watch");
-  return <span className="note">{isWatching ? words.watcherHint : words.hint}</span>;
+  const continues = usePageState(mayOperate);
+  return <span className="note">{continues ? words.hint : words.watcherHint}</span>;
 };
 
 /** A picture of a pen in the colour of its ink. */

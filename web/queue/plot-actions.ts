@@ -4,8 +4,8 @@ import { isOutsideUnanswered } from "../drawing/outside-paper.js";
 import { outsideText } from "../drawing/text.js";
 import { plotterText } from "../plotter/text.js";
 import { previewText } from "../preview/text.js";
-import { isForOperator, type PageAction } from "../state/page-action.js";
-import { activeJob, currentPlotter, mayOperate, type PageState } from "../state/store.js";
+import { isForOperator, isForSubmitter, type PageAction } from "../state/page-action.js";
+import { activeJob, currentPlotter, mayOperate, maySubmit, type PageState } from "../state/store.js";
 import { stateText } from "../state/text.js";
 import { jobText, plotText } from "./text.js";
 import type { Job } from "../../src/schema/index.js";
@@ -18,7 +18,7 @@ export const isSendingJob = ({ busyAction }: PageState): boolean =>
 const whyNotQueue = (state: PageState): string | null => {
   if (state.link === "lost") return stateText.notConnected;
   if (state.link === "connecting") return plotterText.server.connecting;
-  if (!mayOperate(state)) return plotText.watchesOnly;
+  if (!maySubmit(state)) return plotText.watchesOnly;
   if (state.drawing === null) return plotText.needsDrawing;
   if (isSendingJob(state)) return plotText.sending;
   if (state.fault !== null) return previewText.cannotRead(state.drawing.name);
@@ -44,6 +44,7 @@ export const PLOT: PageAction = {
   label: plotText.plot,
   words: "print, draw, start",
   isForDrawing: true,
+  isOffered: isForOperator,
   whyOff: (state) => {
     const why = whyNotQueue(state);
     if (why !== null) return why;
@@ -66,7 +67,7 @@ const PAUSE: PageAction = {
   key: "P",
   whyOff: (state) => {
     const main = mainAction(state);
-    if (main === null) return activeJob(state) === null ? plotText.noPlot : plotText.watchesOnly;
+    if (main === null) return activeJob(state) === null ? plotText.noPlot : plotText.stopsOnly;
     if (!isMainActionOff(state, main.job, main.action)) return null;
     return state.link === "connected" ? jobText.asked : stateText.notConnected;
   },
@@ -79,7 +80,7 @@ const PAUSE: PageAction = {
 export const SAVE_TO_JOB: PageAction = {
   id: "save-to-job",
   label: (state) => plotText.saveToJob(changedJob(state)?.name ?? ""),
-  isOffered: (page) => isForOperator(page) && changedJob(page.store.getState()) !== null,
+  isOffered: (page) => isForSubmitter(page) && changedJob(page.store.getState()) !== null,
   whyOff: whyNotQueue,
   perform: ({ store, actions }) => {
     const job = changedJob(store.getState());
@@ -103,7 +104,7 @@ const ACTIONS: Readonly<Partial<Record<Job["state"], MainAction>>> = {
   interrupted: "recover",
 };
 
-/** Null: the job has no such button on this page. Watchers may only stop a plot. */
+/** Null: the job has no such button on this page. Those who do not operate may only stop a plot. */
 export const mainActionOf = (state: PageState, job: Job): MainAction | null =>
   mayOperate(state) || job.state === "plotting" ? (ACTIONS[job.state] ?? null) : null;
 

@@ -1,7 +1,7 @@
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
 import { isOutsideUnanswered, OutsidePaper } from "../drawing/outside-paper.js";
 import { plotterText } from "../plotter/text.js";
-import { activeJob, currentPlotter } from "../state/store.js";
+import { activeJob, currentPlotter, onlySubmits } from "../state/store.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { isEnabled } from "../state/page-action.js";
@@ -70,12 +70,13 @@ const Buttons = () => {
   const isSending = usePageState(isSendingJob);
   const isActive = usePageState((state) => activeJob(state) !== null);
   const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
+  const isSubmitting = usePageState(onlySubmits);
   const isUnreached = usePageState(isOutOfReach);
   const isOutside = usePageState(isOutsideUnanswered);
   return (
     <div className="plot-buttons">
       <ActionButton action={PLOT} kind="primary" isBusy={isSending} />
-      <ActionButton action={QUEUE} />
+      <ActionButton action={QUEUE} {...(isSubmitting && { kind: "primary" })} />
       <ActionButton action={SAVE_TO_JOB} className="save-to-job" />
       <div className="copies">
         <NumberField

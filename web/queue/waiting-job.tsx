@@ -1,5 +1,5 @@
 import type { RefObject } from "react";
-import { activeJob, mayOperate } from "../state/store.js";
+import { activeJob, mayOperate, maySubmit } from "../state/store.js";
 import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
 import { plotText, queueText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -22,7 +22,8 @@ interface WaitingJobProps {
 
 /** A waiting row: name, number of copies, duration, buttons. */
 export const WaitingJob = ({ copies, rowIds, list }: WaitingJobProps) => {
-  const isMine = usePageState(mayOperate);
+  const isMine = usePageState(maySubmit);
+  const isOperator = usePageState(mayOperate);
   const [job] = copies;
   const expectedS = expectedSOf(job);
   return (
@@ -34,6 +35,7 @@ export const WaitingJob = ({ copies, rowIds, list }: WaitingJobProps) => {
           <span className="note">
             {expectedS === null ? plotText.planning : formatDuration(expectedS)}
             {job.place !== null && `, ${words.fromStroke(formatCount(job.place.strokeIndex + 1))}`}
+            {isOperator && job.submittedBy && `, ${words.from(job.submittedBy.name)}`}
             {job.speedPct !== 100 && `, ${words.atSpeed(job.speedPct)}`}
           </span>
         </div>
@@ -54,6 +56,7 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
   const [job] = copies;
   const { actOnJob, duplicateJob, moveJob, openJob, removeJob } = useActions();
   const isFree = usePageState((state) => activeJob(state) === null);
+  const isOperator = usePageState(mayOperate);
   const isOff = !useIsConnected();
   const index = rowIds.indexOf(job.id);
   const moveTo = async (place: number): Promise<void> => {
@@ -70,31 +73,31 @@ const Buttons = ({ copies, rowIds, list }: WaitingJobProps) => {
   // Of several copies the last is removed, because the first may be about to start.
   const last = copies.at(-1) ?? job;
   const all = words.removeAll(copies.length);
+  const moves = [
+    [words.earlier, words.earlierNamed(name), isOff || index <= 0, () => void moveTo(index - 1)],
+    [words.later, words.laterNamed(name), isOff || index >= rowIds.length - 1, () => void moveTo(index + 1)],
+  ] as const;
   return (
     <>
-      <IconButton
-        icon="play"
-        label={words.startNamed(name)}
-        disabled={isOff || !isFree}
-        onClick={() => void actOnJob(job.id, "start")}
-      />
+      {isOperator && (
+        <IconButton
+          icon="play"
+          label={words.startNamed(name)}
+          disabled={isOff || !isFree}
+          onClick={() => void actOnJob(job.id, "start")}
+        />
+      )}
       <RowMenu
         label={words.more(name)}
         items={[
           [words.open, words.openNamed(name), false, () => void openJob(job)],
           [words.duplicate, words.duplicateNamed(name), isOff, () => void duplicateJob(job.id)],
-          [words.earlier, words.earlierNamed(name), isOff || index <= 0, () => void moveTo(index - 1)],
-          [
-            words.later,
-            words.laterNamed(name),
-            isOff || index >= rowIds.length - 1,
-            () => void moveTo(index + 1),
-          ],
+          ...(isOperator ? moves : []),
           [words.remove, words.removeNamed(name), isOff, () => void removeJob(last.id)],
           ...(copies.length > 1 ? [[all, all, isOff, () => void removeAll()] as const] : []),
         ]}
       />
-      {rowIds.length > 1 && (
+      {isOperator && rowIds.length > 1 && (
         <Button
           kind="smallIcon"
           className="drag-handle"

@@ -1,6 +1,6 @@
 import { useEffect, useId, useMemo, useRef, useState, type KeyboardEvent } from "react";
 import { isOffered, labelOf, whyOff, type Page, type PageAction } from "../state/page-action.js";
-import { mayOperate } from "../state/store.js";
+import { maySubmit } from "../state/store.js";
 import { usePage, usePageState } from "../state/use-store.js";
 import { Dialog } from "../ui/dialog.js";
 import { Icon } from "../ui/icon.js";
@@ -39,7 +39,7 @@ const actionEntries = (actions: readonly PageAction[], page: Page): readonly Ent
 /** A watcher has no settings. */
 const fieldEntries = (page: Page): readonly Entry[] => {
   const state = page.store.getState();
-  if (!mayOperate(state)) return [];
+  if (!maySubmit(state)) return [];
   return FIELDS.map((field) => {
     const { panel, legend, control } = field.place;
     const titles = control === null ? panel.titles.slice(0, -1) : panel.titles;

@@ -78,6 +78,7 @@ const NewKeyForm = ({ onAdd }: { onAdd(name: string, role: Role): Promise<void> 
         value={role}
         options={[
           { value: "operate", label: words.roles.operate },
+          { value: "submit", label: words.roles.submit },
           { value: "watch", label: words.roles.watch },
         ]}
         onChange={setRole}

@@ -3,7 +3,7 @@ import { sharingText as words } from "./text.js";
 import { useFetched, useSharing } from "./use-sharing.js";
 import { Button } from "../ui/button.js";
 
-/** Links and QR codes for pairing another device, to operate or to watch. */
+/** Links and QR codes for pairing another device, one for each role. */
 export const ShareSection = () => {
   const sharing = useSharing();
   const [pairing] = useFetched(sharing.operator.pairing);
@@ -21,6 +21,12 @@ export const ShareSection = () => {
           hint={words.operateHint}
           url={pairing.operateUrl}
           qrSvg={pairing.operateQrSvg}
+        />
+        <PairingCard
+          title={words.submit}
+          hint={words.submitHint}
+          url={pairing.submitUrl}
+          qrSvg={pairing.submitQrSvg}
         />
         <PairingCard
           title={words.watch}

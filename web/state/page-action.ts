@@ -4,7 +4,7 @@
  */
 import type { Backend } from "../backend/backend.js";
 import type { Actions } from "./actions.js";
-import { mayOperate, shownView, type PageState, type PageStore } from "./store.js";
+import { mayOperate, maySubmit, shownView, type PageState, type PageStore } from "./store.js";
 
 /** What an action and a component of the page can use. */
 export interface Page {
@@ -39,7 +39,10 @@ export const whyOff = (action: PageAction, state: PageState): string | null => a
 export const isEnabled = (action: PageAction, state: PageState): boolean => whyOff(action, state) === null;
 export const isOffered = (action: PageAction, page: Page): boolean => action.isOffered?.(page) ?? true;
 
-/** For actions that change something, which a watcher may not. */
+/** For actions on the drawing and the own jobs, which a watcher does not have. */
+export const isForSubmitter = ({ store }: Page): boolean => maySubmit(store.getState());
+
+/** For actions on the plotter, and on the jobs of all. */
 export const isForOperator = ({ store }: Page): boolean => mayOperate(store.getState());
 
 type KeyPress = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;

@@ -11,7 +11,7 @@ import { PLAN_AT_FIRST, type PlanSlice } from "./slices/plan.js";
 import { PLAYER_AT_FIRST, type PlayerSlice } from "./slices/player.js";
 import {
   currentPlotter,
-  mayOperate,
+  maySubmit,
   SERVER_AT_FIRST,
   unfinishedJob,
   type ServerSlice,
@@ -49,4 +49,4 @@ export const watchedJob = (state: PageState): Job | null =>
   unfinishedJob(state) ?? state.jobs.find(({ id }) => id === state.watchedId) ?? null;
 
 /** A watcher sees only Watch. */
-export const shownView = (state: PageState): PageView => (mayOperate(state) ? state.pageView : "watch");
+export const shownView = (state: PageState): PageView => (maySubmit(state) ? state.pageView : "watch");

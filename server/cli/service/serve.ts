@@ -99,8 +99,7 @@ async function serverUnlessRunning(
 async function pairing(server: PlotwrightServer, isLan: boolean): Promise<string> {
   const { protocol, port, hostname } = new URL(server.url);
   const address = isLan ? (lanAddresses()[0] ?? hostname) : hostname;
-  const { operatePath, watchPath } = server.pairing;
-  return pairingText(`${protocol}//${address}:${port}`, operatePath, watchPath);
+  return pairingText(`${protocol}//${address}:${port}`, server.pairing);
 }
 
 function tlsOf({ cert, key }: ServeCommandOptions): Pick<ServerOptions, "tls"> {

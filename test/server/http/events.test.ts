@@ -35,7 +35,7 @@ async function open(snapshotBytes: number): Promise<void> {
   const app = express();
   const opened = new Promise<void>((resolve) => {
     app.get("/", (request, response) => {
-      void hub.open(request, response, "me", () => snapshot);
+      void hub.open(request, response, { id: "me", seesOnlyOwn: false }, () => snapshot);
       isOpen = true;
       response.on("close", () => (isOpen = false));
       resolve();

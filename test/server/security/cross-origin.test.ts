@@ -181,10 +181,14 @@ describe("a server with --allow-origin", () => {
   it("never limits stops of a page with a key, nor the questions before them", async () => {
     const id = await plottingJob();
     const headers = { Origin: ALLOWED, ...bearer(keyOf("operate")) };
-    const flood = Array.from({ length: 610 }, () => send("GET", "/api/v1/me", headers));
-    const without = Array.from({ length: 610 }, () => send("GET", "/api/v1/me", { Origin: ALLOWED }));
-    for (const answers of [await Promise.all(flood), await Promise.all(without)]) {
-      expect(answers.filter(({ status }) => status === 429)).toHaveLength(10);
+    for (const flood of [headers, { Origin: ALLOWED }]) {
+      const answers: Response[] = [];
+      // Fewer at a time than an unknown client may have connections.
+      while (answers.length < 620) {
+        const some = Array.from({ length: 31 }, () => send("GET", "/api/v1/me", flood));
+        answers.push(...(await Promise.all(some)));
+      }
+      expect(answers.filter(({ status }) => status === 429)).toHaveLength(20);
       // A page must be able to read that it is too fast.
       expect(answers.at(-1)?.headers.get("access-control-allow-origin")).toBe(ALLOWED);
     }

@@ -31,9 +31,22 @@ describe("the table of operations", () => {
       "post /jobs/:id/emergency-stop",
       "post /plotters/:id/stop",
     ]);
-    const secrets = ROWS.filter(({ method, role }) => method === "get" && role !== "watch");
+    const isForWatchers = ({ role }: Operation): boolean => role === "all" || role === "watch";
+    const secrets = ROWS.filter((one) => one.method === "get" && !isForWatchers(one));
     expect(secrets.map(titleOf)).toEqual(["get /logs", "get /access", "get /webhooks"]);
-    expect(ROWS.filter(({ method, role }) => method !== "get" && role === "watch")).toEqual([]);
+    expect(ROWS.filter((one) => one.method !== "get" && isForWatchers(one))).toEqual([]);
+  });
+
+  it("lets those who only submit jobs add them and change their own, and see nothing of others", () => {
+    expect(withRole("submit")).toEqual([
+      "post /drawings",
+      "post /jobs",
+      "patch /jobs/:id",
+      "post /jobs/:id/requeue",
+      "post /jobs/:id/duplicate",
+      "delete /jobs/:id",
+    ]);
+    expect(withRole("watch")).toEqual(["get /plotters/:id/log", "get /shared-jobs"]);
   });
 
   it("shows the links that pair a device only on the server's computer", () => {

@@ -136,7 +136,11 @@ export async function startApp(
     notices,
     plugins: [{ webhooks: webhookOperations(webhooks, log) }],
     pairing: () =>
-      pairingLinks("http://192.168.1.4:9080", true, { operatePath: "/pair?a", watchPath: "/pair?b" }),
+      pairingLinks("http://192.168.1.4:9080", true, {
+        operatePath: "/pair?a",
+        submitPath: "/pair?c",
+        watchPath: "/pair?b",
+      }),
     serverLog: () => Promise.resolve(logged.join("\n")),
     machines: new MachineFiles(dir, announce),
     allowedHosts: ["plotter.lan"],

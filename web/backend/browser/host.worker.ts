@@ -103,7 +103,7 @@ const operationOf = (group: keyof typeof OPERATIONS, name: string): Operation =>
 
 /** All pages may hand over, which changes nothing itself. */
 const isReading = ({ group, name }: HostCall): boolean =>
-  group === "host" ? name !== "reconnect" : operationOf(group, name).role === "watch";
+  group === "host" ? name !== "reconnect" : operationOf(group, name).method === "get";
 
 /** All pages may stop a running job or a move by hand, but only the operator may cancel a queued job. */
 const isOpenToAll = ({ isRunning }: Host, call: HostCall): boolean =>

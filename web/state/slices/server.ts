@@ -121,8 +121,14 @@ export const unfinishedJob = (state: ServerSlice): Job | null => {
 export const penOf = ({ wantedPen }: ServerSlice, { id, settings }: Job): PlotSettings["pen"] =>
   wantedPen?.jobId === id ? wantedPen.pen : settings.pen;
 
-/** A watcher sees everything and may stop a plot, nothing else. */
-export const mayOperate = ({ me }: ServerSlice): boolean => me?.role !== "watch";
+/** This device may do everything that the page can. */
+export const mayOperate = ({ me }: ServerSlice): boolean => (me?.role ?? "operate") === "operate";
+
+/** It may lay out drawings and add them to the queue. A watcher sees everything and may stop a plot, nothing else. */
+export const maySubmit = ({ me }: ServerSlice): boolean => me?.role !== "watch";
+
+/** It may do that, and nothing else. */
+export const onlySubmits = ({ me }: ServerSlice): boolean => me?.role === "submit";
 
 /** The operator, if it is another browser. */
 export const otherOperator = ({ operator, me }: ServerSlice): Operator | null =>
