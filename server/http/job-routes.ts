@@ -14,6 +14,7 @@ import {
 import { parseWith } from "../../host/parse-with.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
+import { readForm } from "./form.js";
 import { bytesOf, requesterOf, type Responders } from "./operation-routes.js";
 
 interface JobParts {
@@ -24,7 +25,10 @@ interface JobParts {
 export const jobResponders = (parts: JobParts) =>
   ({ add: addFromFile(parts), drawing: sendDrawing(parts) }) satisfies Responders["jobs"];
 
-/** The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`. JSON is left to the operation. */
+/**
+ * The body is the file: `curl --data-binary @x.svg '…/jobs?name=x.svg'`; or a form with the file and the same fields:
+ * `curl -F drawing=@x.svg …/jobs`. JSON is left to the operation.
+ */
 const addFromFile =
   ({ queue, files }: JobParts): RequestHandler<Record<string, string>> =>
   async (request, response, next) => {
@@ -32,14 +36,39 @@ const addFromFile =
       next();
       return;
     }
-    const wanted = wantedIn(request);
-    const drawing = await files.addFile(bytesOf(request));
+    const wanted =
+      request.is("multipart/*") === false ? await fromBody(request, files) : await fromForm(request, files);
     const requester = requesterOf(request, response);
-    const job = await queue.add({ ...wanted, drawing, submittedBy: requester.submitter }, requester);
+    const job = await queue.add({ ...wanted, submittedBy: requester.submitter }, requester);
     response.status(201).location(`${API_PATH}/jobs/${job.id}`).json(job);
   };
 
-function wantedIn({ query: { name, settings, plotterId } }: Request<Record<string, string>>) {
+/** What is sent with a file. */
+interface FileFields {
+  readonly name?: unknown;
+  /** JSON. */
+  readonly settings?: unknown;
+  readonly plotterId?: unknown;
+}
+
+async function fromBody(request: Request<Record<string, string>>, files: DrawingFiles) {
+  const wanted = wantedIn(request.query);
+  return { ...wanted, drawing: await files.addFile(bytesOf(request)) };
+}
+
+async function fromForm(request: Request<Record<string, string>>, files: DrawingFiles) {
+  const { drawing, fileName, fields } = await readForm(request, files, ["name", "settings", "plotterId"]);
+  // What browsers call a file without a name.
+  const name = fileName === "blob" || fileName === "" ? undefined : fileName;
+  try {
+    return { ...wantedIn({ name, ...fields }), drawing };
+  } catch (error) {
+    await files.remove(drawing.id);
+    throw error;
+  }
+}
+
+function wantedIn({ name, settings, plotterId }: FileFields) {
   return {
     name: nameIn(name),
     settings: settingsIn(settings),
@@ -47,15 +76,15 @@ function wantedIn({ query: { name, settings, plotterId } }: Request<Record<strin
   };
 }
 
-function nameIn(query: unknown): string {
-  if (typeof query !== "string") return "drawing.svg";
-  return parseWith(z.object({ name: nameSchema(200) }), { name: basename(query.trim()).slice(0, 200) }).name;
+function nameIn(given: unknown): string {
+  if (typeof given !== "string") return "drawing.svg";
+  return parseWith(z.object({ name: nameSchema(200) }), { name: basename(given.trim()).slice(0, 200) }).name;
 }
 
-function settingsIn(query: unknown): GivenSettings {
-  if (query === undefined) return {};
+function settingsIn(given: unknown): GivenSettings {
+  if (given === undefined) return {};
   try {
-    return parseWith(givenSettingsSchema, JSON.parse(String(query)));
+    return parseWith(givenSettingsSchema, JSON.parse(String(given)));
   } catch (cause) {
     if (!(cause instanceof SyntaxError)) throw cause;
     throw new PlotwrightError("bad-setting", "settings: not valid JSON.", { cause });

@@ -110,6 +110,12 @@ const accessOperations = (access: Access) =>
 const receiveDrawing =
   ({ files, uploads }: ServerParts): RequestHandler<Record<string, string>> =>
   async (request, response) => {
+    if (request.is("multipart/*") !== false) {
+      throw new PlotwrightError(
+        "bad-setting",
+        "The body must be the file itself. Send a form to POST /jobs.",
+      );
+    }
     const drawing = await files.addFile(bytesOf(request));
     uploads.keep(drawing, submitterOf(request, response)?.id);
     response.status(201).json({ id: drawing.id });

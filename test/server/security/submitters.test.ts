@@ -182,7 +182,7 @@ describe("the jobs of others", () => {
     expect(await statusOf("GET", `/history?after=${others[0]?.id}`, anna)).toBe(404);
     expect(await namesIn("/state", operator)).toHaveLength(5);
     const messages = new Set<string>();
-    for (const { id } of [...others, waiting[0] as Job, { id: "nothing" }]) {
+    for (const { id } of [...others, waiting[0], { id: "nothing" }]) {
       const spellings = [id, `%${id.charCodeAt(0).toString(16)}${id.slice(1)}`];
       for (const route of ALLOWED.filter((one) => one.includes("/jobs/:id"))) {
         const [method = "", path = ""] = route.split(" ");
