@@ -145,6 +145,7 @@ export type { StreamOptions } from "./drivers/ebb/stream/stream-types.js";
 export {
   controllerOf,
   driverOf,
+  findsHome,
   firmwareAdvice,
   firmwareFor,
   isPlannedAlike,
@@ -163,7 +164,7 @@ export type {
   UsbId,
   VirtualMachine,
 } from "./drivers/driver.js";
-export { powerFailed, powerLost, powerLow } from "./drivers/faults.js";
+export { homeAgain, powerFailed, powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
 

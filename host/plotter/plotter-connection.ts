@@ -10,6 +10,7 @@ import { PlotwrightError, type Clock } from "../../src/index.js";
 import {
   controllerOf,
   driverOf,
+  findsHome,
   powerFailed,
   powerLost,
   powerLow,
@@ -214,7 +215,11 @@ export class PlotterConnection {
   }
 
   private isConnectedFor(settings: PlotSettings): boolean {
-    return machineOf(settings).controller.kind === machineOf(this.settings).controller.kind;
+    const [machine, before] = [machineOf(settings), machineOf(this.settings)];
+    // A virtual machine has the switches of its model, or none.
+    const hasSwitches = findsHome(machine) || findsHome(before);
+    const isSame = machine.id === before.id || this.connection?.kind !== "virtual" || !hasSwitches;
+    return isSame && machine.controller.kind === before.controller.kind;
   }
 
   /** Reconnects with the driver of these settings. If that fails, rejects and restores the previous settings. */
@@ -352,9 +357,10 @@ export class PlotterConnection {
 
   /** Resolves when the motors are released. `isBack`: the supply failed only for a moment. */
   private async powerLost(isBack: boolean): Promise<void> {
-    this.run?.fail(isBack ? powerFailed() : powerLost());
-    this.setState({ connection: "fault", message: (isBack ? powerFailed() : powerLow()).message });
     const settings = this.settings;
+    const homes = findsHome(machineOf(settings));
+    this.run?.fail(isBack ? powerFailed(homes) : powerLost(homes));
+    this.setState({ connection: "fault", message: (isBack ? powerFailed(homes) : powerLow(homes)).message });
     const machine = this.machine;
     // A manual move, or the way home of a cancelled plot.
     machine?.stopAtOnce();
@@ -405,7 +411,7 @@ export class PlotterConnection {
       throw new PlotwrightError("busy", "The plotter is still moving: wait until it stops.");
     }
     if (!this.machine) throw this.trouble ?? notStarted();
-    if (this.supply.isLow) throw powerLow();
+    if (this.supply.isLow) throw powerLow(findsHome(machineOf(this.settings)));
     return this.machine;
   }
 

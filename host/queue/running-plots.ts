@@ -12,6 +12,7 @@ import {
   type MovePlace,
   type PlotWait,
 } from "../../src/schema/index.js";
+import { findsHome, homeAgain, machineOf } from "../../src/internal.js";
 import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
 import { journalSchema } from "../plotter/resume-position.js";
 import type {
@@ -116,8 +117,9 @@ export class RunningPlots {
     this.begin(plotter, job).timer.hold(this.parts.nowIso());
     const isOther = board !== undefined && isOtherBoard(board, found);
     const isLost = isOther || found.xMm === null;
+    const again = homeAgain(findsHome(machineOf(job.settings)));
     const place = isLost
-      ? `${isOther ? OTHER_BOARD : "The board has lost its position"}: push the carriage to home by hand before you resume. The line may overlap a little where it continues.`
+      ? `${isOther ? OTHER_BOARD : "The board has lost its position"}: ${again}. The line may overlap a little where it continues.`
       : "The board still knows its position. Check it with the pen up, then resume.";
     return this.jobs.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
   }

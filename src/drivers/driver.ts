@@ -31,6 +31,8 @@ export interface ControllerDescription {
   readonly fields: ControllerFields;
   /** Finds a contradiction between valid fields, and the field to change. Left out: no fields can contradict. */
   readonly contradictionOf?: (controller: Controller) => { field: string; message: string } | null;
+  /** Whether a machine finds home by itself. Left out: none does. */
+  readonly findsHome?: (machine: MachineProfile) => boolean;
   /** Devices that are certainly this controller; the port "auto" takes the first. Empty: the user names the port. */
   readonly usbIds: readonly UsbId[];
   readonly firmware: FirmwareRules;
@@ -112,7 +114,10 @@ export interface Machine extends MachineParts {
    * the pen when an earlier connection to the machine was lost; null: there was none.
    */
   readKeptState(settings: MachineSettings, before: PenBefore | null): Promise<void>;
-  /** Switches the motors on if they are off. If the position is unknown, the current position becomes home. */
+  /**
+   * Switches the motors on if they are off. If the position is unknown, a machine that can finds home; otherwise the
+   * current position becomes home.
+   */
   prepareMotors(settings: MachineSettings): Promise<MachineState>;
   /** Resolves when the pen has arrived. */
   movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void>;

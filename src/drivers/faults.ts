@@ -1,12 +1,20 @@
-/** Errors that any controller can report, in words for the user. */
+/** Errors that any controller can report, in words for the user. `findsHome`: the machine finds home by itself. */
 import { PlotwrightError } from "../errors.js";
 
-export const powerLow = (): PlotwrightError =>
+export const powerLow = (findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The motors have no power, or too little: check the plotter's power supply, its plug and its switch. " +
-      "The carriage may have moved, so push it to home before the next plot.",
+      (findsHome
+        ? "The carriage may have moved: the plotter finds home by itself before the next plot."
+        : "The carriage may have moved, so push it to home before the next plot."),
   );
+
+/** What to do about a position that is lost in a plot. */
+export const homeAgain = (findsHome: boolean): string =>
+  findsHome
+    ? "the plotter finds home by itself when you resume"
+    : "push the carriage to home by hand before you resume";
 
 export const lineLost = (cause?: unknown): PlotwrightError =>
   new PlotwrightError(
@@ -39,20 +47,22 @@ export const stuck = (): PlotwrightError =>
  */
 const MAY_OVERLAP = "Its line may overlap a little where it resumes.";
 
-export const powerLost = (): PlotwrightError =>
-  new PlotwrightError("board-error", `${powerLow().message} ${MAY_OVERLAP}`);
+export const powerLost = (findsHome: boolean): PlotwrightError =>
+  new PlotwrightError("board-error", `${powerLow(findsHome).message} ${MAY_OVERLAP}`);
 
-export const powerFailed = (): PlotwrightError =>
+export const powerFailed = (findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The motors had no power, or too little, for a moment: check the plotter's power supply, its plug and its switch. " +
-      `The carriage is no longer where the board counts it, so push it to home before you resume. ${MAY_OVERLAP}`,
+      (findsHome
+        ? "The carriage is no longer where the board counts it: the plotter finds home by itself when you resume."
+        : "The carriage is no longer where the board counts it, so push it to home before you resume.") +
+      ` ${MAY_OVERLAP}`,
   );
 
-export const boardRestarted = (): PlotwrightError =>
+export const boardRestarted = (findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The board restarted and has lost its position: its reset button was pressed, or its supply failed for a " +
-      "moment. Its motors are off: push the carriage to home before you resume. " +
-      MAY_OVERLAP,
+      `moment. Its motors are off: ${homeAgain(findsHome)}. ${MAY_OVERLAP}`,
   );

@@ -37,6 +37,10 @@ export function checkMachine(machine: MachineProfile): void {
   checkController(machine, controllerOf(machine).fields);
 }
 
+/** Whether the machine finds home by itself, with switches. Otherwise home is where the user places the carriage. */
+export const findsHome = (machine: MachineProfile): boolean =>
+  controllerOf(machine).findsHome?.(machine) ?? false;
+
 /** The firmware version to plan for; null if unknown, or if it is that of another controller. */
 export function firmwareFor(machine: MachineProfile, firmware: string | null): string | null {
   return firmware !== null && controllerOf(machine).firmware.isOwn(firmware) ? firmware : null;

@@ -17,6 +17,8 @@ const STANDARD_SERVO = {
   servoPin: 4,
 };
 const BRUSHLESS_SERVO = { ...STANDARD_SERVO, servoPosAt0Pct: 5_400, servoPosAt100Pct: 12_600, servoPin: 5 };
+/** Normally closed, to ground. */
+const NEXTDRAW_SWITCH = { port: "B", pin: 1, pressed: 1 };
 
 /** A profile whose type knows its id. */
 interface Named<Id extends string> extends MachineProfile {
@@ -34,7 +36,7 @@ const axidraw = <Id extends string>(id: Id, name: string, widthMm: number, heigh
 });
 const nextdraw = <Id extends string>(id: Id, name: string, widthMm: number, heightMm: number): Named<Id> => ({
   ...axidraw(id, name, widthMm, heightMm),
-  controller: BRUSHLESS_SERVO,
+  controller: { ...BRUSHLESS_SERVO, cornerSwitch: NEXTDRAW_SWITCH },
 });
 
 /** 3200 steps turn a 40 mm sphere once; the pen arm's travel is 1/4 of a turn. */

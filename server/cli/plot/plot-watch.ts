@@ -1,5 +1,6 @@
 /** Progress of a running plot, and the keys that control it. */
 import { OTHER_BOARD } from "../../../host/plotter/board-id.js";
+import { homeAgain } from "../../../src/internal.js";
 import type { PlotRun } from "../../../host/plotter/plotter-port.js";
 import type { PlotWait } from "../../../src/schema/index.js";
 import { printed, type CliIo } from "../io.js";
@@ -13,7 +14,7 @@ export interface WatchedRun extends Omit<PlotRun, "onProgress"> {
 interface Watched {
   readonly report: PlotReport;
   /** Resumed after an interruption: whether the board still knows the position, or is another board. */
-  readonly resumed: { readonly position: keyof typeof POSITIONS } | null;
+  readonly resumed: { readonly position: keyof typeof POSITIONS; readonly findsHome: boolean } | null;
   /** Aborted when the process must end: the plot is then interrupted. */
   readonly end: AbortSignal;
   /** What happens to the plot when the process must end. */
@@ -44,7 +45,8 @@ export async function watch(
     else control.continued();
   });
   report.begins(resumed === null ? "Plotting" : "Resuming");
-  if (isHeld) io.err(`${POSITIONS[resumed.position]} Enter resumes, Ctrl-C cancels.\n`);
+  if (isHeld)
+    io.err(`${POSITIONS[resumed.position](homeAgain(resumed.findsHome))} Enter resumes, Ctrl-C cancels.\n`);
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
     const ended =
@@ -62,9 +64,9 @@ export async function watch(
 }
 
 const POSITIONS = {
-  known: "The board still knows its position.",
-  lost: "The board has lost its position: push the carriage to home by hand first.",
-  other: `${OTHER_BOARD}: push the carriage to home by hand first.`,
+  known: () => "The board still knows its position.",
+  lost: (what: string) => `The board has lost its position: ${what}.`,
+  other: (what: string) => `${OTHER_BOARD}: ${what}.`,
 } as const;
 
 /** False if it was cancelled meanwhile. */

@@ -5,7 +5,7 @@
  */
 import { basename } from "node:path";
 import { importDrawing, PlotwrightError } from "../../../src/index.js";
-import { firmwareAdvice, machineOf, sizeInWords } from "../../../src/internal.js";
+import { findsHome, firmwareAdvice, machineOf, sizeInWords } from "../../../src/internal.js";
 import type { PlotSettings } from "../../../src/schema/index.js";
 import { defaultDataDir } from "../../storage/data-dir.js";
 import { fileFault } from "../../storage/file-fault.js";
@@ -242,7 +242,7 @@ async function onPlotter(
   const start: PlotStart = { from, received, board, journal, noted, held };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
-  const resumed = from === null ? null : ({ position } as const);
+  const resumed = from === null ? null : ({ position, findsHome: findsHome(machineOf(settings)) } as const);
   const report = plotReport(name, options, io);
   const ended = await watch(run, { report, resumed, end, endWords: "Interrupted: the pen lifts." }, io);
   // The motors stay on, so that the carriage stays where the plot is to be resumed.

@@ -9,6 +9,8 @@ const LINE = strokesOf([10, 10, 200, 10]);
 /** A plot in the middle of its only stroke. */
 async function drawing(firmware: string, settings = DEFAULT_PLOT_SETTINGS) {
   const { world, driver } = await virtualPlotter({ firmware, settings });
+  // A NextDraw would do so before the plot.
+  await world.run(driver.home());
   const notes: string[] = [];
   const noted = (message: string): void => void notes.push(message);
   const run = await world.run(driver.plot(new LocalPlanner(LINE), settings, { noted }));

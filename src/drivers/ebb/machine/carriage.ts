@@ -6,7 +6,7 @@ import { boardRestarted, moveStopped, powerFailed, powerLost } from "../../fault
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { MoveSignal } from "../../move-to.js";
 import { streamOf, type BoardState } from "../compile/command-stream.js";
-import { ebbOf, STANDARD_PIN } from "../protocol/ebb-controller.js";
+import { ebbOf, findsHome, STANDARD_PIN } from "../protocol/ebb-controller.js";
 import { boardStateBefore } from "../stream/cut-streams.js";
 import type { StreamReport } from "../stream/stream-types.js";
 import type { Streamer } from "../stream/streamer.js";
@@ -40,6 +40,8 @@ export class Carriage {
     const reportsPen = ebbOf(machineOf(settings)).servoPin === STANDARD_PIN;
     const penUp = reportsPen ? await pen.liftIfDown() : before?.penUp === true;
     if (!reportsPen && before !== null && !penUp) await pen.move(true, settings);
+    const isOurs = await upkeep.isConfigured();
+    if (!isOurs) await position.mark.forgetOwn();
     // Before `configure`, which begins a new watch.
     if (features.hasSupplyLatch && (await upkeep.supply.hasFailed())) await position.mark.clear();
     await upkeep.configure();
@@ -49,26 +51,26 @@ export class Carriage {
       await position.readBack();
       position.motorsOn = true;
     }
-    // A carriage at home may have been brought there by hand since the plot, so its place says nothing about the plot.
+    // A carriage at home may have been brought there by hand since the plot, so its place says nothing about the plot. Nor
+    // does one that another program has moved.
     const { state } = position;
     const isHome = state?.steps1 === 0 && state.steps2 === 0;
-    if (state && !(penUp && isHome)) position.foundMidPlot = { penUp };
+    if (state && isOurs && !(penUp && isHome)) position.foundMidPlot = { penUp };
   }
 
   /** Switches the motors on if they are off. Fails if the position was lost while the board was at rest. */
-  async prepareMotors(settings: MachineSettings): Promise<BoardState> {
+  async switchMotorsOn(settings: MachineSettings): Promise<BoardState> {
     const { position, upkeep } = this;
     // It may have restarted, or its supply may have failed, while it was at rest, when nothing is polled.
-    if (position.state && (await position.mark.isGone()))
-      return this.positionLost(boardRestarted(), settings);
+    if (position.state && (await position.mark.isGone())) return this.positionLost(boardRestarted, settings);
     // Asked also while the position is unknown: a failure before this does not concern the motion after it.
     const supply = this.connection.features.hasSupplyLatch ? await upkeep.supply.read() : "good";
-    const why = supply === "low" ? powerLost() : powerFailed();
+    const why = supply === "low" ? powerLost : powerFailed;
     if (position.state && supply !== "good") return this.positionLost(why, settings);
     return position.switchOn(settings);
   }
 
-  /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed home. */
+  /** After the position is lost: lifts the pen and switches the motors off, so that the carriage can be pushed. */
   async liftAndFreeMotors(settings: MachineSettings): Promise<void> {
     await this.position.untilAtRest();
     await this.upkeep.configure();
@@ -93,7 +95,7 @@ export class Carriage {
       if (!canReadBack(streamer, error)) position.state = null;
       const isGone = position.state !== null && (await position.mark.isGone().catch(() => false));
       if (!isGone && error !== this.upkeep.restart) throw error;
-      return await this.positionLost(boardRestarted(), settings);
+      return await this.positionLost(boardRestarted, settings);
     } finally {
       this.playing = null;
       this.events.changed();
@@ -126,14 +128,17 @@ export class Carriage {
   }
 
   async setHome(settings: MachineSettings): Promise<void> {
-    await this.prepareMotors(settings);
+    await this.switchMotorsOn(settings);
     await this.position.setHome();
   }
 
-  private async positionLost(why: PlotwrightError, settings: MachineSettings): Promise<never> {
+  private async positionLost(
+    why: (findsHome: boolean) => PlotwrightError,
+    settings: MachineSettings,
+  ): Promise<never> {
     this.position.state = null;
     await this.liftAndFreeMotors(settings).catch(() => undefined);
-    throw why;
+    throw why(findsHome(machineOf(settings)));
   }
 }
 

@@ -49,7 +49,7 @@ async function noteOn(carriage: Carriage, name: string, replies: readonly string
   // The board reports a failure only once: without this, the next move would not learn of it.
   if (name === "QG" && features.hasSupplyLatch && replies.some(hasSupplyFailed)) {
     await carriage.position.forget();
-    return "The motors' supply has failed for a moment, so the position is unknown. The next move starts from here as home.";
+    return "The motors' supply has failed for a moment, so the position is unknown. The next move starts from here as home, or finds home first if the machine can.";
   }
   if (PEN.has(name)) {
     carriage.pen.setState(null);
@@ -57,10 +57,10 @@ async function noteOn(carriage: Carriage, name: string, replies: readonly string
   }
   if (ZEROES.has(name)) {
     await carriage.position.forget();
-    return "The line set the motors' counters to zero, so the position is unknown. The next move starts from here as home.";
+    return "The line set the motors' counters to zero, so the position is unknown. The next move starts from here as home, or finds home first if the machine can.";
   }
   if (!MOVES.has(name)) return null;
   return (await carriage.position.readBackOrForget(LONGEST_S))
     ? "The motors may have moved. The position was read back from their counters."
-    : "The motors may have moved, so the position is unknown. The next move starts from here as home.";
+    : "The motors may have moved, so the position is unknown. The next move starts from here as home, or finds home first if the machine can.";
 }

@@ -1,4 +1,5 @@
 /** One connected EiBotBoard as a `Machine`: its carriage, and the parts that this board has. */
+import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type { ConsoleAnswer, Machine, Playback, RunRequest } from "../../driver.js";
@@ -7,9 +8,10 @@ import { moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
 import type { BoardState } from "../compile/command-stream.js";
 import { planEbbJob } from "../compile/ebb-job.js";
-import { ebbOf } from "../protocol/ebb-controller.js";
+import { ebbOf, findsHome } from "../protocol/ebb-controller.js";
 import { Carriage } from "./carriage.js";
 import { sendLine } from "./console.js";
+import { homeInCorner } from "./corner-homing.js";
 import { EbbRun } from "./ebb-run.js";
 import { seekHome } from "./homing.js";
 
@@ -19,11 +21,23 @@ export class EbbMachine extends Carriage implements Machine {
   readonly console = { send: (line: string): Promise<ConsoleAnswer> => sendLine(this, line) };
   readonly homing = {
     seekHome: async (settings: MachineSettings): Promise<boolean> => {
-      const { homing } = ebbOf(machineOf(settings));
+      const machine = machineOf(settings);
+      const { homing, cornerSwitch } = ebbOf(machine);
+      if (!findsHome(machine)) return false;
       if (homing) await seekHome(this, settings, homing);
-      return Boolean(homing);
+      else if (this.connection.features.hasLimitSwitches) await homeInCorner(this, settings, cornerSwitch!);
+      else throw tooOldToHome(this.firmware);
+      return true;
     },
   };
+
+  /** A machine that can find home does so first, if its position is unknown. */
+  async prepareMotors(settings: MachineSettings): Promise<BoardState> {
+    const { homing } = ebbOf(machineOf(settings));
+    const canHome = homing || this.connection.features.hasLimitSwitches;
+    if (!this.position.state && canHome) await this.homing.seekHome(settings);
+    return this.switchMotorsOn(settings);
+  }
 
   get name(): string | null {
     return this.connection.boardName;
@@ -97,3 +111,9 @@ export class EbbMachine extends Carriage implements Machine {
     return this.connection.session.close();
   }
 }
+
+const tooOldToHome = (firmware: string): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    `Firmware ${firmware} cannot stop at the home switch: update it to 3.0.0 or newer. Until then push the carriage into its home corner and set home there.`,
+  );

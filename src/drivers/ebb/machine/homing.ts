@@ -11,6 +11,7 @@ import type { Machine, StopSignal } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
 import type { HomingSwitches, SwitchInput } from "../protocol/ebb-controller.js";
 import type { BoardSession } from "../stream/session.js";
+import type { EbbPosition } from "./position.js";
 
 /** Shorter than the travel of a pressed switch. */
 const SEEK_MM = 1;
@@ -21,7 +22,8 @@ const MAX_RELEASE_MM = 10;
 const SLACK = 1.1;
 const SEEK_SPEED_MM_PER_S = 30;
 
-interface Board extends Pick<Machine, "prepareMotors" | "setHome" | "moveTo" | "positionMm" | "stopSignal"> {
+interface Board extends Pick<Machine, "setHome" | "moveTo" | "positionMm" | "stopSignal"> {
+  readonly position: Pick<EbbPosition, "switchOn">;
   readonly connection: { readonly session: BoardSession };
 }
 
@@ -33,7 +35,7 @@ export async function seekHome(
   const machine = machineOf(settings);
   const slow = withTravelSpeed(settings, SEEK_SPEED_MM_PER_S);
   const { stopSignal } = board;
-  await board.prepareMotors(settings);
+  await board.position.switchOn(settings);
   await seekAxis(board, slow, homing.x, "x", machine.widthMm * SLACK, stopSignal);
   await seekAxis(board, slow, homing.y, "y", machine.heightMm * SLACK, stopSignal);
   await board.setHome(settings);

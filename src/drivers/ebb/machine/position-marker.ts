@@ -5,6 +5,8 @@
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import type { BoardSession } from "../stream/session.js";
 
+/** The variable in which the maker's software notes that the counters count from the corner that its switch has found. */
+const HOMED_VARIABLE = 12;
 /** The mark while the counters count from home is this plus the microstep mode. */
 const POSITION_KNOWN = 112;
 /** The mark while they do not count from home. */
@@ -26,24 +28,42 @@ export class PositionMarker {
 
   /**
    * The microstep mode, if the counters still count from home; otherwise 0. Before firmware 2.7, a stop has to zero the
-   * counters, so they do not always count from home.
+   * counters, so they do not always count from home. `isHomed`: the home that a switch has found.
    */
-  async markedMode(): Promise<number> {
+  async markedMode(): Promise<{ readonly mode: number; readonly isHomed: boolean }> {
     const { session, features } = this;
-    if (!features.hasClear) return 0;
+    const none = { mode: 0, isHomed: false };
+    if (!features.hasClear) return none;
     // A board that has restarted has its motors off (QE: from 2.8.0).
-    if (features.enableIsQueued && /^0,0$/.test(await session.query("QE"))) return 0;
+    const [divisor1 = 0, divisor2 = 0] = features.enableIsQueued
+      ? (await session.query("QE")).split(",").map(Number)
+      : [];
+    if (features.enableIsQueued && divisor1 === 0 && divisor2 === 0) return none;
+    if (features.hasFutureSyntax && Number(await session.query(`QL,${HOMED_VARIABLE}`)) === 1) {
+      // With one motor off, the carriage may have been moved.
+      return divisor1 === divisor2 ? { mode: COARSEST_MODE - Math.log2(divisor1), isHomed: true } : none;
+    }
     const mode = Number(await session.query(this.query)) - POSITION_KNOWN;
-    return mode >= 1 && mode <= COARSEST_MODE ? mode : 0;
+    return mode >= 1 && mode <= COARSEST_MODE ? { mode, isHomed: false } : none;
   }
 
-  /** Call when the motors are on. Only if the counters count from home can the next connection find the position. */
-  async set(microstepMode: number, isFromHome: boolean): Promise<void> {
+  /**
+   * Call when the motors are on. Only if the counters count from home can the next connection find the position.
+   * `isHomed`: a switch has found that home, which other programs can then use too.
+   */
+  async set(microstepMode: number, isFromHome: boolean, isHomed: boolean): Promise<void> {
     await this.write(isFromHome ? POSITION_KNOWN + microstepMode : SWITCHED_ON);
+    await this.writeHomed(isFromHome && isHomed);
   }
 
   /** Call when the position is lost. */
   async clear(): Promise<void> {
+    await this.write(0);
+    await this.writeHomed(false);
+  }
+
+  /** Call when another program has used the board since: it may have zeroed the counters. What it found itself remains. */
+  async forgetOwn(): Promise<void> {
     await this.write(0);
   }
 
@@ -52,6 +72,10 @@ export class PositionMarker {
     const { session, features, query } = this;
     const isZero = async (): Promise<boolean> => Number(await session.query(query, MOTION_S)) === 0;
     return features.hasStepQuery && (await isZero()) && (await isZero());
+  }
+
+  private async writeHomed(isHomed: boolean): Promise<void> {
+    if (this.features.hasFutureSyntax) await this.session.send(`SL,${isHomed ? 1 : 0},${HOMED_VARIABLE}`);
   }
 
   private async write(value: number): Promise<void> {

@@ -1,7 +1,7 @@
 /**
  * The position of one board's carriage, in steps from home. The board's counters start at 0 whenever its motors are
- * switched on; `origin` is the position at that moment. An AxiDraw has no limit switches: home is where the carriage is
- * when the motors are switched on after it was moved by hand.
+ * switched on; `origin` is the position at that moment. Home is where the carriage is when the motors are switched on
+ * after it was moved by hand, or where a machine with switches finds it.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
@@ -30,6 +30,8 @@ export class EbbPosition {
   readonly mark: PositionMarker;
   /** The motors' microsteps while their position is known. */
   private microstepMode = 0;
+  /** Home is where the machine's own switch is. */
+  private isHomed = false;
 
   constructor(
     private readonly connection: Connection,
@@ -40,12 +42,15 @@ export class EbbPosition {
 
   /** mm from home; null if unknown. */
   mm(machine: MachineProfile): { x: number; y: number } | null {
-    return this.state && positionFromMotors(machine, this.state.steps1, this.state.steps2);
+    const share = this.shareOf(machine);
+    return this.state && positionFromMotors(machine, this.state.steps1 * share, this.state.steps2 * share);
   }
 
   /** Whether a board that was connected again still counts from home, because it was not restarted. */
   async isKept(): Promise<boolean> {
-    this.microstepMode = await this.mark.markedMode();
+    const { mode, isHomed } = await this.mark.markedMode();
+    this.microstepMode = mode;
+    this.isHomed = isHomed;
     return this.microstepMode !== 0;
   }
 
@@ -106,19 +111,25 @@ export class EbbPosition {
     const wanted = ebbOf(machine).microstepMode;
     if (state && microstepMode === wanted) return state;
     for (const line of setUpCommands(machine, settings.pen, features.version)) await session.send(line);
-    // Each mode has half as many steps as the one before.
-    const share = state ? 2 ** (microstepMode - wanted) : 0;
+    const share = state ? this.shareOf(machine) : 0;
     const [steps1, steps2] = [
       Math.round((state?.steps1 ?? 0) * share),
       Math.round((state?.steps2 ?? 0) * share),
     ];
     this.microstepMode = wanted;
     this.origin = [steps1, steps2];
-    await this.mark.set(wanted, steps1 === 0 && steps2 === 0);
+    if (!state) this.isHomed = false;
+    await this.mark.set(wanted, steps1 === 0 && steps2 === 0, this.isHomed);
     this.motorsOn = true;
     this.state = { steps1, steps2, acc1: 0, acc2: 0 };
     this.changed();
     return this.state;
+  }
+
+  /** Steps of the machine's microstep mode in one of the board's, which another program may have set. */
+  private shareOf(machine: MachineProfile): number {
+    // Each mode has half as many steps as the one before.
+    return this.microstepMode === 0 ? 1 : 2 ** (this.microstepMode - ebbOf(machine).microstepMode);
   }
 
   /** Makes the current position home. The motors must be on. */
@@ -126,16 +137,28 @@ export class EbbPosition {
     const { session, features } = this.connection;
     const { steps1, steps2, acc1, acc2 } = this.state!;
     this.foundMidPlot = null;
+    this.isHomed = false;
     if (features.hasStepQuery) {
       await session.send("CS");
       this.origin = [0, 0];
       this.state = { steps1: 0, steps2: 0, acc1: 0, acc2: 0 };
-      await this.mark.set(this.microstepMode, true);
+      await this.mark.set(this.microstepMode, true, false);
     } else {
       this.origin = [this.origin[0] - steps1, this.origin[1] - steps2];
       this.state = { steps1: 0, steps2: 0, acc1, acc2 };
     }
     this.changed();
+  }
+
+  /** The machine's own switch has found home, and the carriage is there. The motors must be on. */
+  async foundHome(settings: MachineSettings): Promise<void> {
+    await this.connection.session.send("CS");
+    this.origin = [0, 0];
+    this.microstepMode = ebbOf(machineOf(settings)).microstepMode;
+    this.motorsOn = true;
+    this.isHomed = true;
+    await this.readBack();
+    await this.mark.set(this.microstepMode, true, true);
   }
 
   /** Switches the motors off, so that the carriage can be moved by hand. */

@@ -9,8 +9,11 @@ import type { BoardSession } from "../stream/session.js";
  * absent or failing (the threshold that host programs use).
  */
 const LOW_SUPPLY = 250;
+/** The queue, both motors, and the running command. */
+const MOTION_BITS = 0b1111;
 const BUTTON_BIT = 1 << 5;
 const SUPPLY_FAILED_BIT = 1 << 6;
+const LIMIT_BIT = 1 << 7;
 
 /**
  * Measures the supply twice, because only two low readings in a row count. So one poll is enough to detect a supply that
@@ -26,6 +29,22 @@ export function isPowerLow(line: string, reply: string): boolean {
 export function isButtonPressed(line: string, reply: string): boolean {
   if (line === "QG") return (Number.parseInt(reply, 16) & BUTTON_BIT) !== 0;
   return line === "QB" && Number(reply) === 1;
+}
+
+/** The parts of a reply to QG that homing needs. */
+export function generalStatus(reply: string): {
+  readonly isMoving: boolean;
+  readonly buttonPressed: boolean;
+  readonly supplyFailed: boolean;
+  readonly limitReached: boolean;
+} {
+  const bits = Number.parseInt(reply, 16);
+  return {
+    isMoving: (bits & MOTION_BITS) !== 0,
+    buttonPressed: isButtonPressed("QG", reply),
+    supplyFailed: hasSupplyFailed(reply),
+    limitReached: (bits & LIMIT_BIT) !== 0,
+  };
 }
 
 /** Whether the supply has failed since the last QG, for firmware with the latch. */

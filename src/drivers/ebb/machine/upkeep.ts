@@ -10,6 +10,7 @@ import { boardRestarted, stuck } from "../../faults.js";
 import type { MachineSettings } from "../../machine-job.js";
 import { MAX_TICKS } from "../compile/leg.js";
 import { penCommand, penMoveOf } from "../protocol/commands.js";
+import { findsHome } from "../protocol/ebb-controller.js";
 import { queueDepthOf } from "../protocol/firmware.js";
 import type { PollTime } from "../stream/stream-types.js";
 import { maxAheadS, Streamer } from "../stream/streamer.js";
@@ -51,9 +52,16 @@ export class EbbUpkeep {
     this.queueDepth = queueDepthOf(features);
   }
 
-  /** Sets what the board forgets when it restarts. */
+  /** False if the board has restarted, or another program has used it, since `configure`, as far as the board shows that. */
+  async isConfigured(): Promise<boolean> {
+    const { session } = this.connection;
+    return this.queueDepth === 1 || depthFrom(await session.query("QU,3")) === this.queueDepth;
+  }
+
+  /** Sets what the board forgets when it restarts, and what another program may have left. */
   async configure(): Promise<void> {
     const { session, features } = this.connection;
+    if (features.hasLimitSwitches) for (const line of ["CU,51,0", "CU,50,1"]) await session.send(line);
     if (this.queueDepth > 1) await session.send(`CU,4,${this.queueDepth}`);
     if (features.hasSupplyLatch) await this.supply.watch();
   }
@@ -98,7 +106,7 @@ export class EbbUpkeep {
       origin,
       onPoll: (line, reply, asked) => {
         const failure = supply.answered(line, reply);
-        if (line === mark.query && Number(reply) === 0) void this.checkRestart(streamer);
+        if (line === mark.query && Number(reply) === 0) void this.checkRestart(streamer, settings);
         else {
           const steps = counters.answered(line, reply);
           if (steps && !failure) certain(steps, asked);
@@ -114,10 +122,13 @@ export class EbbUpkeep {
   }
 
   /** Call when a poll reports that the mark is gone. */
-  private async checkRestart(streamer: Streamer): Promise<void> {
+  private async checkRestart(streamer: Streamer, settings: MachineSettings): Promise<void> {
     const isGone = await this.position.mark.isGone().catch(() => false);
     if (!isGone || !streamer.playing) return;
-    this.restart = boardRestarted();
+    this.restart = boardRestarted(findsHome(machineOf(settings)));
     streamer.stopAtOnce(this.restart);
   }
 }
+
+/** Firmware before 3.0.2 repeats the number of the question. */
+const depthFrom = (reply: string): number => Number(reply.split(",").pop());

@@ -15,6 +15,8 @@ export interface EbbController extends Controller {
   readonly servoPin: 4 | 5;
   /** Switches at x = 0 and y = 0. Null or left out: home is where the user places the carriage. */
   readonly homing?: HomingSwitches | null | undefined;
+  /** One switch at x = 0 and a stop at y = 0, as a NextDraw has: the machine finds home with both. */
+  readonly cornerSwitch?: SwitchInput | null | undefined;
 }
 
 /** The standard servo output: the only one that SP moves. */
@@ -80,6 +82,7 @@ export const EBB_FIELDS = {
   },
   servoPin: { kind: "one-of", values: [4, 5] },
   homing: { kind: "group", isOptional: true, fields: { x: SWITCH_INPUT, y: SWITCH_INPUT } },
+  cornerSwitch: { kind: "group", isOptional: true, fields: SWITCH_INPUT.fields },
 } as const satisfies ControllerFields;
 
 /** The machine's controller as this driver's own. Throws `bad-setting` for a machine of another driver. */
@@ -89,6 +92,14 @@ export function ebbOf({ name, controller }: MachineProfile): EbbController {
     "bad-setting",
     `${name} is not driven by an EiBotBoard: its profile says "${controller.kind}". Choose another machine, or plan with planJob, which knows every controller.`,
   );
+}
+
+/**
+ * Whether the machine finds home by itself. In a mirrored frame its corner is not at 0, 0, so home is then set by hand.
+ */
+export function findsHome(machine: MachineProfile): boolean {
+  const { homing, cornerSwitch } = ebbOf(machine);
+  return Boolean(homing) || (Boolean(cornerSwitch) && !machine.flipX && !machine.flipY);
 }
 
 /** @throws PlotwrightError "bad-setting" for a machine of another driver, and for a missing or invalid field */

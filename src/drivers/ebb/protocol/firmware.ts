@@ -39,6 +39,8 @@ export interface FirmwareFeatures {
   readonly stopEndsTimed: boolean;
   /** The board notices a failure of the motors' supply by itself (CU,60), and reports it in QG. */
   readonly hasSupplyLatch: boolean;
+  /** The board ends a move when a pin of port B has a certain level (CU,51). */
+  readonly hasLimitSwitches: boolean;
   /** Replies can be switched to one line each, `NAME,values` (CU,10,1). */
   readonly hasFutureSyntax: boolean;
 }
@@ -62,6 +64,7 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
       hasImmediateLift: false,
       stopEndsTimed: true,
       hasSupplyLatch: false,
+      hasLimitSwitches: false,
       hasFutureSyntax: false,
     },
   ],
@@ -90,6 +93,7 @@ const TABLE: readonly (readonly [string, Partial<FirmwareFeatures>])[] = [
       maxFifoDepth: 32,
       stopEndsTimed: true,
       hasSupplyLatch: true,
+      hasLimitSwitches: true,
       hasFutureSyntax: true,
     },
   ],

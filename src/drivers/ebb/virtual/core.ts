@@ -9,9 +9,11 @@ import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
 import type { DrawnPolyline } from "../../drawn-polylines.js";
+import { ebbOf, STANDARD_PIN } from "../protocol/ebb-controller.js";
 import { pctFromServoPos, servoPosFromPct } from "../protocol/servo-height.js";
 import { BoardTotals, MAX_JOINED_TICKS, type BoardStatistics } from "./board-totals.js";
 import type { LineRecord } from "./drawn-line.js";
+import type { Motors } from "./motors.js";
 import { isTimed, RunningMove, type Order } from "../model/orders.js";
 import { FRAME_TICKS, Servo } from "./servo.js";
 
@@ -48,34 +50,25 @@ export class BoardCore {
   acc2 = 0;
   /** The pen state that the board reports; it only tracks the standard output. */
   penUp = true;
-  /** EM modes 1 … 5; 0: off. */
-  mode1 = 0;
-  mode2 = 0;
-  lastMode = 1;
   fifoDepth = 1;
-  autoEnable = true;
   servoUp = BOOT_SERVO_UP;
   servoDown = BOOT_SERVO_DOWN;
   servoRateUp = BOOT_SERVO_RATE;
   servoRateDown = BOOT_SERVO_RATE;
   servoUsed = false;
   readonly fifo: Order[] = [];
-
   /** The tip is clear of the paper. */
   private isLifted = true;
   /** When the tip touches or leaves the paper next; Infinity: not before the next pen command. */
   private contactTick = Infinity;
   private running: Running | null = null;
   private readonly servo: Servo;
+  /** When the running move reaches the limit switch; Infinity: it does not. */
+  private limitTick = Infinity;
   /** When the motion froze (a simulated fault); null while it runs. */
   private frozenTick: number | null = null;
   /** False: moves take their time but make no steps (a simulated fault). */
   private makesSteps = true;
-  /** False: steps are counted, but the motors do not turn (no motor supply), so nothing is drawn. */
-  private turnsMotors = true;
-  /** Steps that were counted while the motors did not turn: the carriage is this far behind the counters. */
-  private missed1 = 0;
-  private missed2 = 0;
   /** End tick and end rates of the last move; null if any other order came after it. */
   private lastMove: { endTick: number; v1: number; v2: number } | null = null;
 
@@ -86,11 +79,15 @@ export class BoardCore {
     private readonly line: LineRecord | null,
     /** Null: the tip touches and leaves the paper with the command. */
     private readonly servoOptions: VirtualServo | null,
+    readonly motors: Motors,
     private readonly totals = new BoardTotals(),
   ) {
     const { speed, framePhaseMs } = servoOptions ?? {};
     const phaseTicks = framePhaseMs === undefined ? null : framePhaseMs * TICKS_PER_MS;
-    this.servo = new Servo(BOOT_SERVO_UP, speed, phaseTicks);
+    // The board moves only the standard output when it starts. On the other one, the first move may be up or down.
+    const isStandard = ebbOf(machine).servoPin === STANDARD_PIN;
+    const atBoot = isStandard ? BOOT_SERVO_UP : servoPosFromPct(machine, 50);
+    this.servo = new Servo(atBoot, speed, phaseTicks);
   }
 
   /** The firmware is this version or a newer one. */
@@ -112,13 +109,17 @@ export class BoardCore {
    */
   get nextEventTick(): number {
     if (this.running === null || this.frozenTick !== null) return Infinity;
-    return Math.min(this.running.endTick, this.contactTick);
+    return Math.min(this.running.endTick, this.contactTick, this.limitTick);
   }
 
   /** The event of `nextEventTick`. */
   happen(): void {
     const { running } = this;
     if (running === null) return;
+    if (this.limitTick <= Math.min(running.endTick, this.contactTick)) {
+      this.reachLimit();
+      return;
+    }
     if (this.contactTick <= running.endTick) {
       this.changeContact();
       return;
@@ -152,16 +153,16 @@ export class BoardCore {
 
   /** Sets whether the motors follow the counted steps. Steps that they miss displace the rest of the line. */
   setTurnsMotors(turnsMotors: boolean): void {
-    if (turnsMotors === this.turnsMotors) return;
+    if (turnsMotors === this.motors.isSupplied) return;
     this.splitRunning();
-    this.turnsMotors = turnsMotors;
+    this.motors.isSupplied = turnsMotors;
     this.beginLine();
   }
 
   /** A new polyline begins where the carriage is. */
   private beginLine(): void {
     const [steps1, steps2] = this.stepsNow();
-    this.line?.begin(!this.isLifted, steps1 - this.missed1, steps2 - this.missed2, this.nowTick);
+    this.line?.begin(!this.isLifted, ...this.motors.carriageAt(steps1, steps2), this.nowTick);
   }
 
   /** The current tick for the running order; stands still while frozen. */
@@ -171,7 +172,23 @@ export class BoardCore {
       : Math.max(this.frozenTick, this.running?.startTick ?? this.frozenTick);
   }
 
+  /** Call when the running move or the limit switches have changed. */
+  findLimit(): void {
+    const { running } = this;
+    this.limitTick = running?.move ? running.startTick + this.motors.limitTickOf(running.move) : Infinity;
+  }
+
+  private reachLimit(): void {
+    this.settle(this.running!, this.limitTick);
+    this.running = null;
+    this.fifo.length = 0;
+    this.lastMove = null;
+    this.limitTick = Infinity;
+    this.motors.limitReached = true;
+  }
+
   enqueue(order: Order): void {
+    if (this.motors.ignores(order)) return;
     if (this.running === null) this.start(order);
     else this.fifo.push(order);
   }
@@ -196,6 +213,7 @@ export class BoardCore {
       left = this.stepsLeft(running);
       this.settle(running, this.motionTick);
       this.running = null;
+      this.limitTick = Infinity;
     }
     this.fifo.splice(0, this.fifo.length, ...this.fifo.filter((order) => !isStoppable(order)));
     this.lastMove = null;
@@ -220,10 +238,10 @@ export class BoardCore {
   clearSteps(clearAccumulators: boolean): void {
     this.splitRunning(() => {
       this.steps1 = this.steps2 = 0;
-      this.missed1 = this.missed2 = 0;
+      this.motors.missed1 = this.motors.missed2 = 0;
       if (clearAccumulators) this.acc1 = this.acc2 = 0;
     });
-    this.line?.begin(!this.isLifted, 0, 0, this.nowTick);
+    this.line?.begin(!this.isLifted, ...this.motors.carriageAt(0, 0), this.nowTick);
   }
 
   motorsMoving(): [boolean, boolean] {
@@ -265,9 +283,7 @@ export class BoardCore {
   }
 
   enableMotors(mode1: number, mode2: number | null): void {
-    this.mode1 = mode1;
-    if (mode1 !== 0) this.lastMode = mode1;
-    if (mode2 !== null) this.mode2 = mode2 === 0 ? 0 : this.lastMode;
+    this.motors.enable(mode1, mode2);
     this.clearSteps(this.features.enableClearsAccumulators);
   }
 
@@ -278,10 +294,10 @@ export class BoardCore {
     const running = this.running;
     if (running !== null) this.settle(running, this.motionTick);
     this.running = null;
-    const fresh = new BoardCore(this.features, this.machine, this.line, this.servoOptions, this.totals);
+    const { features, machine, line, servoOptions, motors, totals } = this;
+    const fresh = new BoardCore(features, machine, line, servoOptions, motors.rebooted(), totals);
     fresh.nowTick = this.nowTick;
-    fresh.line?.begin(false, 0, 0, fresh.nowTick);
-    fresh.turnsMotors = this.turnsMotors;
+    fresh.line?.begin(false, ...fresh.motors.carriageAt(0, 0), fresh.nowTick);
     return fresh;
   }
 
@@ -321,14 +337,12 @@ export class BoardCore {
   }
 
   private startMove(move: RunningMove): void {
-    if (this.autoEnable) {
-      this.mode1 = this.lastMode;
-      this.mode2 = this.lastMode;
-    }
+    this.motors.enableForMove();
     this.totals.addMove(move, this.servo.arrivalTick > this.nowTick + 1);
     this.noteJoint(move);
     const { order, ticks } = move;
     this.running = { order, startTick: this.nowTick, endTick: this.nowTick + ticks, move };
+    this.findLimit();
   }
 
   /** Counts the gap and the velocity jump between the last move and this one. */
@@ -366,14 +380,13 @@ export class BoardCore {
     const done = Math.floor(ticks);
     const place1 = move.motion1.stateAfterTicks(done);
     const place2 = move.motion2.stateAfterTicks(done);
-    const [from1, from2] = [this.steps1 - this.missed1, this.steps2 - this.missed2];
-    if (this.turnsMotors) this.line?.addMove(move, done, from1, from2, running.startTick);
-    else {
-      this.missed1 += place1.net;
-      this.missed2 += place2.net;
-    }
+    const { motors } = this;
+    const [from1, from2] = motors.carriageAt(this.steps1, this.steps2);
+    const follows = motors.follow(place1.net, place2.net);
+    if (follows) this.line?.addMove(move, done, from1, from2, running.startTick);
     this.steps1 += place1.net;
     this.steps2 += place2.net;
+    if (!follows) this.line?.begin(!this.isLifted, ...motors.carriageAt(this.steps1, this.steps2), tick);
     this.acc1 = place1.acc;
     this.acc2 = place2.acc;
     const pathMm = this.lengthMm(place1.net, place2.net);
@@ -400,6 +413,7 @@ export class BoardCore {
     const rest = running.move.restAfter(done, this.acc1, this.acc2);
     const startTick = running.startTick + done;
     this.running = { order: rest.order, startTick, endTick: startTick + rest.ticks, move: rest };
+    this.findLimit();
   }
 
   private stepsLeft(running: Running): [number, number] {

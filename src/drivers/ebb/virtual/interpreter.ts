@@ -202,10 +202,7 @@ export class Interpreter {
   private stop(p: Parameters): Action {
     const disable = p.optionalUint(0, 1);
     const { hit, waiting, left } = this.core.stop();
-    if (disable === 1 && this.core.isFrom("2.8.0")) {
-      this.core.mode1 = 0;
-      this.core.mode2 = 0;
-    }
+    if (disable === 1 && this.core.isFrom("2.8.0")) this.core.motors.switchOff();
     const flag = hit ? 1 : 0;
     const isShort = this.core.isFrom("3.0.0");
     return { values: () => (isShort ? `${flag}` : [flag, ...waiting, ...left].join(",")) };
@@ -297,7 +294,7 @@ export class Interpreter {
     const value = p.int();
     const { core } = this;
     if (which === 1) this.sendsOk = value !== 0;
-    if (which === 50) core.autoEnable = value !== 0;
+    if (which === 50) core.motors.autoEnable = value !== 0;
     if (which === 60) this.inputs.powerThreshold = value;
     if (!core.features.hasFutureSyntax) return;
     if (which === 4) {
@@ -313,6 +310,9 @@ export class Interpreter {
       this.hasFutureSyntax = value !== 0;
       return { raw: this.hasFutureSyntax ? "\n" : "CUOK\r\n" };
     }
+    if (which === 51) core.motors.watchLimit(value & 255);
+    if (which === 52) core.motors.limitTarget = value & 255;
+    if (which === 51 || which === 52) core.findLimit();
     if (which === 251) this.isTestMode = value !== 0;
   }
 
@@ -352,8 +352,11 @@ export class Interpreter {
   }
 
   private pinInput(p: Parameters): Action {
-    p.text(8);
-    return { values: () => (this.inputs.buttonDown ? "0" : "1") };
+    const [port, pin] = p.text(8).split(",");
+    const level = (): number | null =>
+      port?.toUpperCase() === "B" ? this.core.motors.portB(Number(pin)) : null;
+    // Every other input is the button.
+    return { values: () => `${level() ?? (this.inputs.buttonDown ? 0 : 1)}` };
   }
 
   private pinOutput(p: Parameters): void {

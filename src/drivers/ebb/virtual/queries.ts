@@ -63,6 +63,7 @@ export class BoardQueries {
     if (core.penUp) bits |= 16;
     if (inputs.buttonLatched) bits |= 32;
     if (core.isFrom("3.0.0") && inputs.powerLostLatched) bits |= 64;
+    if (core.motors.limitReached) bits |= 128;
     inputs.buttonLatched = false;
     inputs.powerLostLatched =
       inputs.powerThreshold > 0 && supplyReading(inputs.motorVolts) < inputs.powerThreshold;
@@ -82,7 +83,7 @@ export class BoardQueries {
 
   microstepText(): string {
     const divisor = (mode: number): number => (mode === 0 ? 0 : 2 ** (5 - mode));
-    return `${divisor(this.core.mode1)},${divisor(this.core.mode2)}`;
+    return `${divisor(this.core.motors.mode1)},${divisor(this.core.motors.mode2)}`;
   }
 
   /** Firmware before 3.0 pads numbers with zeros. */

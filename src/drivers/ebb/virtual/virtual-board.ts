@@ -12,8 +12,9 @@ import { checkObject } from "../../../check-arguments.js";
 import { PlotwrightError } from "../../../errors.js";
 import { firmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
-import type { MachineProfile, Springs } from "../../../machines/profile.js";
+import type { MachineProfile } from "../../../machines/profile.js";
 import { machineById } from "../../../machines/profiles.js";
+import { ebbOf } from "../protocol/ebb-controller.js";
 import { commandName, isQuery } from "../protocol/replies.js";
 import { pctFromServoPos } from "../protocol/servo-height.js";
 import { sFromTicks, TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
@@ -22,67 +23,30 @@ import type { DrawnPolyline } from "../../drawn-polylines.js";
 import { scaledClock, type Clock, type Transport } from "../../transport.js";
 import { VirtualLink } from "../../virtual-link.js";
 import type { BoardStatistics } from "./board-totals.js";
-import { BoardCore, type VirtualServo } from "./core.js";
+import { BoardCore } from "./core.js";
 import { DrawnLine } from "./drawn-line.js";
+import { Gantry, type CarriagePlace } from "./gantry.js";
 import { InputLines } from "./input.js";
 import { InstantClock } from "./instant-clock.js";
 import { Interpreter } from "./interpreter.js";
+import { Motors } from "./motors.js";
 import { factoryInputs, inputsAfterReset, supplyReading } from "./queries.js";
 import { SwingingLine } from "./swinging-line.js";
 
+import type { VirtualBoardOptions, VirtualBoardState } from "./board-options.js";
+
+export type { VirtualBoardOptions, VirtualBoardState } from "./board-options.js";
 export type { BoardStatistics } from "./board-totals.js";
 export type { VirtualServo } from "./core.js";
 export type { DrawnPolyline } from "../../drawn-polylines.js";
 
+/** Where the carriage of a machine that finds home by itself begins. */
+const IN_CORNER: CarriagePlace = { xMm: 0, yMm: 0 };
+/** The least firmware with limit switches is 3.0.0. */
+const HOMING_FIRMWARE = "3.0.3";
+
 /** Min supply voltage at which the motors turn. */
 const MIN_MOTOR_VOLTS = 7;
-
-/** Which board to simulate, and how fast. Only the clock is required. */
-export interface VirtualBoardOptions {
-  /** Counts real seconds. */
-  readonly clock: Clock;
-  /** Default "2.8.1". */
-  readonly firmware?: string | undefined;
-  /** Idle ticks after LT and T3. Default: as the firmware is known to have. To try a plot on a board that differs. */
-  readonly idleTicksTimed?: number | undefined;
-  /** Board seconds per clock second. Infinity: every move is over as soon as it is sent. Default 1. */
-  readonly speed?: number;
-  /** Default AxiDraw V3. */
-  readonly machine?: MachineProfile;
-  /** Record the drawn line. Default true. */
-  readonly recordLine?: boolean;
-  /** Board time to parse a command. Default 0. */
-  readonly parseMs?: number;
-  /** Max unparsed bytes before the board stops reading. Default 256. */
-  readonly inputBytes?: number;
-  /** Simulate the time that the pen's servo takes. Default: the tip touches and leaves the paper with the command. */
-  readonly servo?: VirtualServo;
-  /**
-   * Simulate a gantry on which the pen swings, so that the drawn line rings. Reported positions and steps are still
-   * those of the motors. Default: the pen is exactly where the motors are.
-   */
-  readonly springs?: Springs | undefined;
-  /** Size of the host system's buffer for bytes from `transport()`. Default 4096. */
-  readonly systemBytes?: number;
-}
-
-/** A board at one instant. */
-export interface VirtualBoardState {
-  readonly firmware: string;
-  readonly steps1: number;
-  readonly steps2: number;
-  readonly xMm: number;
-  readonly yMm: number;
-  readonly penUp: boolean;
-  /** Current servo position. */
-  readonly penPct: number;
-  readonly motorsOn: boolean;
-  readonly isBusy: boolean;
-  /** Number of orders waiting behind the running one. */
-  readonly waitingCount: number;
-  /** Board seconds since the virtual board was created. */
-  readonly boardS: number;
-}
 
 /**
  * An EiBotBoard in software, exact to the step: connect to it with `transport()`. It has the queue, the limits and the
@@ -91,6 +55,8 @@ export interface VirtualBoardState {
 export class VirtualBoard {
   /** The version that it reports. */
   readonly firmware: string;
+  /** The carriage and the switch of a machine that finds home by itself, after its last move; null: another machine. */
+  readonly gantry: Gantry | null;
   /** Counts board seconds, for `streamCommands`. At infinite speed, waiting takes no real time. */
   readonly clock: Clock;
   private readonly realClock: Clock;
@@ -138,9 +104,11 @@ export class VirtualBoard {
             wait: (untilS) => (this.core.nowTick = Math.max(this.core.nowTick, untilS * TICKS_PER_S)),
           })
         : scaledClock(options.clock, speed);
-    this.firmware = options.firmware ?? "2.8.1";
-    this.speed = speed;
     this.machine = options.machine ?? machineById("axidraw-v3");
+    const { cornerSwitch } = ebbOf(this.machine);
+    this.firmware = options.firmware ?? (cornerSwitch ? HOMING_FIRMWARE : "2.8.1");
+    this.speed = speed;
+    this.gantry = cornerSwitch ? new Gantry(this.machine, cornerSwitch, IN_CORNER) : null;
     this.parseTicks = (options.parseMs ?? 0) * TICKS_PER_MS;
     this.inputLimit = options.inputBytes ?? 256;
     this.systemLimit = options.systemBytes ?? 4_096;
@@ -149,7 +117,8 @@ export class VirtualBoard {
     const line = springs ? new SwingingLine(this.machine, springs) : new DrawnLine(this.machine);
     const known = firmwareFeatures(this.firmware);
     const features = { ...known, idleTicksTimed: options.idleTicksTimed ?? known.idleTicksTimed };
-    this.core = new BoardCore(features, this.machine, recordLine ? line : null, servo);
+    const motors = new Motors(this.gantry);
+    this.core = new BoardCore(features, this.machine, recordLine ? line : null, servo, motors);
     this.interpreter = this.makeInterpreter();
   }
 
@@ -218,7 +187,7 @@ export class VirtualBoard {
       yMm: yFromMotors(machine, steps1, steps2),
       penUp: core.penUp,
       penPct: pctFromServoPos(machine, core.servoPosition()),
-      motorsOn: core.mode1 !== 0 || core.mode2 !== 0,
+      motorsOn: core.motors.mode1 !== 0 || core.motors.mode2 !== 0,
       isBusy: core.isBusy,
       waitingCount: core.fifo.length,
       boardS: sFromTicks(core.nowTick),
