@@ -4,7 +4,7 @@
  */
 import path from "node:path";
 import prettier from "prettier";
-import { SPRINGS_TABLE, STREAM_TABLE } from "../src/settings/machine.js";
+import { PEN_SERVO_TABLE, SPRINGS_TABLE, STREAM_TABLE } from "../src/settings/machine.js";
 import {
   AXIS_TABLE,
   DRAW_TABLE,
@@ -68,7 +68,7 @@ const TYPES: Readonly<Record<string, SettingsType>> = {
     table: EASE_TABLE,
   },
   PenValues: {
-    about: "Heights of the pen, its waits, and the carriage's motion during pen moves.",
+    about: "Heights of the pen, its extra waits, and the carriage's motion during pen moves.",
     table: { ...PEN_TABLE, ...OVERLAP_TABLE },
   },
   PenRates: {
@@ -93,6 +93,12 @@ const TYPES: Readonly<Record<string, SettingsType>> = {
     about:
       "How a gantry swings, modelled as a spring in each axis: natural frequencies and the damping ratio of both.",
     table: SPRINGS_TABLE,
+    hasNoDefaults: true,
+  },
+  PenServo: {
+    about:
+      "A servo that moves the pen: its times, the rates of its signal if the settings have none, and its pulses.",
+    table: PEN_SERVO_TABLE,
     hasNoDefaults: true,
   },
 };

@@ -62,6 +62,6 @@ function regularPolygon(corners: number, times: number, side: number): StrokeSet
 function drawS(mode: MotionMode, polygon: StrokeSet, speedMmPerS: number): number {
   const draw = { speedMmPerS, accelMmPerS2: LIMITS.accel, cornerMm: LIMITS.deviation, jerkMmPerS3: 1e4 };
   const start = { startX: polygon.xy[0], startY: polygon.xy[1], returnHome: false };
-  const pen = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
+  const pen = { ...DEFAULT_PEN, extraLiftMs: -500, extraDropMs: -500 };
   return plan(polygon, { mode, draw, travel: draw, fit: null }, pen, start).totalS;
 }

@@ -107,7 +107,7 @@ export {
 export { PositionTimes } from "./position/on-plan.js";
 export type { TrajectoryStats } from "./plan/stats.js";
 export { lowerAheadMm } from "./plan/pen/pen-flight.js";
-export { penOfLayer } from "./plan/pen/pen-times.js";
+export { liftTime, dropTime, penOfLayer, timedPen } from "./plan/pen/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 export {
   motionForSprings,

@@ -6,6 +6,7 @@ import {
   maxOffDrawingMm,
   machineOf,
   reportedPosition,
+  timedPen,
   type Machine,
 } from "../../src/internal.js";
 import { boardIdSchema, type PlotSettings } from "../../src/schema/index.js";
@@ -49,7 +50,7 @@ export function resumePosition(
     aheadMm: aheadS * Math.max(draw.speedMmPerS, travel.speedMmPerS),
     nearMm: maxOffDrawingMm(motion, profile),
     stops: penStops,
-    lowerAheadMm: lowerAheadMm(pen, travel.accelMmPerS2),
+    lowerAheadMm: lowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2),
   };
   return reportedPosition(strokes, received, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

@@ -80,7 +80,7 @@ const NAMED_SIZES: readonly unknown[] = Object.values(PAPER_SIZES);
 export const isOwnSize = (size: unknown): size is PaperSize =>
   size !== undefined && !NAMED_SIZES.includes(size);
 
-function number(text: string): number {
+export function number(text: string): number {
   const value = text.trim() === "" ? NaN : Number(text);
   if (!Number.isFinite(value)) throw new InvalidArgumentError("It must be a number.");
   return value;

@@ -1,7 +1,7 @@
 import type { Setting } from "../settings/setting.js";
-import type { Springs } from "../settings/values.js";
+import type { PenServo, Springs } from "../settings/values.js";
 
-export type { Springs } from "../settings/values.js";
+export type { PenServo, Springs } from "../settings/values.js";
 
 /** The properties of a plotter, as data. */
 export interface MachineProfile<C extends Controller = Controller> {
@@ -23,6 +23,8 @@ export interface MachineProfile<C extends Controller = Controller> {
   readonly swapAxes?: boolean | undefined;
   /** How the machine swings. Null or left out: not measured. */
   readonly springs?: Springs | null | undefined;
+  /** How the servo of the pen lift moves. Null or left out: like AxiDraw's, or NextDraw's on its servo output. */
+  readonly penServo?: PenServo | null | undefined;
   /** The controller of the motors and the pen. */
   readonly controller: C;
 }

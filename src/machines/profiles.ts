@@ -7,16 +7,17 @@
  */
 import { refuseSetting } from "../check-arguments.js";
 import { PlotwrightError } from "../errors.js";
+import { HOBBY_SERVO } from "./pen-servo.js";
 import type { MachineProfile } from "./profile.js";
 
-const STANDARD_SERVO = {
+const ON_RB1 = {
   kind: "ebb",
   microstepMode: 1,
   servoPosAt0Pct: 7_500,
   servoPosAt100Pct: 28_000,
   servoPin: 4,
 };
-const BRUSHLESS_SERVO = { ...STANDARD_SERVO, servoPosAt0Pct: 5_400, servoPosAt100Pct: 12_600, servoPin: 5 };
+const ON_RB2 = { ...ON_RB1, servoPosAt0Pct: 5_400, servoPosAt100Pct: 12_600, servoPin: 5 };
 /** Normally closed, to ground. */
 const NEXTDRAW_SWITCH = { port: "B", pin: 1, pressed: 1 };
 
@@ -32,11 +33,22 @@ const axidraw = <Id extends string>(id: Id, name: string, widthMm: number, heigh
   heightMm,
   stepsPerMm: 80,
   motors: "mixed",
-  controller: STANDARD_SERVO,
+  controller: ON_RB1,
 });
 const nextdraw = <Id extends string>(id: Id, name: string, widthMm: number, heightMm: number): Named<Id> => ({
   ...axidraw(id, name, widthMm, heightMm),
-  controller: { ...BRUSHLESS_SERVO, cornerSwitch: NEXTDRAW_SWITCH },
+  controller: { ...ON_RB2, cornerSwitch: NEXTDRAW_SWITCH },
+});
+
+/** An AxiDraw with the maker's brushless pen lift, which is on another servo output. */
+const upgraded = <Id extends string>(
+  id: Id,
+  model: string,
+  widthMm: number,
+  heightMm: number,
+): Named<Id> => ({
+  ...axidraw(id, `${model}, brushless upgrade`, widthMm, heightMm),
+  controller: ON_RB2,
 });
 
 /** 3200 steps turn a 40 mm sphere once; the pen arm's travel is 1/4 of a turn. */
@@ -53,6 +65,10 @@ const BUILT_IN = [
   axidraw("axidraw-se-a1", "AxiDraw SE/A1", 864, 594),
   axidraw("axidraw-se-a2", "AxiDraw SE/A2", 594, 432),
   axidraw("axidraw-v3-b6", "AxiDraw V3/B6", 190, 140),
+  upgraded("axidraw-v3-brushless", "AxiDraw V3", 300, 218),
+  upgraded("axidraw-v3-a3-brushless", "AxiDraw V3/A3", 430, 297),
+  upgraded("axidraw-v3-xlx-brushless", "AxiDraw V3 XLX", 595, 218),
+  upgraded("axidraw-v3-b6-brushless", "AxiDraw V3/B6", 190, 140),
   nextdraw("nextdraw-8511", "NextDraw 8511", 300, 218),
   nextdraw("nextdraw-1117", "NextDraw 1117", 430, 297),
   nextdraw("nextdraw-2234", "NextDraw 2234", 864, 594),
@@ -63,7 +79,8 @@ const BUILT_IN = [
     heightMm: Number((EGG_TURN_MM / 4).toFixed(3)),
     stepsPerMm: EGG_STEPS_PER_TURN / EGG_TURN_MM,
     motors: "direct",
-    controller: STANDARD_SERVO,
+    penServo: HOBBY_SERVO,
+    controller: ON_RB1,
   },
   {
     id: "watercolorbot",
@@ -72,7 +89,8 @@ const BUILT_IN = [
     heightMm: 216,
     stepsPerMm: 80,
     motors: "direct",
-    controller: STANDARD_SERVO,
+    penServo: HOBBY_SERVO,
+    controller: ON_RB1,
   },
 ] as const satisfies readonly MachineProfile[];
 

@@ -28,7 +28,7 @@ import {
   PEN_TABLE,
   type PenSettings,
 } from "../settings/pen.js";
-import { SPRINGS_TABLE } from "../settings/machine.js";
+import { PEN_SERVO_TABLE, SPRINGS_TABLE } from "../settings/machine.js";
 import { isAllowed, rangeInWords, type NumberSetting } from "../settings/setting.js";
 import { drawLimitsOf } from "./limits.js";
 import { penOfLayer } from "./pen/pen-times.js";
@@ -54,6 +54,7 @@ export function checkSettings(
   for (const key of Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[]) {
     checkOptional("the", AXIS_TABLE[key], motion[key]);
   }
+  if (machine?.penServo) checkNumbers(`machine "${machine.name}"`, PEN_SERVO_TABLE, machine.penServo);
   checkPen("pen", pen);
   for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
     checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));

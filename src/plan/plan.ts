@@ -15,15 +15,16 @@ import {
   strokeCount,
   type StrokeSet,
 } from "../drawing/stroke-set.js";
-import type { MachineProfile } from "../machines/profile.js";
+import { penServoOf } from "../machines/pen-servo.js";
+import type { MachineProfile, PenServo } from "../machines/profile.js";
 import type { Cancellation } from "../prepare/work.js";
 import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
 import type { Kernel } from "./shaping/impulse-filter.js";
 import { drawLimitsOf, runLimits, scaledLimits, type RunLimits } from "./limits.js";
 import { PenMoveWriter } from "./pen/pen-moves.js";
-import { dropsInFlight, hopLift, liftBefore, lowerDuring, type Lift } from "./pen/pen-flight.js";
-import { dropTime, liftTime, penOfLayer } from "./pen/pen-times.js";
+import { dropsInFlight, dropWait, hopLift, liftBefore, lowerDuring, type Lift } from "./pen/pen-flight.js";
+import { dropMoveTime, liftTime, penOfLayer, type TimedPen } from "./pen/pen-times.js";
 import { Resampler } from "./resample.js";
 import { RunPath, SHORTEST_MM } from "./run-path.js";
 import { RunWriter, type RunPlanner } from "./run-writer.js";
@@ -56,7 +57,7 @@ export interface PlanOptions {
   /** mm in the machine frame; default 0, 0 (home). */
   readonly endX?: number | undefined;
   readonly endY?: number | undefined;
-  /** If given, its motor limits apply too: the max step rate, and `motorAccelStepsPerS2`. */
+  /** If given, its motor limits and pen servo apply too: the max step rate, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
   /**
    * Writes the runs instead of the motion mode: the model of a controller that plans its motion by itself.
@@ -71,6 +72,12 @@ export interface PlanOptions {
    * @internal
    */
   readonly dropsAtStroke?: boolean | undefined;
+  /**
+   * The pen's servo, instead of the machine's.
+   *
+   * @internal
+   */
+  readonly servo?: PenServo | undefined;
   /** Checked before every stroke. */
   readonly cancel?: Cancellation | undefined;
 }
@@ -94,7 +101,8 @@ export function plan(
   checkSettings(motion, pen, options.machine);
   const from = checkPlace(options.from, strokeCount(strokes));
   const { machine, startX = 0, startY = 0, penOffsetMm = 0 } = options;
-  const builder = new PlanBuilder(strokes, motion, pen, machine, startX, startY, options);
+  const { servo = penServoOf(machine) } = options;
+  const builder = new PlanBuilder(strokes, motion, { ...pen, servo }, machine, startX, startY, options);
   if (options.liftFirst) builder.liftFirst();
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
@@ -124,14 +132,16 @@ class PlanBuilder {
   private readonly travelLimits: RunLimits;
   /** By layer index. */
   private readonly drawLimits: readonly RunLimits[];
-  private readonly pens: readonly PenSettings[];
+  private readonly pens: readonly TimedPen[];
   /**
    * Wait before a layer's first stroke, s. If a layer was split (`partOf`), only its first part has one.
    */
   private readonly waitsS: readonly number[];
   private readonly dropsAtStroke: boolean;
+  /** The board waits for whole milliseconds. A controller that plans by itself waits as its driver says. */
+  private readonly waitsWholeMs: boolean;
   /** The pen settings of the current or last stroke. */
-  private pen: PenSettings;
+  private pen: TimedPen;
   private penUp = true;
   private heightPct: number;
   /** When the last lift of this plan began, s; null: none yet, so the pen's real height may be unknown. */
@@ -141,7 +151,7 @@ class PlanBuilder {
   constructor(
     private readonly strokes: StrokeSet,
     private readonly motion: MotionSettings,
-    pen: PenSettings,
+    pen: TimedPen,
     machine: MachineProfile | undefined,
     private x: number,
     private y: number,
@@ -153,6 +163,7 @@ class PlanBuilder {
     this.pen = pen;
     this.heightPct = pen.upPct;
     this.dropsAtStroke = dropsAtStroke;
+    this.waitsWholeMs = runs === undefined;
     this.pens = strokes.layers.map((layer) => penOfLayer(pen, settingsIdOf(layer)));
     this.drawLimits = strokes.layers.map((layer) =>
       runLimits(drawLimitsOf(motion, settingsIdOf(layer)), motion, machine),
@@ -221,7 +232,7 @@ class PlanBuilder {
   lift(travelMm: number): void {
     if (this.penUp) return;
     this.liftS = this.blocks.clockS;
-    this.movePen(true, liftBefore(this.pen, travelMm));
+    this.movePen(true, liftBefore(this.pen, travelMm, this.motion.travel.accelMmPerS2));
   }
 
   liftFirst(): void {
@@ -244,13 +255,13 @@ class PlanBuilder {
     const { blocks, pen, heightPct, liftS, dropsAtStroke } = this;
     const endS = blocks.clockS;
     if (travelS === null || travelS === endS || liftS === null || !dropsInFlight(pen)) {
-      this.moveInPlace(false, pen.downPct, dropTime(pen, heightPct));
+      this.moveInPlace(false, pen.downPct, dropWait(pen, heightPct));
       return;
     }
     const travel = { startS: travelS, endS, accel: this.motion.travel.accelMmPerS2, dropsAtStroke };
     const { hoverS, dropS, downS } = lowerDuring(pen, { heightPct, liftS }, travel);
     if (hoverS !== null) this.movePen(true, hopLift(pen), hoverS);
-    const moveS = dropTime(pen, this.heightPct);
+    const moveS = dropMoveTime(pen, this.heightPct - pen.downPct);
     this.movePen(false, { heightPct: pen.downPct, waitS: downS - endS, moveS }, dropS);
   }
 
@@ -259,7 +270,9 @@ class PlanBuilder {
     this.movePen(up, { heightPct, waitS, moveS: waitS });
   }
 
-  private movePen(up: boolean, { heightPct, waitS, moveS }: Lift, startS = this.blocks.clockS): void {
+  private movePen(up: boolean, lift: Lift, startS = this.blocks.clockS): void {
+    const { heightPct, moveS } = lift;
+    const waitS = this.waitsWholeMs ? wholeMs(lift.waitS) : lift.waitS;
     this.penUp = up;
     if (up) this.heightPct = heightPct;
     this.penMoves.push({ beforeRun: this.runCount, up, startS, waitS, moveS, heightPct });
@@ -302,6 +315,9 @@ class PlanBuilder {
     };
   }
 }
+
+/** Otherwise a difference of half a millisecond per stroke would add up to seconds. */
+const wholeMs = (s: number): number => Math.max(0, Math.ceil(1_000 * s - 1e-6)) / 1_000;
 
 function checkPlace(place: StrokePosition | undefined, strokes: number): StrokePosition {
   if (place === undefined) return { stroke: 0, alongMm: 0 };

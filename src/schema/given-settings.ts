@@ -18,8 +18,8 @@ export type GivenSettings = DeepPartial<PlotSettings>;
  * Rebuilds a schema so that unknown names are refused, at every depth. With `isPart`, the fields of objects may be left
  * out, and then have no default: the settings below stay. Entries of lists and of tables by layer are always whole.
  *
- *   schema              { upPct: number, by default 60; layers?: { [id]: { dropMs: number, by default 300 } } }
- *   strict, as a part   { upPct?: number;               layers?: { [id]: { dropMs: number, by default 300 } } }
+ *   schema              { upPct: number, by default 60; layers?: { [id]: { extraDropMs: number, by default 0 } } }
+ *   strict, as a part   { upPct?: number;               layers?: { [id]: { extraDropMs: number, by default 0 } } }
  */
 function strict(schema: z.ZodType, isPart: boolean): z.ZodType {
   const rebuilt = (inner: unknown, isInnerPart = isPart): z.ZodType =>

@@ -4,7 +4,7 @@ import { nameSchema } from "./name.js";
 import type { ControllerDescription } from "../drivers/driver.js";
 import { CONTROLLERS } from "../drivers/registry.js";
 import type { Controller, ControllerField, ControllerFields, MachineProfile } from "../machines/profile.js";
-import { SPRINGS_TABLE } from "../settings/machine.js";
+import { PEN_SERVO_TABLE, SPRINGS_TABLE } from "../settings/machine.js";
 import { schemaOf, shapeOf } from "./setting.js";
 
 function fieldSchema(field: ControllerField): z.ZodType {
@@ -42,6 +42,7 @@ const profileShape = {
   flipY: z.boolean().optional(),
   swapAxes: z.boolean().optional(),
   springs: z.object(shapeOf(SPRINGS_TABLE)).nullable().optional(),
+  penServo: z.object(shapeOf(PEN_SERVO_TABLE)).nullable().optional(),
   controller: controllerSchema,
 };
 

@@ -20,6 +20,55 @@ export const STREAM_TABLE = {
   },
 } as const satisfies SettingsTable;
 
+const pctPerS = { kind: "number", min: 1, max: 100_000, unit: "%/s", step: 5 } as const;
+
+/** The servo of a pen lift (src/machines/pen-servo.ts). Distances are percent of its range. */
+export const PEN_SERVO_TABLE = {
+  minMs: {
+    kind: "number",
+    label: "Shortest pen move",
+    about: "time of the shortest move of the pen",
+    default: 45,
+    min: 0,
+    max: 10_000,
+    unit: "ms",
+    step: 5,
+  },
+  slopeMsPerPct: {
+    kind: "number",
+    label: "Pen time per percent",
+    about: "additional time of a pen move for each percent of the servo's range",
+    default: 2.69,
+    min: 0,
+    max: 1_000,
+    unit: "ms/%",
+    step: 0.1,
+  },
+  liftPctPerS: {
+    ...pctPerS,
+    label: "Servo's lifting speed",
+    about: "how fast the servo's signal rises, if the pen's settings have no lifting speed",
+    default: 375,
+  },
+  dropPctPerS: {
+    ...pctPerS,
+    label: "Servo's lowering speed",
+    about: "how fast the servo's signal falls, if the pen's settings have no lowering speed",
+    default: 250,
+  },
+  frameMs: {
+    kind: "number",
+    label: "Servo frame",
+    about: "interval of the servo's pulses: 24, or 3 for a brushless lift",
+    default: 24,
+    min: 3,
+    max: 24,
+    isWhole: true,
+    unit: "ms",
+    step: 3,
+  },
+} as const satisfies SettingsTable;
+
 const frequency = {
   kind: "number",
   default: 20,

@@ -5,7 +5,7 @@ import type { LayerPen, PenRates, PenValues } from "./values.js";
 export type { LayerPen } from "./values.js";
 
 const height = { kind: "number", min: 0, max: 100, unit: "%", step: 1 } as const;
-const delay = { kind: "number", min: 0, max: 10_000, unit: "ms", step: 10 } as const;
+const extraWait = { kind: "number", default: 0, min: -500, max: 10_000, unit: "ms", step: 10 } as const;
 const rate = {
   kind: "number",
   min: 0,
@@ -35,22 +35,20 @@ export const PEN_TABLE = {
     default: 30,
     slider: [0, 100],
   },
-  /** The whole time of a lift or drop; with a rate set, an extra wait after the move. */
-  liftMs: {
-    ...delay,
-    label: "Wait after lifting",
+  /** Added to the times of the machine's servo (src/machines/pen-servo.ts). Negative: the servo is faster. */
+  extraLiftMs: {
+    ...extraWait,
+    label: "Extra wait after lifting",
     words: "pen up delay, pen lift time, servo delay",
-    about: "wait for the pen to lift",
-    flag: "--pen-lift-ms",
-    default: 250,
+    about: "wait longer for the pen to lift than the machine's servo usually takes; negative: less long",
+    flag: "--pen-extra-lift-ms",
   },
-  dropMs: {
-    ...delay,
-    label: "Wait after lowering",
+  extraDropMs: {
+    ...extraWait,
+    label: "Extra wait after lowering",
     words: "pen down delay, pen drop time, settle, servo delay",
-    about: "wait for the pen to drop",
-    flag: "--pen-drop-ms",
-    default: 300,
+    about: "wait longer for the pen to drop than the machine's servo usually takes; negative: less long",
+    flag: "--pen-extra-drop-ms",
   },
 } as const satisfies SettingsTable;
 
@@ -118,13 +116,13 @@ export const LAYER_WAIT = {
   step: 500,
 } as const satisfies NumberSetting;
 
-/** Pen heights, and how long the carriage waits for the pen. Start from `DEFAULT_PEN`. */
+/** Pen heights, and what the carriage waits for the pen beside its servo's time. Start from `DEFAULT_PEN`. */
 export interface PenSettings extends PenValues, PenRates {
   /** By layer id: heights and waits of that layer. */
   readonly layers?: Readonly<Record<string, LayerPen>> | undefined;
 }
 
-/** 60 % up, 30 % down, and waits that suit a standard servo. */
+/** 60 % up, 30 % down, and the times of the machine's servo. */
 export const DEFAULT_PEN: PenSettings = { ...defaultsOf(PEN_TABLE), ...defaultsOf(OVERLAP_TABLE) };
 
 const offset = { kind: "number", default: 0, min: -100, max: 100, unit: "mm", step: 0.05 } as const;

@@ -158,16 +158,16 @@ export interface EaseSettings {
   readonly speedMmPerS: number;
 }
 
-/** Heights of the pen, its waits, and the carriage's motion during pen moves. */
+/** Heights of the pen, its extra waits, and the carriage's motion during pen moves. */
 export interface PenValues {
   /** Height while travelling (0 to 100 %). Default 60. */
   readonly upPct: number;
   /** Height while drawing (0 to 100 %). Default 30. */
   readonly downPct: number;
-  /** Wait for the pen to lift (0 to 10000 ms). Default 250. */
-  readonly liftMs: number;
-  /** Wait for the pen to drop (0 to 10000 ms). Default 300. */
-  readonly dropMs: number;
+  /** Wait longer for the pen to lift than the machine's servo usually takes; negative: less long (-500 to 10000 ms). Default 0. */
+  readonly extraLiftMs: number;
+  /** Wait longer for the pen to drop than the machine's servo usually takes; negative: less long (-500 to 10000 ms). Default 0. */
+  readonly extraDropMs: number;
   /** Whether the carriage moves while the pen lifts and lowers clear of the paper. Default "safe". */
   readonly overlap: "off" | "safe" | "fast";
   /** Share of the lift at which the tip leaves the paper (0 to 100 %). Default 50. */
@@ -190,10 +190,10 @@ export interface LayerPen {
   readonly upPct?: number | undefined;
   /** Height while drawing (0 to 100 %). */
   readonly downPct?: number | undefined;
-  /** Wait for the pen to lift (0 to 10000 ms). */
-  readonly liftMs?: number | undefined;
-  /** Wait for the pen to drop (0 to 10000 ms). */
-  readonly dropMs?: number | undefined;
+  /** Wait longer for the pen to lift than the machine's servo usually takes; negative: less long (-500 to 10000 ms). */
+  readonly extraLiftMs?: number | undefined;
+  /** Wait longer for the pen to drop than the machine's servo usually takes; negative: less long (-500 to 10000 ms). */
+  readonly extraDropMs?: number | undefined;
   /** Wait with the pen up before the layer's first stroke (0 to 60000 ms). */
   readonly beforeMs?: number | undefined;
 }
@@ -222,4 +222,18 @@ export interface Springs {
   readonly yHz: number;
   /** Damping ratio of the swing; 0: it never ends (0 to 0.5). */
   readonly damping: number;
+}
+
+/** A servo that moves the pen: its times, the rates of its signal if the settings have none, and its pulses. */
+export interface PenServo {
+  /** Time of the shortest move of the pen (0 to 10000 ms). */
+  readonly minMs: number;
+  /** Additional time of a pen move for each percent of the servo's range (0 to 1000 ms/%). */
+  readonly slopeMsPerPct: number;
+  /** How fast the servo's signal rises, if the pen's settings have no lifting speed (1 to 100000 %/s). */
+  readonly liftPctPerS: number;
+  /** How fast the servo's signal falls, if the pen's settings have no lowering speed (1 to 100000 %/s). */
+  readonly dropPctPerS: number;
+  /** Interval of the servo's pulses: 24, or 3 for a brushless lift (a whole number, 3 to 24 ms). */
+  readonly frameMs: number;
 }

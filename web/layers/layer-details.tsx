@@ -129,8 +129,8 @@ const MotionFields = ({ row }: RowProps) => {
 const LAYER_PEN_FIELDS = [
   ["downPct", PEN_TABLE.downPct],
   ["upPct", PEN_TABLE.upPct],
-  ["liftMs", PEN_TABLE.liftMs],
-  ["dropMs", PEN_TABLE.dropMs],
+  ["extraLiftMs", PEN_TABLE.extraLiftMs],
+  ["extraDropMs", PEN_TABLE.extraDropMs],
   ["beforeMs", LAYER_WAIT],
 ] as const;
 

@@ -16,14 +16,14 @@ export const PenFields = () => {
     <>
       <div className="field-pair">
         <SettingField
-          setting={PEN_TABLE.liftMs}
-          value={pen.liftMs}
-          onChange={(liftMs) => change({ liftMs })}
+          setting={PEN_TABLE.extraLiftMs}
+          value={pen.extraLiftMs}
+          onChange={(extraLiftMs) => change({ extraLiftMs })}
         />
         <SettingField
-          setting={PEN_TABLE.dropMs}
-          value={pen.dropMs}
-          onChange={(dropMs) => change({ dropMs })}
+          setting={PEN_TABLE.extraDropMs}
+          value={pen.extraDropMs}
+          onChange={(extraDropMs) => change({ extraDropMs })}
         />
       </div>
       <Gentle pen={pen} />

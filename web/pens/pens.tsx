@@ -1,8 +1,9 @@
+import { dropTime, findMachine, liftTime, timedPen } from "../../src/internal.js";
 import { usePageState } from "../state/use-store.js";
 import { pensText, heightsText } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/fields/settings-group.js";
-import { formatNumber } from "../ui/format.js";
+import { formatFixed } from "../ui/format.js";
 
 const PenList = lazyPart(async () => (await import("./pen-list.js")).PenList);
 
@@ -26,13 +27,15 @@ export const PensPanel = () => {
 const PenFields = lazyPart(async () => (await import("./pen-fields.js")).PenFields);
 
 export const PenPanel = () => {
-  const { liftMs, dropMs } = usePageState((state) => state.settings.pen);
+  const settings = usePageState((state) => state.settings);
+  const pen = timedPen(settings.pen, findMachine(settings));
+  const [liftMs, dropMs] = [liftTime(pen, pen.upPct), dropTime(pen, pen.upPct)].map((s) => 1_000 * s);
   return (
     <SettingsGroup
       id="pen"
       isLazy
       title={heightsText.title}
-      summary={`${formatNumber(liftMs)} / ${formatNumber(dropMs)} ms`}
+      summary={`${formatFixed(liftMs, 0)} / ${formatFixed(dropMs, 0)} ms`}
     >
       <PenFields />
     </SettingsGroup>

@@ -213,8 +213,8 @@ const PEN: readonly Field[] = [
   row("hand", OVERLAP_TABLE.contactPct, {
     instead: unless((state) => overlaps(state) && !isFirstPlot(state), overlapPlace),
   }),
-  row("pen", PEN_TABLE.liftMs),
-  row("pen", PEN_TABLE.dropMs),
+  row("pen", PEN_TABLE.extraLiftMs),
+  row("pen", PEN_TABLE.extraDropMs),
   field("pen", { label: heightsText.gentle, words: DROP_RATE.words }),
   row("pen", DROP_RATE, {
     instead: unless(({ settings }) => Boolean(settings.pen.dropPctPerS), at("pen", heightsText.gentle)),

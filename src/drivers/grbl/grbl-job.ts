@@ -2,7 +2,7 @@
  * Makes a job for a Grbl controller from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
  */
 import type { StrokeSet } from "../../drawing/stroke-set.js";
-import type { MachineProfile } from "../../machines/profile.js";
+import type { MachineProfile, PenServo } from "../../machines/profile.js";
 import { penMovesOf } from "../../plan/pen/pen-moves.js";
 import { plan } from "../../plan/plan.js";
 import { runEndS, type Trajectory } from "../../plan/trajectory.js";
@@ -36,7 +36,8 @@ export function planGrblJob(
 ): MachineJob<GrblCommands> {
   const grbl = grblOf(machine);
   const runs = new GrblRuns(machine, grbl);
-  const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, timedPen(pen, grbl), {
+  const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, penAtRest(pen), {
+    servo: zAxisAsServo(grbl),
     from: options.from ?? undefined,
     startX: options.startXMm,
     startY: options.startYMm,
@@ -53,16 +54,19 @@ export function planGrblJob(
   return { trajectory, commands, lines: () => [MODES, ...commands().lines] };
 }
 
-/** Pen settings with the times of the Z axis, which always moves between the profile's two heights. */
-function timedPen(pen: PenSettings, grbl: GrblController): PenSettings {
-  const ms = 1_000 * (penTimeS(grbl) + dwellS(grbl.penWaitMs / 1_000));
-  const { upPct, downPct, layers = {}, contactPct, fullHeightMm } = pen;
+/** Grbl moves the pen only at rest, and waits for whole dwells. */
+function penAtRest({ upPct, downPct, layers = {}, contactPct, fullHeightMm }: PenSettings): PenSettings {
   const waits = Object.entries(layers).map(([id, { beforeMs }]) => {
     return [id, beforeMs ? { beforeMs: 1_000 * dwellS(beforeMs / 1_000) } : {}] as const;
   });
-  // Grbl moves the pen only at rest.
   const heights = { upPct, downPct, overlap: "off", contactPct, fullHeightMm } as const;
-  return { ...heights, liftMs: ms, dropMs: ms, layers: Object.fromEntries(waits) };
+  return { ...heights, extraLiftMs: 0, extraDropMs: 0, layers: Object.fromEntries(waits) };
+}
+
+/** The Z axis as a servo: it always moves between the profile's two heights. */
+function zAxisAsServo(grbl: GrblController): PenServo {
+  const minMs = 1_000 * (penTimeS(grbl) + dwellS(grbl.penWaitMs / 1_000));
+  return { minMs, slopeMsPerPct: 0, liftPctPerS: Infinity, dropPctPerS: Infinity, frameMs: 0 };
 }
 
 /** Duration of the move of the Z axis. */

@@ -8,28 +8,44 @@
  *          +---------|---------------------|----> time
  *             carriage starts        carriage arrives
  *
- * The lift and drop times are for the full distance between the down and up heights; the servo's speed is constant. The
- * servo reads its pulse once per frame, so it starts up to one frame after the command. The carriage counts as arrived
- * within `NEAR_MM` of the stroke.
+ * A real servo takes up to `1 / SLOW` of its time (src/machines/pen-servo.ts), and at least `1 / FAST` of what its signal
+ * takes. It reads its pulse once per frame, so it starts up to one frame after the command. The tip leaves the paper up to
+ * `CONTACT_PCT` beside the contact height. The carriage may be within `NEAR_MM` of the stroke while the tip touches.
+ * With that it waits long enough for any such servo:
+ *
+ *   - It starts when the slowest one has lifted the tip clear of the paper, or moves it only `NEAR_MM` until then.
+ *   - With "fast" the drop begins so late that the fastest one touches the paper only within `NEAR_MM` of the stroke, and
+ *     the stroke begins when the slowest one touches it.
+ *   - With "safe" the drop begins only within `NEAR_MM`, and the stroke not before the servo's usual time for the whole
+ *     drop: this also suits a contact height that was never measured.
  *
  * A shaped travel is a weighted mean of copies of the planned one. The last copy ends with the shaped travel, the others
  * earlier. So the shaped travel is never farther from the stroke than the planned one at the same time before its end,
  * and the same rules are safe for both.
  *
- * With "safe" the tip counts as clear at the hop height, with "fast" already at the contact height.
- *
  * So with "fast" the drop begins up to `lowerAheadMm` before the stroke. A machine that loses its connection may then lack
- * the end of the travel, and would put the pen down there. For such a machine (`dropsAtStroke`) "fast" lifts the pen as
- * above, but begins the drop only within `NEAR_MM`.
+ * the end of the travel, and would put the pen down there. For such a machine (`dropsAtStroke`) "fast" begins the drop only
+ * within `NEAR_MM`, too.
  */
 import type { PenSettings } from "../../settings/pen.js";
-import { liftTime, penOfLayer } from "./pen-times.js";
+import {
+  dropMoveTime,
+  dropTime,
+  liftMoveTime,
+  liftTime,
+  penOfLayer,
+  waitOf,
+  type TimedPen,
+} from "./pen-times.js";
 
-/** Interval of the servo's pulses. */
-const FRAME_S = 0.024;
+/** The speeds of the slowest and the fastest servo, as shares of the expected one. */
+const SLOW = 0.8;
+const FAST = 1.2;
+/** How far the tip may touch above or below the contact height, percent of the distance from down to up. */
+const CONTACT_PCT = 5;
 /** Hop height above the contact height, percent of the distance from down to up. */
 const MARGIN_PCT = 15;
-/** A tip that touches the paper this close to a stroke's start leaves no visible mark. */
+/** A tip that touches the paper this close to a stroke leaves no visible mark. */
 const NEAR_MM = 0.1;
 
 /** The timing of a lift. */
@@ -37,7 +53,7 @@ export interface Lift {
   readonly heightPct: number;
   /** How long the carriage waits for it. */
   readonly waitS: number;
-  /** How long the pen takes. */
+  /** How long the pen takes until it is certainly clear of the paper. */
   readonly moveS: number;
 }
 
@@ -63,91 +79,115 @@ export interface Lowering {
 const liftsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off" && !pen.liftPctPerS;
 export const dropsInFlight = (pen: PenSettings): boolean => pen.overlap !== "off" && !pen.dropPctPerS;
 
-/** The lift before a travel of `travelMm`. */
-export function liftBefore(pen: PenSettings, travelMm: number): Lift {
-  if (!liftsInFlight(pen)) {
-    const waitS = liftTime(pen, pen.upPct);
-    return { heightPct: pen.upPct, waitS, moveS: waitS };
-  }
+/** The lift before a travel of `travelMm` with that acceleration limit, mm/s². */
+export function liftBefore(pen: TimedPen, travelMm: number, accel: number): Lift {
+  if (!liftsInFlight(pen)) return liftTo(pen, pen.upPct, liftTime(pen, pen.upPct));
   const heightPct = travelMm < pen.fullHeightMm ? hopHeight(pen) : pen.upPct;
-  const clearS = FRAME_S + (clearHeight(pen) - pen.downPct) / liftRate(pen);
-  const waitS = wholeMs(Math.min(clearS, pen.liftMs / 1_000));
-  return { heightPct, waitS, moveS: liftTime(pen, heightPct) };
+  return liftTo(pen, heightPct, waitOf(clearTime(pen, heightPct) - nearTime(accel), pen.extraLiftMs));
 }
 
 /** The time of a lift to the hop height. */
-export function hopLift(pen: PenSettings): Lift {
-  const heightPct = hopHeight(pen);
-  return { heightPct, waitS: 0, moveS: liftTime(pen, heightPct) };
+export const hopLift = (pen: TimedPen): Lift => liftTo(pen, hopHeight(pen), 0);
+
+const liftTo = (pen: TimedPen, heightPct: number, waitS: number): Lift => ({
+  heightPct,
+  waitS,
+  moveS: Math.max(liftMoveTime(pen, heightPct - pen.downPct), clearTime(pen, heightPct)),
+});
+
+/** How long the carriage waits at the stroke for a whole drop from `fromPct`. */
+export function dropWait(pen: TimedPen, fromPct: number): number {
+  const wholeS = dropTime(pen, fromPct);
+  return dropsInFlight(pen) ? Math.max(wholeS, waitOf(touchTime(pen, fromPct), pen.extraDropMs)) : wholeS;
 }
 
 /** How the pen comes down during a travel, after a lift to `heightPct` that began at `liftS`. */
 export function lowerDuring(
-  pen: PenSettings,
+  pen: TimedPen,
   { heightPct, liftS }: { readonly heightPct: number; readonly liftS: number },
   { startS, endS, accel, dropsAtStroke }: Approach,
 ): Lowering {
   const nearS = endS - nearTime(accel);
-  const up = liftRate(pen);
-  const down = dropRate(pen);
+  const isFast = pen.overlap === "fast";
   const hopPct = hopHeight(pen);
-  const clearPct = dropsAtStroke ? hopPct : clearHeight(pen);
-  const topPct = Math.min(heightPct, hopPct);
-  const firstFrameS = liftS + FRAME_S;
-  // The height at which the drop begins.
-  let fromPct = topPct;
-  let dropS = nearS - Math.max(0, topPct - clearPct) / down;
-  if (clearPct < hopPct && dropS < firstFrameS + (topPct - pen.downPct) / up) {
-    // The pen turns back before it reaches the top: t + (down + up rate (t − first frame) − clear) / down rate = near.
-    dropS = (down * nearS + clearPct - pen.downPct + up * firstFrameS) / (down + up);
-    fromPct = Math.max(clearPct, pen.downPct + up * (dropS - firstFrameS));
-  }
-  dropS = Math.max(startS, dropS);
+  let fromPct = Math.min(heightPct, hopPct);
+  const aheadS =
+    isFast && !dropsAtStroke ? nearS - fastestDrop(pen, { heightPct, liftS, fromPct, nearS }) : 0;
+  const dropS = Math.max(startS, nearS - aheadS);
   let hoverS: number | null = null;
   if (heightPct > hopPct) {
-    const hoverTimeS = FRAME_S + liftTime(pen, heightPct) - liftTime(pen, hopPct);
+    const hoverTimeS = frameS(pen) + liftMoveTime(pen, heightPct - hopPct) / SLOW;
     // If there is no time to lower it to the hop height first, it drops from where it is.
     if (dropS - hoverTimeS > startS) hoverS = dropS - hoverTimeS;
     else fromPct = heightPct;
   }
-  const waitS = wholeMs(dropS + (fromPct - pen.downPct) / down - endS);
-  return { hoverS, dropS, downS: endS + waitS };
+  const touchS = touchTime(pen, fromPct);
+  const dropTimeS = isFast ? touchS : Math.max(touchS, dropMoveTime(pen, fromPct - pen.downPct));
+  return { hoverS, dropS, downS: endS + waitOf(dropS + dropTimeS - endS, pen.extraDropMs) };
+}
+
+/**
+ * The earliest time for a drop from `fromPct` after which no servo touches the paper before `nearS`. The fastest one drops
+ * from the top. The slowest one may still be rising, at a share of the speed at which it then drops:
+ * SLOW · up · (t − liftS − frame) − clear = SLOW · down · (near − t).
+ */
+function fastestDrop(
+  pen: TimedPen,
+  { heightPct, liftS, fromPct, nearS }: { heightPct: number; liftS: number; fromPct: number; nearS: number },
+): number {
+  const { servo, downPct } = pen;
+  const risePct = heightPct - downPct;
+  const up = risePct / liftMoveTime(pen, risePct);
+  const down = Math.min(servo.dropPctPerS, 1_000 / servo.slopeMsPerPct);
+  const clearPct = clearHeight(pen);
+  const fromTopS = nearS - Math.max(0, fromPct - clearPct) / (FAST * down);
+  const risingFromS = liftS + frameS(pen);
+  const whileRisingS = (down * nearS + up * risingFromS + (clearPct - downPct) / SLOW) / (up + down);
+  return Math.min(nearS, Math.max(fromTopS, whileRisingS));
 }
 
 /**
  * Max distance of the carriage from the stroke when the drop begins, mm; 0 if the carriage waits for the whole drop. With
  * `dropsAtStroke` it is less.
  */
-export function lowerAheadMm(pen: PenSettings, accel: number): number {
+export function lowerAheadMm(pen: TimedPen, accel: number): number {
   const layers = Object.keys(pen.layers ?? {}).map((id) => penOfLayer(pen, id));
   return Math.max(...[pen, ...layers].map((one) => (dropsInFlight(one) ? landingOf(one, accel) : 0)));
 }
 
-function landingOf(pen: PenSettings, accel: number): number {
-  const aboveClearS = (hopHeight(pen) - clearHeight(pen)) / dropRate(pen);
+function landingOf(pen: TimedPen, accel: number): number {
+  const down = Math.min(pen.servo.dropPctPerS, 1_000 / pen.servo.slopeMsPerPct);
+  const aboveClearS = pen.overlap === "fast" ? (hopHeight(pen) - clearHeight(pen)) / (FAST * down) : 0;
   const beforeEndS = nearTime(accel) + aboveClearS;
   return (accel * beforeEndS * beforeEndS) / 2;
 }
 
-/**
- * A board waits for whole milliseconds, so the plan does too. Otherwise a difference of half a millisecond per stroke
- * would add up to seconds.
- */
-const wholeMs = (s: number): number => Math.max(0, Math.ceil(1_000 * s - 1e-6)) / 1_000;
-
-/** Time to brake over the last `NEAR_MM`, s. */
+/** Time to move the first or the last `NEAR_MM` of a travel, s. */
 const nearTime = (accel: number): number => Math.sqrt((2 * NEAR_MM) / accel);
 
-/** At this height the tip is clear of the paper, with a margin for the servo's errors; percent of the servo's range. */
-const hopHeight = (pen: PenSettings): number => atShare(pen, pen.contactPct + MARGIN_PCT);
+const frameS = ({ servo }: TimedPen): number => servo.frameMs / 1_000;
 
-/** From this height on the planner treats the tip as clear of the paper. */
-const clearHeight = (pen: PenSettings): number =>
-  pen.overlap === "safe" ? hopHeight(pen) : atShare(pen, pen.contactPct);
+/** When the slowest servo has lifted the tip clear of the paper, s after the command of a lift to `heightPct`. */
+function clearTime(pen: TimedPen, heightPct: number): number {
+  const risePct = heightPct - pen.downPct;
+  const share = Math.min(1, (clearHeight(pen) - pen.downPct) / risePct);
+  return frameS(pen) + (share * liftMoveTime(pen, risePct)) / SLOW;
+}
 
-const atShare = ({ upPct, downPct }: PenSettings, sharePct: number): number =>
-  downPct + ((upPct - downPct) * Math.min(100, sharePct)) / 100;
+/** When the slowest servo has put the tip on the paper, s after the command of a drop from `fromPct`. */
+function touchTime(pen: TimedPen, fromPct: number): number {
+  const fallPct = fromPct - pen.downPct;
+  const touchPct = heightAt(pen, pen.contactPct - CONTACT_PCT);
+  // The layer before may have a lower pen, which then does not fall.
+  const share = fromPct > touchPct ? (fromPct - touchPct) / fallPct : 0;
+  return frameS(pen) + (share * dropMoveTime(pen, fallPct)) / SLOW;
+}
 
-/** Percent of the servo's range per second. */
-const dropRate = (pen: PenSettings): number => ((pen.upPct - pen.downPct) * 1_000) / Math.max(1, pen.dropMs);
-const liftRate = (pen: PenSettings): number => ((pen.upPct - pen.downPct) * 1_000) / Math.max(1, pen.liftMs);
+/** The height of short travels, percent of the servo's range. */
+const hopHeight = (pen: PenSettings): number => heightAt(pen, pen.contactPct + MARGIN_PCT);
+
+/** At this height the tip is clear of the paper, also if it leaves the paper late. */
+const clearHeight = (pen: PenSettings): number => heightAt(pen, pen.contactPct + CONTACT_PCT);
+
+const heightAt = ({ upPct, downPct }: PenSettings, sharePct: number): number =>
+  downPct + ((upPct - downPct) * Math.min(100, Math.max(0, sharePct))) / 100;

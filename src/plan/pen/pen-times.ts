@@ -1,43 +1,50 @@
-/**
- * Durations of whole pen moves. pen-flight.ts has the part for which the carriage need not wait.
- *
- *   lift time = delay + distance / rate     distance: between the down and up heights, % of the servo's range
- */
+/** Durations of whole pen moves. pen-flight.ts has the part for which the carriage need not wait. */
+import { penServoOf, servoTime } from "../../machines/pen-servo.js";
+import type { MachineProfile, PenServo } from "../../machines/profile.js";
 import type { PenSettings } from "../../settings/pen.js";
 
+/** Pen settings, and the servo that moves the pen. */
+export interface TimedPen extends PenSettings {
+  readonly servo: PenServo;
+}
+
+export const timedPen = (pen: PenSettings, machine: MachineProfile | null | undefined): TimedPen => ({
+  ...pen,
+  servo: penServoOf(machine),
+});
+
 /** The pen settings of one layer. */
-export function penOfLayer(pen: PenSettings, layerId: string): PenSettings {
+export function penOfLayer<Pen extends PenSettings>(pen: Pen, layerId: string): Pen {
   const own = pen.layers?.[layerId];
   if (own === undefined) return pen;
   return {
     ...pen,
     upPct: own.upPct ?? pen.upPct,
     downPct: own.downPct ?? pen.downPct,
-    liftMs: own.liftMs ?? pen.liftMs,
-    dropMs: own.dropMs ?? pen.dropMs,
+    extraLiftMs: own.extraLiftMs ?? pen.extraLiftMs,
+    extraDropMs: own.extraDropMs ?? pen.extraDropMs,
   };
 }
 
-/** Time of a lift to `heightPct`, s. */
-export const liftTime = (pen: PenSettings, heightPct: number): number =>
-  moveTime(pen, heightPct, pen.liftMs, pen.liftPctPerS);
+/** How long the servo moves for a lift by `distancePct`, s. */
+export const liftMoveTime = ({ servo, liftPctPerS }: TimedPen, distancePct: number): number =>
+  servoTime(servo, Math.abs(distancePct), liftPctPerS ?? servo.liftPctPerS);
 
-/** Time of a drop from `fromPct`, s. */
-export const dropTime = (pen: PenSettings, fromPct: number): number =>
-  moveTime(pen, fromPct, pen.dropMs, pen.dropPctPerS);
+/** How long the servo moves for a drop by `distancePct`, s. */
+export const dropMoveTime = ({ servo, dropPctPerS }: TimedPen, distancePct: number): number =>
+  servoTime(servo, Math.abs(distancePct), dropPctPerS ?? servo.dropPctPerS);
 
-/** The servo's last pulse interval, plus settling. */
-const RESEAT_S = 0.06;
+/** How long the carriage waits for a lift to `heightPct`, s. */
+export const liftTime = (pen: TimedPen, heightPct: number): number =>
+  waitOf(liftMoveTime(pen, heightPct - pen.downPct), pen.extraLiftMs);
 
-/** The wait for a pen that is already down to change its height by `byPct`, at the drop rate of `pen`. */
-export function reseatWaitS(pen: PenSettings, byPct: number): number {
-  if (pen.dropPctPerS) return RESEAT_S + byPct / pen.dropPctPerS;
-  const rangePct = pen.upPct - pen.downPct;
-  return RESEAT_S + (rangePct > 0 ? ((pen.dropMs / 1000) * byPct) / rangePct : 0);
-}
+/** How long the carriage waits for a drop from `fromPct`, s. */
+export const dropTime = (pen: TimedPen, fromPct: number): number =>
+  waitOf(dropMoveTime(pen, fromPct - pen.downPct), pen.extraDropMs);
 
-function moveTime(pen: PenSettings, upPct: number, delayMs: number, ratePctPerS?: number | null): number {
-  const distancePct = upPct - pen.downPct;
-  if (ratePctPerS) return delayMs / 1000 + distancePct / ratePctPerS;
-  return ((delayMs / 1000) * distancePct) / (pen.upPct - pen.downPct);
-}
+/** The wait for a pen that is already down to change its height by `byPct`. */
+export const reseatWaitS = (pen: TimedPen, byPct: number): number =>
+  waitOf(pen.servo.frameMs / 1_000 + dropMoveTime(pen, byPct), pen.extraDropMs);
+
+/** The time of a move and the user's extra wait, which may be negative. */
+export const waitOf = (moveS: number, extraMs: number): number => Math.max(0, moveS + extraMs / 1_000);

@@ -18,8 +18,7 @@
 import { BlockColumns } from "../block-columns.js";
 import type { Kernel } from "../shaping/impulse-filter.js";
 import { penMoveBefore, penMoveColumns } from "../pen/pen-moves.js";
-import { liftTime } from "../pen/pen-times.js";
-import type { PenSettings } from "../../settings/pen.js";
+import { liftMoveTime, liftTime, type TimedPen } from "../pen/pen-times.js";
 import { fillAlong } from "./shaped-along.js";
 import { shapeRest } from "./shaped-rest.js";
 import {
@@ -70,7 +69,7 @@ export function comeToRest(
   trajectory: Trajectory,
   tS: number,
   limits: { readonly drawAccel: number; readonly travelAccel: number },
-  pen: PenSettings | null,
+  pen: TimedPen | null,
 ): RestPlan {
   const state = stateAt(trajectory, tS);
   // A pen on its way down to a stroke lifts at once. It may have touched the paper already, so the carriage still
@@ -92,7 +91,7 @@ export function comeToRest(
 
 /** How the pen lifts: at the end of the stop, or `atOnce`; then the carriage still waits for the lift at the end. */
 interface RestLift {
-  readonly pen: PenSettings;
+  readonly pen: TimedPen;
   readonly atOnce: boolean;
 }
 
@@ -256,8 +255,9 @@ function finish(
 ): RestPlan {
   const heightPct = lift ? lift.pen.upPct : 0;
   const waitS = lift ? liftTime(lift.pen, heightPct) : 0;
+  const moveS = lift ? liftMoveTime(lift.pen, heightPct - lift.pen.downPct) : 0;
   const runs = pieces.count > 0 ? 1 : 0;
-  const atEnd = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS: waitS, heightPct };
+  const atEnd = { beforeRun: runs, up: true, startS: pieces.clockS, waitS, moveS, heightPct };
   const lifts = lift?.atOnce && runs ? [{ ...atEnd, beforeRun: 0, startS: 0, waitS: 0 }, atEnd] : [atEnd];
   const oneRun = (blocks: BlockColumns): Trajectory => ({
     ...blocks.ofTrajectory(),

@@ -57,7 +57,7 @@ it("a machine with another controller, chosen during a move, is used after it", 
   });
   await world.run(driver.start());
   const move = driver.move({ kind: "move-to", xMm: 30, yMm: 20 });
-  await world.advance(0.5);
+  await world.advance(0.3);
   driver.use(WITH_GRBL);
   await world.advance(0.1);
   expect(driver.state).toMatchObject({ activity: "moving", firmware: "2.8.1" });

@@ -14,7 +14,8 @@ import { LocalPlanner, strokesOf } from "../../support/plots/local-planner.js";
 import { ManualClock } from "../../support/clocks/manual-clock.js";
 import { virtualPlotter } from "../../support/plots/virtual-plotter.js";
 
-const STROKES = strokesOf([5, 5, 30, 5, 30, 12], [34, 12, 36, 5], [36, 8, 20, 14]);
+/** They do not cross, so that each point of the drawn line belongs to one of them. */
+const STROKES = strokesOf([5, 5, 30, 5, 30, 12], [34, 12, 36, 5], [42, 8, 46, 24]);
 /** Much longer than the plot with its returns home. */
 const LIMIT_S = 120;
 /** More than the replies after the last reading of the supply. */
@@ -77,7 +78,7 @@ async function plotWith(fault: Fault, firmware: string, atCommand: number) {
 /** So that commands last longer than the time between two polls, and the steps stay the same over several. */
 const SLOW_PEN = {
   ...DEFAULT_PLOT_SETTINGS,
-  pen: { ...DEFAULT_PLOT_SETTINGS.pen, dropMs: 1_000, liftMs: 1_000 },
+  pen: { ...DEFAULT_PLOT_SETTINGS.pen, extraDropMs: 900, extraLiftMs: 900 },
 };
 
 /** Plots on a host that does nothing for `busyS` from the board's given reply on. Returns the number of replies. */

@@ -65,7 +65,7 @@ describe("a hold at any instant", () => {
       const undisturbedMm = await wholeMm(mode, firmware);
       for (let i = 0; i < count; i++) {
         const { world, board, run } = await plotting(mode, DRAWING, firmware);
-        await world.advance(0.05 + 12.4 * random());
+        await world.advance(0.05 + 11.4 * random());
         const beforeS = world.nowS();
         await world.run(run[stop]());
         expect(world.nowS() - beforeS).toBeLessThan(HELD_WITHIN_S);
@@ -222,7 +222,7 @@ describe("a plot that begins held", () => {
 describe("the hold point", () => {
   it("can be moved back, viewed with the pen up, and resumed from", async () => {
     const { world, board, run } = await plotting("junction");
-    await world.advance(5);
+    await world.advance(6);
     await world.run(run.pause());
     const held = run.holdPlace!;
     expect(run.moveHoldPlace({ mm: -10 })).toEqual({ stroke: held.stroke, alongMm: held.alongMm - 10 });
@@ -240,7 +240,7 @@ describe("the hold point", () => {
 
   it("moves by whole strokes and stays within the drawing", async () => {
     const { world, run } = await plotting("junction");
-    await world.advance(5);
+    await world.advance(6);
     await world.run(run.pause());
     const { stroke } = run.holdPlace!;
     expect(run.moveHoldPlace({ strokes: -1 })).toEqual({ stroke, alongMm: 0 });

@@ -374,7 +374,7 @@ describe("a board that answers but does not move", () => {
     const { world, driver } = await newPlotter("3.0.3");
     const settings = {
       ...SETTINGS,
-      pen: { ...SETTINGS.pen, liftMs: 4_000, dropMs: 4_000 },
+      pen: { ...SETTINGS.pen, extraLiftMs: 4_000, extraDropMs: 4_000 },
       motion: { ...SETTINGS.motion, draw: { ...SETTINGS.motion.draw, speedMmPerS: 0.5 } },
     };
     const run = await world.run(

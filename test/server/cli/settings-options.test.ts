@@ -63,10 +63,10 @@ describe("the settings' options", () => {
     const settings = settingsOf(
       ...["--machine", "axidraw-se-a3", "--paper", "a3", "--margin", "0", "--no-fit", "--rotate", "-90"],
       ...["--speed", "35.5", "--accel", "400", "--corner", "0.1", "--travel-speed", "200"],
-      ...["--travel-accel", "1500", "--pen-up", "70", "--pen-down", "25", "--pen-lift-ms", "100"],
+      ...["--travel-accel", "1500", "--pen-up", "70", "--pen-down", "25", "--pen-extra-lift-ms", "100"],
       ...[
-        "--pen-drop-ms",
-        "120",
+        "--pen-extra-drop-ms",
+        "-20",
         "--order",
         "none",
         "--layers",
@@ -94,7 +94,7 @@ describe("the settings' options", () => {
         draw: { speedMmPerS: 35.5, accelMmPerS2: 400, cornerMm: 0.1 },
         travel: { speedMmPerS: 200, accelMmPerS2: 1500 },
       },
-      pen: { upPct: 70, downPct: 25, liftMs: 100, dropMs: 120 },
+      pen: { upPct: 70, downPct: 25, extraLiftMs: 100, extraDropMs: -20 },
     });
   });
 

@@ -1,6 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type Trajectory } from "../../../src/index.js";
+import { timedPen } from "../../../src/plan/pen/pen-times.js";
 import { comeToRest } from "../../../src/internal.js";
 import { arbitraryGridStroke, strokeSetOf, type Point } from "../../support/drawings/arbitraries.js";
 import { NearStroke } from "../../support/trajectories/trajectory-checks.js";
@@ -45,7 +46,7 @@ describe("a stop in the middle of a plan", () => {
     const untilS = trajectory.runs.startS[run + 1];
     for (let i = 1; i < 40; i++) {
       const tS = fromS + ((untilS - fromS) * i) / 40;
-      const { trajectory: rest } = comeToRest(trajectory, tS, LIMITS, DEFAULT_PEN);
+      const { trajectory: rest } = comeToRest(trajectory, tS, LIMITS, timedPen(DEFAULT_PEN, null));
       const { accel, jump } = worstOf(rest);
       expect(accel).toBeLessThanOrEqual(1.001 * LIMITS.drawAccel);
       expect(jump).toBeLessThan(0.2);

@@ -176,23 +176,35 @@ describe("settings beyond speed and acceleration", () => {
   it("give a layer its own limits and its own pen", () => {
     const strokes = strokeSetOf([square, square.map(([x, y]): Point => [x + 40, y])], [0, 1]);
     const motion = { ...base, layers: { l1: { speedMmPerS: 5 } } };
-    const pen: PenSettings = { ...DEFAULT_PEN, overlap: "off", layers: { l1: { downPct: 10, dropMs: 900 } } };
+    const pen: PenSettings = {
+      ...DEFAULT_PEN,
+      overlap: "off",
+      layers: { l1: { downPct: 10, extraDropMs: 700 } },
+    };
     const t = plan(strokes, motion, pen);
     expect(topSpeed(t, 1)).toBeGreaterThan(20);
     expect(topSpeed(t, 3)).toBeCloseTo(5, 6);
     expect(penMovesOf(t).map((m) => [m.heightPct, m.waitS])).toEqual([
-      [30, 0.3],
-      [60, 0.25],
-      [10, 0.9],
-      [60, 0.25],
+      [30, 0.147],
+      [60, 0.131],
+      // The servo's time for 50 %, and the layer's own 700 ms.
+      [10, 0.927],
+      [60, 0.192],
     ]);
   });
 
   it("time the pen by its rate and delay", () => {
-    const pen: PenSettings = { ...DEFAULT_PEN, liftMs: 20, dropMs: 50, liftPctPerS: 300, dropPctPerS: 30 };
+    const pen: PenSettings = {
+      ...DEFAULT_PEN,
+      extraLiftMs: 20,
+      extraDropMs: 50,
+      liftPctPerS: 60,
+      dropPctPerS: 30,
+    };
     const t = plan(strokeSetOf([square]), base, pen);
-    expect(t.penMoves.waitS[0]).toBeCloseTo(0.05 + 1, 9);
-    expect(t.penMoves.waitS[1]).toBeCloseTo(0.02 + 0.1, 9);
+    // The servo could lift it in 126 ms, so the rate takes nearly all of the time.
+    expect(t.penMoves.waitS[0]).toBeCloseTo(0.05 + 1.001, 9);
+    expect(t.penMoves.waitS[1]).toBeCloseTo(0.02 + 0.501, 9);
   });
 
   it("keep every motor below the board's step rate, diagonals too", () => {

@@ -32,7 +32,7 @@ const smallPath: fc.Arbitrary<Point[]> = fc
     return points;
   });
 
-const NO_PEN = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
+const NO_PEN = { ...DEFAULT_PEN, extraLiftMs: -500, extraDropMs: -500 };
 
 describe("the time of a small path", () => {
   it("in junction mode is within 0.5 % of the fastest profile under the corner limits", () => {

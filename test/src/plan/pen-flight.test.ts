@@ -10,6 +10,7 @@ import {
 } from "../../../src/index.js";
 import { comeToRest } from "../../../src/plan/rest/come-to-rest.js";
 import { lowerAheadMm } from "../../../src/plan/pen/pen-flight.js";
+import { liftTime, timedPen } from "../../../src/plan/pen/pen-times.js";
 import { penMovesOf } from "../../../src/plan/pen/pen-moves.js";
 import { estimatedPosition } from "../../../src/position/pen-position.js";
 import { strokeSetOf } from "../../support/drawings/arbitraries.js";
@@ -17,6 +18,9 @@ import { SPRINGS, swinging } from "../../support/machines/swinging.js";
 
 const FAST: PenSettings = { ...DEFAULT_PEN, overlap: "fast" };
 const SAFE: PenSettings = { ...DEFAULT_PEN, overlap: "safe" };
+
+/** The servo's time for 30 %. */
+const LIFT_S = liftTime(timedPen(SAFE, null), 60);
 
 /** Three strokes, with a short travel, then a long one, between them; then the travel home. */
 const planned = (pen: PenSettings, options?: PlanOptions): Trajectory =>
@@ -55,11 +59,14 @@ describe("a pen in flight", () => {
     }
   });
 
-  it("lets the carriage start when the tip is clear, a frame of the servo later", () => {
-    const waitOf = (pen: PenSettings): number => penMovesOf(planned(pen)).find(({ up }) => up)!.waitS;
-    // 186.5 ms, in whole milliseconds.
-    expect(waitOf(SAFE)).toBeCloseTo(0.187, 9);
-    expect(waitOf(FAST)).toBeCloseTo(0.024 + 0.5 * 0.25, 9);
+  it("lets the carriage start when the slowest servo has lifted the tip clear of the paper", () => {
+    // The servo takes 99.4 ms to the hop height, 19.5 % up. The tip is clear at 16.5 %. A slow servo takes a quarter more,
+    // and a frame of 24 ms; and the carriage takes 14.1 ms for 0.1 mm.
+    const slowestMs = 24 + ((16.5 / 19.5) * 99.37) / 0.8 - 14.14;
+    for (const pen of [SAFE, FAST]) {
+      expect(penMovesOf(planned(pen)).find(({ up }) => up)!.waitS).toBe(Math.ceil(slowestMs) / 1_000);
+    }
+    expect(penMovesOf(planned({ ...SAFE, extraLiftMs: 30 })).find(({ up }) => up)!.waitS).toBe(0.145);
   });
 
   it("comes down within 0.1 mm of the next stroke at a height that is clear of the paper", () => {
@@ -76,15 +83,15 @@ describe("a pen in flight", () => {
   });
 
   it("begins to come down at most lowerAheadMm before a stroke", () => {
-    for (const pen of [SAFE, FAST, { ...FAST, dropMs: 500 }]) {
+    for (const pen of [SAFE, FAST, { ...FAST, upPct: 90 }]) {
       const t = planned(pen);
       const { accelMmPerS2 } = DEFAULT_MOTION.travel;
       const awayMm = dropsMm(t);
-      expect(Math.max(...awayMm)).toBeLessThanOrEqual(lowerAheadMm(pen, accelMmPerS2) + 1e-9);
-      expect(Math.max(...awayMm)).toBeGreaterThan(0.9 * lowerAheadMm(pen, accelMmPerS2));
+      expect(Math.max(...awayMm)).toBeLessThanOrEqual(lowerAheadMm(timedPen(pen, null), accelMmPerS2) + 1e-9);
+      expect(Math.max(...awayMm)).toBeGreaterThan(0.9 * lowerAheadMm(timedPen(pen, null), accelMmPerS2));
     }
-    expect(lowerAheadMm(SAFE, 1_000)).toBeCloseTo(0.1, 9);
-    expect(lowerAheadMm({ ...FAST, overlap: "off" }, 1_000)).toBe(0);
+    expect(lowerAheadMm(timedPen(SAFE, null), 1_000)).toBeCloseTo(0.1, 9);
+    expect(lowerAheadMm(timedPen({ ...FAST, overlap: "off" }, null), 1_000)).toBe(0);
   });
 
   it("begins to come down only at the stroke if the machine may lose the end of a travel", () => {
@@ -102,13 +109,14 @@ describe("a pen in flight", () => {
     const t = plan(strokes, DEFAULT_MOTION, FAST, { dropsAtStroke: true });
     const [, drop] = penMovesOf(t).filter(({ up }) => !up);
     expect(dropsMm(t)[0]).toBeCloseTo(0.1, 6);
-    // The wait assumes that it falls from the hop height: 65 % of 300 ms, without the time to brake over 0.1 mm.
-    expect(drop.waitS).toBeCloseTo(0.181, 9);
+    // A slow servo that falls from the hop height touches at 4/13 of the way, a frame later; without the time to brake over
+    // 0.1 mm.
+    expect(drop.waitS).toBe(Math.ceil(24 + ((6 / 19.5) * 106.2) / 0.8 - 14.14) / 1_000);
   });
 
   it("waits for the whole first drop, because the height of the pen is not known", () => {
     const [drop] = penMovesOf(planned(FAST));
-    expect([drop.startS, drop.waitS]).toEqual([0, 0.3]);
+    expect([drop.startS, drop.waitS]).toEqual([0, 0.147]);
   });
 
   it("hovers at the lower height before it comes down from the full one", () => {
@@ -116,7 +124,11 @@ describe("a pen in flight", () => {
     const hover = moves.findIndex(({ up, waitS }) => up && waitS === 0);
     expect(moves[hover].heightPct).toBe(30 + 0.65 * 30);
     expect(moves[hover + 1].up).toBe(false);
-    expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(0.024 + 0.35 * 0.25, 9);
+    expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(
+      // 73.6 ms from the full height, of a slow servo.
+      0.024 + 0.07363 / 0.8,
+      4,
+    );
   });
 
   it("lifts at once and continues to the stroke's start, when it is stopped while it comes down", () => {
@@ -126,11 +138,11 @@ describe("a pen in flight", () => {
         const block = t.runs.firstBlock[drop.beforeRun];
         const endS = t.runs.startS[drop.beforeRun] - drop.waitS;
         for (const share of [0.05, 0.5, 0.95]) {
-          const rest = comeToRest(t, drop.startS + share * (endS - drop.startS), limits, pen);
+          const rest = comeToRest(t, drop.startS + share * (endS - drop.startS), limits, timedPen(pen, null));
           expect(rest.trajectory.endX).toBeCloseTo(t.x[block], 6);
           expect(rest.trajectory.endY).toBeCloseTo(t.y[block], 6);
           const lifts = penMovesOf(rest.trajectory).map(({ up, heightPct, waitS }) => [up, heightPct, waitS]);
-          expect(lifts).toEqual([[true, 60, 0], [true, 60, 0.25]]); // prettier-ignore
+          expect(lifts).toEqual([[true, 60, 0], [true, 60, LIFT_S]]); // prettier-ignore
           expect(penMovesOf(rest.trajectory)[0].startS).toBe(0);
           expect(estimatedPosition(t, rest.planS)).toEqual({
             stroke: t.runs.stroke[drop.beforeRun],
@@ -138,8 +150,10 @@ describe("a pen in flight", () => {
           });
         }
         // Before the drop it stops where it can, and the pen goes up from the hop height.
-        const [lift, ...more] = penMovesOf(comeToRest(t, drop.startS - 0.001, limits, pen).trajectory);
-        expect([lift.up, lift.heightPct, lift.waitS, more]).toEqual([true, 60, 0.25, []]);
+        const [lift, ...more] = penMovesOf(
+          comeToRest(t, drop.startS - 0.001, limits, timedPen(pen, null)).trajectory,
+        );
+        expect([lift.up, lift.heightPct, lift.waitS, more]).toEqual([true, 60, LIFT_S, []]);
         // The pen is already up.
         expect(penMovesOf(comeToRest(t, drop.startS - 0.001, limits, null).trajectory)).toEqual([]);
       }
@@ -157,7 +171,7 @@ describe("a pen in flight", () => {
     const moves = penMovesOf(plan(strokes, DEFAULT_MOTION, pen));
     expect(moves.map(({ up, waitS, heightPct }) => [up, waitS, heightPct]).slice(2, 4)).toEqual([
       [true, 3, 60],
-      [false, 0.3, 30],
+      [false, 0.147, 30],
     ]);
   });
 });

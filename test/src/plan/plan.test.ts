@@ -51,10 +51,10 @@ describe("the sequence of runs", () => {
     );
     expect(Array.from(t.runs.stroke)).toEqual([-1, 0, -1, 1, -1]);
     expect(penMovesOf(t).map((m) => [m.beforeRun, m.up, m.heightPct, m.waitS])).toEqual([
-      [1, false, 30, 0.3],
-      [2, true, 60, 0.25],
-      [3, false, 30, 0.3],
-      [4, true, 60, 0.25],
+      [1, false, 30, 0.147],
+      [2, true, 60, 0.131],
+      [3, false, 30, 0.147],
+      [4, true, 60, 0.131],
     ]);
     expect([t.endX, t.endY]).toEqual([0, 0]);
   });
@@ -197,7 +197,7 @@ describe("invalid input to the planner", () => {
       ],
       [{ ...motion, draw: { ...motion.draw, cornerMm: -1 } }, DEFAULT_PEN, /corner/],
       [motion, { ...DEFAULT_PEN, upPct: 20, downPct: 40 }, /raise the up height or lower the down height/],
-      [motion, { ...DEFAULT_PEN, liftMs: -1 }, /wait after lifting/],
+      [motion, { ...DEFAULT_PEN, extraLiftMs: -501 }, /extra wait after lifting/],
     ];
     for (const [m, pen, message] of cases) {
       expect(() => plan(strokeSetOf([square]), m, pen)).toThrow(message);

@@ -31,7 +31,7 @@ describe.each(cases)("an isolated corner of $deg° at $speed mm/s", ({ deg, spee
 
   function drawS(mode: MotionMode, points: readonly Point[]): number {
     const draw = { speedMmPerS: speed, accelMmPerS2: accel, cornerMm: deviation, jerkMmPerS3: 1e4 };
-    const noPen = { ...DEFAULT_PEN, liftMs: 0, dropMs: 0 };
+    const noPen = { ...DEFAULT_PEN, extraLiftMs: -500, extraDropMs: -500 };
     return plan(strokeSetOf([points]), { mode, draw, travel: draw, fit: null }, noPen, { returnHome: false })
       .totalS;
   }

@@ -7,12 +7,13 @@ import type { CommandStream } from "../../../src/drivers/ebb/compile/command-str
 import { pctFromServoPos } from "../../../src/drivers/ebb/protocol/servo-height.js";
 import type { MachineProfile } from "../../../src/machines/profile.js";
 import { stateAt, type Trajectory } from "../../../src/plan/trajectory.js";
+import { dropMoveTime, liftMoveTime, timedPen, type TimedPen } from "../../../src/plan/pen/pen-times.js";
 import type { PenSettings } from "../../../src/settings/pen.js";
 
 export interface TipServo {
-  /** 0.8: it needs a quarter more than the lift and drop times. */
+  /** 0.8: it needs a quarter more than the machine's servo. */
   readonly speed: number;
-  /** When its frames begin, 0 … 24. */
+  /** When its frames begin, 0 … 1 frame. */
   readonly phaseMs: number;
   /** Share of the distance from down to up below which the tip touches. */
   readonly contact: number;
@@ -27,7 +28,6 @@ export interface TipMarks {
   readonly brokenCount: number;
 }
 
-const FRAME_S = 0.024;
 const STEP_S = 0.001;
 
 interface PenCommand {
@@ -52,7 +52,7 @@ export function tipMarks(
   servo: TipServo,
 ): TipMarks {
   const strokes = strokesOf(trajectory);
-  const tip = new Tip(penCommandsOf(commands, machine, pen), pen, servo);
+  const tip = new Tip(penCommandsOf(commands, machine, pen), timedPen(pen, machine), servo);
   let strayMm = 0;
   let lateMm = 0;
   let index = 0;
@@ -86,17 +86,21 @@ export function tipMarks(
 /** In every frame the servo gets a new target, one step further, and slews there evenly until the next frame. */
 class Tip {
   private readonly contactPct: number;
+  private readonly periodS: number;
   private index = -1;
   private fromPct: number;
   private toPct: number;
+  /** Max change in a frame: the servo needs its time for the whole way to the target. */
+  private mostPct = 0;
   /** The next frame. */
   private frame = 0;
 
   constructor(
     private readonly commands: readonly PenCommand[],
-    private readonly pen: PenSettings,
+    private readonly pen: TimedPen,
     private readonly servo: TipServo,
   ) {
+    this.periodS = pen.servo.frameMs / 1_000;
     this.contactPct = pen.downPct + servo.contact * (pen.upPct - pen.downPct);
     this.fromPct = this.toPct = pen.upPct;
   }
@@ -104,22 +108,27 @@ class Tip {
   /** Time must not go back. */
   touches(boardS: number): boolean {
     for (; this.frameS() <= boardS; this.frame++) this.beginFrame();
-    const left = Math.min(1, (this.frameS() - boardS) / FRAME_S);
+    const left = Math.min(1, (this.frameS() - boardS) / this.periodS);
     return this.toPct + left * (this.fromPct - this.toPct) < this.contactPct;
   }
 
   private beginFrame(): void {
     const { commands, pen, servo } = this;
+    const before = this.index;
     while (this.index + 1 < commands.length && commands[this.index + 1].atS <= this.frameS()) this.index++;
-    const distancePct = (commands[this.index]?.heightPct ?? pen.upPct) - this.toPct;
-    const wholeS = (distancePct > 0 ? pen.liftMs : pen.dropMs) / 1_000 / servo.speed;
-    const mostPct = ((pen.upPct - pen.downPct) * FRAME_S) / wholeS;
+    const targetPct = commands[this.index]?.heightPct ?? pen.upPct;
+    if (this.index !== before) {
+      const wayPct = targetPct - this.toPct;
+      const wholeS = wayPct > 0 ? liftMoveTime(pen, wayPct) : dropMoveTime(pen, wayPct);
+      this.mostPct = wholeS > 0 ? (Math.abs(wayPct) * servo.speed * this.periodS) / wholeS : 0;
+    }
+    const distancePct = targetPct - this.toPct;
     this.fromPct = this.toPct;
-    this.toPct += Math.max(-mostPct, Math.min(mostPct, distancePct));
+    this.toPct += Math.max(-this.mostPct, Math.min(this.mostPct, distancePct));
   }
 
   private frameS(): number {
-    return this.servo.phaseMs / 1_000 + this.frame * FRAME_S;
+    return this.servo.phaseMs / 1_000 + this.frame * this.periodS;
   }
 }
 
@@ -144,6 +153,10 @@ function penCommandsOf(commands: CommandStream, machine: MachineProfile, pen: Pe
     const [name, first, second] = commandLine(commands, i).split(",");
     if (name === "SC" && first === "4") upPct = pctFromServoPos(machine, Number(second));
     if (name === "SC" && first === "5") downPct = pctFromServoPos(machine, Number(second));
+    if (name === "S2") {
+      const heightPct = pctFromServoPos(machine, Number(first));
+      found.push({ atS: commands.boardS[i], up: heightPct > pen.downPct, heightPct });
+    }
     if (name !== "SP") continue;
     const up = first === "1";
     found.push({ atS: commands.boardS[i], up, heightPct: up ? upPct : downPct });

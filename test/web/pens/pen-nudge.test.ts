@@ -72,9 +72,9 @@ describe("a press before the last one is answered", () => {
 
   it("keeps the pen settings that were just applied", () => {
     const { raise, apply, requests } = openPage();
-    apply({ ...PEN, liftMs: 400, upPct: 80 });
+    apply({ ...PEN, extraLiftMs: 150, upPct: 80 });
     raise("upPct");
-    expect(requests[1].change.pen).toEqual({ ...PEN, liftMs: 400, upPct: 81 });
+    expect(requests[1].change.pen).toEqual({ ...PEN, extraLiftMs: 150, upPct: 81 });
   });
 });
 

@@ -54,6 +54,8 @@ describe("the page's stored settings", () => {
     });
     const { settings, view } = parseRemembered(stored);
     expect(settings.pen.upPct).toBe(70);
+    // Whole waits, as they were stored once: the servo of an AxiDraw takes 192 and 227 ms for 50 %.
+    expect(settings.pen).toMatchObject({ extraLiftMs: 100 - 192, extraDropMs: 100 - 227 });
     expect(settings.motion).toEqual(DEFAULT_PLOT_SETTINGS.motion);
     expect(view).toEqual({ ...DEFAULT_VIEW, theme: "dark" });
   });

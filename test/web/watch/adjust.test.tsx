@@ -110,7 +110,7 @@ describe("the changed settings in words", () => {
   });
 
   it("name the rest together, and nothing that is equal or only left out", () => {
-    const layers = { sky: { liftMs: 100 } };
+    const layers = { sky: { extraLiftMs: 100 } };
     const now = { pen: { ...pen, layers, liftPctPerS: 50 }, motion: { ...motion, ease: null } };
     expect(changedSettings({ pen, motion }, now)).toEqual(["Other settings of the pen and the speed"]);
   });

@@ -15,6 +15,7 @@ import { TICKS_PER_MS } from "../../../units.js";
 import {
   MAX_DELAY_MS,
   penCommand,
+  penMoveOf,
   penMoveSetUp,
   penSetUpCommands,
   type ServoMove,
@@ -83,8 +84,6 @@ export function commandLine(stream: CommandStream, index: number): string {
 class Compiler {
   private readonly columns: StreamColumns;
   private readonly runs: RunCommandWriter;
-  /** The current pen heights of the board, percent. */
-  private readonly heights: { up: number; down: number };
   /** The current set-up lines, by "SC,number". */
   private readonly parameters = new Map<string, string>();
 
@@ -94,7 +93,6 @@ class Compiler {
   ) {
     this.columns = new StreamColumns(options.start ?? AT_HOME);
     this.runs = this.runWriter();
-    this.heights = { up: options.pen.upPct, down: options.pen.downPct };
   }
 
   run(): CommandStream {
@@ -145,14 +143,14 @@ class Compiler {
   /** A pen move for which the carriage waits. */
   private penMove(move: PenMove): void {
     const waitMs = Math.min(MAX_DELAY_MS, Math.round(move.waitS * 1_000));
-    const servoMove = this.servoMoveOf(move, { inFlight: false, run: -1, planS: move.startS });
+    const servoMove = this.servoMoveOf(move, { run: -1, planS: move.startS });
     const line = penCommand(this.options.machine, servoMove, waitMs);
     this.columns.add(line, Math.max(1, waitMs * TICKS_PER_MS), move.startS, -1);
   }
 
   /** A pen move during a run. It takes one tick, in which the motors do not move. */
   private penMoveInFlight(move: PenMove, run: number, planS: number): void {
-    const servoMove = this.servoMoveOf(move, { inFlight: !move.up, run, planS });
+    const servoMove = this.servoMoveOf(move, { run, planS });
     this.columns.add(penCommand(this.options.machine, servoMove, 0), 1, planS, run);
   }
 
@@ -162,24 +160,13 @@ class Compiler {
     if (waitMs > 0) this.columns.add(`SM,${waitMs},0,0`, waitMs * TICKS_PER_MS, planS, -1);
   }
 
-  /** Converts a pen move, and sets its height and speed on the board if they changed. */
+  /** Converts a pen move, and sets its height on the board if it changed. */
   private servoMoveOf(
-    move: PenMove,
-    { inFlight, run, planS }: { readonly inFlight: boolean; readonly run: number; readonly planS: number },
+    { up, heightPct }: PenMove,
+    { run, planS }: { readonly run: number; readonly planS: number },
   ): ServoMove {
     const { machine, pen } = this.options;
-    const { heights } = this;
-    const distancePct = Math.abs(move.heightPct - (move.up ? heights.down : heights.up));
-    if (move.up) heights.up = move.heightPct;
-    else heights.down = move.heightPct;
-    const servoMove: ServoMove = {
-      up: move.up,
-      heightPct: move.heightPct,
-      distancePct,
-      timeMs: 1_000 * move.moveS,
-      ratePctPerS: move.up ? pen.liftPctPerS : pen.dropPctPerS,
-      inFlight,
-    };
+    const servoMove: ServoMove = { ...penMoveOf(pen, up), heightPct };
     this.setUp(penMoveSetUp(machine, servoMove), planS, run);
     return servoMove;
   }

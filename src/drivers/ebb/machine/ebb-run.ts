@@ -10,7 +10,7 @@ import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { comeToRest } from "../../../plan/rest/come-to-rest.js";
-import { isPenUpBefore, penMoveBefore, penMoveColumns } from "../../../plan/pen/pen-moves.js";
+import { isPenUpBefore, penMoveBefore, penMoveColumns, penMovesOf } from "../../../plan/pen/pen-moves.js";
 import { reseatWaitS } from "../../../plan/pen/pen-times.js";
 import type { StrokePosition, Trajectory } from "../../../plan/trajectory.js";
 import { strokeLengthMm } from "../../../position/on-drawing.js";
@@ -251,7 +251,7 @@ export class EbbRun implements Playback {
     const state = boardStateBefore(restCommands, restCommands.count, start);
     const end = { x: restTrajectory.endX, y: restTrajectory.endY };
     const next = drawnPosition(this.strokes, trajectory, planS, end) ?? part.next ?? null;
-    const path = lifts ? restTrajectory : withPenOf(trajectory, fromS, restTrajectory);
+    const path = withPenOf(trajectory, fromS, restTrajectory);
     return {
       part: { commands: restCommands, trajectory: path, start, afterS: leftS, next },
       place: next,
@@ -265,8 +265,8 @@ export class EbbRun implements Playback {
     if (distancePct === 0) return [];
     const { pen } = this.brakingAt(place);
     const waitS = reseatWaitS(pen, distancePct);
-    const move = { up: false, heightPct, distancePct, timeMs: 1_000 * waitS, ratePctPerS: pen.dropPctPerS };
-    return [[penCommand(machineOf(this.settings), move), waitS]];
+    const move = { up: false, heightPct, ratePctPerS: pen.dropPctPerS };
+    return [[penCommand(machineOf(this.settings), move, 1_000 * waitS), waitS]];
   }
 
   /** Step counters that the board reported during the play. */
@@ -344,12 +344,13 @@ export class EbbRun implements Playback {
 
 /**
  * A path that begins with the pen as it is at `tS` of the trajectory before it: a stop on that path then lifts a pen that
- * is down. The path's commands do not move the pen.
+ * is down, and no instant before the lift counts as lifted.
  */
 function withPenOf(before: Trajectory, tS: number, path: Trajectory): Trajectory {
   const last = penMoveBefore(before, tS);
   if (!last || last.up) return path;
-  return { ...path, penMoves: penMoveColumns([{ ...last, beforeRun: 0, startS: -1, waitS: 0, moveS: 0 }]) };
+  const lowered = { ...last, beforeRun: 0, startS: -1, waitS: 0, moveS: 0 };
+  return { ...path, penMoves: penMoveColumns([lowered, ...penMovesOf(path)]) };
 }
 
 /** The height that the last drop before `tS` lowers the pen to; if there is none, that of the first drop. */

@@ -1,5 +1,6 @@
 /** The pen of one board while nothing is plotted. */
 import { machineOf } from "../../../machines/profiles.js";
+import { dropMoveTime, liftMoveTime, timedPen, waitOf, type TimedPen } from "../../../plan/pen/pen-times.js";
 import type { MachineSettings } from "../../machine-job.js";
 import { delay } from "../../transport.js";
 import { penCommand, penMoveOf, penSetUpCommands } from "../protocol/commands.js";
@@ -16,6 +17,8 @@ export class EbbPen {
   isUp: boolean | null = null;
   /** It is still moving to that state. */
   isMoving = false;
+  /** The height of the last move by hand; null: something else has moved the pen since. */
+  private heightPct: number | null = null;
 
   constructor(
     private readonly connection: Connection,
@@ -24,6 +27,7 @@ export class EbbPen {
 
   setState(isUp: boolean | null, isMoving = false): void {
     this.isUp = isUp;
+    this.heightPct = null;
     this.isMoving = isMoving;
     this.changed();
   }
@@ -35,16 +39,29 @@ export class EbbPen {
     const pct = heightPct ?? (up ? settings.pen.upPct : settings.pen.downPct);
     const pen = { ...settings.pen, ...(up ? { upPct: pct } : { downPct: pct }) };
     const move = penMoveOf(pen, up);
+    const waitS = this.moveTimeTo(pct, up, timedPen(settings.pen, machine));
     this.setState(up, true);
     try {
       for (const line of penSetUpCommands(machine, pen)) await session.send(line);
-      await session.send(penCommand(machine, move), move.timeMs / 1000);
-      await delay(boardClock, move.timeMs / 1000 + SETTLE_S);
+      await session.send(penCommand(machine, move, 1_000 * waitS), waitS);
+      await delay(boardClock, waitS + SETTLE_S);
     } catch (error) {
       this.setState(null);
       throw error;
     }
     this.setState(up);
+    this.heightPct = pct;
+  }
+
+  /** The time of a move to a height, from where the pen is. After anything else has moved it, that may be anywhere. */
+  private moveTimeTo(pct: number, up: boolean, pen: TimedPen): number {
+    const { isUp } = this;
+    const farthestPct = pct > 50 ? 0 : 100;
+    const fromPct = isUp === null ? farthestPct : (this.heightPct ?? (isUp ? pen.upPct : pen.downPct));
+    const distancePct = pct - fromPct;
+    return up
+      ? waitOf(liftMoveTime(pen, distancePct), pen.extraLiftMs)
+      : waitOf(dropMoveTime(pen, distancePct), pen.extraDropMs);
   }
 
   /** Moves to a raw position, 1/12 µs, as fast as the servo can; whether that is up or down is then unknown. */

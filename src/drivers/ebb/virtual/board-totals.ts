@@ -27,6 +27,8 @@ export interface BoardStatistics {
   readonly travelMm: number;
   /** Number of moves that began while the pen's servo was still moving. */
   readonly movesBeforePenArrivedCount: number;
+  /** Max speed of the servo's signal, percent of its range per second; moves "at once" are not counted. */
+  readonly fastestPenPctPerS: number;
 }
 
 export class BoardTotals {
@@ -42,6 +44,7 @@ export class BoardTotals {
   private largestJumpMmPerS = 0;
   private longestMotorWaitTicks = 0;
   private movesBeforePenArrivedCount = 0;
+  private fastestPenPctPerS = 0;
 
   addMove({ motion1, motion2 }: RunningMove, isPenMoving: boolean): void {
     this.moveCount++;
@@ -49,6 +52,10 @@ export class BoardTotals {
     if (motion1.ticks === 0 || motion2.ticks === 0) return;
     const waitTicks = Math.abs(motion1.ticks - motion2.ticks);
     this.longestMotorWaitTicks = Math.max(this.longestMotorWaitTicks, waitTicks);
+  }
+
+  addPenSpeed(pctPerS: number): void {
+    if (Number.isFinite(pctPerS)) this.fastestPenPctPerS = Math.max(this.fastestPenPctPerS, pctPerS);
   }
 
   /** The time between two moves. `mmPerS`: speed at the end of the first. */
@@ -78,6 +85,7 @@ export class BoardTotals {
       drawnMm: this.drawnMm,
       travelMm: this.travelMm,
       movesBeforePenArrivedCount: this.movesBeforePenArrivedCount,
+      fastestPenPctPerS: this.fastestPenPctPerS,
     };
   }
 }

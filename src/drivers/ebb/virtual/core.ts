@@ -6,6 +6,7 @@
  */
 import { compareFirmware, type FirmwareFeatures } from "../protocol/firmware.js";
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
+import { penServoOf } from "../../../machines/pen-servo.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
 import type { DrawnPolyline } from "../../drawn-polylines.js";
@@ -15,21 +16,21 @@ import { BoardTotals, MAX_JOINED_TICKS, type BoardStatistics } from "./board-tot
 import type { LineRecord } from "./drawn-line.js";
 import type { Motors } from "./motors.js";
 import { isTimed, RunningMove, type Order } from "../model/orders.js";
-import { FRAME_TICKS, Servo } from "./servo.js";
+import { Servo } from "./servo.js";
 
 const BOOT_SERVO_UP = 22_565;
 const BOOT_SERVO_DOWN = 15_302;
 const BOOT_SERVO_RATE = 400;
 
-/** How the simulated servo differs from the commanded motion. */
+/** How the simulated servo differs from that of the machine's profile. */
 export interface VirtualServo {
-  /** Share of the commanded rate: with 0.8 a move takes 1.25 times as long. Default 1. */
+  /** Share of its speed: with 0.8 a move takes 1.25 times as long. Default 1. */
   readonly speed?: number;
-  /** When its 24 ms frames begin, ms. Default: with every command. */
+  /** When its frames begin, ms. Default: with every command. */
   readonly framePhaseMs?: number;
   /**
-   * Height at which the tip touches the paper, percent of the servo's range. Default: the tip touches at the end of a
-   * drop and leaves the paper at the start of a lift.
+   * Height at which the tip touches the paper, percent of the servo's range. Default: the tip touches halfway
+   * down and leaves the paper at the start of a lift.
    */
   readonly contactPct?: number;
 }
@@ -62,7 +63,7 @@ export class BoardCore {
   /** When the tip touches or leaves the paper next; Infinity: not before the next pen command. */
   private contactTick = Infinity;
   private running: Running | null = null;
-  private readonly servo: Servo;
+  readonly servo: Servo;
   /** When the running move reaches the limit switch; Infinity: it does not. */
   private limitTick = Infinity;
   /** When the motion froze (a simulated fault); null while it runs. */
@@ -87,7 +88,8 @@ export class BoardCore {
     // The board moves only the standard output when it starts. On the other one, the first move may be up or down.
     const isStandard = ebbOf(machine).servoPin === STANDARD_PIN;
     const atBoot = isStandard ? BOOT_SERVO_UP : servoPosFromPct(machine, 50);
-    this.servo = new Servo(atBoot, speed, phaseTicks);
+    const unitsPerPct = Math.abs(servoPosFromPct(machine, 100) - servoPosFromPct(machine, 0)) / 100;
+    this.servo = new Servo(atBoot, penServoOf(machine), unitsPerPct, speed, phaseTicks);
   }
 
   /** The firmware is this version or a newer one. */
@@ -261,15 +263,14 @@ export class BoardCore {
   movePen(position: number, rate: number, up: boolean): void {
     const { servo, nowTick, machine } = this;
     if (this.contactTick <= nowTick) this.changeContact();
-    servo.moveTo(position, rate, nowTick);
+    this.totals.addPenSpeed(servo.moveTo(position, rate, nowTick));
     this.servoUsed = true;
     const contactPct = this.servoOptions?.contactPct;
     const touches = contactPct === undefined ? !up : pctFromServoPos(machine, position) <= contactPct;
     this.contactTick = Infinity;
     if (touches !== this.isLifted) return;
     if (contactPct !== undefined) this.contactTick = servo.passTick(servoPosFromPct(machine, contactPct));
-    // The servo arrives during the last frame.
-    else this.contactTick = touches && this.servoOptions ? servo.arrivalTick - FRAME_TICKS : nowTick;
+    else this.contactTick = touches && this.servoOptions ? servo.halfwayTick : nowTick;
     if (this.contactTick <= nowTick) this.changeContact();
   }
 

@@ -14,6 +14,8 @@ import { BoardQueries, type BoardInputs } from "./queries.js";
 import { TICKS_PER_MS } from "../../../units.js";
 
 const MS16 = 65_535;
+/** Max of SC,8. */
+const MAX_SERVO_CHANNELS = 24;
 
 /** The effect of a parsed command. */
 interface Action {
@@ -270,6 +272,8 @@ export class Interpreter {
     const { core } = this;
     if (which === 4) core.servoUp = value;
     else if (which === 5) core.servoDown = value;
+    else if (which === 8) core.servo.channels = Math.min(MAX_SERVO_CHANNELS, Math.max(1, value));
+    else if (which === 9) core.servo.slotMs = Math.max(1, value);
     else if (which === 10) core.servoRateUp = core.servoRateDown = value;
     else if (which === 11) core.servoRateUp = value;
     else if (which === 12) core.servoRateDown = value;

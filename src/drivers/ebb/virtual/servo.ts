@@ -1,18 +1,30 @@
-/** The pen's servo: moves to its target at a set rate, starting with one of the board's 24 ms frames. */
-export const FRAME_TICKS = 600;
+/** The pen's servo: moves to its target in the time that the machine's servo takes, starting with one of the board's frames. */
+import { servoTime } from "../../../machines/pen-servo.js";
+import type { PenServo } from "../../../machines/profile.js";
+import { TICKS_PER_MS, TICKS_PER_S } from "../../../units.js";
+
+/** Frames when a board starts: 8 channels of 3 ms. */
+const BOOT_CHANNELS = 8;
+const BOOT_SLOT_MS = 3;
 
 export class Servo {
+  /** Set by SC,8 and SC,9. A frame has one slot for each channel; the board changes the signal once per frame. */
+  channels = BOOT_CHANNELS;
+  slotMs = BOOT_SLOT_MS;
   private from: number;
   private target: number;
-  private rate = 0;
   private startTick = 0;
+  private moveTicks = 0;
 
   /**
-   * @param speed share of the commanded rate: with 0.8 a move takes 1.25 times as long
+   * @param servo how the machine's servo moves, and how many units of position are one percent of its range
+   * @param speed share of its speed: with 0.8 a move takes 1.25 times as long
    * @param phaseTicks when its frames begin; null: with every command
    */
   constructor(
     position: number,
+    private readonly servo: PenServo,
+    private readonly unitsPerPct: number,
     private readonly speed = 1,
     private readonly phaseTicks: number | null = null,
   ) {
@@ -20,26 +32,36 @@ export class Servo {
     this.target = position;
   }
 
-  /** Moves with the next frame. `rate`: change per frame; 0: at once. */
-  moveTo(position: number, rate: number, tick: number): void {
+  private get frameTicks(): number {
+    return Math.max(1, this.channels * this.slotMs * TICKS_PER_MS);
+  }
+
+  /** Moves with the next frame. `rate`: change per frame; 0: at once. Returns the speed of its signal, percent per second. */
+  moveTo(position: number, rate: number, tick: number): number {
+    const { frameTicks, unitsPerPct } = this;
     this.from = this.positionAt(tick);
     this.target = position;
-    this.rate = rate * this.speed;
+    const ratePctPerS = rate === 0 ? Infinity : (rate / unitsPerPct) * (TICKS_PER_S / frameTicks);
+    const distancePct = Math.abs(position - this.from) / unitsPerPct;
+    this.moveTicks = (servoTime(this.servo, distancePct, ratePctPerS) / this.speed) * TICKS_PER_S;
     const phase = this.phaseTicks ?? tick;
-    this.startTick = phase + FRAME_TICKS * Math.ceil((tick - phase) / FRAME_TICKS);
+    this.startTick = phase + frameTicks * Math.ceil((tick - phase) / frameTicks);
+    return ratePctPerS;
   }
 
   positionAt(tick: number): number {
-    if (this.rate === 0) return this.target;
-    const moved = (this.rate * Math.max(0, tick - this.startTick)) / FRAME_TICKS;
-    const distance = this.target - this.from;
-    return Math.abs(distance) <= moved ? this.target : this.from + Math.sign(distance) * moved;
+    const share = this.moveTicks === 0 ? 1 : (tick - this.startTick) / this.moveTicks;
+    return this.from + Math.min(1, Math.max(0, share)) * (this.target - this.from);
   }
 
-  /** End of the frame in which the servo reaches its target. */
+  /** When the servo reaches its target. */
   get arrivalTick(): number {
-    if (this.rate === 0) return this.startTick;
-    return this.startTick + Math.ceil(Math.abs(this.target - this.from) / this.rate) * FRAME_TICKS;
+    return this.startTick + this.moveTicks;
+  }
+
+  /** When it has gone half of its way. */
+  get halfwayTick(): number {
+    return this.startTick + this.moveTicks / 2;
   }
 
   /** Tick at which the servo passes a position during the current move; Infinity if it does not. */
@@ -47,6 +69,6 @@ export class Servo {
     const whole = this.target - this.from;
     const part = position - this.from;
     if (part * whole < 0 || Math.abs(part) > Math.abs(whole)) return Infinity;
-    return this.rate === 0 ? this.startTick : this.startTick + (Math.abs(part) / this.rate) * FRAME_TICKS;
+    return whole === 0 ? this.startTick : this.startTick + (part / whole) * this.moveTicks;
   }
 }

@@ -77,17 +77,21 @@ describe("compile", () => {
     expect([...stream.boardS]).toEqual([0]);
   });
 
-  it("sets the pen's heights first, and holds the queue for each of its moves", () => {
+  it("sets the servo's frame and the pen's heights first, and holds the queue for each of its moves", () => {
     const lines = linesOf(compiled([LINE], "2.8.1"));
-    expect(lines.slice(0, 4)).toEqual(["SC,4,19800", "SC,5,13650", "SC,11,1025", "SC,12,769"]);
-    expect(lines.filter((line) => line.startsWith("SP"))).toEqual(["SP,0,300", "SP,1,250"]);
+    expect(lines.slice(0, 5)).toEqual(["SC,8,8", "SC,4,19800", "SC,5,13650", "SC,11,1845", "SC,12,1230"]);
+    expect(lines.filter((line) => line.startsWith("SP"))).toEqual(["SP,0,147", "SP,1,131"]);
   });
 
   it("moves a pen on the second servo output by S2", () => {
     const nextdraw = machineById("nextdraw-8511");
-    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING);
+    const trajectory = plan(strokeSetOf([LINE]), DEFAULT_MOTION, WAITING, { machine: nextdraw });
     const lines = linesOf(compile(trajectory, { machine: nextdraw, firmware: "2.8.1", pen: WAITING }));
-    expect(lines.filter((line) => /^S[CP2]/.test(line))).toEqual(["S2,7560,5,270,300", "S2,9720,5,360,250"]);
+    expect(lines.filter((line) => /^S[CP2]/.test(line))).toEqual([
+      "SC,8,1",
+      "S2,7560,5,155,62",
+      "S2,9720,5,232,60",
+    ]);
   });
 
   it("keeps its columns consistent: text, times, positions", () => {

@@ -58,7 +58,7 @@ const fastJob = (firmware: string | null) =>
 describe("a pen that moves in flight with fast", () => {
   const OLD = ["2.4.4", "2.5.3", "2.8.1", "3.0.0", null];
 
-  it.each([...OLD.map((firmware) => [firmware, 0.1] as const), ["3.0.1", 1.75], ["3.0.3", 1.75]] as const)(
+  it.each([...OLD.map((firmware) => [firmware, 0.1] as const), ["3.0.1", 0.29], ["3.0.3", 0.29]] as const)(
     "comes down, on firmware %s, %d mm before the stroke",
     (firmware, mm) => {
       const job = fastJob(firmware);

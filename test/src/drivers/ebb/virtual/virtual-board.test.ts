@@ -3,6 +3,15 @@ import {
   VirtualBoard,
   type VirtualBoardOptions,
 } from "../../../../../src/drivers/ebb/virtual/virtual-board.js";
+import {
+  commandLine,
+  compile,
+  DEFAULT_MOTION,
+  DEFAULT_PEN,
+  machineById,
+  plan,
+} from "../../../../../src/index.js";
+import { strokeSetOf } from "../../../../support/drawings/arbitraries.js";
 import { ManualClock } from "../../../../support/clocks/manual-clock.js";
 
 const ascii = (text: string): Uint8Array => Uint8Array.from(text, (c) => c.charCodeAt(0));
@@ -277,7 +286,7 @@ describe("the virtual board's pen", () => {
     expect(board.statistics().drawnMm).toBeCloseTo(10, 6);
   });
 
-  it("moves the servo at its rate while the delay holds the queue", async () => {
+  it("moves the servo in the time of its machine and rate while the delay holds the queue", async () => {
     const { clock, ask, board } = boardWith();
     ask("SC,4,20000");
     ask("SC,5,10000");
@@ -288,9 +297,56 @@ describe("the virtual board's pen", () => {
     ask("SP,1,300");
     await clock.advance(0.12);
     expect(board.state()).toMatchObject({ penUp: true, isBusy: true });
-    expect(board.state().penPct).toBeCloseTo((100 * (15_000 - 7_500)) / 20_500, 5);
+    // The servo alone takes 176 ms for these 48.8 %, and its signal 240 ms: 255.8 ms together.
+    const pos = 10_000 + 10_000 * (0.12 / 0.25581);
+    expect(board.state().penPct).toBeCloseTo((100 * (pos - 7_500)) / 20_500, 2);
     await clock.advance(0.18);
     expect(board.state().isBusy).toBe(false);
+  });
+});
+
+describe("the virtual board's servo frame", () => {
+  /** How fast the pen moves by these commands, percent of its range per second. */
+  const speedAfter = (machine: string, ...lines: string[]): number => {
+    const { ask, board } = boardWith({ speed: Infinity, machine: machineById(machine) });
+    for (const line of [...lines, "SP,0,500"]) ask(line);
+    return board.statistics().fastestPenPctPerS;
+  };
+
+  it("is 24 ms until SC,8 and SC,9 change it, and again after a reset", () => {
+    const down = ["SC,5,10000", "SC,12,410"];
+    expect(speedAfter("axidraw-v3", ...down)).toBeCloseTo(410 / 205 / 0.024, 9);
+    expect(speedAfter("axidraw-v3", "SC,8,4", ...down)).toBeCloseTo(410 / 205 / 0.012, 9);
+    expect(speedAfter("axidraw-v3", "SC,8,4", "SC,9,5", ...down)).toBeCloseTo(410 / 205 / 0.02, 9);
+    expect(speedAfter("axidraw-v3", "SC,8,1", "R", ...down)).toBeCloseTo(410 / 205 / 0.024, 9);
+  });
+
+  it("left by other software makes a gentle pen 8 times too fast or too slow, unless the plot's set-up sets it", () => {
+    const pen = { ...DEFAULT_PEN, dropPctPerS: 40 };
+    for (const [id, otherFrame, factor] of [
+      ["axidraw-v3", "SC,8,1", 8],
+      ["nextdraw-8511", "SC,8,8", 1 / 8],
+    ] as const) {
+      const machine = machineById(id);
+      const strokes = strokeSetOf([[[0, 0], [5, 0]]]); // prettier-ignore
+      const trajectory = plan(strokes, DEFAULT_MOTION, pen, { machine });
+      const stream = compile(trajectory, { machine, firmware: "2.8.1", pen });
+      const lines = Array.from({ length: stream.count }, (_, i) => commandLine(stream, i));
+      const speedOf = (sent: readonly string[]): number => {
+        const { ask, board } = boardWith({ speed: Infinity, machine });
+        for (const line of [
+          otherFrame,
+          ...sent.slice(0, sent.findIndex((one) => /^(SP,0|S2)/.test(one)) + 1),
+        ])
+          ask(line);
+        return board.statistics().fastestPenPctPerS;
+      };
+      // A rate is a whole number of units per frame.
+      expect(speedOf(lines)).toBeGreaterThanOrEqual(40);
+      expect(speedOf(lines)).toBeLessThan(45);
+      const withoutFrame = lines.filter((line) => !line.startsWith("SC,8,"));
+      expect(speedOf(withoutFrame) / speedOf(lines)).toBeCloseTo(factor, 9);
+    }
   });
 });
 
