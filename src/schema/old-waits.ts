@@ -49,7 +49,7 @@ function penWithExtraWaits(pen: Values, machine: MachineProfile | null): Values 
   if (!isRecord(layers)) return migrated;
   const ofLayers = Object.entries(layers).map(([id, own]) => {
     if (!isRecord(own)) return [id, own];
-    return [id, withoutOldWaits(own, { ...heights, ...own } as PenSettings, machine)];
+    return [id, withoutOldWaits(own, { ...heights, ...own }, machine)];
   });
   return { ...migrated, layers: Object.fromEntries(ofLayers) };
 }
