@@ -55,11 +55,11 @@ describe("the search", () => {
     await test.planned();
     await search("pen down delay");
     await test.page.keyboard.press("Enter");
-    await waitForFocus("Wait after lowering");
+    await waitForFocus("Extra wait after lowering");
     await box().waitFor({ state: "detached" });
     await test.page.keyboard.type("420");
     await test.page.keyboard.press("Tab");
-    expect(await test.field("Wait after lowering").inputValue()).toContain("420");
+    expect(await test.field("Extra wait after lowering").inputValue()).toContain("420");
   });
 
   it("opens folded details, and tells two fields of one name apart", async () => {

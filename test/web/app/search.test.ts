@@ -18,8 +18,8 @@ const found = (typed: string): readonly string[] => bestMatches(typed, ENTRIES).
 
 describe("the search", () => {
   it.each([
-    ["pen down delay", "pen Wait after lowering"],
-    ["pen up delay", "pen Wait after lifting"],
+    ["pen down delay", "pen Extra wait after lowering"],
+    ["pen up delay", "pen Extra wait after lifting"],
     ["acceleration", "details draw accelMmPerS2"],
     ["accel", "details draw accelMmPerS2"],
     ["speed", "details draw speedMmPerS"],
@@ -33,16 +33,16 @@ describe("the search", () => {
     ["home", "home"],
     ["Turn paper", "turn-paper"],
     ["dark mode", "theme"],
-    ["PEN  DOWN-DELAY ", "pen Wait after lowering"],
+    ["PEN  DOWN-DELAY ", "pen Extra wait after lowering"],
   ])("finds first, for “%s”, %s", (typed, id) => {
     expect(found(typed)[0]).toBe(id);
   });
 
   it.each([
-    ["servo", ["hand Height up", "hand Height down", "pen Wait after lowering", "wizard"]],
+    ["servo", ["hand Height up", "hand Height down", "pen Extra wait after lowering", "wizard"]],
     ["landscape", ["paper Orientation", "turn-paper"]],
     ["speed", ["details travel speedMmPerS", "panel motion"]],
-    ["delay", ["pen Wait after lifting", "pen Wait after lowering"]],
+    ["delay", ["pen Extra wait after lifting", "pen Extra wait after lowering"]],
     ["optimi", ["lines Order of strokes"]],
   ])("finds for “%s” %j", (typed, ids) => {
     expect(found(typed)).toEqual(expect.arrayContaining([...ids]));
