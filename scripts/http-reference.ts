@@ -4,6 +4,7 @@ import prettier from "prettier";
 import { z, type ZodType } from "zod";
 import * as schemaEntry from "../src/schema/index.js";
 import { OPERATIONS, type Operation, type OperationGroup } from "../src/schema/index.js";
+import { schemaNames } from "../server/http/openapi.js";
 import { fieldDocs } from "./field-docs.js";
 
 const TITLE = `# HTTP reference
@@ -79,7 +80,13 @@ function operationText(one: Operation, writer: TypeWriter): string {
   const { about, body, answer, status } = one;
   const parts = [routeHeading(one), `${about}.`];
   if (body === "file") parts.push("Body: the file itself.");
-  else if (body !== undefined) parts.push(writer.inWords("Body", body));
+  else if (one.fileFields !== undefined && body !== undefined) {
+    const fields = writer.inWords(
+      "In the query or as fields of the form, with the file itself",
+      one.fileFields,
+    );
+    parts.push(writer.inWords("Body", body), fields);
+  } else if (body !== undefined) parts.push(writer.inWords("Body", body));
   if (answer === "text" || answer === "file") parts.push(`Response ${status}: plain text.`);
   else if (answer === "events") parts.push(`Response ${status}: a stream of ${writer.link("ServerEvent")}.`);
   else parts.push(writer.inWords(`Response ${status}`, answer));
@@ -88,15 +95,10 @@ function operationText(one: Operation, writer: TypeWriter): string {
 
 class TypeWriter {
   /** Names of the schemas, such as Job for jobSchema. */
-  private readonly names = z.registry<{ id: string }>();
+  private readonly names = schemaNames();
   private readonly used = new Map<string, Schema>();
 
   constructor() {
-    for (const [name, one] of Object.entries(schemaEntry)) {
-      if (!(one instanceof z.ZodType) || !name.endsWith("Schema")) continue;
-      const id = name.charAt(0).toUpperCase() + name.slice(1, -"Schema".length);
-      this.names.add(one, { id });
-    }
     this.use(schemaEntry.apiErrorSchema);
     this.use(schemaEntry.serverEventSchema);
   }

@@ -9,6 +9,7 @@ import {
   type OperationHandlers,
   type Plotter,
   handlerArguments,
+  presetAsGiven,
   type Operation,
   type OperationInput,
 } from "../../src/schema/index.js";
@@ -118,6 +119,16 @@ const plotterOperations = ({ queue, registry, log }: HostParts) => {
     queue: (id) => queue.settings(find(id).id),
     setQueue: (id, settings) => queue.saveSettings(settings, id),
     settings: (id) => registry.settings()[find(id).id] ?? null,
+    defaults: (id) => {
+      const plotterId = find(id).id;
+      const { settings, hasMachine } = queue.settingsOf(plotterId);
+      const presets = registry.settings()[plotterId]?.presets ?? [];
+      return {
+        settings,
+        isModelSet: hasMachine,
+        presets: presets.map((preset) => ({ name: preset.name, settings: presetAsGiven(settings, preset) })),
+      };
+    },
     saveSettings: (id, settings) => registry.saveSettings(id, settings),
     log: (id) => find(id).log(),
     pen: async (id, { up, heightPct, settings }) => {

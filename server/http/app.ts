@@ -56,12 +56,11 @@ export function apiRoutes(
   browsers = new Browsers(parts.access),
 ): { readonly router: Router; readonly operations: readonly Operation[] } {
   let text: Promise<string> | null = null;
-  const openApi = (): Promise<string> => (text ??= openApiText(parts.version, operations));
+  const openApi = (): Promise<string> => (text ??= openApiText(parts.version, offered));
   const handlers = serverHandlers(parts);
   const responders = serverResponders(parts, browsers, openApi);
-  const operations = Object.values(offeredOperations({ handlers, responders })).flatMap((group = {}) =>
-    Object.values(group),
-  );
+  const offered = offeredOperations({ handlers, responders });
+  const operations = Object.values(offered).flatMap((group = {}) => Object.values(group));
   const router = operationRoutes({
     handlers,
     responders,

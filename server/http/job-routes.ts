@@ -7,8 +7,10 @@ import { isDrawingName } from "../../src/internal.js";
 import {
   API_PATH,
   cleanName,
+  fileFieldsSchema,
   givenSettingsSchema,
   nameSchema,
+  type FileFields,
   type GivenSettings,
 } from "../../src/schema/index.js";
 import { parseWith } from "../../host/parse-with.js";
@@ -43,13 +45,7 @@ const addFromFile =
     response.status(201).location(`${API_PATH}/jobs/${job.id}`).json(job);
   };
 
-/** What is sent with a file. */
-interface FileFields {
-  readonly name?: unknown;
-  /** JSON. */
-  readonly settings?: unknown;
-  readonly plotterId?: unknown;
-}
+const FIELDS = fileFieldsSchema.keyof().options;
 
 async function fromBody(request: Request<Record<string, string>>, files: DrawingFiles) {
   const wanted = wantedIn(request.query);
@@ -57,7 +53,7 @@ async function fromBody(request: Request<Record<string, string>>, files: Drawing
 }
 
 async function fromForm(request: Request<Record<string, string>>, files: DrawingFiles) {
-  const { drawing, fileName, fields } = await readForm(request, files, ["name", "settings", "plotterId"]);
+  const { drawing, fileName, fields } = await readForm(request, files, FIELDS);
   // What browsers call a file without a name.
   const name = fileName === "blob" || fileName === "" ? undefined : fileName;
   try {
@@ -68,7 +64,7 @@ async function fromForm(request: Request<Record<string, string>>, files: Drawing
   }
 }
 
-function wantedIn({ name, settings, plotterId }: FileFields) {
+function wantedIn({ name, settings, plotterId }: Readonly<Partial<Record<keyof FileFields, unknown>>>) {
   return {
     name: nameIn(name),
     settings: settingsIn(settings),

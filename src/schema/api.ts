@@ -35,6 +35,18 @@ export const newJobSchema = z
   });
 export type NewJob = z.infer<typeof newJobSchema>;
 
+/** What may be sent with a drawing that is the body itself: in the query, or as fields of a form. */
+export const fileFieldsSchema = z
+  .object({
+    /** Left out: that of the file, or drawing.svg. */
+    name: nameSchema(200),
+    /** As in `NewJob`, as JSON. */
+    settings: z.string(),
+    plotterId: z.string().max(100),
+  })
+  .partial();
+export type FileFields = z.infer<typeof fileFieldsSchema>;
+
 export const jobPatchSchema = z
   .object({
     name: nameSchema(200),

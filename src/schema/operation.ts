@@ -40,11 +40,13 @@ export interface Operation {
   readonly isBodyOptional?: boolean;
   readonly maxBodyBytes: number;
   readonly query?: ZodType;
+  /** In place of the body, the file itself is taken, with these fields in the query; or a form with it and these fields. */
+  readonly fileFields?: ZodType;
   /** Name under which a browser saves the answer. */
   readonly attachment?: string;
 }
 
-type Details = Pick<Operation, "body" | "isBodyOptional" | "query" | "attachment"> &
+type Details = Pick<Operation, "body" | "isBodyOptional" | "query" | "fileFields" | "attachment"> &
   Partial<Pick<Operation, "status" | "role" | "maxBodyBytes">>;
 
 const MAX_BODY_BYTES = 10_240;

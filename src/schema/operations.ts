@@ -18,6 +18,7 @@ import {
   webhookSchema,
 } from "./sharing.js";
 import {
+  fileFieldsSchema,
   historyRequestSchema,
   jobChangeSchema,
   jobPageSchema,
@@ -44,7 +45,7 @@ import {
 import { jobSchema } from "./job.js";
 import { machineListSchema, machineProfileSchema } from "./machine.js";
 import { operation, type ClientOf, type HandlersOf } from "./operation.js";
-import { plotterSettingsSchema } from "./plotter-settings.js";
+import { plotterDefaultsSchema, plotterSettingsSchema } from "./plotter-settings.js";
 import { newSharedJobSchema, sharedJobSchema } from "./shared.js";
 
 /** The answer of operations that return no data. */
@@ -119,9 +120,9 @@ export const OPERATIONS = {
     add: operation(
       "post",
       "/jobs",
-      "Adds a job from JSON with an uploaded drawing's id or, up to 8 MB, with its text; or from the file itself as the body with ?name=",
+      "Adds a job from JSON with an uploaded drawing's id or, up to 8 MB, with its text; from the file itself as the body with ?name=; or from a form with the file",
       jobSchema,
-      { body: newJobSchema, ...NEW_JOB, ...SUBMIT },
+      { body: newJobSchema, fileFields: fileFieldsSchema, ...NEW_JOB, ...SUBMIT },
     ),
     get: operation("get", "/jobs/:id", "Returns a job", jobSchema),
     drawing: operation("get", "/jobs/:id/drawing", "Returns the uploaded file", "file"),
@@ -208,6 +209,12 @@ export const OPERATIONS = {
       "Stores heights, pens and presets of a plotter",
       plotterSettingsSchema,
       { body: plotterSettingsSchema, maxBodyBytes: 2_097_152 },
+    ),
+    defaults: operation(
+      "get",
+      "/plotters/:id/defaults",
+      "Returns the settings from which jobs of a plotter start, and its presets as settings to give with a job",
+      plotterDefaultsSchema,
     ),
     log: operation("get", "/plotters/:id/log", "Returns the commands and replies of the connection", "text", {
       role: "watch",

@@ -10,7 +10,7 @@ import { withoutShaperIfUnmeasured } from "../plan/quality.js";
 import type { PenSetup, PlotPen } from "../prepare/layers/pens.js";
 import type { PenSettings } from "../settings/pen.js";
 import type { PrepareSettings } from "../settings/prepare.js";
-import type { GivenSettings } from "./given-settings.js";
+import { givenSettingsSchema, withOffs, type GivenSettings } from "./given-settings.js";
 import {
   motionSettingsSchema,
   penSettingsSchema,
@@ -63,6 +63,21 @@ export const plotterSettingsSchema: z.ZodType<PlotterSettings> = z.object({
   presets: z.array(presetSchema).max(MAX_PRESETS).default([]),
 });
 
+/** What jobs and moves by hand of a plotter start from, and the presets that may be laid over it. */
+export interface PlotterDefaults {
+  readonly settings: PlotSettings;
+  readonly isModelSet: boolean;
+  readonly presets: readonly { readonly name: string; readonly settings: GivenSettings }[];
+}
+export const plotterDefaultsSchema: z.ZodType<PlotterDefaults> = z.object({
+  /** Complete: its model, heights and pens, and the defaults of all other settings. */
+  settings: plotSettingsSchema,
+  /** False: the model is that of its last job, at first an AxiDraw V3. */
+  isModelSet: z.boolean(),
+  /** Each as settings to give with a job. */
+  presets: z.array(z.object({ name: z.string(), settings: givenSettingsSchema })),
+});
+
 /** The plotter's part of a drawing's settings. */
 export function plotterPartOf(settings: PlotSettings): Pick<PlotterSettings, "pen" | "pens"> {
   // Parsing leaves out `layers`.
@@ -101,6 +116,12 @@ export const fromPreset = (settings: PlotSettings, { motion, pen, pens, layers }
   ...pens,
   prepare: { ...settings.prepare, ...layers },
 });
+
+/** A preset as settings to give with a job on a plotter with these settings. */
+export const presetAsGiven = (settings: PlotSettings, preset: Preset): GivenSettings => {
+  const { motion } = fromPreset(settings, preset);
+  return withOffs({ motion, pen: preset.pen, ...preset.pens, prepare: preset.layers });
+};
 
 /** The list with the preset at the end, in place of one of the same name. */
 export const withPreset = (

@@ -6,10 +6,13 @@ import {
   apiErrorSchema,
   deviceSchema,
   jobSchema,
+  plotterDefaultsSchema,
   plotterSchema,
   snapshotSchema,
+  withPreset,
   type Job,
   type Plotter,
+  type PlotterDefaults,
   type Snapshot,
 } from "../../../src/schema/index.js";
 import { startApp, type TestApp } from "../../support/servers/app.js";
@@ -50,6 +53,40 @@ describe("the plotters of a server", () => {
     const body = { name, drawing: SVG, settings: DEFAULT_PLOT_SETTINGS, plotterId };
     return jobSchema.parse(await (await send(app.url, "POST", "/jobs", body)).json());
   };
+
+  it("say which settings their jobs start from, with their presets as settings to give with a job", async () => {
+    const { id } = await add("Upstairs");
+    const defaultsOf = async (): Promise<PlotterDefaults> =>
+      plotterDefaultsSchema.parse(await (await send(app.url, "GET", `/plotters/${id}/defaults`)).json());
+    expect(await defaultsOf()).toEqual({
+      settings: DEFAULT_PLOT_SETTINGS,
+      isModelSet: false,
+      presets: [],
+    });
+    await send(app.url, "PATCH", `/plotters/${id}`, { machine: "axidraw-v3-a3" });
+    const { layers: _layers, ...pen } = DEFAULT_PLOT_SETTINGS.pen;
+    const drawn = { ...DEFAULT_PLOT_SETTINGS, pen: { ...pen, downPct: 11, liftPctPerS: 90 } };
+    const presets = withPreset([], "Brush", {
+      ...drawn,
+      pen: { ...drawn.pen, liftPctPerS: undefined, dropMs: 444 },
+      prepare: { ...drawn.prepare, hiddenLayers: ["guides"] },
+    });
+    await send(app.url, "PUT", `/plotters/${id}/settings`, { pen: drawn.pen, pens: [], presets });
+    const { settings, isModelSet, presets: given } = await defaultsOf();
+    expect(isModelSet).toBe(true);
+    const jobWith = async (body: object): Promise<Job> => {
+      const wanted = { name: "a", drawing: SVG, plotterId: id, ...body };
+      return jobSchema.parse(await (await send(app.url, "POST", "/jobs", wanted)).json());
+    };
+    expect((await jobWith({})).settings).toEqual(settings);
+    expect([settings.machine, settings.pen.downPct]).toEqual(["axidraw-v3-a3", 11]);
+    expect(given.map(({ name }) => name)).toEqual(["Brush"]);
+    const brush = (await jobWith({ settings: given[0]?.settings })).settings;
+    // The lift rate of the plotter is not the preset's.
+    expect([brush.pen.dropMs, brush.pen.liftPctPerS ?? null]).toEqual([444, null]);
+    expect([brush.machine, brush.prepare.hiddenLayers]).toEqual(["axidraw-v3-a3", ["guides"]]);
+    expect((await send(app.url, "GET", "/plotters/none/defaults")).status).toBe(404);
+  });
 
   it("are added, renamed and removed while it runs, and every browser is notified", async () => {
     const events = await EventStream.open(app.url);

@@ -64,6 +64,7 @@ const ALLOWED = [
   "get /plotters/:id",
   "get /plotters/:id/queue",
   "get /plotters/:id/settings",
+  "get /plotters/:id/defaults",
   "get /machines",
   "get /samples",
   "get /samples/:name",
