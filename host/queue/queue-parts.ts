@@ -28,6 +28,8 @@ export interface JobHooks {
   readonly withChange?: ((before: Job | null, after: Job) => void) | undefined;
   /** Called after the change has been announced. */
   readonly afterChange?: (() => void) | undefined;
+  /** Called many times a second while a job is plotted. Never throws. */
+  readonly onProgress?: ((job: Job) => void) | undefined;
   /** With a shared queue: ensures that no other server plots the same job. */
   readonly claims?: Claims | undefined;
 }

@@ -311,6 +311,7 @@ export class RunningPlots {
     if (this.running.get(plotterId)?.abort.signal.aborted !== true) {
       const { progress: share, elapsedS, remainingS } = progress;
       this.jobs.progressed(jobId, { progress: share, elapsedS, remainingS });
+      this.parts.onProgress?.(this.jobs.get(jobId));
     }
     this.parts.announce({ type: "progress", jobId, plotterId, ...progress });
   }

@@ -33,6 +33,7 @@ export function jobHooksOf(plugins: readonly ServerPlugin[], { store }: PluginCo
   return {
     withChange: (before, after) => hooks.forEach((hook) => hook.withChange?.(before, after)),
     afterChange: () => hooks.forEach((hook) => hook.afterChange?.()),
+    onProgress: (job) => hooks.forEach((hook) => hook.onProgress?.(job)),
     claims: hooks.find(({ claims }) => claims !== undefined)?.claims ?? claimsWithoutSharing(store),
   };
 }

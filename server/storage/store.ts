@@ -290,7 +290,8 @@ function readAll(db: Database): void {
   const texts = db.all(
     `SELECT value FROM settings UNION ALL SELECT entry FROM journal
      UNION ALL SELECT settings FROM plotters WHERE settings IS NOT NULL
-     UNION ALL SELECT events FROM webhooks UNION ALL SELECT last FROM webhooks WHERE last IS NOT NULL`,
+     UNION ALL SELECT events FROM webhooks UNION ALL SELECT last FROM webhooks WHERE last IS NOT NULL
+     UNION ALL SELECT progress FROM webhooks WHERE progress IS NOT NULL`,
   );
   for (const { value } of texts) JSON.parse(String(value));
 }

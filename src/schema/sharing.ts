@@ -32,15 +32,23 @@ export const plotterPatchSchema = z
   .partial();
 export type PlotterPatch = z.infer<typeof plotterPatchSchema>;
 
-export const WEBHOOK_EVENTS = ["done", "waiting", "failed"] as const;
+export const WEBHOOK_EVENTS = ["started", "progress", "waiting", "done", "failed"] as const;
 export const webhookEventSchema = z.enum(WEBHOOK_EVENTS);
 export type WebhookEvent = z.infer<typeof webhookEventSchema>;
+
+/** How often "progress" is sent: after so much of the plot, and so much time. */
+export const webhookProgressSchema = z.object({
+  everyPct: z.number().min(1).max(100).default(5),
+  everyS: z.number().min(5).max(86_400).default(30),
+});
+export type WebhookProgress = z.infer<typeof webhookProgressSchema>;
 
 export const webhookSchema = z.object({
   id: z.string(),
   name: z.string(),
   url: z.string(),
   events: z.array(webhookEventSchema),
+  progress: webhookProgressSchema,
   createdAt: z.string(),
   /** Deliveries that have not succeeded yet and are retried. */
   pendingCount: z.int(),
@@ -53,8 +61,9 @@ export const newWebhookSchema = z.object({
   name: nameSchema(100),
   url: z.url({ protocol: /^https?$/ }).max(2_000),
   events: z.array(webhookEventSchema).min(1).max(WEBHOOK_EVENTS.length),
+  progress: webhookProgressSchema.prefault({}),
 });
-export type NewWebhook = z.infer<typeof newWebhookSchema>;
+export type NewWebhook = z.input<typeof newWebhookSchema>;
 
 /** The body of a webhook request; its header is `Plotwright-Signature: t=SECONDS,v1=HMAC-SHA256 of "SECONDS.BODY"`. */
 export const webhookMessageSchema = z.object({
@@ -66,6 +75,10 @@ export const webhookMessageSchema = z.object({
     name: z.string(),
     state: z.string(),
     message: z.string().nullable(),
+    /** Share of the plot's time, 0 … 1. */
+    progress: z.number(),
+    /** Null: not known. */
+    remainingS: z.number().nullable(),
     /** The layer and pen it waits for, in words. */
     wait: z.string().nullable(),
   }),

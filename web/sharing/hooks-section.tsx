@@ -7,7 +7,7 @@ import { TextField } from "../ui/fields/text-field.js";
 import { Secret } from "./access-section.js";
 import { useFetched, useSharing } from "./use-sharing.js";
 
-/** Addresses that are notified when a plot is done, waits, or has failed. */
+/** Addresses that are notified of plots. */
 export const HooksSection = () => {
   const sharing = useSharing();
   const [answer, askAgain] = useFetched(sharing.webhooks.list);
@@ -55,11 +55,13 @@ const HookRow = ({ hook, onRemove }: { hook: Webhook; onRemove(): void }) => (
   </li>
 );
 
+const CHOSEN_AT_FIRST: readonly WebhookEvent[] = ["waiting", "done", "failed"];
+
 const NewHookForm = ({ onAdded }: { onAdded(secret: string): void }) => {
   const sharing = useSharing();
   const [name, setName] = useState("");
   const [url, setUrl] = useState("");
-  const [events, setEvents] = useState<readonly WebhookEvent[]>(WEBHOOK_EVENTS);
+  const [events, setEvents] = useState<readonly WebhookEvent[]>(CHOSEN_AT_FIRST);
   const isWhole = name.trim() !== "" && /^https?:\/\/./.test(url.trim()) && events.length > 0;
   const add = async (): Promise<void> => {
     const made = await sharing.webhooks.add({ name: name.trim(), url: url.trim(), events: [...events] });

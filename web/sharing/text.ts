@@ -79,9 +79,9 @@ export const sharingText = {
   shareSend: (name: string) => `Add “${name}”`,
   shareSent: (name: string) => `“${name}” is in the shared queue.`,
   hooksHint:
-    "plotwright notifies other programs at these addresses when a plot is done, waits or has failed. Messages are signed, and repeated until they arrive.",
+    "plotwright notifies other programs at these addresses when a plot starts, waits, is done or has failed, and of its progress. Messages are signed, and repeated until they arrive.",
   noHooks: "None yet.",
-  events: { done: "done", waiting: "waits", failed: "failed" },
+  events: { started: "started", progress: "progress", done: "done", waiting: "waits", failed: "failed" },
   pending: (count: number) =>
     count === 1 ? "1 message not delivered yet" : `${count} messages not delivered yet`,
   hookSecretOnce: "Copy the secret that signs the messages now; it is not shown again.",

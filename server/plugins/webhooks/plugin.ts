@@ -1,4 +1,4 @@
-/** The plug-in that notifies other programs of finished, waiting and failed jobs. */
+/** The plug-in that notifies other programs of jobs: started, progress, waiting, done, failed. */
 import type { ServerHandlers } from "../../http/operation-routes.js";
 import type { PluginCore, ServerPlugin } from "../server-plugin.js";
 import { WebhookStore } from "./webhook-store.js";
@@ -15,6 +15,7 @@ export function webhooksPlugin({ store, plotters, log }: PluginCore): ServerPlug
     jobs: {
       withChange: (before, after) => webhooks.note(before, after),
       afterChange: () => webhooks.wake(),
+      onProgress: (job) => webhooks.progressed(job),
     },
     start: () => {
       webhooks.start();

@@ -2,6 +2,7 @@
 import type { Database } from "node-sqlite3-wasm";
 import {
   webhookEventSchema,
+  webhookProgressSchema,
   webhookSchema,
   type Webhook,
   type WebhookEvent,
@@ -33,6 +34,9 @@ export class WebhookStore {
         name: row["name"],
         url: row["url"],
         events: knownEvents(String(row["events"])),
+        progress: webhookProgressSchema.parse(
+          row["progress"] === null ? {} : JSON.parse(String(row["progress"])),
+        ),
         createdAt: row["created_at"],
         pendingCount: Number(row["pending"]),
         last: row["last"] === null ? null : (JSON.parse(String(row["last"])) as unknown),
@@ -45,10 +49,10 @@ export class WebhookStore {
     return row === null ? null : String(row["secret"]);
   }
 
-  add({ id, name, url, events, createdAt }: Webhook, secret: string): void {
+  add({ id, name, url, events, progress, createdAt }: Webhook, secret: string): void {
     this.db.run(
-      "INSERT INTO webhooks (id, name, url, events, created_at, secret) VALUES (?, ?, ?, ?, ?, ?)",
-      [id, name, url, JSON.stringify(events), createdAt, secret],
+      "INSERT INTO webhooks (id, name, url, events, progress, created_at, secret) VALUES (?, ?, ?, ?, ?, ?, ?)",
+      [id, name, url, JSON.stringify(events), JSON.stringify(progress), createdAt, secret],
     );
   }
 

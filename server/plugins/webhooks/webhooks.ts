@@ -1,10 +1,10 @@
 /**
- * Notifies other programs by HTTP when a job is done, waits for the user, or has failed.
+ * Notifies other programs by HTTP when a job starts, is done, waits for the user, or has failed, and of its progress.
  *
  * Each message is stored in the same transaction as the job's change, so no crash can lose it. It is removed
  * only after the receiver has answered 2xx, so after a crash it may be sent twice (with the same id). Each
  * webhook gets one message at a time, in order. After each failed try the pause is longer; other webhooks are
- * not delayed.
+ * not delayed. Of a job's progress only the newest message waits: an older one would say nothing more.
  *
  *   Plotwright-Signature: t=SECONDS,v1=HEX      HMAC-SHA256 of "SECONDS.BODY" with the webhook's secret
  *
@@ -14,7 +14,15 @@
  */
 import { createHmac, randomBytes, randomUUID } from "node:crypto";
 import { PlotwrightError } from "../../../src/index.js";
-import type { Job, NewWebhook, Webhook, WebhookEvent, WebhookMessage } from "../../../src/schema/index.js";
+import type { z } from "zod";
+import type {
+  Job,
+  newWebhookSchema,
+  Webhook,
+  WebhookEvent,
+  WebhookMessage,
+} from "../../../src/schema/index.js";
+import { isOnPlotter } from "../../../host/queue/job-states.js";
 import type { Delivery, WebhookStore } from "./webhook-store.js";
 
 interface WebhookParts {
@@ -43,6 +51,10 @@ export class Webhooks {
   private readonly busy = new Map<string, NodeJS.Timeout | null>();
   private readonly abort = new AbortController();
   private readonly running = new Set<Promise<void>>();
+  /** Those that want progress; null: to be read again. */
+  private ofProgress: readonly Webhook[] | null = null;
+  /** What was last said of a job's progress, by "webhook job". */
+  private readonly told = new Map<string, { readonly progress: number; readonly atMs: number }>();
 
   constructor(private readonly parts: WebhookParts) {
     this.nowMs = parts.nowMs ?? Date.now;
@@ -58,24 +70,30 @@ export class Webhooks {
   }
 
   /** The secret is returned only here and never shown again. */
-  add({ name, url, events }: NewWebhook): { readonly webhook: Webhook; readonly secret: string } {
+  add({ name, url, events, progress }: z.output<typeof newWebhookSchema>): {
+    readonly webhook: Webhook;
+    readonly secret: string;
+  } {
     const webhook: Webhook = {
       id: randomUUID(),
       name,
       url,
       events: [...new Set(events)],
+      progress,
       createdAt: new Date(this.nowMs()).toISOString(),
       pendingCount: 0,
       last: null,
     };
     const secret = randomBytes(32).toString("base64url");
     this.parts.store.add(webhook, secret);
+    this.ofProgress = null;
     return { webhook, secret };
   }
 
   /** Throws `not-found`. */
   remove(id: string): void {
     if (!this.parts.store.remove(id)) throw new PlotwrightError("not-found", `There is no webhook ${id}.`);
+    this.ofProgress = null;
     const timer = this.busy.get(id) ?? null;
     if (timer !== null) clearTimeout(timer);
     if (timer !== null) this.busy.delete(id);
@@ -83,15 +101,65 @@ export class Webhooks {
 
   /** Call inside the transaction that stores the job; stores the messages without sending them. */
   note(before: Job | null, after: Job): void {
+    if (!isOnPlotter(after)) this.forgetProgress(after.id);
     const event = eventOf(before, after);
     if (event === null) return;
     for (const webhook of this.list()) {
-      if (!webhook.events.includes(event)) continue;
-      const id = randomUUID();
-      const body = JSON.stringify(this.message(id, event, after));
-      const nextAtMs = this.nowMs();
-      this.parts.store.addDelivery({ id, webhookId: webhook.id, event, body, tryCount: 0, nextAtMs });
+      if (webhook.events.includes(event)) this.addDelivery(webhook.id, event, after);
     }
+  }
+
+  /** Call with every report of a running job. Stores and sends a message if it is time for one. */
+  progressed(job: Job): void {
+    try {
+      this.tellProgress(job);
+    } catch (error) {
+      // A full disk must not end the plot.
+      this.parts.log(`webhooks: ${String(error)}`);
+    }
+  }
+
+  private tellProgress(job: Job): void {
+    this.ofProgress ??= this.list().filter(({ events }) => events.includes("progress"));
+    for (const { id, progress } of this.ofProgress) {
+      const key = `${id} ${job.id}`;
+      const now = { progress: job.progress, atMs: this.nowMs() };
+      const last = this.told.get(key);
+      if (last === undefined) this.told.set(key, now);
+      const isDue =
+        last !== undefined &&
+        now.progress - last.progress >= progress.everyPct / 100 &&
+        now.atMs - last.atMs >= progress.everyS * 1000;
+      if (!isDue) continue;
+      this.told.set(key, now);
+      this.replaceProgress(id, job);
+      this.next(id);
+    }
+  }
+
+  /** A message that waits for its next try is replaced, and the new one waits as long. */
+  private replaceProgress(webhookId: string, job: Job): void {
+    const { store } = this.parts;
+    const isBeingSent = this.busy.get(webhookId) === null;
+    const waiting = store.deliveries(webhookId).slice(isBeingSent ? 1 : 0);
+    const old = waiting.find(({ event, body }) => event === "progress" && jobIdIn(body) === job.id);
+    if (old !== undefined) store.removeDelivery(old.id);
+    this.addDelivery(webhookId, "progress", job, old);
+  }
+
+  private forgetProgress(jobId: string): void {
+    for (const key of this.told.keys()) if (key.endsWith(` ${jobId}`)) this.told.delete(key);
+  }
+
+  private addDelivery(
+    webhookId: string,
+    event: WebhookEvent,
+    job: Job,
+    { tryCount, nextAtMs }: Pick<Delivery, "tryCount" | "nextAtMs"> = { tryCount: 0, nextAtMs: this.nowMs() },
+  ): void {
+    const id = randomUUID();
+    const body = JSON.stringify(this.message(id, event, job));
+    this.parts.store.addDelivery({ id, webhookId, event, body, tryCount, nextAtMs });
   }
 
   /** Call after that transaction; starts sending. */
@@ -117,6 +185,8 @@ export class Webhooks {
         name: job.name,
         state: job.state,
         message: job.message,
+        progress: job.progress,
+        remainingS: job.remainingS,
         wait: wait === null ? null : `${wait.penName ?? "pen"} for ${wait.layerName}`,
       },
       plotter: { id: plotterId, name: this.parts.plotterName(plotterId) },
@@ -130,7 +200,9 @@ export class Webhooks {
     const pauseMs = Math.max(0, first.nextAtMs - this.nowMs());
     const timer = setTimeout(() => {
       this.busy.set(webhookId, null);
-      const run = this.deliver(first)
+      // Another one, if progress was replaced.
+      const [now = first] = this.parts.store.deliveries(webhookId);
+      const run = this.deliver(now)
         .finally(() => {
           this.running.delete(run);
           this.busy.delete(webhookId);
@@ -203,9 +275,12 @@ export class Webhooks {
 export const signatureOf = (secret: string, timeS: number, body: string): string =>
   createHmac("sha256", secret).update(`${timeS}.${body}`).digest("hex");
 
+const jobIdIn = (body: string): string => (JSON.parse(body) as WebhookMessage).job.id;
+
 /** An interrupted job counts as waiting, because it needs the user to continue. */
 function eventOf(before: Job | null, after: Job): WebhookEvent | null {
   const isNew = before?.state !== after.state;
+  if (before?.state === "queued" && after.state === "plotting") return "started";
   if (after.state === "done") return isNew ? "done" : null;
   if (after.state === "failed") return isNew ? "failed" : null;
   if (after.state === "interrupted") return isNew ? "waiting" : null;

@@ -114,6 +114,7 @@ export async function startApp(
     log,
     withChange: (before, after) => webhooks.note(before, after),
     afterChange: () => webhooks.wake(),
+    onProgress: (job) => webhooks.progressed(job),
   });
   const notices = new Notices({ store, announce, nowIso });
   const operatorLock = new OperatorLock({

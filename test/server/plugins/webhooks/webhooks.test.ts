@@ -2,7 +2,7 @@
 import { createHmac } from "node:crypto";
 import { createServer, type IncomingHttpHeaders, type Server } from "node:http";
 import type { AddressInfo } from "node:net";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Webhooks, signatureOf } from "../../../../server/plugins/webhooks/webhooks.js";
 import { WebhookStore } from "../../../../server/plugins/webhooks/webhook-store.js";
 import { PlotwrightError } from "../../../../src/index.js";
@@ -16,6 +16,8 @@ import {
   type WebhookEvent,
   type WebhookMessage,
 } from "../../../../src/schema/index.js";
+import { makeJob } from "../../../support/jobs/jobs.js";
+import type { LedRun } from "../../../support/jobs/led-plotter.js";
 import { startApp, type TestApp } from "../../../support/servers/app.js";
 
 const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
@@ -243,6 +245,148 @@ describe("a webhook", () => {
   );
 });
 
+describe("a webhook for starts and progress", () => {
+  const progressOf = ({ message }: Received): number => message.job.progress;
+  const at = (progress: number): Parameters<LedRun["progress"]>[0] => ({
+    progress,
+    elapsedS: 100 * progress,
+    remainingS: 100 - 100 * progress,
+    planS: 0,
+    xMm: 0,
+    yMm: 0,
+    penUp: true,
+    penMoving: false,
+  });
+
+  it("is sent when a plot starts, and not when it is paused and resumed", async () => {
+    await subscribe(["started"]);
+    const { id } = await add();
+    await app.queue.start(id);
+    const run = await app.plotter.nextRun();
+    await heard(1);
+    expect(received[0]?.message).toMatchObject({
+      event: "started",
+      job: { id, state: "plotting", progress: 0 },
+    });
+    run.held(true);
+    await expect.poll(() => app.queue.get(id).state).toBe("paused");
+    app.queue.plots.resume(id);
+    await expect.poll(() => app.queue.get(id).state).toBe("plotting");
+    run.end({ kind: "done" });
+    await expect.poll(() => app.queue.get(id).state).toBe("done");
+    app.queue.requeue(id);
+    await app.queue.start(id);
+    await heard(2);
+    expect(received[1]?.message.event).toBe("started");
+  });
+
+  it("says nothing of either to those that were made for other events", async () => {
+    await subscribe(["done", "waiting", "failed"]);
+    const { id } = await add();
+    await app.queue.start(id);
+    const run = await app.plotter.nextRun();
+    for (const share of [0.2, 0.6, 0.9]) run.progress(at(share));
+    run.end({ kind: "done" });
+    await heard(1);
+    expect(received.map(({ message }) => message.event)).toEqual(["done"]);
+  });
+
+  /** Webhooks with a clock of the test, beside those of the server. */
+  function withClock(progress: { everyPct: number; everyS: number }, pausesS: readonly number[] = []) {
+    let nowMs = 1_000_000;
+    const hooks = new Webhooks({
+      store: new WebhookStore(app.store.database),
+      plotterName: (one) => one,
+      log: () => undefined,
+      nowMs: () => nowMs,
+      pausesS,
+    });
+    const { webhook } = hooks.add({ name: "bar", url, events: ["progress"], progress });
+    return { hooks, webhook, passS: (s: number) => (nowMs += 1000 * s) };
+  }
+
+  it("is sent at most once in so many seconds and so many per cent", async () => {
+    const { hooks, passS } = withClock({ everyPct: 10, everyS: 60 });
+    const job = makeJob("a", { state: "plotting" });
+    // Ten reports a second for 100 s in which half is drawn, then for 900 s.
+    for (let s = 0; s < 100; s += 0.1) {
+      hooks.progressed({ ...job, progress: s / 200 });
+      passS(0.1);
+    }
+    await heard(1);
+    for (let s = 0; s < 900; s += 0.1) {
+      hooks.progressed({ ...job, progress: 0.5 + s / 1800 });
+      passS(0.1);
+      if (Math.round(10 * s) % 500 === 0) await nothingPending();
+    }
+    await nothingPending();
+    const shares = received.map(progressOf);
+    expect(shares[0]).toBeCloseTo(0.3, 2);
+    for (const [index, share] of shares.slice(1).entries()) {
+      expect(share - (shares[index] ?? 0)).toBeGreaterThanOrEqual(0.0999);
+    }
+    expect(shares).toHaveLength(6);
+    expect(received.every(({ message }) => message.event === "progress")).toBe(true);
+    await hooks.close();
+  });
+
+  it("keeps only the newest message of a job while the receiver is away", async () => {
+    isAway = true;
+    const { hooks, webhook, passS } = withClock({ everyPct: 5, everyS: 5 }, [40, 400, 400]);
+    const pending = () => new WebhookStore(app.store.database).deliveries(webhook.id);
+    const report = (id: string, progress: number): void => {
+      hooks.progressed(makeJob(id, { state: "plotting", progress }));
+      passS(6);
+    };
+    report("a", 0);
+    report("a", 0.1);
+    await expect.poll(() => pending()[0]?.tryCount).toBe(1);
+    const [{ nextAtMs = 0 } = {}] = pending();
+    for (const share of [0.2, 0.3, 0.4]) report("a", share);
+    report("b", 0);
+    report("b", 0.5);
+    const waiting = pending().map(({ body, tryCount }) => {
+      const { job } = webhookMessageSchema.parse(JSON.parse(body));
+      return [job.id, job.progress, tryCount];
+    });
+    expect(waiting).toEqual([
+      ["a", 0.4, 1],
+      ["b", 0.5, 0],
+    ]);
+    expect(pending()[0]?.nextAtMs).toBe(nextAtMs);
+    await hooks.close();
+  });
+
+  it("has defaults for how often, and limits", async () => {
+    const { webhook } = await subscribe(["progress"]);
+    expect(webhook.progress).toEqual({ everyPct: 5, everyS: 30 });
+    for (const progress of [{ everyPct: 0 }, { everyS: 1 }, { everyS: "x" }]) {
+      const body = JSON.stringify({ name: "x", url, events: ["progress"], progress });
+      const headers = { "Content-Type": "application/json" };
+      const made = await fetch(`${app.url}/api/v1/webhooks`, { method: "POST", headers, body });
+      expect(made.status).toBe(400);
+    }
+  });
+
+  it("does not end a plot if the disk is full", async () => {
+    const { hooks, webhook, passS } = withClock({ everyPct: 5, everyS: 5 });
+    const refuse = vi.spyOn(WebhookStore.prototype, "addDelivery").mockImplementation(() => {
+      throw new Error("database or disk is full");
+    });
+    hooks.progressed(makeJob("a", { state: "plotting", progress: 0 }));
+    passS(6);
+    expect(() => hooks.progressed(makeJob("a", { state: "plotting", progress: 0.5 }))).not.toThrow();
+    expect(refuse).toHaveBeenCalledTimes(1);
+    refuse.mockRestore();
+    passS(6);
+    hooks.progressed(makeJob("a", { state: "plotting", progress: 0.6 }));
+    await heard(1);
+    expect(received[0]?.message.job.progress).toBe(0.6);
+    hooks.remove(webhook.id);
+    await hooks.close();
+  });
+});
+
 describe("a stored webhook with an event of another version", () => {
   it("is listed with the events that this version knows", () => {
     const store = new WebhookStore(app.store.database);
@@ -251,6 +395,7 @@ describe("a stored webhook with an event of another version", () => {
       name: "Bell",
       url,
       createdAt: new Date().toISOString(),
+      progress: { everyPct: 5, everyS: 30 },
       pendingCount: 0,
       last: null,
     };
