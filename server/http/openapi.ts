@@ -201,8 +201,7 @@ const SENT = "~sent";
 const withRefs = (schema: object, io: Io): JsonSchema => {
   const end = io === "input" ? SENT : "";
   const text = JSON.stringify(schema).replaceAll(/"#\/\$defs\/([^"]+)"/g, `"${REF}$1${end}"`);
-  const { $schema: _dialect, id: _name, ...rest } = JSON.parse(text) as JsonSchema;
-  return rest;
+  return { ...(JSON.parse(text) as JsonSchema), $schema: undefined, id: undefined };
 };
 
 /** Without what says nothing: the limits of whole numbers in JavaScript, and that an answer has no further fields. */

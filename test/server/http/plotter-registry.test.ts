@@ -64,7 +64,7 @@ describe("the plotters of a server", () => {
       presets: [],
     });
     await send(app.url, "PATCH", `/plotters/${id}`, { machine: "axidraw-v3-a3" });
-    const { layers: _layers, ...pen } = DEFAULT_PLOT_SETTINGS.pen;
+    const { pen } = DEFAULT_PLOT_SETTINGS;
     const drawn = { ...DEFAULT_PLOT_SETTINGS, pen: { ...pen, downPct: 11, liftPctPerS: 90 } };
     const presets = withPreset([], "Brush", {
       ...drawn,
