@@ -63,8 +63,16 @@ export {
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
+export { getOrAdd } from "./get-or-add.js";
 export { GIVEN_WHOLE, isSameJson, withGiven } from "./settings/partial.js";
-export { isAllowed, rangeInWords, type NumberSetting, type Setting } from "./settings/setting.js";
+export {
+  isAllowed,
+  rangeInWords,
+  SETTING_GROUPS,
+  type NumberSetting,
+  type Setting,
+  type SettingGroup,
+} from "./settings/setting.js";
 export {
   QUALITY_PATH,
   SETTING_FLAGS,

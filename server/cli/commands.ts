@@ -199,6 +199,12 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await import("./settings-command.js")).declareSettings,
   },
   {
+    name: "completion",
+    about: "print a script that completes commands, options and their values in your shell",
+    examples: ["plotwright completion bash"],
+    load: async () => (await import("./completion.js")).declareCompletion,
+  },
+  {
     name: "service",
     about: "run the server as a systemd service",
     examples: ["plotwright service install --print -- --port 9381", "plotwright service status"],

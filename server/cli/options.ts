@@ -32,7 +32,7 @@ export const addPort = (command: Command, names = "serial port of the board, or 
 
 /** For a command that works through a running server if that has the plotter. */
 export const addDevice = (command: Command): Command =>
-  addPort(command, "serial port of the board, name of the running server's plotter, or virtual").option(
+  addPort(command, "serial port, name of a plotter or board, or virtual").option(
     "--direct",
     "use the port itself, although a server runs",
   );

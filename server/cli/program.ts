@@ -11,13 +11,15 @@ const BAD_USAGE = 2;
 const FAILED = 5;
 
 /** Runs one command; errors become one line on stderr and the exit code. `args` without node and script. */
-export async function runCli(args: readonly string[], io: CliIo, version: string): Promise<number> {
+export async function runCli(given: readonly string[], io: CliIo, version: string): Promise<number> {
   let exitCode = 0;
+  const isHelpAll = given.includes(HELP_ALL);
+  const args = given.map((word) => (word === HELP_ALL ? "--help" : word));
   const context: CommandContext = { io, version, setExitCode: (code) => (exitCode = code) };
   const wanted = wantedOf(args);
   try {
     await mustBeCommand(args[0] === "help" ? args[1] : args[0]);
-    const program = await buildProgram(wanted, context);
+    const program = await buildProgram(wanted, context, isHelpAll);
     await program.parseAsync([...args], { from: "user" });
     return exitCode;
   } catch (error) {
@@ -52,7 +54,11 @@ function usageFault({ code, message }: CommanderError, command: string | undefin
 }
 
 /** All commands by name; only those in `wanted` are loaded and have their options. */
-export async function buildProgram(wanted: readonly string[], context: CommandContext): Promise<Command> {
+export async function buildProgram(
+  wanted: readonly string[],
+  context: CommandContext,
+  isHelpAll = false,
+): Promise<Command> {
   const { io, version } = context;
   const program = new Command("plotwright")
     .description("Pen-plotter control for AxiDraw, NextDraw, EggBot and other EiBotBoard machines")
@@ -72,16 +78,22 @@ export async function buildProgram(wanted: readonly string[], context: CommandCo
       .copyInheritedSettings(program);
     if (!wanted.includes(name)) continue;
     (await load())(command, context);
+    (await import("./help.js")).arrangeHelp(command, isHelpAll);
     command.addHelpText("after", `\nExamples:\n${examples.map((line) => `  ${line}`).join("\n")}`);
   }
   return program;
 }
+
+/** As `--help`, with the options that are rarely used. */
+const HELP_ALL = "--help-all";
 
 /** Options without a command belong to the default command, except these, which the program itself handles. */
 const OF_PROGRAM = ["--help", "-h", "--version", "-v"];
 
 function wantedOf(args: readonly string[]): string[] {
   const [first, second] = args;
+  // Its script has all of them.
+  if (first === "completion") return COMMANDS.map(({ name }) => name);
   if (first === "help") return second === undefined ? [] : [second];
   if (first !== undefined && !first.startsWith("-")) return [first];
   return first !== undefined && OF_PROGRAM.includes(first) ? [] : [DEFAULT_COMMAND];

@@ -7,6 +7,7 @@ import {
   parseSize,
   valuesInWords,
   type SettingFlag,
+  type SettingGroup,
   type FourMargins,
   type PaperSize,
   type PlacedBox,
@@ -18,6 +19,8 @@ export interface SettingOption {
   readonly about: string;
   /** Path in PlotSettings. */
   readonly path: string;
+  readonly group: SettingGroup;
+  readonly isCommon: boolean;
   readonly parse?: (text: string) => unknown;
   readonly choices?: readonly string[];
 }
@@ -27,23 +30,31 @@ const STRUCTURED: readonly SettingOption[] = [
   {
     flags: "--machine <id>",
     path: "machine",
+    group: "machine",
+    isCommon: true,
     about: "plotter model (default axidraw-v3; for add and moves by hand: the server's plotter)",
   },
   {
     flags: "--paper <size>",
     path: "prepare.paper",
+    group: "paper",
+    isCommon: true,
     about: "A4, A3, Letter, … or WIDTHxHEIGHT in mm, or as in 8.5x11in (default A4)",
     parse: paper,
   },
   {
     flags: "--margins <mm,mm,mm,mm>",
     path: "prepare.margins",
+    group: "paper",
+    isCommon: false,
     about: "top, right, bottom, left (default: --margin on all sides)",
     parse: fourMargins,
   },
   {
     flags: "--place <x,y[,w,h]>",
     path: "prepare.layout",
+    group: "paper",
+    isCommon: false,
     about: "the drawing's own box, mm from the paper's corner (default: see --fit)",
     parse: place,
   },
@@ -51,16 +62,22 @@ const STRUCTURED: readonly SettingOption[] = [
 
 /** From the settings tables. A switch is on with its flag and off with its "--no-" flag. */
 function optionsOf(setting: SettingFlag): SettingOption[] {
-  const { path, flag, row } = setting;
+  const { path, group, flag, row } = setting;
+  const common = { path, group, isCommon: row.isCommon === true };
   const about = `${row.about} (${valuesInWords(setting)})`;
   if (row.kind === "number") {
     const parse = row.unit === "mm" ? length : number;
-    return [{ flags: flagInWords(setting), path, about, parse }];
+    return [{ ...common, flags: flagInWords(setting), about, parse }];
   }
-  if (row.kind === "choice") return [{ flags: `${flag} <how>`, path, about, choices: row.choices }];
+  if (row.kind === "choice") return [{ ...common, flags: `${flag} <how>`, about, choices: row.choices }];
   return [
-    { flags: flag, path, about },
-    { flags: flag.replace("--", "--no-"), path, about: row.aboutOff ?? "switch that off" },
+    { ...common, flags: flag, about },
+    {
+      ...common,
+      isCommon: common.isCommon && row.aboutOff !== undefined,
+      flags: flag.replace("--", "--no-"),
+      about: row.aboutOff ?? "switch that off",
+    },
   ];
 }
 

@@ -2,6 +2,11 @@
  * The rows of the settings tables. The tables are the only place that defines a default, a range, a unit or a
  * flag: the schema, the checks, the command line, the page's fields and docs/cli.md are derived from them.
  */
+
+/** What the user decides, in the order of the command line's help. */
+export const SETTING_GROUPS = ["machine", "paper", "drawing", "lines", "motion", "pen"] as const;
+export type SettingGroup = (typeof SETTING_GROUPS)[number];
+
 interface Described {
   /** Shown on the page. */
   readonly label: string;
@@ -11,6 +16,10 @@ interface Described {
   readonly words?: string;
   /** "--margin"; left out: the command line has no option for it. */
   readonly flag?: string;
+  /** What the user decides with it, if it differs from the rest of its table. */
+  readonly group?: SettingGroup;
+  /** One of the few that the command line's `--help` shows; the others are under `--help-all`. */
+  readonly isCommon?: true;
   /** The page's panel that lists it as a plain field; left out: it has custom UI. */
   readonly panel?: "lines";
   /** What happens by default, for a row whose default is "auto". */

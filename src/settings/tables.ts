@@ -2,7 +2,7 @@
 import { AXIS_TABLE, DRAW_TABLE, MOTION_TABLE, TRAVEL_TABLE, QUALITY_TABLE } from "./motion.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "./prepare.js";
 import { SPRINGS_TABLE, STREAM_TABLE } from "./machine.js";
-import { rangeInWords, type Setting, type SettingsTable } from "./setting.js";
+import { rangeInWords, type Setting, type SettingGroup, type SettingsTable } from "./setting.js";
 import { PEN_TABLE, OVERLAP_TABLE } from "./pen.js";
 
 export const SETTINGS_TABLES: Readonly<Record<string, SettingsTable>> = {
@@ -25,9 +25,22 @@ const OTHER_TABLES: Readonly<Record<string, { table: SettingsTable; otherwise: s
   "": { table: QUALITY_TABLE, otherwise: "each setting by itself" },
 };
 
+/** By the path of the table. */
+const GROUP_OF_TABLE: Readonly<Record<string, SettingGroup>> = {
+  prepare: "lines",
+  "prepare.hatch": "drawing",
+  motion: "motion",
+  "motion.draw": "motion",
+  "motion.travel": "motion",
+  pen: "pen",
+  [SPRINGS_PATH]: "machine",
+  "": "machine",
+};
+
 export interface SettingFlag {
   /** Path in the settings: "prepare.marginMm". */
   readonly path: string;
+  readonly group: SettingGroup;
   readonly flag: string;
   readonly row: Setting;
   /** What applies without the flag; left out: the row's default. */
@@ -36,7 +49,16 @@ export interface SettingFlag {
 
 function flagsIn(at: string, table: SettingsTable): SettingFlag[] {
   return Object.entries(table).flatMap(([key, row]) =>
-    row.flag === undefined ? [] : [{ path: at === "" ? key : `${at}.${key}`, flag: row.flag, row }],
+    row.flag === undefined
+      ? []
+      : [
+          {
+            path: at === "" ? key : `${at}.${key}`,
+            group: row.group ?? GROUP_OF_TABLE[at],
+            flag: row.flag,
+            row,
+          },
+        ],
   );
 }
 
