@@ -113,7 +113,7 @@ export {
 
 // plan
 export { PositionTimes } from "./position/on-plan.js";
-export type { TrajectoryStats } from "./plan/stats.js";
+export { timesByLayer, type LayerTimes, type TimesByKind, type TrajectoryStats } from "./plan/stats.js";
 export { lowerAheadMm } from "./plan/pen/pen-flight.js";
 export { liftTime, dropTime, penOfLayer, timedPen } from "./plan/pen/pen-times.js";
 export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";

@@ -59,8 +59,7 @@ function groupItems<T extends Command | Option>(
     const group = IN_ORDER.indexOf(groupOf(item));
     return group < 0 ? IN_ORDER.length : group;
   };
-  const isLater = (item: T): number =>
-    "flags" in item && settingOf(item as Option)?.isCommon === false ? 1 : 0;
+  const isLater = (item: T): number => ("flags" in item && settingOf(item)?.isCommon === false ? 1 : 0);
   const sorted = (items: T[]): T[] => [...items].sort((a, b) => rank(a) - rank(b) || isLater(a) - isLater(b));
-  return Help.prototype.groupItems(sorted(unsorted), sorted(visible), groupOf) as Map<string, T[]>;
+  return Help.prototype.groupItems(sorted(unsorted), sorted(visible), groupOf);
 }

@@ -117,9 +117,22 @@ export const addLayerOptions = (command: Command): Command =>
       ),
     );
 
+const MAX_COPIES = 100;
+
 export function copies(text: string): number {
   const value = Number(text);
-  if (!/^\d+$/.test(text) || value < 1 || value > 100) throw new InvalidArgumentError("It must be 1 to 100.");
+  if (/^0+$/.test(text)) {
+    throw new InvalidArgumentError("It must be 1 to 100. For endless copies: plotwright plot --copies 0.");
+  }
+  if (!/^\d+$/.test(text) || value > MAX_COPIES) throw new InvalidArgumentError("It must be 1 to 100.");
+  return value;
+}
+
+export function copiesOrEndless(text: string): number {
+  const value = Number(text);
+  if (!/^\d+$/.test(text) || value > MAX_COPIES) {
+    throw new InvalidArgumentError("It must be 1 to 100, or 0 for endless copies.");
+  }
   return value;
 }
 

@@ -1,5 +1,5 @@
 /** Summary figures of a trajectory, as shown to users and by `plan --json`. */
-import { blockLength, type Trajectory } from "./trajectory.js";
+import { blockLength, runEndS, type Trajectory } from "./trajectory.js";
 
 /** The result of `trajectoryStats`. */
 export interface TrajectoryStats {
@@ -17,6 +17,58 @@ export interface TrajectoryStats {
   readonly durationS: number;
 }
 
+/** Seconds of a plot by what the machine does. Their sum is the whole time. */
+export interface TimesByKind {
+  readonly drawS: number;
+  readonly travelS: number;
+  /** The carriage waits: for the pen to lift or lower, or as a layer's name asks for. */
+  readonly penS: number;
+}
+
+/** A layer's part of a plot: from the end of what is drawn before, until the end of its own last stroke. */
+export interface LayerTimes extends TimesByKind {
+  /** Index in `StrokeSet.layers`. */
+  readonly layer: number;
+  readonly drawMm: number;
+}
+
+/** The time of each layer in the order of drawing, and of what follows the last one: the way home. Linear in runs. */
+export function timesByLayer(
+  trajectory: Trajectory,
+  layerOf: Uint16Array,
+): { readonly layers: readonly LayerTimes[]; readonly home: TimesByKind } {
+  const { runs } = trajectory;
+  const layers: LayerTimes[] = [];
+  let travelS = 0;
+  let beganS = 0;
+  for (let run = 0; run < runs.count; run++) {
+    const [stroke, endS] = [runs.stroke[run], runEndS(trajectory, run)];
+    const runS = endS - runs.startS[run];
+    if (stroke < 0) {
+      travelS += runS;
+      continue;
+    }
+    const layer = layerOf[stroke];
+    const before = layers.at(-1)?.layer === layer ? layers.pop() : undefined;
+    layers.push({
+      layer,
+      drawMm: (before?.drawMm ?? 0) + runMm(trajectory, run),
+      drawS: (before?.drawS ?? 0) + runS,
+      travelS: (before?.travelS ?? 0) + travelS,
+      penS: (before?.penS ?? 0) + (endS - beganS - runS - travelS),
+    });
+    [beganS, travelS] = [endS, 0];
+  }
+  return { layers, home: { drawS: 0, travelS, penS: trajectory.totalS - beganS - travelS } };
+}
+
+function runMm(trajectory: Trajectory, run: number): number {
+  let lengthMm = 0;
+  for (let k = trajectory.runs.firstBlock[run]; k < trajectory.runs.firstBlock[run + 1]; k++)
+    lengthMm += blockLength(trajectory, k, trajectory.durationS[k]);
+  return lengthMm;
+}
+
 /** Distances, pen lifts, duration and maxima of a trajectory. Linear in the number of blocks. */
 export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
   const { runs } = trajectory;
@@ -25,9 +77,8 @@ export function trajectoryStats(trajectory: Trajectory): TrajectoryStats {
   let speed2 = 0;
   let accel2 = 0;
   for (let run = 0; run < runs.count; run++) {
-    let lengthMm = 0;
+    const lengthMm = runMm(trajectory, run);
     for (let k = runs.firstBlock[run]; k < runs.firstBlock[run + 1]; k++) {
-      lengthMm += blockLength(trajectory, k, trajectory.durationS[k]);
       speed2 = Math.max(speed2, blockMaxSpeed2(trajectory, k));
       accel2 = Math.max(accel2, blockMaxAccel2(trajectory, k));
     }

@@ -3,7 +3,7 @@ import { PlotwrightError } from "../../../src/index.js";
 import { withDrawingFile } from "../files.js";
 import type { PlanCommandOptions } from "./plan.js";
 import { runPlanInThread } from "./plan-thread.js";
-import { addData, addLayerOptions, type Declare } from "../options.js";
+import { addData, addLayerOptions, copiesOrEndless, type Declare } from "../options.js";
 import { printed } from "../io.js";
 import { addSettingOptions, type OptionValues } from "../settings-options.js";
 import { settingsByPlotter } from "../client/known-plotters.js";
@@ -13,6 +13,7 @@ export const declarePlan: Declare = (command, { io }) => {
     addData(addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin"))),
   )
     .option("--plotter <name>", "with the model, heights and presets of this plotter, by name or id")
+    .option("--copies <number>", "number of times to plot it; 0: endless", copiesOrEndless, 1)
     .option("--json", "print one JSON object")
     .option("--pen-error", "report how far the pen deviates from the drawing when the machine swings")
     .option("--commands <out>", "write the machine's commands, one per line, to a file or - for stdout")

@@ -19,8 +19,14 @@ import {
   type DrawnSize,
   type PenError,
   type PreparedJob,
+  boxOfPoints,
   machineOf,
+  penOf,
   pointCount,
+  settingsIdOf,
+  shownLayerName,
+  timesByLayer,
+  type TimesByKind,
   strokeCount,
   trajectoryToSvg,
   svgOptionsOf,
@@ -44,6 +50,8 @@ export interface PlanCommandOptions {
   readonly strokes?: string;
   readonly only?: readonly string[];
   readonly pen?: readonly PenChoice[];
+  /** 0: endless. */
+  readonly copies: number;
 }
 
 /** The object of `--json`: scripts depend on these keys. Lengths mm, speeds mm/s, mm/s². */
@@ -69,8 +77,34 @@ export interface PlanReport {
   readonly planMs: number;
   readonly compileMs: number;
   readonly warnings: readonly string[];
+  /** Where the drawing lies on the paper, mm from its top left corner. */
+  readonly box: {
+    readonly xMm: number;
+    readonly yMm: number;
+    readonly widthMm: number;
+    readonly heightMm: number;
+  };
+  readonly size: DrawnSize;
+  readonly paper: { readonly widthMm: number; readonly heightMm: number };
+  readonly machine: Pick<MachineProfile, "id" | "name" | "widthMm" | "heightMm">;
+  /** `durationS` by what the machine does. */
+  readonly times: TimesByKind;
+  /** In the order of drawing. The way home belongs to no layer. */
+  readonly layers: readonly LayerReport[];
+  /** 0: endless. The other figures are those of one. */
+  readonly copies: number;
   /** With `--pen-error`. */
   readonly penError?: PenError;
+}
+
+interface LayerReport extends TimesByKind {
+  readonly id: string;
+  readonly name: string;
+  /** The pen that draws it; null for the one in the holder. */
+  readonly pen: string | null;
+  readonly strokes: number;
+  readonly drawMm: number;
+  readonly durationS: number;
 }
 
 interface PlannedFile {
@@ -176,9 +210,51 @@ function planFile(
     planMs: rounded(planMs),
     compileMs: rounded(compileMs),
     warnings: [...job.warnings, ...commands.warnings],
+    box: boxOf(job),
+    size: roundedAll(job.prepared.size),
+    paper: { widthMm: job.prepared.paperWidthMm, heightMm: job.prepared.paperHeightMm },
+    machine: {
+      id: machine.id,
+      name: machine.name,
+      widthMm: machine.widthMm,
+      heightMm: machine.heightMm,
+    },
+    ...timesOf(job, trajectory, settings),
+    copies: options.copies,
     ...(options.penError ? { penError: penErrorOf(job, trajectory, machine) } : {}),
   };
   return { report, settings, job, trajectory, lines };
+}
+
+function boxOf({ prepared: { strokes } }: PreparedJob): PlanReport["box"] {
+  const { x0, y0, x1, y1 } = boxOfPoints(strokes.xy);
+  return roundedAll({ xMm: x0, yMm: y0, widthMm: x1 - x0, heightMm: y1 - y0 });
+}
+
+function timesOf(
+  { prepared: { strokes } }: PreparedJob,
+  trajectory: Trajectory,
+  settings: PlotSettings,
+): Pick<PlanReport, "times" | "layers"> {
+  const { layers, home } = timesByLayer(trajectory, strokes.layer);
+  const sum = (kind: keyof TimesByKind): number =>
+    [...layers, home].reduce((total, one) => total + one[kind], 0);
+  const counts = new Uint32Array(strokes.layers.length);
+  for (const layer of strokes.layer) counts[layer]++;
+  const reports = layers.map(({ layer: index, drawMm, drawS, travelS, penS }) => {
+    const layer = strokes.layers[index];
+    return {
+      id: settingsIdOf(layer),
+      name: shownLayerName(layer.name),
+      pen: penOf(settings, layer)?.name ?? null,
+      strokes: counts[index],
+      ...roundedAll({ drawMm, drawS, travelS, penS, durationS: drawS + travelS + penS }),
+    };
+  });
+  return {
+    times: roundedAll({ drawS: sum("drawS"), travelS: sum("travelS"), penS: sum("penS") }),
+    layers: reports,
+  };
 }
 
 function penErrorOf({ prepared }: PreparedJob, trajectory: Trajectory, machine: MachineProfile): PenError {
@@ -194,16 +270,38 @@ function penErrorOf({ prepared }: PreparedJob, trajectory: Trajectory, machine: 
 
 function words(report: PlanReport, size: DrawnSize): string {
   const lines = [
-    sizeInWords(size),
+    `${sizeInWords(size)}, on paper of ${report.paper.widthMm} × ${report.paper.heightMm} mm`,
+    printed`for the ${report.machine.name} (${report.machine.id})`,
     [many(report.strokes, "stroke"), many(report.points, "point"), many(report.penLifts, "pen lift")].join(
       ", ",
     ),
     `draws ${metres(report.drawMm)}, travels ${metres(report.travelMm)} (${metres(report.travelMmUnordered)} in the file's order)`,
-    `takes ${minutes(report.durationS)}, up to ${Math.round(report.maxSpeed)} mm/s`,
+    `takes ${minutes(report.durationS)}: ${timesInWords(report.times)}; up to ${Math.round(report.maxSpeed)} mm/s`,
+    ...layersInWords(report.layers),
+    ...copiesInWords(report),
     ...(report.penError ? [penErrorInWords(report.penError)] : []),
     ...report.warnings.map((warning) => printed`note: ${warning}`),
   ];
   return `${lines.join("\n")}\n`;
+}
+
+const timesInWords = ({ drawS, travelS, penS }: TimesByKind): string =>
+  `${minutes(drawS)} drawing, ${minutes(travelS)} travel, ${minutes(penS)} pen`;
+
+/** Nothing for a single layer without a pen of its own. */
+function layersInWords(layers: readonly LayerReport[]): string[] {
+  if (layers.length === 1 && layers[0].pen === null) return [];
+  return layers.map((layer) => {
+    const pen = layer.pen === null ? "" : printed`, pen ${layer.pen}`;
+    const name = printed`layer ${layer.name === "" ? layer.id : layer.name}`;
+    return `${name}${pen}: ${minutes(layer.durationS)}, ${many(layer.strokes, "stroke")}, ${metres(layer.drawMm)}`;
+  });
+}
+
+function copiesInWords({ copies, durationS }: PlanReport): string[] {
+  if (copies === 1) return [];
+  if (copies === 0) return ["endless copies, until you stop it"];
+  return [`${copies} copies: ${minutes(copies * durationS)}, without the changes of paper`];
 }
 
 const penErrorInWords = ({ maxMm, p99Mm, rmsMm }: PenError): string =>
@@ -211,6 +309,10 @@ const penErrorInWords = ({ maxMm, p99Mm, rmsMm }: PenError): string =>
 
 const many = (count: number, what: string): string => `${count} ${what}${count === 1 ? "" : "s"}`;
 const metres = (mm: number): string => `${(mm / 1000).toFixed(2)} m`;
+/** An object of numbers. */
+const roundedAll = <T extends object>(values: T): T =>
+  Object.fromEntries(Object.entries(values).map(([key, value]) => [key, rounded(value as number)])) as T;
+
 const rounded = (value: number): number => Math.round(value * 1000) / 1000;
 
 /** Milliseconds since the last call. */

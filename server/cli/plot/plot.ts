@@ -25,7 +25,7 @@ import {
   addData,
   addDevice,
   addLayerOptions,
-  copies,
+  copiesOrEndless,
   seconds,
   type Declare,
 } from "../options.js";
@@ -69,6 +69,8 @@ interface Course {
   readonly record: PlotRecord;
   /** Aborted when the process must end. */
   readonly end: AbortSignal;
+  /** Called when the pen is at rest for good. The plotter is closed after that, and Ctrl-C no longer concerns this plot. */
+  readonly over?: () => void;
 }
 
 /** Plots the drawings one after the other. Returns the exit code: that of the first plot which does not end normally. */
@@ -76,27 +78,45 @@ async function plotInTurn(
   files: readonly string[],
   options: PlotCommandOptions,
   io: CliIo,
-  plot: (file: string, end: AbortSignal) => Promise<number>,
+  plot: (file: string, end: AbortSignal, over: () => void) => Promise<number>,
 ): Promise<number> {
-  const jobs = files.flatMap((file) => Array<string>(options.copies).fill(file));
-  if (jobs.length === 0)
+  const { copies } = options;
+  if (files.length === 0)
     throw new PlotwrightError("bad-setting", "No drawing was given. Use plotwright plot FILE.svg.");
-  if (jobs.length > 1 && options.paperS === undefined && !io.hasKeyboard) {
+  const isSingle = copies === 1 && files.length === 1;
+  if (!isSingle && options.paperS === undefined && !io.hasKeyboard) {
     throw new PlotwrightError(
       "bad-setting",
       "Between two plots it waits for Enter, so that the paper can be changed. Without a keyboard, use --paper-s SECONDS to set the wait.",
     );
   }
   mustBeReadable(files);
+  if (copies === 0 && options.quiet !== true)
+    io.err("Endless copies: to stop, press Ctrl-C twice, or once between two plots.\n");
   return untilEnd(io, async (end) => {
-    for (const [index, file] of jobs.entries()) {
-      if (index > 0 && (end.aborted || !(await waitForPaper(nameOf(file), options, io))))
-        return cancelled(io);
-      const code = await plot(file, end);
-      if (code !== 0) return code;
+    let isBetween = false;
+    let isStopped = false;
+    const forget = io.onInterrupt(() => (isStopped ||= isBetween));
+    try {
+      for (const file of copiesInTurn(files, copies)) {
+        if (isBetween && (end.aborted || isStopped || !(await waitForPaper(nameOf(file), options, io))))
+          return cancelled(io);
+        isBetween = false;
+        const code = await plot(file, end, () => (isBetween = true));
+        if (code !== 0) return code;
+        isBetween = true;
+      }
+    } finally {
+      forget();
     }
     return 0;
   });
+}
+
+/** Each file as often as asked; without an end, all files over and over. */
+function* copiesInTurn(files: readonly string[], copies: number): Generator<string> {
+  while (copies === 0) yield* files;
+  for (const file of files) yield* Array<string>(copies).fill(file);
 }
 
 /** Without a server. Returns the exit code: 0, or 5 when it was cancelled or interrupted. Failures are thrown. */
@@ -108,7 +128,7 @@ export async function runPlot(
 ): Promise<number> {
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   mustHaveEnded(record, options);
-  return plotInTurn(files, options, io, (file, end) =>
+  return plotInTurn(files, options, io, (file, end, over) =>
     withDrawingFile(file, (path) => {
       const { only, pen } = options;
       const plot: Plot = {
@@ -122,7 +142,7 @@ export async function runPlot(
         board: undefined,
         progress: 0,
       };
-      return plotOne(plot, { begin: () => record.begin(path, plot), record, end }, options, io);
+      return plotOne(plot, { begin: () => record.begin(path, plot), record, end, over }, options, io);
     }),
   );
 }
@@ -226,7 +246,7 @@ async function onPlotter(
   plotter: PlotterPort,
   planner: OpenPlanner,
   { name, settings, from, received, board, progress: before }: Plot,
-  { begin, record, end }: Course,
+  { begin, record, end, over }: Course,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
@@ -245,6 +265,7 @@ async function onPlotter(
   const resumed = from === null ? null : ({ position, findsHome: findsHome(machineOf(settings)) } as const);
   const report = plotReport(name, options, io);
   const ended = await watch(run, { report, resumed, end, endWords: "Interrupted: the pen lifts." }, io);
+  over?.();
   // The motors stay on, so that the carriage stays where the plot is to be resumed.
   if (ended === "interrupted") return interrupted(record, io);
   try {
@@ -292,7 +313,7 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
       ),
     ),
   )
-    .option("--copies <number>", "number of times to plot each", copies, 1)
+    .option("--copies <number>", "number of times to plot each; 0: endless, in turn", copiesOrEndless, 1)
     .option(
       "--paper-s <seconds>",
       "time to wait for new paper between two plots, instead of waiting for Enter",

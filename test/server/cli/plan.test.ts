@@ -2,6 +2,7 @@ import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { beforeEach, describe, expect, it } from "vitest";
+import type { PlanReport } from "../../../server/cli/plan/plan.js";
 import { VirtualBoard, type Clock } from "../../../src/index.js";
 import { IS_FULL } from "../../support/runs/full-run.js";
 import { cli, type CliRun } from "../../support/processes/command-line.js";
@@ -26,7 +27,9 @@ const CONTRACT = [
     "compileMs",
     "warnings",
   ],
+  ...["box", "size", "paper", "machine", "times", "layers", "copies"],
 ];
+const OBJECTS = ["box", "size", "paper", "machine", "times"];
 
 let dir: string;
 beforeEach(() => {
@@ -54,7 +57,8 @@ function expectReport({ code, out, err }: CliRun): void {
   const report = JSON.parse(out) as Record<string, unknown>;
   expect(Object.keys(report)).toEqual(CONTRACT);
   for (const [key, value] of Object.entries(report)) {
-    if (key === "warnings") expect(value).toBeInstanceOf(Array);
+    if (key === "warnings" || key === "layers") expect(value).toBeInstanceOf(Array);
+    else if (OBJECTS.includes(key)) expect(value).toBeTypeOf("object");
     else expect([key, Number.isFinite(value)]).toEqual([key, true]);
   }
   expect(report["strokes"]).toBeGreaterThan(0);
@@ -64,6 +68,67 @@ function expectReport({ code, out, err }: CliRun): void {
 describe("plotwright plan", () => {
   it("prints one JSON object with exactly the documented keys, and nothing else", async () => {
     expectReport(await cli("plan", sample(firstSample), "--json"));
+  });
+
+  const LAYERS = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="60mm" height="40mm" viewBox="0 0 60 40" stroke="black" fill="none"><g inkscape:groupmode="layer" id="l1" inkscape:label="Sky"><path d="M10 10h40"/><path d="M10 20h40"/></g><g inkscape:groupmode="layer" id="l2" inkscape:label="Sea"><path d="M10 30h20"/></g></svg>`;
+
+  it("tells layers, pens, and time by layer and by what the machine does", async () => {
+    const file = join(dir, "layers.svg");
+    writeFileSync(file, LAYERS);
+    const flags = [
+      "--pen",
+      "Sky=Blue",
+      "Sea=Green",
+      "--machine",
+      "axidraw-v3-a3",
+      "--paper",
+      "A5",
+      "--copies",
+      "3",
+    ];
+    const report = JSON.parse((await cli("plan", file, "--json", ...flags)).out) as PlanReport;
+    expect(report).toMatchObject({
+      box: { xMm: 10, yMm: 10, widthMm: 40, heightMm: 20 },
+      size: { widthMm: 40, heightMm: 20, scaleX: 1, scaleY: 1, turnedDeg: 0 },
+      paper: { widthMm: 210, heightMm: 148 },
+      machine: { id: "axidraw-v3-a3", name: "AxiDraw V3/A3", widthMm: 430, heightMm: 297 },
+      layers: [
+        { id: "l1", name: "Sky", pen: "Blue", strokes: 2, drawMm: 80 },
+        { id: "l2", name: "Sea", pen: "Green", strokes: 1, drawMm: 20 },
+      ],
+      copies: 3,
+    });
+    const { times, layers, durationS } = report;
+    expect(times.drawS + times.travelS + times.penS).toBeCloseTo(durationS, 1);
+    for (const { drawS, travelS, penS, durationS: whole } of layers) {
+      expect(drawS + travelS + penS).toBeCloseTo(whole, 2);
+      expect(Math.min(drawS, travelS, penS)).toBeGreaterThan(0);
+    }
+    const { out } = await cli("plan", file, ...flags);
+    expect(out).toMatch(
+      /^drawn 40 × 20 mm, 100 %, on paper of 210 × 148 mm\nfor the AxiDraw V3\/A3 \(axidraw-v3-a3\)\n/,
+    );
+    expect(out).toMatch(
+      /\ntakes 00:00:\d\d: 00:00:\d\d drawing, 00:00:\d\d travel, 00:00:\d\d pen; up to \d+ mm\/s\n/,
+    );
+    expect(out).toMatch(
+      /\nlayer Sky, pen Blue: 00:00:\d\d, 2 strokes, 0\.08 m\nlayer Sea, pen Green: 00:00:\d\d, 1 stroke, 0\.02 m\n3 copies: 00:00:\d\d, without the changes of paper\n/,
+    );
+    expect((await cli("plan", file, "--copies", "0")).out).toContain("\nendless copies, until you stop it\n");
+  });
+
+  it("names the model and --machine if the drawing is beyond the machine", async () => {
+    const file = join(dir, "wide.svg");
+    writeFileSync(
+      file,
+      `<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="200mm" viewBox="0 0 400 200" stroke="black"><path d="M5 5h390"/></svg>`,
+    );
+    const { code, err } = await cli("plan", file, "--paper", "A3");
+    expect([code, err]).toEqual([
+      3,
+      expect.stringMatching(/but the AxiDraw V3 can only go from \(0, 0\) to \(300, 218\) mm: .*--machine/),
+    ]);
+    expect((await cli("plan", file, "--paper", "A3", "--machine", "axidraw-v3-a3")).code).toBe(0);
   });
 
   it("writes commands that take the board as long as planned, and bring it back home", async () => {

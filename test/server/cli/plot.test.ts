@@ -77,6 +77,49 @@ describe("plotwright plot", () => {
     expect([copies.code, copies.err.match(/Done/g)?.length]).toEqual([0, 3]);
   });
 
+  it("plots endless copies of all files in turn, until Ctrl-C between two of them or twice in a plot", async () => {
+    const other = join(dir, "b.svg");
+    writeFileSync(other, SVG);
+    const io = new CaughtIo();
+    const plotted = plot(io, file, other, "--copies", "0");
+    const order = ["b.svg", "a.svg", "b.svg"];
+    for (const [i, next] of order.entries()) {
+      await expect.poll(() => io.errText.match(/Next: .*\./g)?.length).toBe(i + 1);
+      expect(/.*Next: .*?(\w\.svg)/s.exec(io.errText)?.[1]).toBe(next);
+      if (i < order.length - 1) io.line();
+    }
+    expect(io.errText).toMatch(/^Endless copies: to stop, press Ctrl-C twice, or once between two plots\.\n/);
+    io.interrupt();
+    expect((await plotted).code).toBe(5);
+    expect(io.errText.match(/Done: /g)).toHaveLength(3);
+
+    writeFileSync(file, SVG.replace("M1 2h9", "M1 2h18v16h-18z".repeat(2000)));
+    const running = new CaughtIo();
+    const stopped = plot(running, file, "--copies", "0", "--paper-s", "0");
+    await expect.poll(() => running.errText).toContain("Plotting a.svg.");
+    running.interrupt();
+    await expect.poll(() => running.errText).toContain("Enter resumes");
+    running.interrupt();
+    expect((await stopped).code).toBe(5);
+    // Without a keyboard, the first one stops it, and so does the end of the process.
+    writeFileSync(file, SVG);
+    for (const end of ["interrupt", "end"] as const) {
+      const quiet = withoutKeyboard();
+      const ended = plot(quiet, file, "--copies", "0", "--paper-s", "0");
+      await expect.poll(() => quiet.errText.match(/Done: /g)?.length ?? 0).toBeGreaterThan(1);
+      quiet[end]();
+      expect((await ended).code).toBe(5);
+    }
+    expect((await plot(withoutKeyboard(), file, "--copies", "0")).err).toMatch(/--paper-s/);
+    for (const [command, wrong, words] of [
+      ["plot", "101", "0 for endless"],
+      ["plot", "-1", "0 for endless"],
+      ["add", "0", "plotwright plot --copies 0"],
+    ] as const) {
+      expect((await cliWith(new CaughtIo(), command, file, "--copies", wrong)).err).toContain(words);
+    }
+  });
+
   it("refuses a plot that would wait for another pen without a keyboard, and draws nothing", async () => {
     const layers = join(dir, "layers.svg");
     const layer = (label: string): string =>

@@ -104,7 +104,7 @@ describe("a planner", () => {
     const limits = { ...PLANNING_LIMITS, growthMb: 400 };
     const line = `<path stroke="black" d="M0 0${"l5 5-5-5".repeat(1_100_000)}"/>`;
     const file = input(`<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="90mm">${line}</svg>`);
-    const command = { file: file.path, settings: file.settings, options: { firmware: "3.0.3" } };
+    const command = { file: file.path, settings: file.settings, options: { firmware: "3.0.3", copies: 1 } };
     const words =
       /^This drawing has 2\.2 million points\. Planning them needs at least 991 MB .* can give 400 MB\. Simplify/;
     for (const work of [
@@ -152,7 +152,7 @@ describe("a planner", () => {
       const command = {
         file: file.path,
         settings: file.settings,
-        options: { firmware: "3.0.3", json: true },
+        options: { firmware: "3.0.3", copies: 1, json: true },
       };
       await runPlanInThread(command, { out: (part) => void out.push(part), err: () => undefined });
       expect(JSON.parse(out.join(""))).toMatchObject({
@@ -181,7 +181,7 @@ it("the command plan cancels a file that takes too long to read, with exit code 
   const out: string[] = [];
   const error = await failure(
     runPlanInThread(
-      { file: path, settings, options: { firmware: "3.0.3" } },
+      { file: path, settings, options: { firmware: "3.0.3", copies: 1 } },
       { out: (text) => void out.push(text), err: (text) => void out.push(text) },
       { ...PLANNING_LIMITS, importS: 1 },
     ),

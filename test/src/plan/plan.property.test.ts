@@ -1,7 +1,14 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PEN, plan, stateAt, trajectoryStats, type MotionSettings } from "../../../src/index.js";
-import { DEFAULT_FIT, MOTION_MODES, type MotionMode } from "../../../src/internal.js";
+import {
+  DEFAULT_FIT,
+  MOTION_MODES,
+  strokeCount,
+  timesByLayer,
+  type LayerTimes,
+  type MotionMode,
+} from "../../../src/internal.js";
 import {
   arbitraryLimits,
   arbitraryGridStroke,
@@ -48,6 +55,29 @@ describe.each(MOTION_MODES)("a plan of any drawing in mode %s", (mode) => {
           expect(worst.jerk).toBeLessThanOrEqual(1.001);
           expect(worst.accelJump).toBeLessThan(far ? 1 : 1e-3);
         }
+      }),
+      RUNS,
+    );
+  });
+
+  it("has times by layer and by kind that add up to the whole", () => {
+    fc.assert(
+      fc.property(arbitraryStrokeSet, arbitraryMotion, fc.array(fc.nat(2)), (strokes, motion, jumps) => {
+        const count = strokeCount(strokes);
+        // Layers in order, some of them without strokes.
+        const layer = new Uint16Array(count);
+        for (let i = 1; i < count; i++) layer[i] = layer[i - 1] + (jumps[i] ?? 0);
+        const trajectory = plan(strokes, motion, DEFAULT_PEN);
+        const { layers, home } = timesByLayer(trajectory, layer);
+        const sum = (value: (one: LayerTimes) => number): number =>
+          layers.reduce((total, one) => total + value(one), 0);
+        const { drawMm, durationS } = trajectoryStats(trajectory);
+        const whole = sum(({ drawS, travelS, penS }) => drawS + travelS + penS) + home.travelS + home.penS;
+        expect(whole).toBeCloseTo(durationS, 6);
+        expect(sum((one) => one.drawMm)).toBeCloseTo(drawMm, 6);
+        expect(layers.map((one) => one.layer)).toEqual([...new Set(layer)]);
+        for (const { drawS, travelS, penS } of [...layers, home])
+          expect(Math.min(drawS, travelS, penS)).toBeGreaterThan(-1e-9 * Math.max(1, durationS));
       }),
       RUNS,
     );
