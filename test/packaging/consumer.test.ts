@@ -210,8 +210,8 @@ describe("a bundler of a program", () => {
     ["MACHINES, machineById", 2],
     ["DEFAULT_MOTION, DEFAULT_PEN, DEFAULT_PREPARE", 6],
     ["stateAt, trajectoryStats", 6],
-    ["plan, VirtualBoard", 30],
-    ["planSvg", 160],
+    ["plan, VirtualBoard", 40],
+    ["planSvg", 165],
   ])("takes for %s at most %d kB", async (names, limitKb) => {
     const kb = await firstLoadKb(names);
     expect(kb).toBeGreaterThan(0.2);

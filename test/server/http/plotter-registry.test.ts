@@ -68,7 +68,7 @@ describe("the plotters of a server", () => {
     const drawn = { ...DEFAULT_PLOT_SETTINGS, pen: { ...pen, downPct: 11, liftPctPerS: 90 } };
     const presets = withPreset([], "Brush", {
       ...drawn,
-      pen: { ...drawn.pen, liftPctPerS: undefined, dropMs: 444 },
+      pen: { ...drawn.pen, liftPctPerS: undefined, extraDropMs: 444 },
       prepare: { ...drawn.prepare, hiddenLayers: ["guides"] },
     });
     await send(app.url, "PUT", `/plotters/${id}/settings`, { pen: drawn.pen, pens: [], presets });
@@ -83,7 +83,7 @@ describe("the plotters of a server", () => {
     expect(given.map(({ name }) => name)).toEqual(["Brush"]);
     const brush = (await jobWith({ settings: given[0]?.settings })).settings;
     // The lift rate of the plotter is not the preset's.
-    expect([brush.pen.dropMs, brush.pen.liftPctPerS ?? null]).toEqual([444, null]);
+    expect([brush.pen.extraDropMs, brush.pen.liftPctPerS ?? null]).toEqual([444, null]);
     expect([brush.machine, brush.prepare.hiddenLayers]).toEqual(["axidraw-v3-a3", ["guides"]]);
     expect((await send(app.url, "GET", "/plotters/none/defaults")).status).toBe(404);
   });
