@@ -176,6 +176,16 @@ export { homeAgain, powerFailed, powerLost, powerLow } from "./drivers/faults.js
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export type { PlotProgress } from "./drivers/run-progress.js";
 
+// pen sheet
+export {
+  PEN_SHEET_HEIGHT_MM,
+  PEN_SHEET_MOTION,
+  PEN_SHEET_WAITS_MS,
+  PEN_SHEET_WIDTH_MM,
+  penOfSheet,
+  penSheet,
+} from "./job/pen-sheet.js";
+
 // ringing sheet
 export {
   frequencyOfRipples,

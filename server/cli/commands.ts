@@ -176,6 +176,13 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await import("./ringing-command.js")).declareRinging,
   },
   {
+    name: "pen-times",
+    about:
+      "write the pen sheet, which shows how long the carriage must wait for the pen, or store what it shows",
+    examples: ["plotwright pen-times pen-times.svg", "plotwright pen-times --right 20"],
+    load: async () => (await import("./pen-times-command.js")).declarePenTimes,
+  },
+  {
     name: "devices",
     about: "list the boards that are plugged in",
     examples: ["plotwright devices --json"],

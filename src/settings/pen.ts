@@ -37,7 +37,7 @@ export const PEN_TABLE = {
     default: 30,
     slider: [0, 100],
   },
-  /** Added to the times of the machine's servo (src/machines/pen-servo.ts). Negative: the servo is faster. */
+  /** Added to the times of the machine's servo (src/machines/pen-servo.ts). Negative: the servo is faster by so much. */
   extraLiftMs: {
     ...extraWait,
     label: "Extra wait after lifting",

@@ -1,6 +1,7 @@
 import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { usePageState } from "../state/use-store.js";
+import { PenSheet } from "./pen-sheet.js";
 import { heightsText as words } from "./text.js";
 import { Segments, Switch } from "../ui/fields/choice.js";
 import { SettingField } from "../ui/fields/setting-field.js";
@@ -26,6 +27,7 @@ export const PenFields = () => {
           onChange={(extraDropMs) => change({ extraDropMs })}
         />
       </div>
+      <PenSheet />
       <Gentle pen={pen} />
       <Overlap pen={pen} />
     </>

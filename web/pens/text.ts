@@ -47,6 +47,17 @@ export const pensText = {
 export const heightsText = {
   title: "Lifting the pen",
   gentle: "Lower the pen gently",
+  sheet: {
+    jobName: "Pen sheet",
+    hint: "The times come from your plotter’s model. To check them, plot the pen sheet: each line waits less for the pen than the one above it. Find the lowest line that looks like the first: no tails, no missing beginnings, no missing dots.",
+    plot: "Plot the pen sheet",
+    plotting: "Plotting…",
+    noRoom: (widthMm: number, heightMm: number) =>
+      `The sheet needs ${widthMm} × ${heightMm} mm. Choose a larger paper first.`,
+    lowest: "Lowest line that is right",
+    notRead: "Not read from a sheet",
+    line: (ms: number) => `${ms} ms`,
+  },
   overlaps: {
     off: ["Off", "The carriage waits until the pen is all the way up or down."],
     safe: ["Safe", "The carriage moves while the tip is well clear of the paper, even if the pen is slow."],

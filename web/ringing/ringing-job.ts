@@ -53,7 +53,7 @@ export const sheetJob = (settings: PlotSettings, name: string): SheetJob | null 
   return {
     name,
     drawing: ringingSheet(),
-    settings: { ...placed(settings, place.xMm, place.yMm), motion: RINGING_MOTION },
+    settings: { ...sheetSettings(settings, place.xMm, place.yMm), motion: RINGING_MOTION },
   };
 };
 
@@ -73,7 +73,11 @@ export const checkJobs = (
     name: nameOf(check),
     drawing: check.svg,
     settings: {
-      ...placed(settings, place.xMm + i * place.nextMm, place.yMm + (checks.length - 1 - i) * place.nextMm),
+      ...sheetSettings(
+        settings,
+        place.xMm + i * place.nextMm,
+        place.yMm + (checks.length - 1 - i) * place.nextMm,
+      ),
       motion: {
         ...plain,
         shaper: check.springs === null ? "none" : "zv",
@@ -85,7 +89,8 @@ export const checkJobs = (
   }));
 };
 
-const placed = (settings: PlotSettings, xMm: number, yMm: number): PlotSettings => ({
+/** The plotter's machine, pen and paper, for a sheet with its corner at that place, mm. */
+export const sheetSettings = (settings: PlotSettings, xMm: number, yMm: number): PlotSettings => ({
   ...settings,
   prepare: {
     ...DEFAULT_PLOT_SETTINGS.prepare,

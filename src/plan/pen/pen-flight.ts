@@ -34,6 +34,7 @@ import {
   liftMoveTime,
   liftTime,
   penOfLayer,
+  shareOfTime,
   waitOf,
   type TimedPen,
 } from "./pen-times.js";
@@ -135,10 +136,10 @@ function fastestDrop(
   pen: TimedPen,
   { heightPct, liftS, fromPct, nearS }: { heightPct: number; liftS: number; fromPct: number; nearS: number },
 ): number {
-  const { servo, downPct } = pen;
+  const { downPct } = pen;
   const risePct = heightPct - downPct;
   const up = risePct / liftMoveTime(pen, risePct);
-  const down = Math.min(servo.dropPctPerS, 1_000 / servo.slopeMsPerPct);
+  const down = dropSpeed(pen);
   const clearPct = clearHeight(pen);
   const fromTopS = nearS - Math.max(0, fromPct - clearPct) / (FAST * down);
   const risingFromS = liftS + frameS(pen);
@@ -156,10 +157,17 @@ export function lowerAheadMm(pen: TimedPen, accel: number): number {
 }
 
 function landingOf(pen: TimedPen, accel: number): number {
-  const down = Math.min(pen.servo.dropPctPerS, 1_000 / pen.servo.slopeMsPerPct);
-  const aboveClearS = pen.overlap === "fast" ? (hopHeight(pen) - clearHeight(pen)) / (FAST * down) : 0;
+  const aboveClearS =
+    pen.overlap === "fast" ? (hopHeight(pen) - clearHeight(pen)) / (FAST * dropSpeed(pen)) : 0;
   const beforeEndS = nearTime(accel) + aboveClearS;
   return (accel * beforeEndS * beforeEndS) / 2;
+}
+
+/** The highest speed of a drop, percent per second: that of the signal or of the servo itself. */
+function dropSpeed(pen: TimedPen): number {
+  const { dropPctPerS, slopeMsPerPct } = pen.servo;
+  const share = shareOfTime(pen, pen.extraDropMs, dropPctPerS);
+  return Math.min(dropPctPerS, 1_000 / slopeMsPerPct / share);
 }
 
 /** Time to move the first or the last `NEAR_MM` of a travel, s. */

@@ -27,12 +27,31 @@ export function penOfLayer<Pen extends PenSettings>(pen: Pen, layerId: string): 
 }
 
 /** How long the servo moves for a lift by `distancePct`, s. */
-export const liftMoveTime = ({ servo, liftPctPerS }: TimedPen, distancePct: number): number =>
-  servoTime(servo, Math.abs(distancePct), liftPctPerS ?? servo.liftPctPerS);
+export function liftMoveTime(pen: TimedPen, distancePct: number): number {
+  const { servo, liftPctPerS, extraLiftMs } = pen;
+  const rate = liftPctPerS ?? servo.liftPctPerS;
+  return servoTime(servo, Math.abs(distancePct), rate) * shareOfTime(pen, extraLiftMs, rate);
+}
 
 /** How long the servo moves for a drop by `distancePct`, s. */
-export const dropMoveTime = ({ servo, dropPctPerS }: TimedPen, distancePct: number): number =>
-  servoTime(servo, Math.abs(distancePct), dropPctPerS ?? servo.dropPctPerS);
+export function dropMoveTime(pen: TimedPen, distancePct: number): number {
+  const { servo, dropPctPerS, extraDropMs } = pen;
+  const rate = dropPctPerS ?? servo.dropPctPerS;
+  return servoTime(servo, Math.abs(distancePct), rate) * shareOfTime(pen, extraDropMs, rate);
+}
+
+/** A servo that needs no time at all would have an infinite speed. */
+const MIN_SHARE = 0.01;
+
+/** A negative extra wait means a servo that is faster by this factor: between the two heights it saves that much time. */
+export function shareOfTime(
+  { servo, upPct, downPct }: TimedPen,
+  extraMs: number,
+  ratePctPerS: number,
+): number {
+  if (extraMs >= 0) return 1;
+  return Math.max(MIN_SHARE, 1 + extraMs / 1_000 / servoTime(servo, upPct - downPct, ratePctPerS));
+}
 
 /** How long the carriage waits for a lift to `heightPct`, s. */
 export const liftTime = (pen: TimedPen, heightPct: number): number =>
@@ -46,5 +65,6 @@ export const dropTime = (pen: TimedPen, fromPct: number): number =>
 export const reseatWaitS = (pen: TimedPen, byPct: number): number =>
   waitOf(pen.servo.frameMs / 1_000 + dropMoveTime(pen, byPct), pen.extraDropMs);
 
-/** The time of a move and the user's extra wait, which may be negative. */
-export const waitOf = (moveS: number, extraMs: number): number => Math.max(0, moveS + extraMs / 1_000);
+/** The time of a move, which accounts for a negative extra wait, and a positive extra wait. */
+export const waitOf = (moveS: number, extraMs: number): number =>
+  Math.max(0, moveS) + Math.max(0, extraMs) / 1_000;

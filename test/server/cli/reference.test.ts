@@ -92,6 +92,7 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
     case "plan":
     case "machines":
     case "settings":
+    case "pen-times":
     case "logs":
       return data;
     case "serve":
@@ -162,6 +163,9 @@ const VALUES: Readonly<Record<string, string>> = {
   "board --firmware": "3.0.3",
   "ringing --ripples": "5",
   "ringing --at": "30.1",
+  "--right": "20",
+  "--lift": "20",
+  "--drop": "-20",
   "--commands": "-",
   "--preview": "-",
   "--svg": "-",

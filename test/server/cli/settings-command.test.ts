@@ -337,3 +337,58 @@ describe("any settings", () => {
     );
   });
 });
+
+describe("plotwright pen-times", () => {
+  it("writes a sheet and the settings to plot it with, which wait as long as each line's number says", async () => {
+    const sheet = join(home, "pen.svg");
+    const { code, err } = await there("pen-times", sheet);
+    expect([code, err]).toEqual([
+      0,
+      expect.stringContaining(`plotwright plot ${sheet} --config ${join(home, "pen.json")}`),
+    ]);
+    const planOf = async (...args: string[]): Promise<{ penLifts: number; durationS: number }> =>
+      JSON.parse(await done("plan", sheet, "--json", ...args)) as { penLifts: number; durationS: number };
+    const plain = await planOf("--no-fit", "--order", "none", "--pen-overlap", "off");
+    const waiting = await planOf("--config", join(home, "pen.json"));
+    expect(waiting.penLifts).toBe(plain.penLifts);
+    // Nine lines of twelve strokes, and the numbers at 300 ms; the waits of some lines cancel each other.
+    const numbers = plain.penLifts - 9 * 12;
+    const extraMs = 2 * (numbers * 300 + 12 * (300 + 60 + 40 + 20 - 20 - 40 - 60 - 80));
+    expect(Math.abs(waiting.durationS - plain.durationS - extraMs / 1_000)).toBeLessThan(0.5);
+  });
+
+  it("stores the number that was read with the plotter, and keeps its other settings", async () => {
+    await done("settings", "save", "Ink", "--pen-down", "20");
+    expect(await done("pen-times", "--right", "20")).toBe(
+      "Extra wait after lifting\t20 ms\tplotter virtual\nExtra wait after lowering\t20 ms\tplotter virtual\n".replaceAll(
+        "virtual",
+        plotterName(),
+      ),
+    );
+    expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 20, extraDropMs: 20, upPct: 60 });
+    await done("pen-times", "--drop", "-40");
+    expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 20, extraDropMs: -40 });
+    expect(await done("settings", "presets")).toBe("Ink\n");
+    const { code, err } = await there("pen-times", "--right", "-900");
+    expect([code, err]).toEqual([2, expect.stringContaining("-900 ms: it must be -500 to 10000 ms")]);
+  });
+
+  it("and old waits in the database are read as extra waits of the plotter's model", async () => {
+    await done("settings", "save", "Ink");
+    const store = Store.open(data);
+    const [row] = store.plotters();
+    store.savePlotter({ ...row, machine: "nextdraw-8511" });
+    const { extraLiftMs, extraDropMs, ...pen } = DEFAULT_PLOT_SETTINGS.pen;
+    expect([extraLiftMs, extraDropMs]).toEqual([0, 0]);
+    store.savePlotterSettings(row.id, { pen: { ...pen, upPct: 50, liftMs: 100, dropMs: 300 }, pens: [] });
+    store.close();
+    expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 100 - 46, extraDropMs: 0 });
+  });
+});
+
+const plotterName = (): string => {
+  const store = Store.open(data);
+  const [{ id, name }] = store.plotters();
+  store.close();
+  return name ?? id;
+};

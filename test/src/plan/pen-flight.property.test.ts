@@ -118,10 +118,10 @@ const arbitraryJob = (overlap: PenOverlap): fc.Arbitrary<Job> =>
         downPct: fc.integer({ min: 0, max: 50 }),
         wayPct: fc.integer({ min: 3, max: 50 }),
         fullHeightMm: fc.constantFrom(0, 5, 20, 1_000),
+        extraLiftMs: fc.constantFrom(0, 0, -30, 50),
+        extraDropMs: fc.constantFrom(0, 0, -30, 50),
       })
-      .map(({ downPct, wayPct, fullHeightMm }) =>
-        penOf(overlap, { downPct, upPct: downPct + wayPct, fullHeightMm }),
-      ),
+      .map(({ downPct, wayPct, ...more }) => penOf(overlap, { downPct, upPct: downPct + wayPct, ...more })),
     motion: fc
       .record({ mode: fc.constantFrom(...MOTION_MODES), accel: fc.integer({ min: 200, max: 1_000 }) })
       .map(({ mode, accel }) => ({

@@ -1,0 +1,73 @@
+import {
+  findMachine,
+  orientedPaper,
+  PEN_SHEET_HEIGHT_MM,
+  PEN_SHEET_MOTION,
+  PEN_SHEET_WAITS_MS,
+  PEN_SHEET_WIDTH_MM,
+  penOfSheet,
+  penSheet,
+} from "../../src/internal.js";
+import type { PlotSettings } from "../../src/schema/index.js";
+import { sheetSettings, type SheetJob } from "../ringing/ringing-job.js";
+import { activeJob } from "../state/store.js";
+import { useActions, usePageState } from "../state/use-store.js";
+import { Button } from "../ui/button.js";
+import { Select } from "../ui/fields/choice.js";
+import { usePenChange } from "../ui/use-change.js";
+import { heightsText } from "./text.js";
+
+const words = heightsText.sheet;
+
+/** The job that plots the pen sheet, in the middle of the paper that the machine reaches. Null: not enough room. */
+export const penSheetJob = (settings: PlotSettings, name: string): SheetJob | null => {
+  const paper = orientedPaper(settings.prepare.paper, settings.prepare.landscape);
+  const machine = findMachine(settings) ?? paper;
+  const xMm = (Math.min(paper.widthMm, machine.widthMm) - PEN_SHEET_WIDTH_MM) / 2;
+  const yMm = (Math.min(paper.heightMm, machine.heightMm) - PEN_SHEET_HEIGHT_MM) / 2;
+  if (xMm < 0 || yMm < 0) return null;
+  const sheet = sheetSettings(settings, xMm, yMm);
+  return {
+    name,
+    drawing: penSheet(),
+    settings: { ...sheet, motion: PEN_SHEET_MOTION, pen: penOfSheet(sheet.pen) },
+  };
+};
+
+const NOT_READ = "";
+/** The first line is only there to compare with. */
+const CHOICES = PEN_SHEET_WAITS_MS.slice(1);
+
+/** Plots the pen sheet, and stores the number of the lowest line that is right as both extra waits. */
+export const PenSheet = () => {
+  const settings = usePageState((state) => state.settings);
+  const isPlotting = usePageState((state) => activeJob(state)?.name === words.jobName);
+  const { plotJob } = useActions();
+  const change = usePenChange();
+  const job = penSheetJob(settings, words.jobName);
+  const { extraLiftMs, extraDropMs } = settings.pen;
+  const isRead = extraLiftMs === extraDropMs && CHOICES.includes(extraLiftMs);
+  return (
+    <>
+      <p className="note">{words.hint}</p>
+      <Button disabled={job === null || isPlotting} onClick={() => job && void plotJob(job)}>
+        {isPlotting ? words.plotting : words.plot}
+      </Button>
+      {job === null && (
+        <p className="note note-error">{words.noRoom(PEN_SHEET_WIDTH_MM, PEN_SHEET_HEIGHT_MM)}</p>
+      )}
+      <Select
+        label={words.lowest}
+        value={isRead ? String(extraLiftMs) : NOT_READ}
+        options={[
+          { value: NOT_READ, label: words.notRead },
+          ...CHOICES.map((ms) => ({ value: String(ms), label: words.line(ms) })),
+        ]}
+        onChange={(value) => {
+          const ms = Number(value);
+          if (value !== NOT_READ) change({ extraLiftMs: ms, extraDropMs: ms });
+        }}
+      />
+    </>
+  );
+};
