@@ -11,6 +11,7 @@ import { printed, type CliIo } from "./io.js";
 import {
   addData,
   addDevice,
+  addFont,
   addHandOptions,
   addJson,
   length,
@@ -131,13 +132,18 @@ export const declareTestPatch: Declare = (command, { io }) => {
 
 /** Moves around the edge of the drawing on the paper. */
 export const declareFrame: Declare = (command, { io }) => {
-  addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"])
+  addFont(addMove(command.argument("<file>", "drawing, or - for stdin"), [...PEN_AND_TRAVEL, "prepare"]))
     .option("--only <layer...>", "around these layers only, by name, id or leading number")
-    .action(async (file: string, options: HandOptions & { readonly only?: readonly string[] }) => {
-      const found = await findPlotter(options, io);
-      const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, found.settings, options.only));
-      await usePlotter(found, io, (plotter) => plotter.move({ kind: "frame", boxMm }, found.settings));
-    });
+    .action(
+      async (
+        file: string,
+        options: HandOptions & { readonly only?: readonly string[]; readonly font?: string },
+      ) => {
+        const found = await findPlotter(options, io);
+        const boxMm = await withDrawingFile(file, (path) => drawingBoxMm(path, found.settings, options));
+        await usePlotter(found, io, (plotter) => plotter.move({ kind: "frame", boxMm }, found.settings));
+      },
+    );
 };
 
 /** Makes one manual move, with the machine, speeds and heights of the settings. */

@@ -107,6 +107,10 @@ function penChoice(text: string, before: readonly PenChoice[] = []): PenChoice[]
   return [...before, { layer, pen }];
 }
 
+/** For the commands that read the drawing themselves. */
+export const addFont = (command: Command): Command =>
+  command.option("--font <file>", "font file (ttf, otf, woff) whose outlines draw the text");
+
 /** For the commands that draw. */
 export const addLayerOptions = (command: Command): Command =>
   command

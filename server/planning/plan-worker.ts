@@ -9,7 +9,7 @@ import { faultOf, type FromWorker, type ToWorker } from "../../host/planning/mes
 import { answerOf, buffersOf } from "../../host/planning/stages.js";
 import { withOnlyLayers } from "./layers-by-name.js";
 import { mustFitMemory } from "./planning-limits.js";
-import { readDrawing } from "./read-drawing.js";
+import { inFont, readDrawing } from "./read-drawing.js";
 import type { WorkerData } from "./planner.js";
 
 const input = workerData as WorkerData;
@@ -21,7 +21,7 @@ const post = (message: FromWorker, transfer: TransferListItem[] = []): void =>
 
 try {
   // Without a file name the format is detected from the content.
-  const drawing = importDrawing("", readDrawing(input.path));
+  const drawing = importDrawing("", readDrawing(input.path), await inFont(input.font));
   mustFitMemory(drawing, input.growthMb);
   post({ type: "imported" });
   const settings = withOnlyLayers(drawing, input.settings, input.only);

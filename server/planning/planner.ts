@@ -35,6 +35,8 @@ interface WorkerInput {
   readonly machine: MachineProfile;
   /** Names of the layers to draw; default: all. */
   readonly only?: readonly string[] | undefined;
+  /** The file of the font in whose outlines text is drawn; default: the built-in letters. */
+  readonly font?: string | undefined;
 }
 
 export interface WorkerData extends WorkerInput {
@@ -124,9 +126,9 @@ export function createPlanning(files: DrawingFiles): Planning {
 export async function drawingBoxMm(
   path: string,
   settings: PlotSettings,
-  only?: readonly string[],
+  { only, font }: Pick<WorkerInput, "only" | "font"> = {},
 ): Promise<BoxMm> {
-  const planner = await openPlanner({ path, settings, machine: machineOf(settings), only });
+  const planner = await openPlanner({ path, settings, machine: machineOf(settings), only, font });
   try {
     const { xy } = planner.strokes;
     let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];

@@ -13,9 +13,9 @@ const many = (count: number, one: string, more: string): string =>
 /** The message for each kind: how many, what it means on paper, what to do. `details` names the first few. */
 const WORDS = {
   "text-not-drawn": (n: number) =>
-    `${many(n, "text is", "texts are")} not drawn. Choose single-stroke letters, give a font file, or convert text to paths in your drawing program.`,
+    `${many(n, "text is", "texts are")} not drawn. Choose single-stroke letters, or convert text to paths in your drawing program.`,
   "text-substituted": (n: number) =>
-    `${many(n, "text is", "texts are")} drawn in single-stroke letters instead of the file's font. To keep the font, convert text to paths in your drawing program.`,
+    `${many(n, "text is", "texts are")} drawn in single-stroke letters instead of the file's font. To keep the font, convert text to paths in your drawing program, or on the command line give its file with --font.`,
   "glyphs-missing": (n: number, details: string) =>
     `${many(n, "character is", "characters are")} not in the font and left out${details}. Use another font, or convert text to paths.`,
   "image-not-drawn": (n: number) =>
@@ -70,7 +70,7 @@ const WORDS = {
   "clip-ignored": (n: number, details: string) =>
     `${many(n, "clip is", "clips are")} not supported and ignored${details}: what ${n === 1 ? "it hides" : "they hide"} is drawn. Use a clip path of shapes.`,
   "clip-text": (n: number) =>
-    `${many(n, "clip has", "clips have")} the shape of text, so what ${n === 1 ? "it shows" : "they show"} is not drawn. Convert the text to paths in your drawing program.`,
+    `${many(n, "clip has", "clips have")} the shape of text, so what ${n === 1 ? "it shows" : "they show"} is not drawn. Convert the text to paths in your drawing program, or on the command line give a font file with --font.`,
   "style-fault": (n: number, details: string) =>
     `${many(n, "style rule", "style rules")} could not be read and ${n === 1 ? "is" : "are"} ignored${details}.`,
   "style-slow": (n: number, details: string) =>

@@ -3,14 +3,16 @@ import { PlotwrightError } from "../../../src/index.js";
 import { withDrawingFile } from "../files.js";
 import type { PlanCommandOptions } from "./plan.js";
 import { runPlanInThread } from "./plan-thread.js";
-import { addData, addLayerOptions, copiesOrEndless, type Declare } from "../options.js";
+import { addData, addFont, addLayerOptions, copiesOrEndless, type Declare } from "../options.js";
 import { printed } from "../io.js";
 import { addSettingOptions, type OptionValues } from "../settings-options.js";
 import { settingsByPlotter } from "../client/known-plotters.js";
 
 export const declarePlan: Declare = (command, { io }) => {
-  addLayerOptions(
-    addData(addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin"))),
+  addFont(
+    addLayerOptions(
+      addData(addSettingOptions(command.argument("<file>", "drawing: SVG, DXF, HPGL or JSON; - for stdin"))),
+    ),
   )
     .option("--plotter <name>", "with the model, heights and presets of this plotter, by name or id")
     .option("--copies <number>", "number of times to plot it; 0: endless", copiesOrEndless, 1)

@@ -7,6 +7,7 @@ import {
   trajectoryStats,
   toSvg,
   type Drawing,
+  type ImportOptions,
   type MachineProfile,
   type Trajectory,
 } from "../../../src/index.js";
@@ -52,6 +53,7 @@ export interface PlanCommandOptions {
   readonly pen?: readonly PenChoice[];
   /** 0: endless. */
   readonly copies: number;
+  readonly font?: string;
 }
 
 /** The object of `--json`: scripts depend on these keys. Lengths mm, speeds mm/s, mm/s². */
@@ -128,7 +130,14 @@ export interface PlanOutput {
 
 export type PlanStep = "prepare" | "plan";
 
-export function runPlan(file: string, base: PlotSettings, options: PlanCommandOptions, io: PlanOutput): void {
+/** @param font as `inFont` has read it */
+export function runPlan(
+  file: string,
+  base: PlotSettings,
+  options: PlanCommandOptions,
+  io: PlanOutput,
+  font: Pick<ImportOptions, "text" | "font"> = {},
+): void {
   const toStdout = [
     ...(options.json === true ? ["--json"] : []),
     ...(["commands", "preview", "svg", "strokes"] as const)
@@ -141,7 +150,7 @@ export function runPlan(file: string, base: PlotSettings, options: PlanCommandOp
       `${toStdout.join(" and ")} both write to stdout: give one of them a file.`,
     );
   }
-  const { report, settings, job, trajectory, lines } = planFile(file, base, options, io);
+  const { report, settings, job, trajectory, lines } = planFile(file, base, options, io, font);
   const { prepared } = job;
   const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
   if (options.commands !== undefined) writeOut(options.commands, `${lines.join("\n")}\n`, io);
@@ -162,10 +171,11 @@ function planFile(
   base: PlotSettings,
   options: PlanCommandOptions,
   io: PlanOutput,
+  font: Pick<ImportOptions, "text" | "font">,
 ): PlannedFile {
   const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
-  const drawing = importDrawing(basename(file), readDrawing(file));
+  const drawing = importDrawing(basename(file), readDrawing(file), font);
   const importMs = clock();
   io.imported(drawing);
   io.begin("prepare");

@@ -2,7 +2,7 @@
  * Stores a plot started from the command line, so that it can resume after a crash: its drawing, its settings, and the
  * driver's journal. One folder per device, deleted when the plot has ended.
  */
-import { existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
@@ -60,11 +60,20 @@ export class PlotRecord {
     return join(this.folder, "drawing");
   }
 
+  /** The font file with which it began; undefined: without one. */
+  get fontPath(): string | undefined {
+    return existsSync(this.fontFile) ? this.fontFile : undefined;
+  }
+
+  private get fontFile(): string {
+    return join(this.folder, "font");
+  }
+
   /**
    * Only one process can open a serial port, but several can plot on a virtual board: then only the first plot is
    * stored. Throws `bad-file` if the drawing can't be read, `bad-setting` if the data folder can't be written to.
    */
-  begin(path: string, plot: StoredPlot): void {
+  begin(path: string, plot: StoredPlot, font?: string): void {
     this.isOurs = this.device !== "virtual" || this.ownerElsewhere() === null;
     if (!this.isOurs) return;
     const drawing = readDrawing(path);
@@ -72,6 +81,8 @@ export class PlotRecord {
     this.mustWrite(() => {
       rmSync(join(this.folder, "journal.json"), { force: true });
       writeFileSync(this.drawingPath, drawing);
+      rmSync(this.fontFile, { force: true });
+      if (font !== undefined) copyFileSync(font, this.fontFile);
     });
     this.takeOver(plot);
   }

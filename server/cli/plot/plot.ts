@@ -24,6 +24,7 @@ import {
   type DeviceOptions,
   addData,
   addDevice,
+  addFont,
   addLayerOptions,
   copiesOrEndless,
   seconds,
@@ -41,6 +42,7 @@ import { settingsOfOwnPlotter, withPortByName } from "../client/known-plotters.j
 export interface PlotCommandOptions extends DeviceOptions {
   readonly only?: readonly string[];
   readonly pen?: readonly PenChoice[];
+  readonly font?: string;
   readonly copies: number;
   readonly paperS?: number;
   readonly resume?: boolean;
@@ -55,6 +57,7 @@ interface Plot {
   readonly path: string;
   readonly settings: PlotSettings;
   readonly only: readonly string[] | undefined;
+  readonly font: string | undefined;
   readonly from: InterruptedPlot["from"] | null;
   readonly received: InterruptedPlot["received"];
   readonly board: InterruptedPlot["board"];
@@ -130,19 +133,20 @@ export async function runPlot(
   mustHaveEnded(record, options);
   return plotInTurn(files, options, io, (file, end, over) =>
     withDrawingFile(file, (path) => {
-      const { only, pen } = options;
+      const { only, pen, font } = options;
       const plot: Plot = {
         name: basename(nameOf(file)),
         path,
         settings:
           pen === undefined ? settings : withLayerPens(importDrawing("", readDrawing(path)), settings, pen),
         only,
+        font,
         from: null,
         received: undefined,
         board: undefined,
         progress: 0,
       };
-      return plotOne(plot, { begin: () => record.begin(path, plot), record, end, over }, options, io);
+      return plotOne(plot, { begin: () => record.begin(path, plot, font), record, end, over }, options, io);
     }),
   );
 }
@@ -175,7 +179,7 @@ export async function resumePlot(
   }
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   const found = record.mustFind();
-  const plot: Plot = { ...found, path: record.drawingPath };
+  const plot: Plot = { ...found, path: record.drawingPath, font: record.fontPath };
   return untilEnd(io, (end) =>
     plotOne(plot, { begin: () => record.takeOver(found), record, end }, options, io),
   );
@@ -192,13 +196,13 @@ function mustHaveEnded(record: PlotRecord, { restart }: PlotCommandOptions): voi
 }
 
 async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, io: CliIo): Promise<number> {
-  const { path, settings, only } = plot;
+  const { path, settings, only, font } = plot;
   const say = options.quiet === true ? () => undefined : (text: string) => io.err(text);
   const stop = new AbortController();
   const forget = io.onInterrupt(() => stop.abort());
   try {
     const planner = await openPlanner(
-      { path, settings, machine: machineOf(settings), only, limits: OWN_PLANNING_LIMITS },
+      { path, settings, machine: machineOf(settings), only, font, limits: OWN_PLANNING_LIMITS },
       stop.signal,
     );
     try {
@@ -308,8 +312,10 @@ const notStored = (cause: unknown): string =>
 export const declarePlot: Declare = (command, { io, setExitCode }) => {
   addData(
     addDevice(
-      addLayerOptions(
-        addSettingOptions(command.argument("[files...]", "drawings, one after the other; - for stdin")),
+      addFont(
+        addLayerOptions(
+          addSettingOptions(command.argument("[files...]", "drawings, one after the other; - for stdin")),
+        ),
       ),
     ),
   )
@@ -330,6 +336,7 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
         return;
       }
       const served = await servedPlotter(given);
+      if (served !== null && given.font !== undefined) throw fontUnknownTo(served.access.url);
       const options = served === null ? await withPortByName(given) : given;
       const { settings, note } = served?.settings ?? (await settingsOfOwnPlotter(options));
       if (note !== null && options.quiet !== true) io.err(printed`note: ${note}\n`);
@@ -340,6 +347,12 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
       );
     });
 };
+
+const fontUnknownTo = (url: string): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    `--font: the server at ${url} has the plotter and reads the drawing, without your font. Convert text to paths in your drawing program, or stop the server.`,
+  );
 
 /** The other options belong to a new plot, and would have no effect. */
 const WITH_RESUME = ["--resume", "--device", "--virtual-speed", "--data", "--quiet", "--json"];

@@ -33,6 +33,17 @@ function beginAs(owner: { pid: number; began: string }): void {
 }
 
 describe("a stored plot", () => {
+  it("keeps its font file, and a plot without one has none", () => {
+    const font = join(dir, "own.ttf");
+    writeFileSync(font, "letters");
+    expect(record.fontPath).toBeUndefined();
+    record.begin(file, PLOT, font);
+    rmSync(font);
+    expect(readFileSync(record.fontPath ?? "", "utf8")).toBe("letters");
+    record.begin(file, PLOT);
+    expect(record.fontPath).toBeUndefined();
+  });
+
   it("is not interrupted while the process that began it is running", () => {
     expect(record.find()).toMatchObject({ name: "a.svg", progress: 0.4 });
     beginAs({ pid: process.ppid, began: "" });

@@ -2,7 +2,7 @@
 import { execFileSync, spawn } from "node:child_process";
 import { createServer as createHttpServer } from "node:http";
 import type { AddressInfo } from "node:net";
-import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { copyFileSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { openPtyBoard } from "../../../server/cli/board/board.js";
@@ -118,6 +118,30 @@ describe("plotwright plot", () => {
     ] as const) {
       expect((await cliWith(new CaughtIo(), command, file, "--copies", wrong)).err).toContain(words);
     }
+  });
+
+  it("resumes a plot of text in the font with which it began", async () => {
+    const font = join(
+      process.cwd(),
+      "node_modules/@fontsource/dejavu-sans/files/dejavu-sans-latin-400-normal.woff",
+    );
+    const own = join(dir, "own.woff");
+    copyFileSync(font, own);
+    writeFileSync(
+      file,
+      `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200">${Array.from({ length: 6 }, (_, i) => `<text x="5" y="${12 * i + 20}" font-size="9">${"ink ".repeat(12)}</text>`).join("")}</svg>`,
+    );
+    const planned = vi.spyOn(PlotRecord.prototype, "save");
+    const io = new CaughtIo();
+    const plotted = plot(io, file, "--font", own);
+    await expect.poll(() => planned.mock.calls.length).toBeGreaterThan(0);
+    io.end();
+    expect((await plotted).code).toBe(5);
+    rmSync(own);
+    const { code, err } = await plot(withoutKeyboard(), "--resume");
+    expect([code, err]).toEqual([0, expect.stringContaining("Done: a.svg")]);
+    // Text in the built-in letters would have this note.
+    expect(err).not.toContain("single-stroke");
   });
 
   it("refuses a plot that would wait for another pen without a keyboard, and draws nothing", async () => {

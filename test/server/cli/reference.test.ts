@@ -155,6 +155,10 @@ const VALUES: Readonly<Record<string, string>> = {
   "--machine-file": "machine.json",
   "--config": "settings.json",
   "--preset": "Fine",
+  "--font": join(
+    process.cwd(),
+    "node_modules/@fontsource/dejavu-sans/files/dejavu-sans-latin-400-normal.woff",
+  ),
   "--only": "Layer 1",
   "--pen": "Layer 1=Blue",
   "serve --port": "0",

@@ -2,6 +2,7 @@
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { optionsTakenByNpm } from "../../../scripts/setup.mjs";
 import { parseSize } from "../../../src/internal.js";
@@ -242,6 +243,13 @@ describe("a file that cannot be used", () => {
   });
 });
 
+const FONT = fileURLToPath(
+  new URL(
+    "../../../node_modules/@fontsource/dejavu-sans/files/dejavu-sans-latin-400-normal.woff",
+    import.meta.url,
+  ),
+);
+
 describe("a note", () => {
   const notesOf = async (svg: string, ...args: string[]): Promise<string> => {
     const file = join(folder, "noted.svg");
@@ -255,10 +263,27 @@ describe("a note", () => {
   it.each([
     ["text", TEXT],
     ["a clip of text", `${CLIPPED}<path d="M1 1H9" stroke="black"/>`],
-  ])("of %s advises what the command line can do, which is not to give a font file", async (_, svg) => {
+  ])("of %s names --font, and following it draws with that font", async (_, svg) => {
     const notes = await notesOf(svg);
     expect(notes).toMatch(/onvert (?:the )?text to paths/);
-    expect(notes).not.toMatch(/font file/);
+    expect(notes).toContain("--font");
+    const lengthIn = async (...args: string[]): Promise<number> =>
+      (JSON.parse(await notesOf(svg, "--json", "--no-fit", ...args)) as { drawMm: number }).drawMm;
+    expect(await notesOf(svg, "--font", FONT)).not.toContain("--font");
+    expect(await lengthIn("--font", FONT)).not.toBeCloseTo(await lengthIn(), 1);
+  });
+
+  it("of a font file says what is wrong with it", async () => {
+    const file = join(folder, "noted.svg");
+    await notesOf(TEXT);
+    for (const [font, words] of [
+      [join(folder, "none.ttf"), "none.ttf: it can't be read: there is no such file or folder."],
+      [file, "noted.svg: This file cannot be read as a font"],
+    ] as const) {
+      const { code, err } = await cli("plan", file, "--font", font);
+      expect([code, err]).toEqual([2, expect.stringContaining(words)]);
+      expect(err).toContain("plotwright: --font ");
+    }
   });
 
   it("names the option that fills closed lines, and following it fills them", async () => {
