@@ -33,7 +33,7 @@ export interface ServerOptions {
   /** Host names to accept besides localhost and addresses. */
   readonly allowedHosts?: readonly string[];
   /**
-   * Origins, such as `https://editor.p5js.org`, whose pages may use the HTTP interface. They need a key: `POST
+   * Origins, such as `https://preview.p5js.org`, whose pages may use the HTTP interface. They need a key: `POST
    * /access/keys`. Default: none.
    */
   readonly allowedOrigins?: readonly string[];
@@ -105,7 +105,7 @@ export function originsOf(urls: readonly string[]): string[] {
     const why =
       url === "*" || url === "null"
         ? "Only single origins can be allowed: a page opened as a file has none, and any page could send a key that it has found."
-        : "It must be the address of a site without a path, such as https://editor.p5js.org or http://localhost:8080.";
+        : "It must be the address of a site without a path, such as https://preview.p5js.org or http://localhost:8080.";
     throw new PlotwrightError("bad-setting", `${JSON.stringify(url)} is not an origin. ${why}`);
   });
 }

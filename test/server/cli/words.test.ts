@@ -85,7 +85,7 @@ describe("a word that is not a command", () => {
     ],
     [
       "serve --allow-origin https://editor.example/sketches",
-      "option '--allow-origin <url...>' argument 'https://editor.example/sketches' is invalid. \"https://editor.example/sketches\" is not an origin. It must be the address of a site without a path, such as https://editor.p5js.org or http://localhost:8080. (see plotwright serve --help)",
+      "option '--allow-origin <url...>' argument 'https://editor.example/sketches' is invalid. \"https://editor.example/sketches\" is not an origin. It must be the address of a site without a path, such as https://preview.p5js.org or http://localhost:8080. (see plotwright serve --help)",
     ],
     ["ringing --at 30.1", "--at: give --ripples too, the number that you counted."],
     ["ringing --spring-x 15", "--spring-x and --spring-y are for --check: add it."],
