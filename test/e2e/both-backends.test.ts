@@ -8,6 +8,8 @@ import { IS_FULL } from "../support/runs/full-run.js";
 import {
   dropFile,
   historyPanel,
+  openGroup,
+  openPanel,
   openView,
   plotBar,
   queuePanel,
@@ -76,6 +78,7 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
 
   it("keeps the queue, its order and the history", { timeout: 300_000 }, async () => {
     let { page } = started;
+    await openPanel(page, "Queue");
     for (const [name, lines] of [
       ["one", 1],
       ["two", 2],
@@ -90,12 +93,14 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     // A waiting job is changed on the paper, and saved at its place.
     await choose(page, "three", "Open");
     await waitForPlan(page);
+    await openPanel(page, "Paper");
     await page.getByRole("radio", { name: "Portrait" }).check();
     await waitForPlan(page);
     const save = plotBar(page).getByRole("button", { name: "Save the changes to three in the queue" });
     await save.click();
     await save.waitFor({ state: "detached" });
     // Two more of it.
+    await openPanel(page, "Queue");
     await choose(page, "three", "Duplicate");
     await queuePanel(page).getByLabel("2 copies").waitFor();
     await started.killAndReopen();
@@ -103,7 +108,9 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     await expectWaiting(page, ["one", "three", "two"]);
     await queuePanel(page).getByLabel("2 copies").waitFor();
     await choose(page, "three", "Open");
+    await openPanel(page, "Paper");
     await expect.poll(() => page.getByRole("radio", { name: "Portrait" }).isChecked()).toBe(true);
+    await openPanel(page, "Queue");
     await openMenu(page, "three");
     await page.getByRole("button", { name: "Remove all 2" }).click();
     await expectWaiting(page, ["one", "two"]);
@@ -148,7 +155,7 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     { timeout: 300_000 },
     async ({ label, model, commands }) => {
       const { page } = started;
-      await openGroup(page, "Model and position");
+      await openGroup(page, "Plotter", "Model and position");
       await page.getByLabel("Model", { exact: true }).selectOption({ label });
       for (const [which, pct] of [
         ["down", "22"],
@@ -163,8 +170,8 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
         .toMatch(new RegExp(`(?=.*"upPct":77\\b)(?=.*"downPct":22\\b)(?=.*"${model}")`, "s"));
       await lay(page, "one", 1);
       await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
-      await openView(page, "Prepare");
       await historyPanel(page).getByText("Done", { exact: true }).waitFor({ timeout: PATIENCE_MS });
+      await openPanel(page, "Plotter");
       const download = page.waitForEvent("download");
       await page.getByRole("button", { name: "Save the connection log" }).click();
       const log = await text(await (await download).createReadStream());
@@ -176,14 +183,15 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
   it("keeps the plotter's model, heights and presets", { timeout: 300_000 }, async () => {
     let { page } = started;
     await lay(page, "one", 1);
-    await openGroup(page, "Model and position");
+    await openGroup(page, "Plotter", "Model and position");
     await page.getByLabel("Model", { exact: true }).selectOption({ label: "AxiDraw V3/A3" });
-    await openGroup(page, "Presets");
+    await openGroup(page, "Speed", "Presets");
     await page.getByLabel("Name of this preset").fill("fine liner");
     await page.getByRole("button", { name: "Save", exact: true }).click();
     await page.getByText("fine liner").first().waitFor();
     const stored = () => expect.poll(() => started.storedPlotters(), { timeout: PATIENCE_MS });
     const height = (which: string): Locator => page.getByLabel(`Height ${which}`, { exact: true });
+    await openPanel(page, "Plotter");
     for (const [which, pct] of [
       ["down", "22"],
       ["up", "77"],
@@ -199,13 +207,14 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     await stored().toMatch(/(?=.*fine liner)(?=.*axidraw-v3-a3)(?=.*"downPct":22\b)/s);
     await started.killAndReopen();
     ({ page } = started);
-    await openGroup(page, "Model and position");
+    await openGroup(page, "Plotter", "Model and position");
     const model = page.getByLabel("Model", { exact: true });
     await expect
       .poll(() => model.evaluate((select) => (select as HTMLSelectElement).selectedOptions[0]?.label))
       .toBe("AxiDraw V3/A3");
-    await openGroup(page, "Presets");
+    await openGroup(page, "Speed", "Presets");
     await page.getByText("fine liner").first().waitFor();
+    await openPanel(page, "Plotter");
     await expect.poll(() => height("down").inputValue()).toBe("22");
     await expect.poll(() => height("up").inputValue()).toBe("60");
   });
@@ -226,8 +235,3 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     await historyPanel(page).getByText("Done", { exact: true }).waitFor({ timeout: 120_000 });
   });
 });
-
-async function openGroup(page: Page, title: string): Promise<void> {
-  const head = page.locator(".group-head").filter({ has: page.getByText(title, { exact: true }) });
-  if ((await head.getAttribute("aria-expanded")) !== "true") await head.click();
-}

@@ -5,6 +5,7 @@ import { browserOptions, launchBrowser, PLAIN } from "../support/browser/browser
 import {
   dropFile,
   historyPanel,
+  openPanel,
   openView,
   plotBar,
   queuePanel,
@@ -51,7 +52,10 @@ async function lay(name: string, text: string): Promise<void> {
   await waitForPlan(page);
 }
 
-const addToQueue = (): Promise<void> => plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+async function addToQueue(): Promise<void> {
+  await openPanel(page, "Queue");
+  await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+}
 const queued = (name: string) => queuePanel(page).getByRole("button", { name: `Start ${name}` });
 
 async function plotsOnTheVirtualBoard(): Promise<void> {

@@ -125,6 +125,7 @@ describe("a stroke", () => {
   it("is no longer selected when another plan may number the strokes differently", async () => {
     await openView(test.page, "Prepare");
     await card().waitFor();
+    await test.panel("Paper");
     await test.field("Margin").fill("30");
     await test.field("Margin").press("Enter");
     await card().waitFor({ state: "detached" });
@@ -138,7 +139,7 @@ describe("what the margins cut off", () => {
     await test.page.mouse.move(700, 20);
     await test.drawn();
     const box = (await canvas().boundingBox())!;
-    const clip = { x: box.x + 50, y: box.y + 200, width: 24, height: 200 };
+    const clip = { x: box.x + 96, y: box.y + 200, width: 24, height: 200 };
     const counts = await colorCounts(test.page, clip);
     return [...counts].reduce((sum, [color, count]) => sum + ((color & 255) < 205 ? count : 0), 0);
   };

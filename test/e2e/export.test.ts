@@ -37,15 +37,15 @@ let strokes: StrokeSet;
 beforeAll(async () => {
   test = await PageTest.open("export");
   await test.drop("beach", SVG);
-  await test.group("Pens");
+  await test.group("Layers", "Pens");
   await test.page.getByRole("button", { name: "A pen for each colour" }).click();
-  await test.group("Pens", false);
+  await test.group("Layers", "Pens", false);
   await test.page.getByRole("button", { name: "Settings of sun" }).click();
   await test.page.locator(".layer-details").getByLabel("Speed", { exact: true }).fill("20.1");
   await test.page.getByRole("button", { name: "Settings of sun" }).click();
   job = await test.queue();
   strokes = await test.strokesOf(job);
-  await test.group("Save to a file");
+  await test.group("Drawing", "Save to a file");
 });
 
 afterAll(async () => test.close());
@@ -121,9 +121,10 @@ describe("saving", () => {
   );
 
   it("uses the current paper, not an earlier one", async () => {
-    await test.group("Paper");
+    await test.panel("Paper");
     await test.page.getByRole("radio", { name: "True size" }).check();
     await test.planned();
+    await test.panel("Drawing");
     const { text } = await saved("Prepared drawing as SVG");
     const now = prepare(importSvg(SVG), prepareSettingsOf((await test.queue()).settings)).strokes;
     const back = prepare(importSvg(text), AS_IT_IS).strokes;

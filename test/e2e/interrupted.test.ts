@@ -5,7 +5,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Job } from "../../src/schema/index.js";
 import { launchBrowser } from "../support/browser/browser.js";
 import { combOf, expectPartlyDrawn, SHARP } from "../support/browser/half-drawn.js";
-import { dropFile, plotBar, queuePanel, waitForPlan } from "../support/browser/page-actions.js";
+import { dropFile, openPanel, plotBar, queuePanel, waitForPlan } from "../support/browser/page-actions.js";
 import { temporaryFolder } from "../support/processes/folders.js";
 import { startServerProcess, type ServerProcess } from "../support/processes/server-process.js";
 
@@ -52,6 +52,7 @@ describe("a plot whose server was killed", () => {
     await page.getByText(NAME, { exact: true }).first().waitFor();
     await waitForPlan(page);
     await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    await openPanel(page, "Queue");
     await queuePanel(page)
       .getByRole("button", { name: /^Start / })
       .click();

@@ -21,17 +21,18 @@ beforeAll(async () => {
 
 afterAll(async () => test.close());
 
-const nameOnPaper = () => test.page.locator(".drawing-name strong").innerText();
+const nameOnPaper = () => test.page.locator(".drawn-size strong").innerText();
 const copies = () => plotBar(test.page).getByLabel("Copies", { exact: true });
 
 describe("a layer of two colours", () => {
   it("is reported, and gets the pen of its most frequent colour, with a stop before it", async () => {
     const { page } = test;
     await test.drop("mixed", MIXED);
+    await test.panel("Layers");
     const row = page.locator(".layer-list li", { hasText: "2-blue" });
     await row.getByText("2 colours", { exact: true }).waitFor();
     expect(await page.locator(".layer-mixed").count()).toBe(1);
-    await test.group("Pens");
+    await test.group("Layers", "Pens");
     await page.getByRole("button", { name: "A pen for each colour" }).click();
     await row.getByText("Stop: put in Blue").waitFor();
     const job = await test.queue();

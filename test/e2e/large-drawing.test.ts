@@ -48,11 +48,12 @@ beforeAll(async () => {
   test = await PageTest.open("large-drawing");
   await test.look("Ink");
   await test.drop("waves", SVG);
+  await test.panel("Paper");
   await test.page.getByRole("radio", { name: "Fit paper", exact: true }).check();
   await waitForPlan(test.page);
   const box = (await canvas().boundingBox())!;
-  // Between rulers, tools and legend, where stage.ts places the paper.
-  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 114) / 2 };
+  // Between rulers and legend, where stage.ts places the paper.
+  middle = { x: box.x + (48 + box.width - 26) / 2, y: box.y + (48 + box.height - 56) / 2 };
 });
 
 afterAll(async () => test.close());

@@ -4,7 +4,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { VirtualBoard } from "../../src/index.js";
 import { machineOf } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
-import { chooseSample, colorCounts, dropFile, plotBar } from "../support/browser/page-actions.js";
+import { chooseSample, colorCounts, dropFile, openPanel, plotBar } from "../support/browser/page-actions.js";
 import { PageTest } from "../support/browser/page-test.js";
 import { ascii } from "../support/plots/virtual-plots.js";
 
@@ -22,12 +22,10 @@ let test: PageTest;
 beforeAll(async () => {
   test = await PageTest.open("layers");
   await test.drop("beach", SVG);
-  await test.group("Paper");
+  await test.panel("Paper");
   await test.page.getByRole("radio", { name: "True size" }).check();
-  await test.group("Paper", false);
-  await test.group("Drawing", false);
-  await test.group("Layers and pens");
-  await test.group("Pens");
+  await test.panel("Layers");
+  await test.group("Layers", "Pens");
   await test.page.locator(".layer-list .layer-name").first().waitFor();
 });
 
@@ -228,16 +226,18 @@ describe("pens on the page", () => {
 
   it("are restored by a preset, including their order", async () => {
     const kept = (await test.queue()).settings;
-    await test.group("Presets");
+    await test.group("Speed", "Presets");
     await test.field("Name of this preset").fill("Beach");
     await test.page.getByRole("button", { name: "Save", exact: true }).click();
+    await test.panel("Layers");
     await test.page.getByLabel("Pen for sea").selectOption({ label: "Any pen" });
     await test.page.getByRole("button", { name: "Order as in the file" }).click();
     await test.planned();
     expect(await rowNames()).toEqual(["sea", "sand", "guides", "sun"]);
+    await test.panel("Speed");
     await test.page.getByRole("button", { name: "Beach", exact: true }).click();
     expect((await test.queue()).settings).toEqual(kept);
-    await test.group("Presets", false);
+    await test.panel("Layers");
   });
 
   it("draw an alignment mark, each as its own job", async () => {
@@ -293,6 +293,7 @@ describe("layers on a phone", () => {
     await page.goto(test.server.url);
     await chooseSample(page);
     await dropFile(page, "beach.svg", SVG);
+    await openPanel(page, "Layers");
     await page.getByRole("button", { name: /^Drag sun/ }).waitFor({ state: "attached" });
     const before = await namesOn(page);
     expect(before.length).toBeGreaterThan(1);

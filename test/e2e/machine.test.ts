@@ -9,8 +9,8 @@ import {
   chooseSample,
   dropFile,
   historyPanel,
+  openPanel,
   openView,
-  openTab,
   plotBar,
   queuePanel,
   statusCard,
@@ -106,7 +106,8 @@ describe("moving by hand", () => {
     await page.getByText("lines").first().waitFor();
     await waitForPlan(page);
     await button("Plot", plotBar(page)).click();
-    await queuePanel(page).getByRole("progressbar").waitFor();
+    await statusCard(page).getByRole("progressbar").waitFor();
+    await openPanel(page, "Plotter");
     await page.getByText("You can move by hand again when it ends").waitFor();
     expect(await button(/^Right by/).isDisabled()).toBe(true);
     await button("Console", machinePanel()).click();
@@ -115,12 +116,14 @@ describe("moving by hand", () => {
     await page.keyboard.press("Escape");
     await button("Cancel", statusCard(page)).click();
     await button("Cancel the plot", page.getByRole("alertdialog")).click();
+    await openPanel(page, "Queue");
     await historyPanel(page).getByText("Cancelled", { exact: true }).waitFor();
   });
 });
 
 describe("the console", () => {
   it("shows the board's reply, and brings earlier commands back", async () => {
+    await openPanel(page, "Plotter");
     await button("Console", machinePanel()).click();
     const line = page.getByLabel("Command", { exact: true });
     await line.fill("V");
@@ -214,12 +217,14 @@ describe("setting a plotter up", () => {
     await button("Add to queue", plotBar(page)).click();
     const body = (await sent).postDataJSON() as { settings: { customMachine: MachineProfile | null } };
     expect(body.settings.customMachine?.stepsPerMm).toBe(100);
+    await openPanel(page, "Queue");
     await button(/^Start /, queuePanel(page)).waitFor();
   });
 });
 
 describe("machines as files", () => {
   it("are read, edited and stored", async () => {
+    await openPanel(page, "Plotter");
     await button("Machines…", machinePanel()).click();
     const sheet = page.getByRole("dialog", { name: "Machines" });
     const profile = {
@@ -257,7 +262,6 @@ describe("machines as files", () => {
     await button("Remove A1 clone", sheet).click();
     await button("Edit A1 clone", sheet).waitFor({ state: "detached" });
     await page.keyboard.press("Escape");
-    await openTab(page, "Set up");
   });
 });
 

@@ -15,7 +15,7 @@ let test: PageTest;
 
 beforeAll(async () => {
   test = await PageTest.open("paper");
-  await test.group("Paper");
+  await test.panel("Paper");
 });
 
 afterAll(async () => test.close());
@@ -188,17 +188,19 @@ describe("what leaves the paper", () => {
 });
 
 describe("the form", () => {
-  it("has a group for each thing to decide, and help at the press of a key", async () => {
+  it("has a panel for each thing to decide, one open at a time, and help at the press of a key", async () => {
     const { page } = test;
-    const titles = await page.locator(".column-setup .group:not(.group-part) > .group-top").allInnerTexts();
-    expect(titles.map((title) => title.split("\n")[0])).toEqual([
-      "Drawing",
-      "Paper",
-      "Layers and pens",
-      "Lines",
-      expect.any(String),
-      "Presets",
-    ]);
+    const rail = page.getByRole("navigation", { name: "Panels" }).getByRole("button");
+    const titles = (await rail.allInnerTexts()).map((title) => title.split("\n")[0]);
+    expect(titles).toEqual(["Drawing", "Paper", "Layers", "Lines", "Speed", "Plotter", "Queue"]);
+    for (const title of titles) {
+      await rail.getByText(title, { exact: true }).click();
+      await page.getByRole("complementary", { name: `${title} panel` }).waitFor();
+      expect(await page.getByRole("complementary").count()).toBe(1);
+    }
+    await page.getByRole("button", { name: "Close the panel" }).click();
+    expect(await page.getByRole("complementary").count()).toBe(0);
+    await test.panel("Drawing");
     const help = page.getByText("Drop it anywhere, paste it, or choose a file");
     expect(await help.isVisible()).toBe(false);
     await page.getByRole("button", { name: "About: Drawing" }).focus();
@@ -206,6 +208,7 @@ describe("the form", () => {
     await help.waitFor();
     await page.keyboard.press("Enter");
     await help.waitFor({ state: "hidden" });
+    await test.panel("Paper");
   });
 
   it("keeps mirror, cutting and separate margins folded until they are asked for", async () => {
@@ -335,8 +338,8 @@ describe("a length", () => {
 describe("a file", () => {
   it("a file without filled shapes says so when it is to be filled, and offers its closed outlines", async () => {
     await test.drop("box", svgOf(60, 40, "M0 0H60V40H0Z"));
-    await test.group("Lines");
-    await test.group("Fill and shade");
+    await test.panel("Lines");
+    await test.group("Lines", "Fill and shade");
     await test.page.getByRole("switch", { name: "Fill areas with lines" }).click();
     await test.page.getByText(/No shape of this drawing is filled/).waitFor();
     const strokes = plotBar(test.page).locator("dd").nth(2);
@@ -351,7 +354,7 @@ describe("a file", () => {
     await dropFile(test.page, "torn.svg", "<svg><path d='M0 0");
     await test.page.getByText(/torn can’t be drawn/).waitFor();
     await test.planned();
-    await test.page.locator(".drawing-name", { hasText: "box" }).waitFor();
+    await test.page.locator(".drawn-size", { hasText: "box" }).waitFor();
     expect(await plot().isEnabled()).toBe(true);
   });
 

@@ -2,7 +2,7 @@
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Snapshot } from "../../src/schema/index.js";
-import { dropFile, openTab, plotBar, waitForPlan } from "../support/browser/page-actions.js";
+import { dropFile, openPanel, plotBar, waitForPlan } from "../support/browser/page-actions.js";
 import { PageTest } from "../support/browser/page-test.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
@@ -28,7 +28,7 @@ describe("model and heights that are set on one screen", () => {
   it("are the plotter's, and on every other screen", async () => {
     const { page } = test;
     expect((await state()).plotterSettings).toEqual({});
-    await page.locator(".group-head").filter({ hasText: "Model and position" }).click();
+    await test.group("Plotter", "Model and position");
     await page.getByLabel("Model", { exact: true }).selectOption("axidraw-se-a3");
     await height(page, "up").fill("70");
     await height(page, "down").fill("41");
@@ -37,7 +37,7 @@ describe("model and heights that are set on one screen", () => {
     const context = await test.browser.newContext({ viewport: { width: 390, height: 844 } });
     phone = await context.newPage();
     await phone.goto(test.server.url);
-    await openTab(phone, "Plotter");
+    await openPanel(phone, "Plotter");
     await expect.poll(() => height(phone, "up").inputValue()).toBe("70");
     expect(await height(phone, "down").inputValue()).toBe("41");
     const model = phone.getByLabel("Model", { exact: true });

@@ -60,6 +60,7 @@ describe("a plot that was cancelled half way", () => {
       .getByRole("button", { name: `Open ${NAME}` })
       .click();
     await test.planned();
+    await test.panel("Queue");
     await history()
       .getByRole("button", { name: `Go on from where it was cancelled: ${NAME}` })
       .click();

@@ -18,64 +18,10 @@ beforeAll(async () => {
   test = await PageTest.open("placing");
   await test.drop("flag", SVG);
   await test.look("Ink");
-  await test.group("Paper");
+  await test.panel("Paper");
 });
 
 afterAll(async () => test.close());
-
-interface Box {
-  readonly left: number;
-  readonly top: number;
-  readonly right: number;
-  readonly bottom: number;
-}
-
-/** The bounding box, in CSS px of the page, of the canvas pixels of that brightness: "paper" or "ink". */
-async function onScreen(what: "paper" | "ink"): Promise<Box> {
-  // Off the paper, so that no tooltip for a stroke appears.
-  await test.page.mouse.move(700, 20);
-  await test.drawn();
-  const canvas = test.page.getByRole("img", { name: "Preview", exact: true });
-  const at = (await canvas.boundingBox())!;
-  // Without the notices over its upper edge, which are as dark as ink.
-  await test.page
-    .locator(".notice-close")
-    .evaluateAll((buttons) => buttons.forEach((button) => (button as HTMLElement).click()));
-  await test.page.locator(".notice").first().waitFor({ state: "detached" });
-  const png = (await canvas.screenshot()).toString("base64");
-  const found = await test.page.evaluate(
-    async ([base64, isPaper]) => {
-      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-      const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
-      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-      context.drawImage(bitmap, 0, 0);
-      const { data, width } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-      const box = { left: Infinity, top: Infinity, right: -Infinity, bottom: -Infinity };
-      for (let i = 0; i < data.length; i += 4) {
-        const x = (i / 4) % width;
-        const y = Math.floor(i / 4 / width);
-        // Rulers are at two edges, tools and legend at a third.
-        if (x < 26 || y < 26 || y > bitmap.height - 112) continue;
-        const isIt = isPaper
-          ? Math.min(data[i], data[i + 1], data[i + 2]) > 249
-          : Math.max(data[i], data[i + 1], data[i + 2]) < 90;
-        if (!isIt) continue;
-        box.left = Math.min(box.left, x);
-        box.top = Math.min(box.top, y);
-        box.right = Math.max(box.right, x + 1);
-        box.bottom = Math.max(box.bottom, y + 1);
-      }
-      return box;
-    },
-    [png, what === "paper"] as const,
-  );
-  return {
-    left: found.left + at.x,
-    top: found.top + at.y,
-    right: found.right + at.x,
-    bottom: found.bottom + at.y,
-  };
-}
 
 /** CSS px per mm, from the paper's width. */
 let scale = 0;
@@ -108,7 +54,7 @@ async function placeAt(x: number, y: number, width: number, angle = 0): Promise<
   await type("Width", width);
   await type("Rotate", angle);
   // Computed each time, because messages above the paper make it smaller.
-  const { left, top, right } = await onScreen("paper");
+  const { left, top, right } = await test.onScreen("paper");
   scale = (right - left) / 297;
   corner = [left, top];
 }
@@ -134,10 +80,10 @@ describe("placing the drawing", () => {
 
   it("follows the pointer, pixel for pixel on the screen and millimetre for millimetre on paper", async () => {
     await placeAt(50, 60, 90);
-    const before = await onScreen("ink");
+    const before = await test.onScreen("ink");
     const [x, y] = at(105, 80);
     await drag([x, y], [x + 103, y - 41], true);
-    const after = await onScreen("ink");
+    const after = await test.onScreen("ink");
     expect(Math.abs(after.left - before.left - 103)).toBeLessThanOrEqual(2);
     expect(Math.abs(after.top - before.top + 41)).toBeLessThanOrEqual(2);
     const box = await test.queuedBox();

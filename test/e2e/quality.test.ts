@@ -14,8 +14,7 @@ let test: PageTest;
 beforeAll(async () => {
   test = await PageTest.firstVisit("quality");
   await test.drop("steps", STEPS);
-  for (const title of ["Drawing", "Paper", "Layers and pens"]) await test.group(title, false);
-  await test.group("Speed");
+  await test.panel("Speed");
 }, PATIENCE_MS);
 
 afterAll(async () => test.close());
@@ -47,6 +46,7 @@ describe("the section of the speeds", () => {
   it("sets the limits of the chosen quality, computed from the plotter's springs", async () => {
     const { page } = test;
     await chooseMeasuredPlotter(page, test.server.url);
+    await test.panel("Speed");
     // Normal stays Normal: that of this machine.
     await section().getByText("15 Hz along x and 25 Hz along y", { exact: false }).waitFor();
     expect(await step("Normal").isChecked()).toBe(true);
@@ -99,6 +99,7 @@ describe("the section of the speeds", () => {
     expect((await motionOfJob()).shaper).toBe("zv");
     const wizard = page.getByRole("dialog", { name: "Set up a plotter" });
     const press = (name: string): Promise<void> => wizard.getByRole("button", { name, exact: true }).click();
+    await test.panel("Plotter");
     await page.getByRole("button", { name: "Set up a plotter…" }).click();
     await press("Next");
     await press("It is in the middle");
@@ -112,6 +113,7 @@ describe("the section of the speeds", () => {
   });
 
   it("shapes a motion or softens it, not both", async () => {
+    await test.panel("Speed");
     await section().getByRole("radio", { name: "Gentle" }).check();
     expect(await motionOfJob()).toMatchObject({ mode: "scurve", shaper: "none" });
     await section().getByLabel("Reduce ringing").selectOption("zv");

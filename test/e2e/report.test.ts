@@ -5,7 +5,7 @@ import {
   chooseSample,
   colorCounts,
   dropFile,
-  openTab,
+  openPanel,
   waitForPicture,
   waitForPlan,
 } from "../support/browser/page-actions.js";
@@ -27,6 +27,7 @@ let test: PageTest;
 beforeAll(async () => {
   test = await PageTest.open("report");
   await test.drop("poster", SVG);
+  await test.panel("Drawing");
 });
 
 afterAll(async () => test.close());
@@ -78,16 +79,18 @@ describe("the report", () => {
     // 1200 × 600 px, on upright A4 or turned with it.
     expect(await size()).toMatch(/^Drawn (101\.6 × 50\.8|50\.8 × 101\.6) mm, 100 %/);
     expect(await test.page.locator(".report").count()).toBe(0);
-    await test.group("Paper");
+    await test.panel("Paper");
     const field = test.page.getByLabel("Resolution of the file");
     expect(await field.first().inputValue()).toBe("300");
     await test.page.getByRole("button", { name: "Guess the resolution" }).click();
     await test.planned();
+    await test.panel("Drawing");
     expect(await note.count()).toBe(1);
     // Another file is read with its own px again.
     await note.getByRole("button", { name: "Read as A4 at 300 px per inch" }).click();
     await test.planned();
     await test.drop("other scan", file(3000));
+    await test.panel("Paper");
     expect(await field.first().inputValue()).toBe("96");
   });
 
@@ -101,7 +104,7 @@ describe("the report", () => {
     await phone.goto(test.server.url);
     await chooseSample(phone);
     await dropFile(phone, "poster.svg", SVG);
-    await openTab(phone, "Set up");
+    await openPanel(phone, "Drawing");
     const show = phone
       .locator(".report li", { hasText: "picture" })
       .getByRole("button", { name: "Show where" });

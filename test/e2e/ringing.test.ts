@@ -117,6 +117,7 @@ describe("the second sheet", () => {
     expect(await test.page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
     await test.page.setViewportSize({ width: 1440, height: 900 });
     await test.page.keyboard.press("Escape");
+    await test.panel("Speed");
     await test.page.locator("#group-motion").getByText("16.6 Hz along x", { exact: false }).waitFor();
     expect(test.complaints).toEqual([]);
   });

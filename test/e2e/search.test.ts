@@ -75,7 +75,7 @@ describe("the search", () => {
   it("performs an action, which can be undone by its own name", async () => {
     const orientation = async () =>
       test.page.getByRole("radio", { name: "Portrait", exact: true }).isChecked();
-    await test.group("Paper");
+    await test.panel("Paper");
     const before = await orientation();
     await search("turn paper");
     await test.page.keyboard.press("Enter");
@@ -104,6 +104,7 @@ describe("the search", () => {
   });
 
   it("gives the focus back at Escape, also to a field in which one types", async () => {
+    await test.panel("Paper");
     await test.field("Margin").focus();
     await search("speed");
     await test.page.keyboard.press("Escape");

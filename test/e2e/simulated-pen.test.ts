@@ -66,7 +66,7 @@ describe("the view of the simulated pen", () => {
 
   it("follows the settings, and disappears with the view", async () => {
     const before = await maxMm();
-    await test.group("Speed");
+    await test.panel("Speed");
     await test.page.locator("#group-motion").getByText("Details", { exact: true }).click();
     const down = test.page.locator("#group-motion").getByRole("group", { name: "Pen down" });
     await down.getByLabel("Acceleration", { exact: true }).fill("2500");

@@ -13,6 +13,7 @@ import {
   colorCounts,
   dropFile,
   historyPanel,
+  openPanel,
   plotBar,
   queuePanel,
   waitForPicture,
@@ -125,6 +126,7 @@ describe("a newcomer with a drawing", () => {
   });
 
   it("adds it to the queue, starts it, and watches it reach 100 %", async () => {
+    await openPanel(page, "Queue");
     await noteShares();
     await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
     await queuePanel(page)

@@ -43,6 +43,7 @@ const wordsOf = async (locator: ReturnType<typeof queuePanel>): Promise<string> 
 describe("a queue of many hours", () => {
   it("says how long it takes, in words, and no time of day while nothing is plotted", async () => {
     const { page } = test;
+    await test.panel("Queue");
     await queuePanel(page).getByText("×2").waitFor();
     await expect.poll(() => wordsOf(queuePanel(page))).toMatch(/2 plots, 3\d h/);
     expect(await wordsOf(queuePanel(page))).toMatch(HOURS);

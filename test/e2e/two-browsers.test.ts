@@ -10,7 +10,7 @@ import {
   chooseSample,
   dropFile,
   historyPanel,
-  openTab,
+  openPanel,
   openView,
   plotBar,
   queuePanel,
@@ -74,6 +74,7 @@ describe("two browsers and a watcher", () => {
     await anna.getByText("lines").first().waitFor();
     await waitForPlan(anna);
     await plotButton(anna).click();
+    await openPanel(anna, "Queue");
     await queuePanel(anna)
       .getByRole("button", { name: /^Start / })
       .click();
@@ -124,6 +125,7 @@ describe("two browsers and a watcher", () => {
 
   it("one operates until the other takes over", async () => {
     for (const page of [anna, ben]) await openView(page, "Prepare");
+    await openPanel(ben, "Queue");
     await ben.getByText(/^\S+ on .* is operating\.$/).waitFor();
     // A button that only the operator may press asks, instead of failing.
     const question = ben.getByRole("dialog", { name: "Another page is operating" });
@@ -135,12 +137,14 @@ describe("two browsers and a watcher", () => {
     await plotButton(ben).click();
     await question.getByRole("button", { name: "Not now" }).click();
     // A slider too: it returns to the plotter's value.
+    await openPanel(ben, "Plotter");
     const height = (page: Page): Locator => page.getByLabel("Height up", { exact: true });
     const before = await height(ben).inputValue();
     await height(ben).fill("71");
     await question.getByRole("button", { name: "Not now" }).click();
     await expect.poll(() => height(ben).inputValue()).toBe(before);
     expect(await ben.getByRole("alert").count()).toBe(0);
+    await openPanel(ben, "Queue");
     expect(await queuePanel(ben).getByRole("listitem").count()).toBe(jobCount);
     await queuePanel(ben).getByRole("radio", { name: "Start the next" }).click();
     await question.getByRole("button", { name: "Take over" }).click();
@@ -152,9 +156,12 @@ describe("two browsers and a watcher", () => {
     await queuePanel(ben).getByRole("radio", { name: "Wait for paper" }).click();
     await anna.getByRole("button", { name: "Take over" }).waitFor();
     await plotButton(ben).and(ben.locator(":enabled")).waitFor();
+    await openPanel(anna, "Plotter");
     await height(anna).fill("72");
     await anna.getByRole("dialog").getByRole("button", { name: "Take over" }).click();
+    await openPanel(ben, "Plotter");
     await expect.poll(() => height(ben).inputValue()).toBe("72");
+    await openPanel(ben, "Queue");
     await queuePanel(ben).getByRole("radio", { name: "Start the next" }).click();
     await question.getByRole("button", { name: "Take over" }).click();
     await anna.getByRole("button", { name: "Take over" }).waitFor();
@@ -162,6 +169,7 @@ describe("two browsers and a watcher", () => {
   });
 
   it("one that was offline catches up with the plot", async () => {
+    await openPanel(anna, "Queue");
     await anna.context().setOffline(true);
     await anna.getByText("server can’t be reached").first().waitFor();
     await queuePanel(anna)
@@ -186,7 +194,7 @@ describe("two browsers and a watcher", () => {
 
   it("the question keeps what was typed into a dialog", async () => {
     await openView(anna, "Prepare");
-    await openTab(anna, "Plotter");
+    await openPanel(anna, "Plotter");
     await anna.getByRole("button", { name: "Machines…" }).click();
     const sheet = anna.getByRole("dialog", { name: "Machines", exact: true });
     const question = anna.getByRole("dialog", { name: "Another page is operating" });

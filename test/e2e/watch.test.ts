@@ -29,7 +29,7 @@ beforeAll(async () => {
 afterAll(async () => test.close());
 
 const button = (name: string | RegExp) => statusCard(test.page).getByRole("button", { name });
-const nameOnPaper = () => test.page.locator(".column-setup").getByText(OTHER, { exact: true }).first();
+const nameOnPaper = () => test.page.locator(".drawn-size").getByText(OTHER, { exact: true }).first();
 const theJob = async (): Promise<Job> => (await test.jobs()).find(({ name }) => name === LINES)!;
 
 /** Pixels of the pen's mark on the sheet that is shown. */
@@ -45,6 +45,7 @@ describe("a plot that starts", () => {
     await test.drop(LINES, ruledSheet());
     await test.queue();
     await test.drop(OTHER, OTHER_SVG);
+    await test.panel("Queue");
     await queuePanel(page)
       .getByRole("button", { name: `Start ${LINES}` })
       .click();

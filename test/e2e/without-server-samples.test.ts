@@ -4,7 +4,7 @@ import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import { IS_FULL } from "../support/runs/full-run.js";
 import { plotting } from "../support/plots/live-plot.js";
-import { openTab } from "../support/browser/page-actions.js";
+import { openGroup } from "../support/browser/page-actions.js";
 import { done, storedJob, useSerialPages } from "../support/browser/serial-page.js";
 import { strokesInBrowser } from "../support/browser/strokes-in-browser.js";
 
@@ -21,8 +21,7 @@ const startPages = useSerialPages();
 
 /** Otherwise a busy computer lowers the pen up to 0.1 mm late on its way, and the lines differ by that. */
 async function waitWithPen(page: Page): Promise<void> {
-  await openTab(page, "Set up");
-  await page.locator(".group-head").filter({ hasText: "Lifting the pen" }).click();
+  await openGroup(page, "Plotter", "Lifting the pen");
   await page
     .getByRole("group", { name: "Move while the pen lifts" })
     .getByRole("radio", { name: "Off" })

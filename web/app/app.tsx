@@ -9,15 +9,17 @@ import { PaperPanel } from "../drawing/paper.js";
 import { PenPanel, PensPanel } from "../pens/pens.js";
 import { PlotBar } from "../queue/plot-bar.js";
 import { HistoryPanel, QueuePanel } from "../queue/queue.js";
+import { PANEL_ID, Rail } from "./rail.js";
 import { Strips } from "./strips.js";
 import { TopBar } from "./top-bar.js";
 import { Preview } from "../preview/preview.js";
-import { TimeLine } from "../preview/time-line.js";
-import { shownView, TABS, unfinishedJob } from "../state/store.js";
+import type { PanelName } from "../state/persist.js";
+import { openPanel, shownView } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { drawingText } from "../drawing/text.js";
-import { skipText, tabsText } from "./text.js";
+import { railText, skipText } from "./text.js";
 import { DropZone } from "../ui/files/drop-zone.js";
+import { IconButton } from "../ui/button.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PAGE_ACTIONS } from "./page-actions.js";
 
@@ -31,31 +33,42 @@ const Camera = lazyPart(async () => (await import("../sharing/camera.js")).Camer
 const PLOT_ID = "plot-bar";
 const WATCH_ID = "plot-status";
 
-/** Arranges the panels. On a narrow screen the side columns become tabs under the paper. */
+/** Arranges the page: the sheet, the rail with one open panel beside it, and the bar with Plot under it. */
 export const App = () => {
-  const tab = usePageState((state) => state.tab);
-  const { openFile, openPasted } = useActions();
-  const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
+  const { openFile, openPasted, showPanel } = useActions();
   const isEmpty = usePageState(
     (state) => state.drawing === null && !state.isStarting && state.link !== "connecting",
   );
   const isUnpaired = usePageState((state) => state.isUnpaired);
   const view = usePageState(shownView);
+  const panel = usePageState(openPanel);
   const isFull = usePageState((state) => state.isFullScreen);
   const isWatching = view === "watch";
-  const hasJob = usePageState((state) => unfinishedJob(state) !== null);
-  const machine = (
-    <div className="tab-machine">
-      {!isWatching && hasCamera && <Camera />}
-      <MachinePanel />
-    </div>
-  );
+  const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
   if (isUnpaired) return <Pairing />;
   return (
     <DropZone hint={drawingText.dropHere} onFile={openFile} onText={openPasted}>
-      <div className="app" data-tab={tab} data-view={view} data-full={isFull || undefined}>
+      <div className="app" data-view={view} data-full={isFull || undefined}>
         <SkipLink isWatching={isWatching} />
         <TopBar />
+        <Rail />
+        {isFull && hasCamera && (
+          <aside className="panel" aria-label={railText.camera}>
+            <Camera />
+          </aside>
+        )}
+        {!isFull && panel && (
+          <aside id={PANEL_ID} className="panel" aria-label={railText.panel(railText.panels[panel])}>
+            <IconButton
+              kind="tool"
+              icon="close"
+              label={railText.close}
+              className="panel-close"
+              onClick={() => showPanel(null)}
+            />
+            <OpenPanel name={panel} />
+          </aside>
+        )}
         <main className="centre">
           <Strips />
           {isWatching && <Watch />}
@@ -65,41 +78,64 @@ export const App = () => {
             {isEmpty && <EmptyPaper />}
             {!isWatching && <Notices />}
           </div>
-          {!isWatching && <TimeLine />}
         </main>
-        <Tabs />
-        <aside className="column column-setup" aria-label={tabsText.setup}>
-          <DrawingPanel />
-          <PaperPanel />
-          <LayersPanel>
-            <PensPanel />
-          </LayersPanel>
-          <LinesPanel />
-          <MotionPanel />
-          <PresetsPanel />
-        </aside>
-        <aside className="column column-run" aria-label={tabsText.queue}>
-          <PlotBar />
-          {isWatching && hasCamera && <Camera />}
-          {isWatching && <Adjust />}
-          {/* Before a plot the plotter's panel comes first, during one the queue. */}
-          {!hasJob && machine}
-          <div className="tab-queue">
-            <QueuePanel />
-          </div>
-          {hasJob && machine}
-          <div className="tab-machine">
-            <MachineSetUp>
-              <PenPanel />
-            </MachineSetUp>
-          </div>
-          <div className="tab-queue">
-            <HistoryPanel />
-          </div>
-        </aside>
+        <PlotBar />
       </div>
       <Dialogs />
     </DropZone>
+  );
+};
+
+const OpenPanel = ({ name }: { name: PanelName }) => {
+  switch (name) {
+    case "drawing":
+      return <DrawingPanel />;
+    case "paper":
+      return <PaperPanel />;
+    case "layers":
+      return (
+        <LayersPanel>
+          <PensPanel />
+        </LayersPanel>
+      );
+    case "lines":
+      return <LinesPanel />;
+    case "speed":
+      return (
+        <>
+          <MotionPanel />
+          <PresetsPanel />
+        </>
+      );
+    case "plotter":
+      return <PlotterPanel />;
+    case "queue":
+      return <JobsPanel />;
+  }
+};
+
+/** In Watch, what can be changed while it plots comes first. */
+const JobsPanel = () => {
+  const isWatching = usePageState((state) => shownView(state) === "watch");
+  return (
+    <>
+      {isWatching && <Adjust />}
+      <QueuePanel />
+      <HistoryPanel />
+    </>
+  );
+};
+
+const PlotterPanel = () => {
+  const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
+  return (
+    <>
+      {hasCamera && <Camera />}
+      <MachinePanel />
+      <MachineSetUp>
+        <PenPanel />
+      </MachineSetUp>
+    </>
   );
 };
 
@@ -117,25 +153,6 @@ const SkipLink = ({ isWatching }: { isWatching: boolean }) => {
     >
       {isWatching ? skipText.toWatch : skipText.toPlot}
     </a>
-  );
-};
-
-const Tabs = () => {
-  const tab = usePageState((state) => state.tab);
-  const { showTab } = useActions();
-  return (
-    <nav className="tabs" aria-label={tabsText.label}>
-      {TABS.map((name) => (
-        <button
-          key={name}
-          type="button"
-          aria-current={name === tab ? "page" : undefined}
-          onClick={() => showTab(name)}
-        >
-          {tabsText[name]}
-        </button>
-      ))}
-    </nav>
   );
 };
 

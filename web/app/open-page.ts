@@ -21,6 +21,9 @@ const EXPORTED = {
   commands: { ending: "commands.txt", type: "text/plain" },
 };
 
+/** As in the styles. */
+const NARROW = "(max-width: 880px)";
+
 const openStorage = (): TextStore | null => {
   try {
     return window.localStorage;
@@ -32,6 +35,10 @@ const openStorage = (): TextStore | null => {
 export function openPage(): Page {
   const storage = openStorage();
   const store = createPageStore(readRemembered(storage));
+  // There the panel covers a part of the sheet, so the page begins without one.
+  if (matchMedia(NARROW).matches) {
+    store.setState(({ view }) => ({ view: { ...view, panel: null }, watchPanel: null }));
+  }
   const planner = openPlanner({
     onImported: (drawingKey) => actions.noteRead(drawingKey),
     onPlanned: (planned) => actions.showPlan(planned),

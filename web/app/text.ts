@@ -1,4 +1,4 @@
-/** Texts of the page's frame: header, tabs, messages over the paper, keyboard shortcuts. */
+/** Texts of the page's frame: header, rail, messages over the paper, keyboard shortcuts. */
 export const historyText = {
   undo: "Undo",
   redo: "Redo",
@@ -11,11 +11,20 @@ export const skipText = {
   toWatch: "Skip to the plot’s buttons",
 };
 
-export const tabsText = {
+export const railText = {
   label: "Panels",
-  setup: "Set up",
-  queue: "Queue",
-  machine: "Plotter",
+  close: "Close the panel",
+  panel: (name: string) => `${name} panel`,
+  camera: "Camera",
+  panels: {
+    drawing: "Drawing",
+    paper: "Paper",
+    layers: "Layers",
+    lines: "Lines",
+    speed: "Speed",
+    plotter: "Plotter",
+    queue: "Queue",
+  },
 };
 
 export const searchLabel = "Search for anything";

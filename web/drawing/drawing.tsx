@@ -9,6 +9,7 @@ import { ChooseFile } from "../ui/files/choose-file.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { SettingsGroup } from "../ui/fields/settings-group.js";
+import { Panel } from "../ui/panel.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
 export const DrawingPanel = () => {
@@ -17,7 +18,7 @@ export const DrawingPanel = () => {
   const unit = usePageState((state) => state.view.lengthUnit);
   const size = planned && words.size(formatSize(planned.pageWidthMm, planned.pageHeightMm, unit));
   return (
-    <SettingsGroup id="drawing" title={words.title} help={words.chooseHint}>
+    <Panel id="drawing" title={words.title} help={words.chooseHint}>
       {drawing && (
         <p className="drawing-name">
           <strong title={drawing.name}>{drawing.name}</strong>
@@ -30,7 +31,7 @@ export const DrawingPanel = () => {
       </div>
       <Report />
       <ExportPanel />
-    </SettingsGroup>
+    </Panel>
   );
 };
 

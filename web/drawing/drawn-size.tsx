@@ -9,23 +9,47 @@ import {
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { formatNumber, formatSize } from "../ui/format.js";
-import { drawnSizeText as words } from "./text.js";
+import { Icon } from "../ui/icon.js";
+import { drawnSizeText as words, reportText } from "./text.js";
 import type { Planned } from "../worker/protocol.js";
 
-/** The drawing's size on the paper, and a button for the size in its file. */
+/** Over the sheet: the drawing's name, its size on the paper, and whether something of it is not drawn. */
 export const DrawnSize = () => {
+  const name = usePageState((state) => state.drawing?.name ?? null);
   const planned = usePageState((state) => state.planned);
-  const unit = usePageState((state) => state.view.lengthUnit);
-  if (!planned || isEmptyBox(planned.drawnBox)) return null;
-  const { widthMm, heightMm, turnedDeg } = planned.size;
+  if (name === null) return null;
   return (
     <div className="drawn-size">
+      <strong title={name}>{name}</strong>
+      {planned && !isEmptyBox(planned.drawnBox) && <Size planned={planned} />}
+      {planned && <Warnings planned={planned} />}
+    </div>
+  );
+};
+
+const Size = ({ planned }: { planned: Planned }) => {
+  const unit = usePageState((state) => state.view.lengthUnit);
+  const { widthMm, heightMm, turnedDeg } = planned.size;
+  return (
+    <>
       <span>
         {words.drawn(formatSize(widthMm, heightMm, unit), scaleInWords(planned.size))}
         {turnedDeg !== 0 && words.turned(turnedDeg)}
       </span>
       <UseFilesPage planned={planned} />
-    </div>
+    </>
+  );
+};
+
+/** The panel of the drawing lists them. */
+const Warnings = ({ planned: { fileWarnings, layoutWarnings } }: { planned: Planned }) => {
+  const { showPanel } = useActions();
+  if (fileWarnings.length + layoutWarnings.length === 0) return null;
+  return (
+    <Button kind="link" className="drawn-warnings" onClick={() => showPanel("drawing")}>
+      <Icon name="warning" />
+      {reportText.title}
+    </Button>
   );
 };
 

@@ -17,6 +17,7 @@ import { SettingField } from "../ui/fields/setting-field.js";
 import { layoutOfFrame, wholeTurn } from "../scene/placing.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/fields/settings-group.js";
+import { Panel } from "../ui/panel.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
 const LayoutFields = lazyPart(async () => (await import("./layout-fields.js")).LayoutFields);
@@ -69,7 +70,7 @@ export const PaperPanel = () => {
   const size = formatSize(widthMm, heightMm, lengthUnit);
 
   return (
-    <SettingsGroup id="paper" title={words.title} summary={`${name === CUSTOM ? "" : `${name}, `}${size}`}>
+    <Panel id="paper" title={words.title} summary={`${name === CUSTOM ? "" : `${name}, `}${size}`}>
       <Select
         label={words.size}
         value={isCustom ? CUSTOM : name}
@@ -167,7 +168,7 @@ export const PaperPanel = () => {
           onChange={(clipToMargins) => change("clip", { clipToMargins })}
         />
       </SettingsGroup>
-    </SettingsGroup>
+    </Panel>
   );
 };
 

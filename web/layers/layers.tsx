@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { usePageState } from "../state/use-store.js";
 import { layersText } from "./text.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { SettingsGroup } from "../ui/fields/settings-group.js";
+import { Panel } from "../ui/panel.js";
 
 const LayerList = lazyPart(async () => (await import("./layer-list.js")).LayerList);
 
@@ -10,9 +10,9 @@ const LayerList = lazyPart(async () => (await import("./layer-list.js")).LayerLi
 export const LayersPanel = ({ children }: { children: ReactNode }) => {
   const count = usePageState((state) => state.planned?.layers.length ?? 0);
   return (
-    <SettingsGroup id="layers" title={layersText.title} summary={count > 0 ? String(count) : ""}>
+    <Panel id="layers" title={layersText.title} summary={count > 0 ? String(count) : ""}>
       <LayerList />
       {children}
-    </SettingsGroup>
+    </Panel>
   );
 };

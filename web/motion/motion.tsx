@@ -7,6 +7,7 @@ import { Segments } from "../ui/fields/choice.js";
 import { formatInUnit, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { SettingsGroup } from "../ui/fields/settings-group.js";
+import { Panel } from "../ui/panel.js";
 import { useSprings } from "./use-springs.js";
 
 const MotionDetails = lazyPart(async () => (await import("./motion-details.js")).MotionDetails);
@@ -18,13 +19,13 @@ export const MotionPanel = () => {
   const chosen = qualityOf(motion, springs) ?? "custom";
   const summary = `${words.qualities[chosen]}, ${formatNumber(motion.draw.speedMmPerS)} mm/s`;
   return (
-    <SettingsGroup id="motion" title={words.title} summary={summary}>
+    <Panel id="motion" title={words.title} summary={summary}>
       <QualityChoice chosen={chosen} />
       <Swing />
       <SettingsGroup id="motion-details" isPart isLazy title={words.details}>
         <MotionDetails />
       </SettingsGroup>
-    </SettingsGroup>
+    </Panel>
   );
 };
 

@@ -22,11 +22,13 @@ export const Ramp = ({ title, unit, labels }: RampProps) => (
       <span>{title}</span>
       {unit && <span>{unit}</span>}
     </figcaption>
-    <div className="legend-bar" style={{ background: GRADIENT }} />
-    <div className="legend-labels">
-      {labels.map((label, i) => (
-        <span key={i}>{label}</span>
-      ))}
+    <div className="legend-scale">
+      <div className="legend-bar" style={{ background: GRADIENT }} />
+      <div className="legend-labels">
+        {labels.map((label, i) => (
+          <span key={i}>{label}</span>
+        ))}
+      </div>
     </div>
   </>
 );

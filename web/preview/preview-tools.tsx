@@ -12,17 +12,22 @@ const ZOOM_STEP = 1.5;
 
 const MODE_OPTIONS = VIEW_MODES.map(({ id, label }) => ({ value: id, label }));
 
-/** The view modes, and the legend of the chosen one. */
-export const ViewModes = () => {
+/** What the colours of the chosen view mode mean. */
+export const Legend = () => {
   const mode = usePageState(viewModeOf);
   const planned = usePageState((state) => state.planned);
   const settings = usePageState((state) => state.settings);
+  if (!planned || planned.scene.draw.count === 0) return null;
+  return <mode.Legend planned={planned} settings={settings} />;
+};
+
+export const ViewModes = () => {
+  const mode = usePageState(viewModeOf);
   const { changeView } = useActions();
   const choose = (viewMode: string): void => changeView({ viewMode });
   const control = { label: words.colorBy, value: mode.id, options: MODE_OPTIONS, onChange: choose };
   return (
     <div className="looks">
-      {planned && planned.scene.draw.count > 0 && <mode.Legend planned={planned} settings={settings} />}
       {/* Where six names have no room beside each other; the style shows one of the two. */}
       <div className="looks-menu">
         <Select {...control} />

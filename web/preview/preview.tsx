@@ -11,30 +11,35 @@ import type { Point } from "./gestures.js";
 import { HoverTip, StrokeCard } from "./stroke-card.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { boxAround } from "../scene/placing.js";
-import { PreviewTools, ViewModes } from "./preview-tools.js";
+import { Legend, PreviewTools, ViewModes } from "./preview-tools.js";
 import { Sheet, type SheetKind } from "./sheet.js";
 import type { FrameLook, Stage } from "./stage.js";
 import { selectionPainter } from "./stroke.js";
+import { TimeLine } from "./time-line.js";
 import { viewModeOf } from "./view-modes.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
-/** Height of the view modes, the legend and the tools under the paper. */
-const BELOW_PX = 88;
+/** Height of the legend under the paper. */
+const BELOW_PX = 30;
 
 /** The paper with the drawing on it, as it will be plotted. */
 export const Preview = () => (
-  <Sheet kind={PREPARED} label={words.title} pictureLabel={words.canvas}>
-    {(stage) => (
+  <Sheet
+    kind={PREPARED}
+    label={words.title}
+    pictureLabel={words.canvas}
+    foot={(stage) => (
       <>
-        <div className="preview-foot">
-          <ViewModes />
-          <PreviewTools stage={stage} />
-        </div>
-        <PaperMessage />
-        <HoverTip />
-        <StrokeCard />
+        <ViewModes />
+        <TimeLine />
+        <PreviewTools stage={stage} />
       </>
     )}
+  >
+    <Legend />
+    <PaperMessage />
+    <HoverTip />
+    <StrokeCard />
   </Sheet>
 );
 

@@ -23,12 +23,14 @@ interface SheetProps {
   readonly label: string;
   /** Accessible name of the strokes canvas. */
   readonly pictureLabel: string;
-  /** Controls over the sheet. */
-  children(stage: RefObject<Stage | null>): ReactNode;
+  /** Shown over the sheet. */
+  readonly children: ReactNode;
+  /** Controls under the sheet. */
+  foot(stage: RefObject<Stage | null>): ReactNode;
 }
 
 /** Paper with strokes, which can be moved and zoomed. Used in Prepare and in Watch. */
-export const Sheet = ({ kind, label, pictureLabel, children }: SheetProps) => {
+export const Sheet = ({ kind, label, pictureLabel, children, foot }: SheetProps) => {
   const box = useRef<HTMLDivElement>(null);
   const desk = useRef<HTMLCanvasElement>(null);
   const strokes = useRef<HTMLCanvasElement>(null);
@@ -69,17 +71,20 @@ export const Sheet = ({ kind, label, pictureLabel, children }: SheetProps) => {
   }, [kind, store, actions]);
   return (
     <section className="preview" aria-label={label}>
-      <div className="stage" ref={box} tabIndex={0} role="group" aria-label={previewText.hint}>
-        <canvas ref={desk} aria-hidden="true" />
-        <canvas ref={strokes} role="img" aria-label={pictureLabel} />
-        <canvas ref={overlay} aria-hidden="true" />
+      <div className="canvas">
+        <div className="stage" ref={box} tabIndex={0} role="group" aria-label={previewText.hint}>
+          <canvas ref={desk} aria-hidden="true" />
+          <canvas ref={strokes} role="img" aria-label={pictureLabel} />
+          <canvas ref={overlay} aria-hidden="true" />
+        </div>
+        {hasFault && (
+          <p className="paper-message paper-message-error" role="alert">
+            {previewText.cannotShow}
+          </p>
+        )}
+        {children}
       </div>
-      {hasFault && (
-        <p className="paper-message paper-message-error" role="alert">
-          {previewText.cannotShow}
-        </p>
-      )}
-      {children(stage)}
+      <div className="preview-foot">{foot(stage)}</div>
     </section>
   );
 };

@@ -1,8 +1,8 @@
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
 import { isOutsideUnanswered, OutsidePaper } from "../drawing/outside-paper.js";
 import { plotterText } from "../plotter/text.js";
-import { activeJob, currentPlotter, onlySubmits } from "../state/store.js";
-import { usePageState, usePageStore } from "../state/use-store.js";
+import { activeJob, currentPlotter, onlySubmits, shownView } from "../state/store.js";
+import { useActions, usePageState, usePageStore, usePlotterJobs } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { isEnabled } from "../state/page-action.js";
 import { isSendingJob, PLOT, QUEUE, SAVE_TO_JOB } from "./plot-actions.js";
@@ -16,33 +16,71 @@ import { NumberField } from "../ui/fields/number-field.js";
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
 const MAX_COPIES = 100;
 
-/** The plot's time and the main buttons. On a phone, the running plot's buttons replace them. */
+/** The plot's time, the queue and the main buttons, under the sheet. On a phone, the running plot's replace them. */
 export const PlotBar = () => {
-  const planned = usePageState((state) => state.planned);
-  const isPlanning = usePageState((state) => state.isPlanning);
+  const isPreparing = usePageState((state) => shownView(state) === "prepare");
   const hasJob = usePageState((state) => activeJob(state) !== null);
   const drawingKey = usePageState((state) => state.drawing?.key);
+  if (!isPreparing) return null;
   return (
     <section
       id="plot-bar"
       tabIndex={-1}
-      className="card plot-bar"
+      className="plot-bar"
       aria-label={words.plot}
       data-active={hasJob || undefined}
     >
-      <div className="plot-time">
-        <span className="plot-time-value" data-stale={isPlanning || undefined}>
-          {planned ? formatDuration(planned.stats.durationS) : "–"}
-        </span>
-        <span className="plot-time-label" role="status">
-          {isPlanning ? words.planning : words.time}
-        </span>
-      </div>
+      <Notes />
+      <PlotTime />
       <Figures />
+      <QueueStrip />
       {/* What is being typed into a field belongs to the drawing before. */}
       <Buttons key={drawingKey} />
       <RunningJob />
     </section>
+  );
+};
+
+const PlotTime = () => {
+  const planned = usePageState((state) => state.planned);
+  const isPlanning = usePageState((state) => state.isPlanning);
+  return (
+    <div className="plot-time">
+      <span className="plot-time-label" role="status">
+        {isPlanning ? words.planning : words.time}
+      </span>
+      <span className="plot-time-value" data-stale={isPlanning || undefined}>
+        {planned ? formatDuration(planned.stats.durationS) : "–"}
+      </span>
+    </div>
+  );
+};
+
+/** What the user should know before pressing Plot, or why it is off. */
+const Notes = () => {
+  const isUnreached = usePageState(isOutOfReach);
+  const isOutside = usePageState(isOutsideUnanswered);
+  return (
+    <div className="plot-notes">
+      <CutOffNote />
+      <OutsidePaper />
+      {isUnreached && !isOutside && <OutOfReach />}
+      <PlotNote />
+    </div>
+  );
+};
+
+/** The plots that wait, in their order. Opens the queue. */
+const QueueStrip = () => {
+  const waiting = usePlotterJobs().filter(({ state }) => state === "queued");
+  const { showPanel } = useActions();
+  if (waiting.length === 0) return null;
+  const totalS = waiting.reduce((sum, { remainingS }) => sum + (remainingS ?? 0), 0);
+  return (
+    <button type="button" className="queue-strip" onClick={() => showPanel("queue")}>
+      <span className="plot-time-label">{words.queued(waiting.length, formatDuration(totalS))}</span>
+      <span className="queue-names">{waiting.map(({ name }) => name).join(" · ")}</span>
+    </button>
   );
 };
 
@@ -68,16 +106,9 @@ const Buttons = () => {
   const copies = usePageState((state) => state.copies);
   const isOff = !usePageState((state) => isEnabled(QUEUE, state));
   const isSending = usePageState(isSendingJob);
-  const isActive = usePageState((state) => activeJob(state) !== null);
-  const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
   const isSubmitting = usePageState(onlySubmits);
-  const isUnreached = usePageState(isOutOfReach);
-  const isOutside = usePageState(isOutsideUnanswered);
   return (
     <div className="plot-buttons">
-      <ActionButton action={PLOT} kind="primary" isBusy={isSending} />
-      <ActionButton action={QUEUE} {...(isSubmitting && { kind: "primary" })} />
-      <ActionButton action={SAVE_TO_JOB} className="save-to-job" />
       <div className="copies">
         <NumberField
           label={words.copies}
@@ -91,22 +122,18 @@ const Buttons = () => {
           onChange={(count) => store.setState({ copies: Math.round(count) })}
         />
       </div>
-      <CutOffNote />
-      <OutsidePaper />
-      {isUnreached && !isOutside && <OutOfReach />}
-      <PlotNote isSending={isSending} isBusy={isActive} isAbsent={isAbsent} />
+      <ActionButton action={SAVE_TO_JOB} className="save-to-job" />
+      <ActionButton action={QUEUE} {...(isSubmitting && { kind: "primary" })} />
+      <ActionButton action={PLOT} kind="primary" isBusy={isSending} />
     </div>
   );
 };
 
-interface PlotNoteProps {
-  readonly isSending: boolean;
-  readonly isBusy: boolean;
-  readonly isAbsent: boolean;
-}
-
 /** Why "Plot" is off, or what happens after it was pressed. */
-const PlotNote = ({ isSending, isBusy, isAbsent }: PlotNoteProps) => {
+const PlotNote = () => {
+  const isSending = usePageState(isSendingJob);
+  const isBusy = usePageState((state) => activeJob(state) !== null);
+  const isAbsent = usePageState((state) => currentPlotter(state)?.connection === "absent");
   const link = usePageState((state) => state.link);
   const hasDrawing = usePageState((state) => state.drawing !== null);
   if (link === "lost") return <p className="note note-error">{stateText.notConnected}</p>;
@@ -123,7 +150,7 @@ const PlotNote = ({ isSending, isBusy, isAbsent }: PlotNoteProps) => {
   return isAbsent ? <p className="note">{words.needsPlotter}</p> : null;
 };
 
-/** On a small screen, replaces the rest of the bar while a job has the plotter. */
+/** While a job has the plotter. On a small screen it replaces the rest of the bar. */
 const RunningJob = () => {
   const job = usePageState(activeJob);
   if (!job) return null;

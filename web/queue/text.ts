@@ -9,6 +9,8 @@ export const plotText = {
   plot: "Plot",
   addToQueue: "Add to queue",
   queueBusy: "The plotter is busy. You can add this drawing to the queue.",
+  queued: (count: number, duration: string) =>
+    `Queue: ${count === 1 ? "1 plot" : `${count} plots`}, ${duration}`,
   copies: "Copies",
   addCopies: (count: number) => `Add ${count} to queue`,
   sending: "Adding… Every move is planned first, which takes a while for a large drawing.",

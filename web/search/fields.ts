@@ -27,12 +27,13 @@ import { motionText } from "../motion/text.js";
 import { heightsText, pensText } from "../pens/text.js";
 import { plotterText, presetsText } from "../plotter/text.js";
 import { isFirstPlot } from "../plotter/hand/pen-at-hand.js";
-import type { PageState, Tab } from "../state/store.js";
+import type { PanelName } from "../state/persist.js";
+import type { PageState } from "../state/store.js";
 import { searchText as words } from "./text.js";
 
-/** A folded group of settings, with the groups around it. */
+/** A place in a panel: the panel itself, or a folded group of settings in it. */
 interface Panel {
-  readonly tab: Tab;
+  readonly name: PanelName;
   /** Ids of the groups to open, the outermost first; none: the panel is always open. */
   readonly groups: readonly string[];
   /** What the user sees on the way there. */
@@ -61,32 +62,32 @@ export interface Field {
   whyOff?(state: PageState): string | null;
 }
 
-const panel = (tab: Tab, groups: readonly string[], ...titles: readonly string[]): Panel => ({
-  tab,
+const panel = (name: PanelName, groups: readonly string[], ...titles: readonly string[]): Panel => ({
+  name,
   groups,
   titles,
 });
 const PANELS = {
-  drawing: panel("setup", ["drawing"], drawingText.title),
-  paper: panel("setup", ["paper"], paperText.title),
-  paperMore: panel("setup", ["paper", "paper-more"], paperText.title, paperText.more),
-  layers: panel("setup", ["layers"], layersText.title),
-  pens: panel("setup", ["layers", "pens"], layersText.title, pensText.title),
-  lines: panel("setup", ["lines"], linesText.title),
-  fill: panel("setup", ["lines", "fill"], linesText.title, fillText.title),
-  motion: panel("setup", ["motion"], motionText.title),
-  details: panel("setup", ["motion", "motion-details"], motionText.title, motionText.details),
-  presets: panel("setup", ["presets"], presetsText.title),
-  hand: panel("machine", [], plotterText.title),
-  moves: panel("machine", ["moves"], plotterText.rest, plotterText.moves),
-  pen: panel("machine", ["pen"], plotterText.rest, heightsText.title),
-  plotter: panel("machine", ["plotter"], plotterText.rest, plotterText.more),
+  drawing: panel("drawing", ["drawing"], drawingText.title),
+  paper: panel("paper", ["paper"], paperText.title),
+  paperMore: panel("paper", ["paper", "paper-more"], paperText.title, paperText.more),
+  layers: panel("layers", ["layers"], layersText.title),
+  pens: panel("layers", ["layers", "pens"], layersText.title, pensText.title),
+  lines: panel("lines", ["lines"], linesText.title),
+  fill: panel("lines", ["lines", "fill"], linesText.title, fillText.title),
+  motion: panel("speed", ["motion"], motionText.title),
+  details: panel("speed", ["motion", "motion-details"], motionText.title, motionText.details),
+  presets: panel("speed", ["presets"], presetsText.title),
+  hand: panel("plotter", [], plotterText.title),
+  moves: panel("plotter", ["moves"], plotterText.rest, plotterText.moves),
+  pen: panel("plotter", ["pen"], plotterText.rest, heightsText.title),
+  plotter: panel("plotter", ["plotter"], plotterText.rest, plotterText.more),
 } as const satisfies Record<string, Panel>;
 
 type Named = Pick<Field, "label"> & Partial<Pick<Field, "id" | "words" | "instead" | "whyOff">>;
-type PanelName = keyof typeof PANELS;
+type PlaceName = keyof typeof PANELS;
 
-const field = (where: PanelName, { label, id, words = "", ...rest }: Named, legend?: string): Field => ({
+const field = (where: PlaceName, { label, id, words = "", ...rest }: Named, legend?: string): Field => ({
   id: `${where} ${id ?? label}`,
   label,
   words,
@@ -95,7 +96,7 @@ const field = (where: PanelName, { label, id, words = "", ...rest }: Named, lege
 });
 
 /** A field of the settings tables; what it is about is searched too. */
-const row = (where: PanelName, setting: Setting, more: Partial<Named> = {}, legend?: string): Field => {
+const row = (where: PlaceName, setting: Setting, more: Partial<Named> = {}, legend?: string): Field => {
   const added = more.words === undefined ? "" : `${more.words}, `;
   return field(
     where,
@@ -104,7 +105,7 @@ const row = (where: PanelName, setting: Setting, more: Partial<Named> = {}, lege
   );
 };
 
-const at = (where: PanelName, control: string): FieldLocation => ({ panel: PANELS[where], control });
+const at = (where: PlaceName, control: string): FieldLocation => ({ panel: PANELS[where], control });
 const unless =
   (isThere: (state: PageState) => boolean, place: FieldLocation): NonNullable<Field["instead"]> =>
   (state) =>
@@ -233,7 +234,7 @@ const OTHER: readonly Field[] = [
   field("plotter", { label: plotterText.model, words: "machine, axidraw, nextdraw, size of the plotter" }),
 ];
 
-const HEADINGS: readonly (readonly [PanelName, string])[] = [
+const HEADINGS: readonly (readonly [PlaceName, string])[] = [
   ["drawing", "open file, choose, sample, import"],
   ["paper", ""],
   ["layers", "colours, colors, inkscape"],

@@ -10,10 +10,10 @@ const SHOWN_MS = 2_000;
 export function goToField({ store, actions }: Page, field: Field): void {
   const state = store.getState();
   const place = field.instead?.(state) ?? field.place;
-  const { tab, groups } = place.panel;
+  const { name, groups } = place.panel;
   const { openGroups } = state.view;
   actions.showView("prepare");
-  actions.showTab(tab);
+  actions.showPanel(name);
   actions.changeView({ openGroups: [...openGroups, ...groups.filter((id) => !openGroups.includes(id))] });
   const endMs = performance.now() + WAIT_MS;
   const look = (): void => {
@@ -40,7 +40,8 @@ function controlAt({ panel: { groups }, control, legend }: FieldLocation): HTMLE
   const root =
     id === undefined ? document.querySelector(".pen-at-hand") : document.getElementById(`group-${id}`);
   if (!root) return null;
-  if (control === null) return root.parentElement?.querySelector<HTMLElement>(".group-head") ?? null;
+  if (control === null)
+    return root.parentElement?.querySelector<HTMLElement>(".group-head, .panel-title") ?? null;
   // The label of a field or switch, the name of a row of choices, or the legend around one.
   for (const named of root.querySelectorAll<HTMLElement>("label, legend, .segments-field [id$='-label']")) {
     if (textOf(named) !== control || named.offsetParent === null) continue;

@@ -15,7 +15,13 @@ const PAGE_KEY = "plotwright.page.v1";
 export const THEMES = ["auto", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
 
+/** The panels beside the paper, one open at a time, in the order of the rail. */
+export const PANELS = ["drawing", "paper", "layers", "lines", "speed", "plotter", "queue"] as const;
+export type PanelName = (typeof PANELS)[number];
+
 const viewSchema = z.object({
+  /** The open panel of Prepare; null: none. */
+  panel: z.enum(PANELS).nullable(),
   showTravel: z.boolean(),
   /** Id of a record of preview/view-modes.tsx. */
   viewMode: z.string().max(50),
@@ -35,12 +41,13 @@ const viewSchema = z.object({
 export type ViewSettings = Readonly<z.infer<typeof viewSchema>>;
 
 export const DEFAULT_VIEW: ViewSettings = {
+  panel: "plotter",
   showTravel: false,
   viewMode: "speed",
   showGraph: false,
   theme: "auto",
   lengthUnit: "mm",
-  openGroups: ["drawing", "paper", "layers", "motion"],
+  openGroups: [],
   cameraUrl: "",
   cameraEveryS: 0,
   hidesFirstPlot: false,

@@ -5,7 +5,7 @@
 import { createStore } from "zustand/vanilla";
 import { findMachine, firmwareFor } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
-import type { Remembered } from "./persist.js";
+import type { PanelName, Remembered } from "./persist.js";
 import { DOCUMENT_AT_FIRST, type DocumentSlice } from "./slices/document.js";
 import { PLAN_AT_FIRST, type PlanSlice } from "./slices/plan.js";
 import { PLAYER_AT_FIRST, type PlayerSlice } from "./slices/player.js";
@@ -50,3 +50,7 @@ export const watchedJob = (state: PageState): Job | null =>
 
 /** A watcher sees only Watch. */
 export const shownView = (state: PageState): PageView => (maySubmit(state) ? state.pageView : "watch");
+
+/** The panel beside the paper or the watched sheet; null: none is open. */
+export const openPanel = (state: PageState): PanelName | null =>
+  shownView(state) === "watch" ? state.watchPanel : state.view.panel;

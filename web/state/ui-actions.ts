@@ -1,6 +1,6 @@
 /** What the page shows: its views, panels, dialogs and messages to the user. */
-import type { ViewSettings } from "./persist.js";
-import type { DialogName, PageNotice, PageStore, PageView, Tab } from "./store.js";
+import type { PanelName, ViewSettings } from "./persist.js";
+import { shownView, type DialogName, type PageNotice, type PageStore, type PageView } from "./store.js";
 
 const INFO_MS = 5_000;
 const MAX_NOTICES = 4;
@@ -25,7 +25,11 @@ export const createUiActions = (store: PageStore, after: (delayMs: number, callb
     changeView: (change: Partial<ViewSettings>): void =>
       store.setState(({ view }) => ({ view: { ...view, ...change } })),
     showView: (pageView: PageView): void => store.setState({ pageView, isFullScreen: false }),
-    showTab: (tab: Tab): void => store.setState({ tab }),
+    /** Null closes the open panel. */
+    showPanel: (panel: PanelName | null): void =>
+      store.setState((state) =>
+        shownView(state) === "watch" ? { watchPanel: panel } : { view: { ...state.view, panel } },
+      ),
     openDialog: (name: DialogName): void => store.setState({ openDialog: name }),
     /** Another open dialog stays: the user may have typed into it. */
     toggleDialog: (name: DialogName): void =>

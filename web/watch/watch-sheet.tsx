@@ -11,23 +11,20 @@ import { watchText as words } from "./text.js";
 import { useEffect } from "react";
 import { IconButton } from "../ui/button.js";
 
-/** Height of the tools under the paper. */
-const BELOW_PX = 52;
-
 /** The sheet on the plotter: the drawn part in the pens' colours and widths, the rest pale, and the pen. */
 export const WatchSheet = () => (
-  <Sheet kind={WATCHED} label={words.sheet} pictureLabel={words.canvas}>
-    {(stage) => (
-      <>
-        <Nothing />
-        <div className="preview-foot">
-          <div className="preview-tools">
-            <ZoomTools stage={stage} />
-            <FullScreenButton />
-          </div>
-        </div>
-      </>
+  <Sheet
+    kind={WATCHED}
+    label={words.sheet}
+    pictureLabel={words.canvas}
+    foot={(stage) => (
+      <div className="preview-tools">
+        <ZoomTools stage={stage} />
+        <FullScreenButton />
+      </div>
     )}
+  >
+    <Nothing />
   </Sheet>
 );
 
@@ -62,7 +59,7 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
 const WATCHED: SheetKind = {
   desk: watchedDesk,
   look: lookOf,
-  belowPx: BELOW_PX,
+  belowPx: 0,
   show: showState,
   hand: () => ({ grab: () => null, nudge: () => false, hover: () => undefined, tap: () => undefined }),
 };

@@ -1,7 +1,7 @@
 /** A plotter whose swing was measured, chosen on the page. */
 import type { Page } from "playwright-core";
 import { machineById } from "../../../src/index.js";
-import { openTab, waitForPlan } from "./page-actions.js";
+import { openPanel, waitForPlan } from "./page-actions.js";
 
 export const SPRINGS = { xHz: 15, yHz: 25, damping: 0.05 };
 const MEASURED = { ...machineById("axidraw-v3"), id: "measured", name: "Measured plotter", springs: SPRINGS };
@@ -11,7 +11,7 @@ export async function chooseMeasuredPlotter(page: Page, serverUrl: string): Prom
   await page.request.put(`${serverUrl}/api/v1/machines/${MEASURED.id}`, { data: MEASURED });
   await page.reload();
   await waitForPlan(page);
-  await openTab(page, "Plotter");
+  await openPanel(page, "Plotter");
   await page.getByRole("button", { name: "Machines…" }).click();
   await page
     .getByRole("dialog")

@@ -31,10 +31,22 @@ export const historyPanel = (page: Page): Locator => page.getByRole("region", { 
 export const openView = (page: Page, name: "Prepare" | "Watch"): Promise<void> =>
   page.getByRole("group", { name: "View" }).getByRole("button", { name, exact: true }).click();
 
-/** Opens a tab on a phone. Does nothing on a desktop, where all columns are visible. */
-export async function openTab(page: Page, name: "Set up" | "Queue" | "Plotter"): Promise<void> {
-  const tab = page.getByRole("navigation", { name: "Panels" }).getByRole("button", { name, exact: true });
-  if (await tab.isVisible()) await tab.click();
+type Panel = "Drawing" | "Paper" | "Layers" | "Lines" | "Speed" | "Plotter" | "Queue";
+
+/** Opens one of the panels beside the sheet. */
+export async function openPanel(page: Page, name: Panel): Promise<void> {
+  // With the number of waiting plots behind it.
+  const button = page
+    .getByRole("navigation", { name: "Panels" })
+    .getByRole("button", { name: new RegExp(`^${name}( ?\\d+)?$`) });
+  if ((await button.getAttribute("aria-expanded")) !== "true") await button.click();
+}
+
+/** Opens or closes a group of settings, in the panel that has it. */
+export async function openGroup(page: Page, panel: Panel, title: string, isOpen = true): Promise<void> {
+  await openPanel(page, panel);
+  const head = page.locator(".group-head").filter({ has: page.getByText(title, { exact: true }) });
+  if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
 }
 
 /** Waits until the page has rendered all earlier changes, including those of the next frame. */

@@ -8,7 +8,8 @@ import {
   chooseSample,
   dropFile,
   nextFrames,
-  openTab,
+  openGroup,
+  openPanel,
   plotBar,
   waitForPicture,
   waitForPlan,
@@ -21,6 +22,16 @@ const DESKTOP: BrowserContextOptions = {
   viewport: { width: 1440, height: 900 },
   colorScheme: "light",
 };
+
+/** CSS px of the page. */
+interface ScreenBox {
+  readonly left: number;
+  readonly top: number;
+  readonly right: number;
+  readonly bottom: number;
+}
+
+type DropFirst<T extends readonly unknown[]> = T extends readonly [unknown, ...infer Rest] ? Rest : never;
 
 export class PageTest {
   /** Messages of the browser's console. */
@@ -85,18 +96,66 @@ export class PageTest {
     await waitForPicture(this.page);
   }
 
+  async panel(...[name]: DropFirst<Parameters<typeof openPanel>>): Promise<void> {
+    await openPanel(this.page, name);
+  }
+
   /** Opens or closes a group of settings. */
-  async group(title: string, isOpen = true): Promise<void> {
-    const head = this.page
-      .locator(".group-head")
-      .filter({ has: this.page.getByText(title, { exact: true }) });
-    if ((await head.getAttribute("aria-expanded")) !== String(isOpen)) await head.click();
+  async group(...of: DropFirst<Parameters<typeof openGroup>>): Promise<void> {
+    await openGroup(this.page, ...of);
   }
 
   /** Selects a view of the drawing. */
   async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
     const looks = this.page.getByRole("group", { name: "Colour by" });
     await looks.getByRole("radio", { name, exact: true }).check();
+  }
+
+  /** The bounding box, in CSS px of the page, of the canvas pixels of that brightness: "paper" or "ink". */
+  async onScreen(what: "paper" | "ink"): Promise<ScreenBox> {
+    // Off the paper, so that no tooltip for a stroke appears.
+    await this.page.mouse.move(700, 20);
+    await this.drawn();
+    const canvas = this.page.getByRole("img", { name: "Preview", exact: true });
+    const at = (await canvas.boundingBox())!;
+    // Without the notices over its upper edge, which are as dark as ink.
+    await this.page
+      .locator(".notice-close")
+      .evaluateAll((buttons) => buttons.forEach((button) => (button as HTMLElement).click()));
+    await this.page.locator(".notice").first().waitFor({ state: "detached" });
+    const png = (await canvas.screenshot()).toString("base64");
+    const found = await this.page.evaluate(
+      async ([base64, isPaper]) => {
+        const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+        const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+        const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+        context.drawImage(bitmap, 0, 0);
+        const { data, width } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+        const box = { left: Infinity, top: Infinity, right: -Infinity, bottom: -Infinity };
+        for (let i = 0; i < data.length; i += 4) {
+          const x = (i / 4) % width;
+          const y = Math.floor(i / 4 / width);
+          // Rulers, the drawing's name and the legend are at the edges.
+          if (x < 26 || y < 48 || y > bitmap.height - 30) continue;
+          const isIt = isPaper
+            ? Math.min(data[i], data[i + 1], data[i + 2]) > 249
+            : Math.max(data[i], data[i + 1], data[i + 2]) < 90;
+          if (!isIt) continue;
+          box.left = Math.min(box.left, x);
+          box.top = Math.min(box.top, y);
+          box.right = Math.max(box.right, x + 1);
+          box.bottom = Math.max(box.bottom, y + 1);
+        }
+        return box;
+      },
+      [png, what === "paper"] as const,
+    );
+    return {
+      left: found.left + at.x,
+      top: found.top + at.y,
+      right: found.right + at.x,
+      bottom: found.bottom + at.y,
+    };
   }
 
   async jobs(): Promise<readonly Job[]> {
@@ -137,10 +196,6 @@ export class PageTest {
     const xs = [...xy].filter((_, k) => k % 2 === 0);
     const ys = [...xy].filter((_, k) => k % 2 === 1);
     return { x0: Math.min(...xs), y0: Math.min(...ys), x1: Math.max(...xs), y1: Math.max(...ys) };
-  }
-
-  async tab(name: "Set up" | "Queue" | "Plotter"): Promise<void> {
-    await openTab(this.page, name);
   }
 
   field(label: string): Locator {

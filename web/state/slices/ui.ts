@@ -1,6 +1,6 @@
 /** What the page shows: its views, dialogs and notices. Its actions: ../ui-actions.ts. */
 import type { Planned } from "../../worker/protocol.js";
-import type { ViewSettings } from "../persist.js";
+import type { PanelName, ViewSettings } from "../persist.js";
 
 export interface PageNotice {
   readonly id: number;
@@ -24,9 +24,8 @@ interface TakeOverQuestion {
   answer(takesOver: boolean): void;
 }
 
-/** The columns beside the paper, which are tabs on a narrow screen. */
-export const TABS = ["setup", "queue", "machine"] as const;
-export type Tab = (typeof TABS)[number];
+/** The panels that Watch has. */
+export const WATCH_PANELS: readonly PanelName[] = ["queue", "plotter"];
 
 /** Dialogs, one at a time. */
 export type DialogName =
@@ -35,7 +34,8 @@ export type DialogName =
 export interface UiSlice {
   readonly view: ViewSettings;
   readonly pageView: PageView;
-  readonly tab: Tab;
+  /** The open panel of Watch; null: none. */
+  readonly watchPanel: PanelName | null;
   /** The last job that had the plotter: Watch shows it while none is running. */
   readonly watchedId: string | null;
   readonly watchPlan: WatchPlan | null;
@@ -49,7 +49,7 @@ export interface UiSlice {
 /** Without what the last visit left. */
 export const UI_AT_FIRST = {
   pageView: "prepare",
-  tab: "setup",
+  watchPanel: "queue",
   watchedId: null,
   watchPlan: null,
   isFullScreen: false,

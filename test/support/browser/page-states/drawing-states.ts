@@ -1,7 +1,7 @@
 /** A drawing on the paper, and what is set for it. */
 import type { Page } from "playwright-core";
 import { ruledSheet } from "../../drawings/drawings.js";
-import { dropFile, openTab, plotBar, waitForSamples } from "../page-actions.js";
+import { dropFile, openGroup, openPanel, plotBar, waitForSamples } from "../page-actions.js";
 import { type PageState, lay, sampleText } from "./page-state.js";
 
 const WITH_WARNINGS = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="120mm" viewBox="0 0 200 120">
@@ -75,6 +75,7 @@ export const DRAWING_STATES: readonly PageState[] = [
     isPassing: true,
     reach: async ({ page }) => {
       await lay(page, "tall", TALL);
+      await openPanel(page, "Paper");
       await page.getByRole("radio", { name: "Portrait" }).check();
       await page.getByRole("button", { name: "Turn for this machine" }).waitFor();
     },
@@ -83,10 +84,11 @@ export const DRAWING_STATES: readonly PageState[] = [
     name: "37-all-settings",
     isPassing: true,
     reach: async ({ page }) => {
-      await openTab(page, "Set up");
-      const folded = page.locator(".column-setup button[aria-expanded=false]:visible");
-      // On a phone the sheet may cover the button.
-      while ((await folded.count()) > 0) await folded.first().dispatchEvent("click");
+      for (const panel of ["Drawing", "Paper", "Layers", "Lines", "Speed"] as const) {
+        await openPanel(page, panel);
+        const folded = page.locator(".panel .group-head[aria-expanded=false]");
+        while ((await folded.count()) > 0) await folded.first().click();
+      }
       await page.getByLabel("Speed along x", { exact: true }).waitFor();
     },
   },
@@ -106,9 +108,8 @@ export const DRAWING_STATES: readonly PageState[] = [
     isPassing: true,
     reach: async ({ page }) => {
       await lay(page, "hills", sampleText("three-colour-hills"));
-      const fold = page.locator(".group-head").filter({ has: page.getByText("Pens", { exact: true }) });
-      if ((await fold.getAttribute("aria-expanded")) === "false") await fold.dispatchEvent("click");
-      await page.getByRole("button", { name: "A pen for each colour" }).dispatchEvent("click");
+      await openGroup(page, "Layers", "Pens");
+      await page.getByRole("button", { name: "A pen for each colour" }).click();
       await page.locator(".layer-stop").first().scrollIntoViewIfNeeded();
     },
   },

@@ -4,7 +4,7 @@ import type { ServerProcess } from "../../processes/server-process.js";
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { ROOT } from "../../../../scripts/setup.mjs";
-import { dropFile, openTab, plotBar, queuePanel, statusCard, waitForPlan } from "../page-actions.js";
+import { dropFile, openPanel, plotBar, queuePanel, statusCard, waitForPlan } from "../page-actions.js";
 
 export interface Stand {
   readonly page: Page;
@@ -41,16 +41,17 @@ export const TWO_PENS = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape=
   </g></svg>`;
 
 export async function lay(page: Page, name: string, text: string): Promise<void> {
-  await openTab(page, "Set up");
   await dropFile(page, `${name}.svg`, text);
   await page.getByText(name).first().waitFor();
   await waitForPlan(page);
 }
 
-/** Plots a drawing. Watch then opens by itself, with the queue below it on a phone. */
+/** Plots a drawing. Watch then opens by itself; the queue is opened beside it. */
 export async function start(page: Page, name: string, text: string): Promise<void> {
   await lay(page, name, text);
   await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
+  await statusCard(page).getByRole("progressbar").waitFor();
+  await openPanel(page, "Queue");
   await queuePanel(page).getByRole("progressbar").waitFor();
 }
 

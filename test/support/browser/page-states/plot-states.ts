@@ -1,6 +1,6 @@
 /** The queue, a plot under way, and plots that ended. */
 import { ruledSheet } from "../../drawings/drawings.js";
-import { historyPanel, openTab, openView, plotBar, queuePanel, statusCard } from "../page-actions.js";
+import { historyPanel, openPanel, openView, plotBar, queuePanel, statusCard } from "../page-actions.js";
 import { type PageState, button, lay, sampleText, start, TWO_PENS } from "./page-state.js";
 
 export const PLOT_STATES: readonly PageState[] = [
@@ -13,7 +13,7 @@ export const PLOT_STATES: readonly PageState[] = [
           await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
         }
       }
-      await openTab(page, "Queue");
+      await openPanel(page, "Queue");
       await button(page, /^Start /)
         .nth(1)
         .waitFor();
@@ -87,7 +87,7 @@ export const PLOT_STATES: readonly PageState[] = [
         await lay(page, name, sampleText("hello-paper"));
         await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
       }
-      await openTab(page, "Queue");
+      await openPanel(page, "Queue");
       await queuePanel(page).getByRole("button", { name: "More for hello" }).click();
       await page.getByRole("button", { name: "Open hello" }).waitFor();
     },

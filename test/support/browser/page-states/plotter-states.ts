@@ -1,6 +1,6 @@
 /** The plotter: moved by hand, set up, measured, or absent. */
 import { chooseMeasuredPlotter } from "../measured-plotter.js";
-import { openTab } from "../page-actions.js";
+import { openPanel } from "../page-actions.js";
 import type { PageState } from "./page-state.js";
 
 export const PLOTTER_STATES: readonly PageState[] = [
@@ -8,22 +8,16 @@ export const PLOTTER_STATES: readonly PageState[] = [
     name: "13-by-hand",
     isPassing: true,
     reach: async ({ page }) => {
-      await openTab(page, "Plotter");
-      const head = page.getByRole("button", { name: "Move by hand" });
-      await head.click();
+      await openPanel(page, "Plotter");
+      await page.getByRole("button", { name: "Move by hand" }).click();
       await page.getByRole("group", { name: "Jog pad" }).scrollIntoViewIfNeeded();
-      // On a desk the plot bar stays on top of its column. A field that it covered in half would be too small for axe.
-      await head.evaluate((element) => {
-        const barEnd = document.querySelector(".plot-bar")?.getBoundingClientRect().bottom ?? 0;
-        element.closest(".column")?.scrollBy(0, element.getBoundingClientRect().top - barEnd);
-      });
     },
   },
   {
     name: "14-set-up",
     isPassing: true,
     reach: async ({ page }) => {
-      await openTab(page, "Plotter");
+      await openPanel(page, "Plotter");
       await page.getByRole("button", { name: "Set up a plotter…" }).click();
       await page.getByRole("button", { name: "Next" }).click();
       await page.getByRole("button", { name: "It is in the middle" }).click();
@@ -34,7 +28,7 @@ export const PLOTTER_STATES: readonly PageState[] = [
     name: "15-machines",
     isPassing: true,
     reach: async ({ page }) => {
-      await openTab(page, "Plotter");
+      await openPanel(page, "Plotter");
       await page.getByRole("button", { name: "Machines…" }).click();
       await page.getByRole("button", { name: "Copy AxiDraw V3 to a new machine", exact: true }).click();
       await page.getByText("Pen servo").waitFor();
@@ -44,7 +38,7 @@ export const PLOTTER_STATES: readonly PageState[] = [
     name: "16-console",
     isPassing: true,
     reach: async ({ page }) => {
-      await openTab(page, "Plotter");
+      await openPanel(page, "Plotter");
       await page.getByRole("button", { name: "Console" }).click();
       await page.getByLabel("Command", { exact: true }).fill("V");
       await page.getByRole("button", { name: "Send" }).click();
@@ -55,7 +49,7 @@ export const PLOTTER_STATES: readonly PageState[] = [
     name: "23-no-board",
     device: "/dev/no-such-plotter",
     reach: async ({ page }) => {
-      await openTab(page, "Plotter");
+      await openPanel(page, "Plotter");
       await page.getByText("Not connected").first().waitFor();
     },
   },
@@ -63,7 +57,7 @@ export const PLOTTER_STATES: readonly PageState[] = [
     name: "28-first-plot",
     isPassing: true,
     reach: async ({ page }) => {
-      await openTab(page, "Plotter");
+      await openPanel(page, "Plotter");
       await page.getByText("First plot with this plotter").scrollIntoViewIfNeeded();
     },
   },
@@ -71,7 +65,7 @@ export const PLOTTER_STATES: readonly PageState[] = [
     name: "38-ringing",
     isPassing: true,
     reach: async ({ page }) => {
-      await openTab(page, "Plotter");
+      await openPanel(page, "Plotter");
       const link = page
         .getByRole("region", { name: "Plotter set-up" })
         .getByRole("button", { name: "Measure ringing…" });

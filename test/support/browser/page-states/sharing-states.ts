@@ -1,6 +1,6 @@
 /** The server, other browsers on it, and the sheets about them. */
 import { ruledSheet } from "../../drawings/drawings.js";
-import { openTab, plotBar, queuePanel } from "../page-actions.js";
+import { openPanel, plotBar, queuePanel } from "../page-actions.js";
 import type { ServerProcess } from "../../processes/server-process.js";
 import { type PageState, type Stand, lay, sampleText, start, TWO_PENS } from "./page-state.js";
 
@@ -51,6 +51,7 @@ export const SHARING_STATES: readonly PageState[] = [
       await plotBar(operator).getByRole("button", { name: "Add to queue" }).click();
       await start(operator, "two-pens", TWO_PENS);
       await stand.page.goto(`${stand.server.url}${watchPath}`);
+      await openPanel(stand.page, "Queue");
       await queuePanel(stand.page).getByText("hills").waitFor();
     },
   },
@@ -59,7 +60,8 @@ export const SHARING_STATES: readonly PageState[] = [
     virtualSpeed: 2,
     reach: async ({ page, openOther }) => {
       await start(await openOther(), "lines", ruledSheet());
-      await queuePanel(page).getByText("lines").waitFor({ state: "attached" });
+      await openPanel(page, "Queue");
+      await queuePanel(page).getByText("lines").waitFor();
       await page.getByText("is operating.").waitFor();
     },
   },
@@ -68,10 +70,10 @@ export const SHARING_STATES: readonly PageState[] = [
     isOnlyPlace: true,
     reach: async ({ page, openOther }) => {
       const other = await openOther();
-      await openTab(other, "Queue");
+      await openPanel(other, "Queue");
       await queuePanel(other).getByRole("radio", { name: "Start the next" }).click();
       await page.getByText("is operating.").waitFor();
-      await openTab(page, "Queue");
+      await openPanel(page, "Queue");
       // A click on the chosen option changes nothing, so it opens no dialog.
       await queuePanel(page)
         .getByRole("radio", { name: "Start the next", checked: true })
