@@ -77,8 +77,8 @@ describe("the looks on a phone", () => {
     await list.waitFor();
     expect(await page.getByRole("radio", { name: "Ink" }).isVisible()).toBe(false);
     expect(await list.locator("option").allInnerTexts()).toEqual([
-      "Speed",
       "Ink",
+      "Speed",
       "Layer",
       "Order",
       "Pen",

@@ -53,6 +53,7 @@ describe("a plot that was cancelled half way", () => {
     const { page } = test;
     const { id } = await theJob();
     await page.request.post(`${test.server.url}/api/v1/jobs/${id}/cancel`);
+    await test.panel("Queue");
     await history()
       .getByRole("button", { name: `More for ${NAME}` })
       .click();

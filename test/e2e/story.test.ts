@@ -109,6 +109,7 @@ describe("a newcomer with a drawing", () => {
   });
 
   it("sees it in the colours of the legend, which ends at the drawing's top speed", async () => {
+    await page.getByRole("group", { name: "Colour by" }).getByRole("radio", { name: "Speed" }).check();
     const legend = page.getByRole("img", { name: "Speed legend" });
     const stops = (await legend.getAttribute("data-stops")) ?? "[]";
     const inks = (JSON.parse(stops) as { mmPerS: number; color: string }[]).map(({ color }) =>

@@ -199,7 +199,7 @@ const SWING: ViewMode = {
 const ofWidth = (name: string, mm: string): string => `${name}, ${mm} mm`;
 
 /** In the order of their buttons. The first is shown on a first visit. */
-export const VIEW_MODES: readonly ViewMode[] = [SPEED, INK, LAYER, ORDER, PEN, SWING];
+export const VIEW_MODES: readonly ViewMode[] = [INK, SPEED, LAYER, ORDER, PEN, SWING];
 
 /** A browser may remember a mode that this version does not have. */
 export const viewModeOf = ({ view }: PageState): ViewMode =>

@@ -1,5 +1,7 @@
 import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
 import { isOutsideUnanswered, OutsidePaper } from "../drawing/outside-paper.js";
+import { movesText } from "../plotter/hand/text.js";
+import { TRACE_FRAME } from "../plotter/plotter-actions.js";
 import { plotterText } from "../plotter/text.js";
 import { activeJob, currentPlotter, onlySubmits, shownView } from "../state/store.js";
 import { useActions, usePageState, usePageStore, usePlotterJobs } from "../state/use-store.js";
@@ -122,6 +124,14 @@ const Buttons = () => {
           onChange={(count) => store.setState({ copies: Math.round(count) })}
         />
       </div>
+      <ActionButton
+        action={TRACE_FRAME}
+        kind="tool"
+        icon="frame"
+        hasText
+        className="tool-wide"
+        hint={movesText.frameHint}
+      />
       <ActionButton action={SAVE_TO_JOB} className="save-to-job" />
       <ActionButton action={QUEUE} {...(isSubmitting && { kind: "primary" })} />
       <ActionButton action={PLOT} kind="primary" isBusy={isSending} />

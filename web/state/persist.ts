@@ -43,7 +43,7 @@ export type ViewSettings = Readonly<z.infer<typeof viewSchema>>;
 export const DEFAULT_VIEW: ViewSettings = {
   panel: "plotter",
   showTravel: false,
-  viewMode: "speed",
+  viewMode: "ink",
   showGraph: false,
   theme: "auto",
   lengthUnit: "mm",

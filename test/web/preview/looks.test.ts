@@ -42,9 +42,9 @@ describe("the view modes", () => {
     for (const { id } of VIEW_MODES) expect(modeOf(id).id).toBe(id);
   });
 
-  it("begin with Speed, which is also shown if this version does not have the remembered one", () => {
-    expect(modeOf(DEFAULT_VIEW.viewMode).label).toBe("Speed");
-    expect(modeOf("temperature").label).toBe("Speed");
+  it("begin with Ink, which is also shown if this version does not have the remembered one", () => {
+    expect(modeOf(DEFAULT_VIEW.viewMode).label).toBe("Ink");
+    expect(modeOf("temperature").label).toBe("Ink");
   });
 
   it("Ink has the file's colours, and its widths as large as they are on the paper", () => {

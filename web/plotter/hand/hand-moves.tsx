@@ -7,7 +7,7 @@ import { Button } from "../../ui/button.js";
 import { MmPair } from "../../ui/fields/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
-import { areMovesOff, CYCLE_PEN, SET_HOME, TEST_PATCH, TRACE_FRAME } from "../plotter-actions.js";
+import { areMovesOff, CYCLE_PEN, SET_HOME, TEST_PATCH } from "../plotter-actions.js";
 import "./hand-moves.css";
 
 /** Jog pad, moves to a position, and small moves that prepare a plot. Disabled during a plot. */
@@ -55,7 +55,6 @@ const Moves = () => (
   <div className="button-grid">
     <ActionButton action={SET_HOME} hint={words.setHomeHint} />
     <ActionButton action={CYCLE_PEN} hint={words.cyclePenHint} />
-    <ActionButton action={TRACE_FRAME} hint={words.frameHint} />
     <ActionButton action={TEST_PATCH} hint={words.testPatchHint} />
   </div>
 );
