@@ -105,6 +105,7 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     await queuePanel(page).getByLabel("2 copies").waitFor();
     await started.killAndReopen();
     ({ page } = started);
+    await openPanel(page, "Queue");
     await expectWaiting(page, ["one", "three", "two"]);
     await queuePanel(page).getByLabel("2 copies").waitFor();
     await choose(page, "three", "Open");
@@ -119,6 +120,7 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     await historyPanel(page).getByText("Done", { exact: true }).waitFor();
     await started.killAndReopen();
     ({ page } = started);
+    await openPanel(page, "Queue");
     await expectWaiting(page, ["two"]);
     await historyPanel(page).getByText("Done", { exact: true }).waitFor();
     await historyPanel(page).getByRole("button", { name: "More for one" }).click();

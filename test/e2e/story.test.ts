@@ -96,6 +96,7 @@ describe("a newcomer with a drawing", () => {
   it("puts a sample on it with one click, ready to plot", async () => {
     await chooseSample(page);
     await waitForPlotButton(page);
+    await page.getByRole("group", { name: "Colour by" }).getByRole("radio", { name: "Speed" }).check();
     expect(pixelCount(await inked(page))).toBeGreaterThan(2_000);
   });
 
@@ -109,7 +110,6 @@ describe("a newcomer with a drawing", () => {
   });
 
   it("sees it in the colours of the legend, which ends at the drawing's top speed", async () => {
-    await page.getByRole("group", { name: "Colour by" }).getByRole("radio", { name: "Speed" }).check();
     const legend = page.getByRole("img", { name: "Speed legend" });
     const stops = (await legend.getAttribute("data-stops")) ?? "[]";
     const inks = (JSON.parse(stops) as { mmPerS: number; color: string }[]).map(({ color }) =>
@@ -149,6 +149,7 @@ describe("a newcomer with a drawing", () => {
     await server.stop();
     server = await startServerProcess({ dataDir: data.path });
     await page.goto(server.url);
+    await openPanel(page, "Queue");
     await historyPanel(page).getByText("Done").waitFor();
     await historyPanel(page).getByText(SAMPLE.replace(".svg", "")).waitFor();
   });
