@@ -133,7 +133,13 @@ export { maxOffDrawingMm, reportedPosition } from "./position/reported.js";
 // machines
 export type { Springs } from "./machines/profile.js";
 export { findMachine, machineOf } from "./machines/profiles.js";
-export { DIRECTIONS, machineTurned, stepsPerMmMeasured, type Direction } from "./machines/set-up.js";
+export {
+  DIRECTIONS,
+  machineNamed,
+  machineTurned,
+  stepsPerMmMeasured,
+  type Direction,
+} from "./machines/set-up.js";
 export { motor1FromXy, motor2FromXy, xFromMotors, yFromMotors } from "./machines/motors.js";
 export { pctFromServoPos, servoPosFromPct } from "./drivers/ebb/protocol/servo-height.js";
 

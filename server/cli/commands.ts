@@ -107,7 +107,7 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "home",
-    about: "lift the pen and move to home",
+    about: "lift the pen and move to home; a NextDraw finds it with its switch",
     examples: ["plotwright home"],
     load: async () => (await hand()).declareHome,
   },

@@ -28,7 +28,7 @@ export class NodePlotter extends HostDriver {
     super({ ...options, clock: options.clock ?? nodeClock, devices: serialDevices });
   }
 
-  /** Lifts the pen and moves to the limit switches if the machine has them, otherwise to the set home. */
+  /** Lifts the pen and moves home; a machine with limit switches finds it with them. */
   home(settings?: PlotSettings): Promise<void> {
     return this.move({ kind: "home" }, settings);
   }

@@ -7,6 +7,7 @@
  * permutation too, so its inverse is its transpose.
  */
 import { PlotwrightError } from "../errors.js";
+import { MACHINES } from "./profiles.js";
 import { uFromXy, vFromXy } from "./motors.js";
 import type { MachineProfile } from "./profile.js";
 
@@ -69,4 +70,14 @@ export function stepsPerMmMeasured(
     );
   }
   return machine.stepsPerMm * scale;
+}
+
+const lettersOf = (text: string): string => text.toLowerCase().replace(/[^a-z0-9]/g, "");
+
+/** The built-in machine that a board's own name tells; null: it tells none. "My NextDraw 8511" is a NextDraw 8511. */
+export function machineNamed(boardName: string): MachineProfile | null {
+  const letters = lettersOf(boardName);
+  const named = MACHINES.filter(({ name }) => letters.includes(lettersOf(name)));
+  // "AxiDraw V3/A3" also contains "AxiDraw V3".
+  return named.sort((a, b) => b.name.length - a.name.length)[0] ?? null;
 }

@@ -49,7 +49,7 @@ export type ServoRequest = z.infer<typeof servoRequestSchema>;
 
 /** A manual move as data: its kind is the last part of the route above. */
 export const handMoveSchema = z.discriminatedUnion("kind", [
-  /** To the limit switches if the machine has them, otherwise to the set home. */
+  /** A machine with limit switches finds home with them. Otherwise to the set home. */
   z.object({ kind: z.literal("home") }),
   /** Makes the current position home. */
   z.object({ kind: z.literal("set-home") }),

@@ -244,7 +244,7 @@ export const OPERATIONS = {
   moves: {
     home: move(
       "home",
-      "Lifts the pen and moves home, to the limit switches if the machine has them",
+      "Lifts the pen and moves home; a machine with limit switches finds it with them",
       handMoveRequestSchema,
     ),
     "move-to": move("move-to", "Moves to a position in mm from home, pen up", moveToRequestSchema),

@@ -34,6 +34,13 @@ describe("before the first plot", () => {
       expect(y + height).toBeLessThanOrEqual(900);
     };
     await inSight();
+    // With its model known, and the longer help of a plotter that finds home.
+    for (const label of ["NextDraw 8511", "AxiDraw V3"]) {
+      await guide.getByLabel("Which plotter is this?").selectOption({ label });
+      await guide.getByText("Press Plot.").waitFor();
+      await inSight();
+      if (label === "NextDraw 8511") await guide.getByRole("button", { name: "Another model…" }).click();
+    }
     await guide.getByRole("button", { name: "Home", exact: true }).click();
     // Done: one line, from which it can be opened again.
     await guide.getByText("The carriage is home.").waitFor();

@@ -1,6 +1,6 @@
 /** What a plotter is doing, in words, from its connection and its job. */
 import type { MachineProfile } from "../../src/index.js";
-import { firmwareAdvice } from "../../src/internal.js";
+import { findsHome, firmwareAdvice } from "../../src/internal.js";
 import type { Job, Plotter } from "../../src/schema/index.js";
 import { penWait } from "../state/store.js";
 import { plotterText as words } from "./text.js";
@@ -36,9 +36,9 @@ export const lampOf = ({ connection }: Plotter, job: Job | null): Lamp => {
   return job.wait === null ? "held" : "waiting";
 };
 
-/** Where home is; null if the plotter finds it by its limit switches. */
-export const homeWords = (machine: MachineProfile | null): string | null =>
-  machine?.controller["homing"] ? null : words.homeHint;
+/** Where home is. */
+export const homeWords = (machine: MachineProfile | null): string =>
+  machine && findsHome(machine) ? words.findsHomeHint : words.homeHint;
 
 /** What to know about the firmware of a real board; null: nothing. */
 export const adviceWords = (plotter: Plotter, machine: MachineProfile | null): string | null =>

@@ -1,16 +1,15 @@
 import type { ReactNode } from "react";
-import { MACHINES } from "../../src/index.js";
 import { findMachine } from "../../src/internal.js";
 import type { Plotter } from "../../src/schema/index.js";
 import { activeJob, currentPlotter, mayOperate } from "../state/store.js";
-import { useActions, useBackend, useIsConnected, usePageState } from "../state/use-store.js";
+import { useBackend, useIsConnected, usePageState } from "../state/use-store.js";
 import { plotterText as words, presetsText } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
-import { Select } from "../ui/fields/choice.js";
 import { Facts } from "../ui/facts.js";
 import { formatFixed } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import { PenAtHand, StopMove } from "./hand/pen-at-hand.js";
+import { ModelSelect } from "./model-select.js";
 import { adviceWords, homeWords, lampOf, penWords, plotterWords } from "./machine-words.js";
 import { CONNECT, CONSOLE, MACHINES_DIALOG, RINGING, SAVE_LOG, SET_UP } from "./plotter-actions.js";
 import { SettingsGroup } from "../ui/fields/settings-group.js";
@@ -46,9 +45,9 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
         )}
         {isMine && children}
         <SettingsGroup id="plotter" title={words.more}>
-          {isMine && <ModelSelect />}
+          {isMine && <ModelSelect label={words.model} />}
           {plotter && <PlotterFacts plotter={plotter} />}
-          {home !== null && <p className="note">{home}</p>}
+          <p className="note">{home}</p>
         </SettingsGroup>
       </div>
       <p className="link-row">
@@ -112,24 +111,6 @@ const PlotterMessage = ({ plotter: { connection, kind, message } }: { plotter: P
     return <p className="note">{features.whyNoPort ?? hint}</p>;
   }
   return message ? <p className="note">{message}</p> : null;
-};
-
-/** Chooses among the built-in and the custom machines. */
-const ModelSelect = () => {
-  const settings = usePageState((state) => state.settings);
-  const made = usePageState((state) => state.machines);
-  const { chooseMachine } = useActions();
-  const { machine, customMachine } = settings;
-  const known = [...MACHINES, ...made.filter(({ builtIn }) => !builtIn)];
-  const all = known.some(({ id }) => id === machine) || !customMachine ? known : [...known, customMachine];
-  return (
-    <Select
-      label={words.model}
-      value={machine}
-      options={all.map(({ id, name }) => ({ value: id, label: name }))}
-      onChange={(id) => chooseMachine(all.find((one) => one.id === id) ?? null)}
-    />
-  );
 };
 
 const PresetList = lazyPart(async () => (await import("./preset-list.js")).PresetList);

@@ -4,7 +4,9 @@ export const plotterText = {
   virtual: "Virtual board: no plotter plugged in",
   virtualHint: "Plots run on the virtual board, not on paper. Plug in a plotter: it is found automatically.",
   homeHint:
-    "Home is where the carriage was when the motors were switched on, because there are no limit switches. With the motors off, push it into the corner by hand.",
+    "Home is where the carriage was when the motors were switched on, because this plotter has no limit switches. With the motors off, push it into the corner by hand.",
+  findsHomeHint:
+    "Home is the plotter’s corner. It finds that by itself with its switch: when you press Home, and before the first move after its motors were off.",
   position: "Pen at",
   unknown: "not known",
   pen: "Pen",
@@ -62,10 +64,15 @@ export const penText = {
   testLineHint: "A 2 cm line, half a centimetre from the carriage",
   firstPlot: "First plot with this plotter",
   steps: {
+    findsHome: "Clear its way. Home finds the corner.",
     home: "Motors off, push the carriage into its corner, then Home.",
     heights: "Move the sliders until the pen is well clear of the paper when up, and draws when down.",
     mark: "Put paper under the pen and draw a line. Too thin or broken: lower Height down.",
   },
+  whichPlotter: "Which plotter is this?",
+  chooseModel: "Choose your plotter…",
+  modelNamed: (name: string) => `It is a ${name}`,
+  otherModel: "Another model…",
   homeDone: "The carriage is home.",
   homeAgain: "Home again…",
   plotStep: "Press Plot.",

@@ -81,7 +81,10 @@ export const createActions = (deps: ActionDeps) => {
 
   /** Sets the machine in this page's settings and on the plotter, which uses it for moves by hand. */
   const chooseMachine = (profile: MachineProfile | null): void => {
-    if (profile) undo.changeSettings("machine", (settings) => withMachine(settings, profile));
+    if (!profile) return;
+    const isShown = store.getState().settings.machine === profile.id;
+    undo.changeSettings("machine", (settings) => withMachine(settings, profile));
+    if (isShown) sync.confirmed(profile.id);
   };
 
   return {

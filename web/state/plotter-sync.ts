@@ -45,6 +45,14 @@ export const createPlotterSync = (parts: SyncParts) => {
     saver.saveSoon(plotter.id, settings, old);
   };
 
+  /** Called when the user chooses the model that is shown already, because none was chosen before. */
+  const confirmed = (machine: string): void => {
+    const state = store.getState();
+    const plotter = currentPlotter(state);
+    if (plotter?.machine !== null || state.link !== "connected" || !mayOperate(state)) return;
+    saver.sendMachine(plotter.id, machine);
+  };
+
   /** Shows the plotter's values, unless changes by this page are still being stored. */
   const follow = (isStep = true): void => {
     const state = store.getState();
@@ -65,7 +73,7 @@ export const createPlotterSync = (parts: SyncParts) => {
       show(values, isStep && !isFirst);
   };
 
-  return { changed, follow };
+  return { changed, confirmed, follow };
 };
 
 /**

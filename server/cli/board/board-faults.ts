@@ -10,6 +10,8 @@ interface Fault {
 
 const noise = Uint8Array.of(0xff, 0x21, 13, 0x80, 0x41, 13, 10);
 
+const CONDITIONS = ["good", "absent", "stuck"] as const;
+
 const FAULTS: Readonly<Record<string, Fault>> = {
   unplug: {
     usage: "unplug",
@@ -37,6 +39,24 @@ const FAULTS: Readonly<Record<string, Fault>> = {
     usage: "volts V",
     does: "the motors' supply; 9.1 is right, 0 switched off",
     apply: quantity((b, volts) => b.setMotorVolts(volts)),
+  },
+  switch: {
+    usage: "switch good|absent|stuck",
+    does: "the home switch of a NextDraw: not plugged in, or never pressed",
+    apply: (board, value) => {
+      const condition = CONDITIONS.find((one) => one === value);
+      if (board.gantry && condition) board.gantry.switchCondition = condition;
+      return board.gantry !== null && condition !== undefined;
+    },
+  },
+  obstacle: {
+    usage: "obstacle MM",
+    does: "the carriage of a NextDraw gets no further left than that; 0: nothing is in its way",
+    apply: (board, value) => {
+      const mm = Number(value);
+      if (board.gantry && mm >= 0) board.gantry.obstacleMm = mm === 0 ? -Infinity : mm;
+      return board.gantry !== null && mm >= 0;
+    },
   },
   lose: { usage: "lose N", does: "the next N answers are lost", apply: quantity((b, n) => b.loseReplies(n)) },
   garbage: { usage: "garbage", does: "noise on the line", apply: act((b) => b.sendGarbage(noise)) },

@@ -294,7 +294,7 @@ function closePty(pty: RawPty): Promise<void> {
 export const declareBoard: Declare = (command, { io }) => {
   command
     .requiredOption("--pty <path>", "path where the serial port appears")
-    .option("--firmware <version>", "firmware version of the board", "2.8.1")
+    .option("--firmware <version>", "firmware version of the board (default: 2.8.1, of a NextDraw 3.0.3)")
     .addOption(
       new Option("--speed <factor>", "board seconds per real second (default: 1)").argParser(positive),
     )

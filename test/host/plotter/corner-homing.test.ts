@@ -2,11 +2,13 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { driver as ebbDriver } from "../../../src/drivers/ebb/controller.js";
-import { machineById, VirtualBoard } from "../../../src/index.js";
+import type { JournalEntry } from "../../../host/plotter/plotter-port.js";
+import { machineById, VirtualBoard, type StrokePosition } from "../../../src/index.js";
 import { findsHome, type Machine } from "../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { ManualClock } from "../../support/clocks/manual-clock.js";
 import { NO_EVENTS } from "../../support/machines/machine.js";
+import { LocalPlanner, strokesOf } from "../../support/plots/local-planner.js";
 import { outcome, virtualPlotter } from "../../support/plots/virtual-plotter.js";
 import { ascii } from "../../support/plots/virtual-plots.js";
 import { cases } from "../../support/runs/full-run.js";
@@ -199,6 +201,34 @@ describe("homing a NextDraw", () => {
     expect(findsHome({ ...machineById("nextdraw-8511"), swapAxes: true })).toBe(true);
     expect(findsHome({ ...machineById("nextdraw-8511"), flipX: true })).toBe(false);
     expect(findsHome(machineById("axidraw-v3"))).toBe(false);
+  });
+});
+
+describe("a plot on a NextDraw", () => {
+  const LINES = strokesOf([20, 20, 120, 20], [120, 60, 20, 60]);
+
+  it("homes first, and after a lost position again when it is resumed: nothing to push, nothing displaced", async () => {
+    const pen = { ...DEFAULT_PLOT_SETTINGS.pen, overlap: "off" } as const;
+    const settings = { ...settingsOf("nextdraw-8511"), pen };
+    const { world, driver, board } = await newPlotter();
+    board.gantry!.push({ xMm: 140, yMm: 70 }, 20, 33);
+    let place: StrokePosition = { stroke: 0, alongMm: 0 };
+    const journal = { record: (entry: JournalEntry): void => void (place = entry.place) };
+    const first = await world.run(driver.plot(new LocalPlanner(LINES), settings, { journal }));
+    const ended = outcome(first.finished);
+    while (place.stroke === 0 || place.alongMm < 20) await world.advance(0.1);
+    board.restart();
+    expect(await world.run(ended)).toMatch(/^board-error: .* finds home by itself when you resume/);
+    board.gantry!.push({ xMm: 33, yMm: 180 }, 5, 61);
+    const again = await world.run(driver.plot(new LocalPlanner(LINES), settings, { from: place }));
+    await world.run(again.resume());
+    expect(await world.run(again.finished)).toEqual({ kind: "done" });
+    const down = board.drawn().filter(({ penDown, xy }) => penDown && xy.length > 4);
+    const [xs, ys] = [0, 1].map((axis) => down.flatMap(({ xy }) => [...xy].filter((_, i) => i % 2 === axis)));
+    for (const y of ys) expect(Math.min(Math.abs(y - 20), Math.abs(y - 60))).toBeLessThan(0.05);
+    expect(Math.min(...xs)).toBeCloseTo(20, 1);
+    expect(Math.max(...xs)).toBeCloseTo(120, 1);
+    expect(offMm(board)).toBeLessThan(0.05);
   });
 });
 

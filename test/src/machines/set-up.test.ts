@@ -1,5 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { machineNamed } from "../../../src/internal.js";
 import { MACHINES, machineById, type MachineProfile } from "../../../src/index.js";
 import {
   DIRECTIONS,
@@ -98,5 +99,20 @@ describe("the machine of a job's settings", () => {
   it("is reported by name if it is unknown", () => {
     expect(() => machineOf({ machine: "mine" })).toThrow(/no machine "mine"/);
     expect(findMachine({ machine: "mine" })).toBeNull();
+  });
+});
+
+describe("the name of a board", () => {
+  it.each([
+    ["NextDraw 8511", "nextdraw-8511"],
+    ["my nextdraw-1117", "nextdraw-1117"],
+    ["AxiDraw V3/A3", "axidraw-v3-a3"],
+    ["axidraw v3", "axidraw-v3"],
+    ["Studio WaterColorBot 2", "watercolorbot"],
+    ["NextDraw", null],
+    ["east wall", null],
+    ["", null],
+  ])("%j tells the model %s", (name, id) => {
+    expect(machineNamed(name)?.id ?? null).toBe(id);
   });
 });

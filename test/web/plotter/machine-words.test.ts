@@ -13,12 +13,14 @@ import { makePlotter } from "../../support/jobs/jobs-on-page.js";
 import { adviceWords, homeWords } from "../../../web/plotter/machine-words.js";
 
 describe("the words about home", () => {
-  it("are only for a plotter without limit switches", () => {
+  it("say that home is set by hand only for a plotter without limit switches", () => {
     const [machine] = MACHINES;
     const homing = { x: { port: "C", pin: 0 }, y: { port: "C", pin: 1 } };
     const withSwitches: MachineProfile = { ...machine, controller: { ...machine.controller, homing } };
     expect(homeWords(machine)).toContain("no limit switches");
-    expect(homeWords(withSwitches)).toBeNull();
+    for (const findsHome of [withSwitches, machineById("nextdraw-8511")]) {
+      expect(homeWords(findsHome)).toMatch(/finds that by itself/);
+    }
   });
 });
 

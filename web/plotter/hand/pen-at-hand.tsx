@@ -1,5 +1,5 @@
 import { useMemo, useState, type ReactNode } from "react";
-import { OVERLAP_TABLE, PEN_TABLE } from "../../../src/internal.js";
+import { findsHome, machineNamed, machineOf, OVERLAP_TABLE, PEN_TABLE } from "../../../src/internal.js";
 import { activeJob, currentPlotter, otherOperator, type PageState } from "../../state/store.js";
 import { useActions, usePageState } from "../../state/use-store.js";
 import { ActionButton } from "../../ui/action-button.js";
@@ -7,11 +7,12 @@ import { Button } from "../../ui/button.js";
 import { SettingField } from "../../ui/fields/setting-field.js";
 import { usePenChange } from "../../ui/use-change.js";
 import { HOME, isMovingByHand, MOTORS_OFF, STOP_MOVE, TEST_LINE } from "../plotter-actions.js";
+import { ModelSelect } from "../model-select.js";
 import { servoFollower } from "./servo-follow.js";
 import { penText as words } from "../text.js";
 import "./pen-at-hand.css";
 
-const STEPS = ["home", "heights", "mark"] as const;
+const STEPS = ["model", "home", "heights", "mark"] as const;
 type Step = (typeof STEPS)[number];
 
 /** Home, heights and a test line, which every plot needs first. Before the first plot they are numbered steps. */
@@ -31,16 +32,24 @@ export const PenAtHand = () => {
 /** Only the next step shows its help, and a finished home step folds to one line, so that the queue stays visible. */
 const FirstPlot = () => {
   const { changeView } = useActions();
-  const [done, setDone] = useState<readonly Step[]>([]);
+  const [tried, setDone] = useState<readonly Step[]>([]);
+  const hasModel = usePageState((state) => currentPlotter(state)?.machine !== null);
+  const homesItself = usePageState(({ settings }) => findsHome(machineOf(settings)));
+  // The model may be known from another screen.
+  const done: readonly Step[] = hasModel ? ["model", ...tried] : tried;
   const [isHomeAgain, setHomeAgain] = useState(false);
-  const note = (step: Step): void => setDone([...done.filter((other) => other !== step), step]);
+  const note = (step: Step): void => setDone([...tried.filter((other) => other !== step), step]);
   const next = STEPS.find((step) => !done.includes(step)) ?? "plot";
   // The test line shows whether the heights are right, so its help stays beside it.
   const helped = done.at(-1) === "mark" ? "mark" : next;
   const isHomeFolded = done.includes("home") && !isHomeAgain;
+  const helpOf = (name: Step): string | null => {
+    if (name === "model") return null;
+    return name === "home" && homesItself ? words.steps.findsHome : words.steps[name];
+  };
   const step = (name: Step, content: ReactNode): ReactNode => (
     <li data-done={done.includes(name) || undefined}>
-      {helped === name && <p className="note">{words.steps[name]}</p>}
+      {helped === name && helpOf(name) && <p className="note">{helpOf(name)}</p>}
       {content}
     </li>
   );
@@ -58,6 +67,7 @@ const FirstPlot = () => {
         </Button>
       </header>
       <ol>
+        {step("model", <ModelChoice />)}
         {step(
           "home",
           isHomeFolded ? (
@@ -79,11 +89,48 @@ const FirstPlot = () => {
         )}
         {step("heights", <Heights onTry={() => note("heights")} />)}
         {step("mark", <TestLine onDraw={() => note("mark")} />)}
-        <li>
-          <p className="step-line">{words.plotStep}</p>
-        </li>
+        {hasModel && (
+          <li>
+            <p className="step-line">{words.plotStep}</p>
+          </li>
+        )}
       </ol>
     </section>
+  );
+};
+
+/** Which plotter this is: the question comes first, with the model that the board's own name tells. */
+const ModelChoice = () => {
+  const { chooseMachine } = useActions();
+  const plotter = usePageState(currentPlotter);
+  const name = usePageState(({ settings }) => machineOf(settings).name);
+  // Null: not opened or closed yet.
+  const [isOpen, setOpen] = useState<boolean | null>(null);
+  if (plotter?.machine !== null && !isOpen) {
+    return (
+      <p className="step-line">
+        {name}
+        {/* Takes over the focus of the choice that it replaces. */}
+        <Button kind="link" autoFocus={isOpen === false} onClick={() => setOpen(true)}>
+          {words.otherModel}
+        </Button>
+      </p>
+    );
+  }
+  const named = machineNamed(plotter?.boardName ?? "");
+  return (
+    <>
+      {named && !isOpen && (
+        <Button kind="primary" onClick={() => chooseMachine(named)}>
+          {words.modelNamed(named.name)}
+        </Button>
+      )}
+      <ModelSelect
+        label={words.whichPlotter}
+        {...(isOpen ? {} : { unchosen: words.chooseModel })}
+        onChoose={() => setOpen(false)}
+      />
+    </>
   );
 };
 

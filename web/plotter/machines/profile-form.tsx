@@ -145,16 +145,34 @@ const FIRST_SWITCHES: NonNullable<EbbController["homing"]> = {
   y: { port: "B", pin: 2, pressed: 0 },
 };
 
+const CORNER_SWITCH: HomingInput = { port: "B", pin: 1, pressed: 1 };
+
 const HomingFields = ({ profile, onChange }: EbbFieldsProps) => {
-  const { homing } = profile.controller;
+  const { homing, cornerSwitch } = profile.controller;
   return (
     <fieldset className="subgroup">
       <legend>{words.homing}</legend>
       <Switch
         label={words.hasSwitches}
         isOn={Boolean(homing)}
-        onChange={(isOn) => onChange(withController(profile, { homing: isOn ? FIRST_SWITCHES : null }))}
+        onChange={(isOn) =>
+          onChange(withController(profile, { homing: isOn ? FIRST_SWITCHES : null, cornerSwitch: null }))
+        }
       />
+      <Switch
+        label={words.hasCornerSwitch}
+        isOn={Boolean(cornerSwitch)}
+        onChange={(isOn) =>
+          onChange(withController(profile, { cornerSwitch: isOn ? CORNER_SWITCH : null, homing: null }))
+        }
+      />
+      {cornerSwitch && (
+        <SwitchFields
+          label={words.cornerSwitch}
+          input={cornerSwitch}
+          onChange={(input) => onChange(withController(profile, { cornerSwitch: input }))}
+        />
+      )}
       {homing &&
         (["x", "y"] as const).map((axis) => (
           <SwitchFields

@@ -40,6 +40,8 @@ export const profileText = {
   servoHint: "In the board’s unit, 1/12 µs.",
   homing: "Home",
   hasSwitches: "Has switches at home",
+  hasCornerSwitch: "Has one switch in the corner, as a NextDraw",
+  cornerSwitch: "Switch at the left",
   switchAt: (axis: string) => `Switch of ${axis}`,
   port: "Port",
   pin: "Pin",

@@ -77,7 +77,7 @@ export const Select = <T extends string>({ label, value, options, hint, onChange
       </span>
       <select id={id} value={value} onChange={(event) => onChange(event.target.value as T)}>
         {options.map((option) => (
-          <option key={option.value} value={option.value}>
+          <option key={option.value} value={option.value} disabled={option.isOff}>
             {option.label}
           </option>
         ))}

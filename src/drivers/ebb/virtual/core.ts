@@ -274,6 +274,12 @@ export class BoardCore {
     if (this.contactTick <= nowTick) this.changeContact();
   }
 
+  /** A servo of the second output: a move to where it is changes nothing. */
+  private isUpward(position: number): boolean {
+    const from = this.servoPosition();
+    return position === from ? this.isLifted : position > from;
+  }
+
   /** The tip touches or leaves the paper: a stroke begins or ends. */
   private changeContact(): void {
     this.contactTick = Infinity;
@@ -325,7 +331,7 @@ export class BoardCore {
       // A pen command between two moves stops the motors for one tick, which does not count as an underrun.
       if (order.ticks <= 1 && lastMove) this.lastMove = { ...lastMove, endTick: lastMove.endTick + 1 };
       if (order.movesPen) {
-        this.movePen(order.position, order.rate, order.penUp ?? order.position > this.servoPosition());
+        this.movePen(order.position, order.rate, order.penUp ?? this.isUpward(order.position));
       }
       if (order.penUp !== null) this.penUp = order.penUp;
       ticks = Math.max(1, order.ticks);
