@@ -5,7 +5,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { openPtyBoard, type PtyBoard } from "../../../server/cli/board/board.js";
 import { prepareDataDir } from "../../../server/storage/data-dir.js";
 import { Store } from "../../../server/storage/store.js";
-import { machineById } from "../../../src/index.js";
+import { machineById, type VirtualBoard } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { drawingOf, makeJob } from "../../support/jobs/jobs.js";
 import { cli } from "../../support/processes/command-line.js";
@@ -83,6 +83,32 @@ describe("without a plotter", () => {
     expect(await cli("pen", "up", "--data", data, ...virtual)).toEqual({ code: 0, out: "", err: "" });
     expect((await cli("plot", file(), ...virtual)).code).toBe(0);
     expect((await cli("info", "--data", data, ...virtual)).out).toMatch(/device {4}virtual/);
+  });
+});
+
+describe("home on a NextDraw", () => {
+  const machine = machineById("nextdraw-8511");
+  const onBoard = async (fault: (board: VirtualBoard) => void) => {
+    const line = await openPtyBoard({ speed: 20, machine, firmware: "3.0.3" });
+    line.board.gantry!.push({ xMm: 60, yMm: 30 });
+    fault(line.board);
+    const to = ["--device", line.path, "--virtual-speed", "20", "--data", data, "--machine", machine.id];
+    const ended = await cli("home", ...to);
+    const { xMm, yMm } = line.board.gantry!.carriage;
+    await line.close();
+    return { ...ended, offMm: Math.hypot(xMm, yMm) };
+  };
+
+  it("finds the corner by itself", async () => {
+    const { code, err, offMm } = await onBoard(() => undefined);
+    expect([code, err]).toEqual([0, ""]);
+    expect(offMm).toBeLessThan(0.05);
+  });
+
+  it("says what is wrong and what to do if it does not", async () => {
+    const { code, err } = await onBoard((board) => (board.gantry!.switchCondition = "absent"));
+    expect(code).toBe(5);
+    expect(err).toMatch(/^plotwright: Home was not found \(switch not detected\)\. .*chosen model/);
   });
 });
 
