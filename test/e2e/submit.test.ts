@@ -7,6 +7,7 @@ import {
   chooseSample,
   dropFile,
   historyPanel,
+  openPanel,
   openView,
   plotBar,
   queuePanel,
@@ -58,6 +59,7 @@ async function submit(page: Page, name: string): Promise<void> {
   await dropFile(page, `${name}.svg`, ruledSheet());
   await page.getByText(name).first().waitFor();
   await waitForPlan(page);
+  await openPanel(page, "Queue");
   await plotBar(page).getByRole("button", { name: "Add to queue", exact: true }).click();
   await queuePanel(page).getByText(name).waitFor();
 }
@@ -68,6 +70,7 @@ describe("the page of a device that may only submit", () => {
   it("lays out a drawing and adds it to the queue, and has no button for the machine", async () => {
     await anna.getByText("This device can add drawings to the queue").waitFor();
     await submit(anna, "annas");
+    await openPanel(anna, "Plotter");
     for (const name of [
       /^Plot$/,
       /^Start /,
@@ -83,12 +86,14 @@ describe("the page of a device that may only submit", () => {
       expect([String(name), await buttonCount(anna, name)]).toEqual([String(name), 0]);
     }
     expect(await anna.getByLabel("Height up", { exact: true }).count()).toBe(0);
+    await openPanel(anna, "Queue");
     expect(await anna.getByRole("radio", { name: "Start the next" }).count()).toBe(0);
     expect(await anna.getByRole("alert").count()).toBe(0);
   }, 120_000);
 
   it("shows its own jobs only, and the operator all of them, with who sent them", async () => {
     await submit(ben, "bens");
+    await openPanel(teacher, "Queue");
     await queuePanel(teacher).getByText("annas").waitFor();
     await queuePanel(teacher).getByText("bens").waitFor();
     await queuePanel(teacher)
