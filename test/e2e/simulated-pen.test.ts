@@ -24,9 +24,11 @@ afterAll(async () => test.close());
 const legend = () => test.page.getByRole("figure", { name: "Legend of the simulated pen" });
 const result = () => legend().locator("[data-max-mm]");
 const maxMm = async (): Promise<number> => Number(await result().getAttribute("data-max-mm"));
+/** Without the legend at the lower edge, which has these colours too. */
 const colors = async (): Promise<Map<number, number>> => {
   await waitForPicture(test.page);
-  return colorCounts(test.page.locator(".stage"));
+  const { x, y, width, height } = (await test.page.locator(".stage").boundingBox())!;
+  return colorCounts(test.page, { x, y, width, height: height - 40 });
 };
 const ASKED = Number.parseInt(ASKED_COLOR.slice(1), 16);
 
@@ -51,10 +53,14 @@ describe("the view of the simulated pen", () => {
 
   it("draws the pen in colours of its error, with the drawing beside it", async () => {
     const { page } = test;
-    const stage = (await page.locator(".stage").boundingBox())!;
-    await page.mouse.move(stage.x + stage.width / 2, stage.y + stage.height / 2);
+    const paper = await test.onScreen("paper");
     const far = await colors();
-    for (let i = 0; i < 5; i++) await page.getByRole("button", { name: "Zoom in" }).click();
+    // On a corner of the line, 60 mm from the paper's.
+    const cornerPx = (60 / 297) * (paper.right - paper.left);
+    await page.mouse.move(paper.left + cornerPx, paper.top + cornerPx);
+    await page.keyboard.down("Control");
+    for (let i = 0; i < 8; i++) await page.mouse.wheel(0, -100);
+    await page.keyboard.up("Control");
     const near = await colors();
     // Warm colours are large errors: the ramp goes from indigo over magenta to orange.
     const warm = (counts: Map<number, number>): number =>

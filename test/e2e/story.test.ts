@@ -84,7 +84,7 @@ describe("a newcomer with a drawing", () => {
   it("finds an empty sheet with nothing to plot, and a note that no plotter is plugged in", async () => {
     await page.getByText("Drop a drawing here").waitFor();
     await page
-      .getByText(/Virtual board/)
+      .getByText(/Virtual plotter/)
       .first()
       .waitFor();
     await plotBar(page).getByText("Choose a drawing, or try a sample.").waitFor();

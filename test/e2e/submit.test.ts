@@ -52,6 +52,7 @@ async function pairedPage(link: string): Promise<Page> {
   await page.goto(`${server.url}${link}`);
   await page.waitForURL(`${server.url}/`);
   await chooseSample(page);
+  await openPanel(page, "Queue");
   return page;
 }
 
@@ -87,6 +88,7 @@ describe("the page of a device that may only submit", () => {
     }
     expect(await anna.getByLabel("Height up", { exact: true }).count()).toBe(0);
     await openPanel(anna, "Queue");
+    expect(await anna.getByRole("button", { name: "Plotter", exact: true }).count()).toBe(0);
     expect(await anna.getByRole("radio", { name: "Start the next" }).count()).toBe(0);
     expect(await anna.getByRole("alert").count()).toBe(0);
   }, 120_000);

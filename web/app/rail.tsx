@@ -1,5 +1,5 @@
-import { PANELS, type PanelName } from "../state/persist.js";
-import { openPanel, shownView, WATCH_PANELS, type PageState } from "../state/store.js";
+import type { PanelName } from "../state/persist.js";
+import { openPanel, panelsOf } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Icon, type IconName } from "../ui/icon.js";
 import { railText as words } from "./text.js";
@@ -16,10 +16,6 @@ const ICONS: Readonly<Record<PanelName, IconName>> = {
   plotter: "plotter",
   queue: "queue",
 };
-
-/** The panels of the shown view. Watch has those that a running plot needs. */
-const panelsOf = (state: PageState): readonly PanelName[] =>
-  shownView(state) === "watch" ? WATCH_PANELS : PANELS;
 
 /** Opens one panel beside the sheet, or closes it. */
 export const Rail = () => {

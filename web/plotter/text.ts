@@ -1,8 +1,8 @@
 /** Texts of the plotter's panel and the presets. */
 export const plotterText = {
   title: "Plotter",
-  virtual: "Virtual board: no plotter plugged in",
-  virtualHint: "Plots run on the virtual board, not on paper. Plug in a plotter: it is found automatically.",
+  virtual: "Virtual plotter: none is plugged in",
+  virtualHint: "Plots run on a virtual plotter, not on paper. Plug in a plotter: it is found automatically.",
   homeHint:
     "Home is where the carriage was when the motors were switched on, because this plotter has no limit switches. With the motors off, push it into the corner by hand.",
   findsHomeHint:
@@ -28,7 +28,7 @@ export const plotterText = {
   console: "Console",
   rest: "Plotter set-up",
   connect: "Connect a plotter…",
-  connectHint: "Plots run on the virtual board, not on paper, until you connect a plotter by USB.",
+  connectHint: "Plots run on a virtual plotter, not on paper, until you connect a plotter by USB.",
   log: "Save the connection log",
   held: "Paused",
   interrupted: "Interrupted",

@@ -1,6 +1,6 @@
 /** Texts of the preview and the time line. */
 export const previewText = {
-  reach: (machine: string, size: string) => `Reach of the ${machine}: ${size}`,
+  reach: (machine: string, size: string) => `Reach of ${machine}: ${size}`,
   reading: (name: string) => `Reading ${name}…`,
   nothingToDraw: "Nothing to draw",
   nothingToDrawHint: "Every layer is switched off, or everything lies outside the margins.",

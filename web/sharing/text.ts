@@ -38,7 +38,7 @@ export const sharingText = {
   keyOnce: "Copy the key now; it is not shown again.",
   port: "Port",
   portAuto: "Automatic",
-  portVirtual: "Virtual board",
+  portVirtual: "Virtual plotter",
   plotterName: (name: string) => `Name of ${name}`,
   boardName: (name: string) => `The name stored in the board: ${name}`,
   removePlotter: "Remove",

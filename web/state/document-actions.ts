@@ -127,7 +127,9 @@ export const createDocumentActions = (parts: DocumentParts) => {
       const text = await file.arrayBuffer().then(contentOf, () => null);
       if (!isLast()) return;
       if (text === null) ui.notify("error", stateText.unreadable(file.name));
-      else if (headOf(text).includes("\0")) ui.notify("error", stateText.notText(file.name));
+      else if (file.type.startsWith("image/") && !file.type.startsWith("image/svg")) {
+        ui.notify("error", stateText.isPicture(file.name));
+      } else if (headOf(text).includes("\0")) ui.notify("error", stateText.notText(file.name));
       else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, text);
     },
     openPasted: (text: string): void => {

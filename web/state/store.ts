@@ -5,13 +5,14 @@
 import { createStore } from "zustand/vanilla";
 import { findMachine, firmwareFor } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
-import type { PanelName, Remembered } from "./persist.js";
+import { PANELS, type PanelName, type Remembered } from "./persist.js";
 import { DOCUMENT_AT_FIRST, type DocumentSlice } from "./slices/document.js";
 import { PLAN_AT_FIRST, type PlanSlice } from "./slices/plan.js";
 import { PLAYER_AT_FIRST, type PlayerSlice } from "./slices/player.js";
 import {
   currentPlotter,
   maySubmit,
+  onlySubmits,
   SERVER_AT_FIRST,
   unfinishedJob,
   type ServerSlice,
@@ -51,6 +52,21 @@ export const watchedJob = (state: PageState): Job | null =>
 /** A watcher sees only Watch. */
 export const shownView = (state: PageState): PageView => (maySubmit(state) ? state.pageView : "watch");
 
+const WATCH_PANELS: readonly PanelName[] = ["queue", "plotter"];
+const withoutPlotter = (panels: readonly PanelName[]): readonly PanelName[] =>
+  panels.filter((name) => name !== "plotter");
+/** By view: for devices that move the plotter, and for those that only add jobs. */
+const VIEW_PANELS = {
+  prepare: { all: PANELS, submit: withoutPlotter(PANELS) },
+  watch: { all: WATCH_PANELS, submit: withoutPlotter(WATCH_PANELS) },
+};
+
+/** The panels of the shown view. Watch has those that a running plot needs. */
+export const panelsOf = (state: PageState): readonly PanelName[] =>
+  VIEW_PANELS[shownView(state)][onlySubmits(state) ? "submit" : "all"];
+
 /** The panel beside the paper or the watched sheet; null: none is open. */
-export const openPanel = (state: PageState): PanelName | null =>
-  shownView(state) === "watch" ? state.watchPanel : state.view.panel;
+export const openPanel = (state: PageState): PanelName | null => {
+  const name = shownView(state) === "watch" ? state.watchPanel : state.view.panel;
+  return name !== null && panelsOf(state).includes(name) ? name : null;
+};

@@ -1,5 +1,7 @@
 /** Texts of the notices that actions show. */
 export const stateText = {
+  isPicture: (name: string) =>
+    `${name} is a picture: it has no lines to follow. Trace it first (in Inkscape: Path, Trace Bitmap), save it as SVG and drop that here.`,
   notText: (name: string) => `${name} is not a text file. Save the drawing as SVG and drop it here again.`,
   unreadable: (name: string) => `${name} could not be read. Is it a folder, or has it been moved?`,
   cannotRead: (name: string, why: string) => `${name} can’t be drawn: ${why}`,

@@ -65,6 +65,7 @@ describe("a file that is dropped", () => {
   it.each([
     ["is a folder, or gone", unreadable as unknown as File],
     ["holds no text", new File(["\x89PNG\0\0"], "photo.png")],
+    ["is a picture", new File(["\xff\xd8\xff"], "photo.jpg", { type: "image/jpeg" })],
   ])("a dropped file that %s is named, with advice; the drawing on the paper stays", async (_what, file) => {
     const { store, actions } = makePage();
     actions.openPasted("<svg width='9'/>");

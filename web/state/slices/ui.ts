@@ -24,9 +24,6 @@ interface TakeOverQuestion {
   answer(takesOver: boolean): void;
 }
 
-/** The panels that Watch has. */
-export const WATCH_PANELS: readonly PanelName[] = ["queue", "plotter"];
-
 /** Dialogs, one at a time. */
 export type DialogName =
   "search" | "keys" | "about" | "machines" | "wizard" | "console" | "sharing" | "ringing";
