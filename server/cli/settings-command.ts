@@ -20,7 +20,7 @@ import {
 import { knownPlotters, withKnownPlotters, type KnownPlotters } from "./client/known-plotters.js";
 import { addServer } from "./client/server-client.js";
 import { plotterNamed } from "./client/served-plotter.js";
-import { changeUsualConfig, usualConfigPath } from "./config-file.js";
+import { changeUsualConfig, readUsualConfig, usualConfigPath } from "./config-file.js";
 import { printed, type CliIo } from "./io.js";
 import { addJson, type Declare } from "./options.js";
 import { isOwnSize, optionAt, optionOf, SETTING_OPTIONS } from "./setting-table.js";
@@ -163,6 +163,7 @@ async function set(key: string, text: string, options: OptionValues, io: CliIo):
   if (isMachine) machineOf(withOwnMachine({ ...DEFAULT_PLOT_SETTINGS, machine: text }, options));
   if (isMachine && options["plotter"] !== undefined) return setPlottersMachine(text, options, io);
   const value = valueOf(path, text);
+  const before = isMachine ? readUsualConfig().machine : undefined;
   const config = changeUsualConfig((all) => {
     setPath(all, path.split("."), value);
     // A size in numbers has its own orientation.
@@ -170,7 +171,7 @@ async function set(key: string, text: string, options: OptionValues, io: CliIo):
       setPath(all, ["prepare", "landscape"], value.widthMm > value.heightMm);
   });
   io.out(printed`${path}\t${inWords(read(config, path))}\t${usualConfigPath()}` + "\n");
-  if (isMachine) await fillPlottersMachine(text, options, io);
+  if (isMachine) await passToPlotter(text, before, options, io);
 }
 
 /** From JSON, a word, or what the setting's option takes. Throws `bad-setting`. */
@@ -236,16 +237,29 @@ async function setPlottersMachine(machine: string, options: OptionValues, io: Cl
   });
 }
 
-/** A plotter without a model gets the user's usual one, so that a server plots as `plot` does. Another model stays. */
-async function fillPlottersMachine(machine: string, options: OptionValues, io: CliIo): Promise<void> {
-  const { plotters } = await knownPlotters(options);
-  const plotter = chosenOf(plotters, options);
-  const its = plotter?.stored.machine ?? null;
-  if (plotter === undefined || its === machine) return;
-  if (its === null) return setPlottersMachine(machine, options, io);
-  io.err(
-    printed`note: The plotter ${plotter.name} stays a ${its}: its model overrides the file's. To change it: plotwright settings set machine ${machine} --plotter ${plotter.id}\n`,
-  );
+/**
+ * A plotter that has no model, or the one that the file had before, gets the user's new one: so a server plots as `plot` does,
+ * also one that starts later. Another model stays.
+ */
+async function passToPlotter(
+  machine: string,
+  before: string | undefined,
+  options: OptionValues,
+  io: CliIo,
+): Promise<void> {
+  await withKnownPlotters(options, async (known) => {
+    const plotter = chosenOf(known.plotters, options);
+    const its = plotter?.stored.machine ?? null;
+    if (plotter === undefined || its === machine) return;
+    if (its === null || its === before) {
+      await known.saveMachine(plotter.id, machine);
+      io.out(printed`machine\t${machine}\tplotter ${plotter.name}\n`);
+      return;
+    }
+    io.err(
+      printed`note: The plotter ${plotter.name} stays a ${its}: its model overrides the file's. To change it: plotwright settings set machine ${machine} --plotter ${plotter.id}\n`,
+    );
+  });
 }
 
 /** Stores the plotter's presets after a change. */

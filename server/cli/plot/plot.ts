@@ -238,7 +238,7 @@ function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): 
   if (wait === null) return;
   const how =
     from === null
-      ? 'plot its layers one by one with --only, or switch the stops off with "penStops": "never" in a file for --config'
+      ? 'plot its layers one by one with --only, or switch the stops off with "penStops": "never" in a file for --config, or plotwright settings set penStops never'
       : "the plot can't be resumed: run it in a terminal";
   throw new PlotwrightError(
     "bad-setting",

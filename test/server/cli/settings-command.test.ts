@@ -173,18 +173,23 @@ describe("settings set and unset", () => {
     ).toBeGreaterThanOrEqual(numbers.length);
   });
 
-  it("give a plotter without a model the user's machine, and keep another model", async () => {
-    await startServer().then((server) => server.close());
+  it("give the plotter the user's machine, before and after its server first runs, and keep another model", async () => {
     await done("settings", "set", "machine", "axidraw-v3-a3");
+    const server = await startServer();
+    const { settings } = JSON.parse(await done("add", drawing, "--json")) as Job;
+    await server.close();
+    expect(settings.machine).toBe("axidraw-v3-a3");
     expect((await shown()).sources["machine"]).toBe("plotter main");
-    const { code, err } = await there("settings", "set", "machine", "axidraw-se-a2");
+    await done("settings", "set", "machine", "axidraw-se-a2");
+    expect((await shown()).settings.machine).toBe("axidraw-se-a2");
+    await done("settings", "set", "machine", "nextdraw-2234", "--plotter", "main");
+    expect((await shown()).settings.machine).toBe("nextdraw-2234");
+    const { code, err } = await there("settings", "set", "machine", "axidraw-v3");
     expect([code, err]).toEqual([
       0,
-      "note: The plotter main stays a axidraw-v3-a3: its model overrides the file's. To change it: plotwright settings set machine axidraw-se-a2 --plotter main\n",
+      "note: The plotter main stays a nextdraw-2234: its model overrides the file's. To change it: plotwright settings set machine axidraw-v3 --plotter main\n",
     ]);
-    expect((await shown()).settings.machine).toBe("axidraw-v3-a3");
-    await done("settings", "set", "machine", "axidraw-se-a2", "--plotter", "main");
-    expect((await shown()).settings.machine).toBe("axidraw-se-a2");
+    expect((await shown()).settings.machine).toBe("nextdraw-2234");
   });
 });
 
