@@ -1,14 +1,7 @@
-import { DrawingPanel } from "../drawing/drawing.js";
+import type { ComponentType } from "react";
 import { DrawnSize } from "../drawing/drawn-size.js";
-import { LayersPanel } from "../layers/layers.js";
-import { LinesPanel } from "../drawing/lines.js";
-import { MachinePanel, MachineSetUp, PresetsPanel } from "../plotter/machine.js";
-import { MotionPanel } from "../motion/motion.js";
 import { Notices } from "../ui/notices.js";
-import { PaperPanel } from "../drawing/paper.js";
-import { PenPanel, PensPanel } from "../pens/pens.js";
 import { PlotBar } from "../queue/plot-bar.js";
-import { HistoryPanel, QueuePanel } from "../queue/queue.js";
 import { PANEL_ID, Rail } from "./rail.js";
 import { Strips } from "./strips.js";
 import { TopBar } from "./top-bar.js";
@@ -25,7 +18,16 @@ import { PAGE_ACTIONS } from "./page-actions.js";
 
 const EmptyPaper = lazyPart(async () => (await import("../drawing/empty-paper.js")).EmptyPaper);
 const Watch = lazyPart(async () => (await import("../watch/watch.js")).Watch);
-const Adjust = lazyPart(async () => (await import("../watch/adjust.js")).Adjust);
+/** What is in each panel, loaded when it is first opened. */
+const PANEL_PARTS: Readonly<Record<PanelName, ComponentType>> = {
+  drawing: lazyPart(async () => (await import("../drawing/drawing.js")).DrawingPanel),
+  paper: lazyPart(async () => (await import("../drawing/paper.js")).PaperPanel),
+  layers: lazyPart(async () => (await import("./panels.js")).LayersAndPens),
+  lines: lazyPart(async () => (await import("../drawing/lines.js")).LinesPanel),
+  speed: lazyPart(async () => (await import("./panels.js")).SpeedAndPresets),
+  plotter: lazyPart(async () => (await import("./panels.js")).PlotterAndSetUp),
+  queue: lazyPart(async () => (await import("./panels.js")).QueueAndHistory),
+};
 const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
 const Camera = lazyPart(async () => (await import("../sharing/camera.js")).Camera);
 
@@ -42,6 +44,7 @@ export const App = () => {
   const isUnpaired = usePageState((state) => state.isUnpaired);
   const view = usePageState(shownView);
   const panel = usePageState(openPanel);
+  const OpenPanel = panel && PANEL_PARTS[panel];
   const isFull = usePageState((state) => state.isFullScreen);
   const isWatching = view === "watch";
   const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
@@ -57,7 +60,7 @@ export const App = () => {
             <Camera />
           </aside>
         )}
-        {!isFull && panel && (
+        {!isFull && panel && OpenPanel && (
           <aside id={PANEL_ID} className="panel" aria-label={railText.panel(railText.panels[panel])}>
             <IconButton
               kind="tool"
@@ -66,7 +69,7 @@ export const App = () => {
               className="panel-close"
               onClick={() => showPanel(null)}
             />
-            <OpenPanel name={panel} />
+            <OpenPanel />
           </aside>
         )}
         <main className="centre">
@@ -83,59 +86,6 @@ export const App = () => {
       </div>
       <Dialogs />
     </DropZone>
-  );
-};
-
-const OpenPanel = ({ name }: { name: PanelName }) => {
-  switch (name) {
-    case "drawing":
-      return <DrawingPanel />;
-    case "paper":
-      return <PaperPanel />;
-    case "layers":
-      return (
-        <LayersPanel>
-          <PensPanel />
-        </LayersPanel>
-      );
-    case "lines":
-      return <LinesPanel />;
-    case "speed":
-      return (
-        <>
-          <MotionPanel />
-          <PresetsPanel />
-        </>
-      );
-    case "plotter":
-      return <PlotterPanel />;
-    case "queue":
-      return <JobsPanel />;
-  }
-};
-
-/** In Watch, what can be changed while it plots comes first. */
-const JobsPanel = () => {
-  const isWatching = usePageState((state) => shownView(state) === "watch");
-  return (
-    <>
-      {isWatching && <Adjust />}
-      <QueuePanel />
-      <HistoryPanel />
-    </>
-  );
-};
-
-const PlotterPanel = () => {
-  const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
-  return (
-    <>
-      {hasCamera && <Camera />}
-      <MachinePanel />
-      <MachineSetUp>
-        <PenPanel />
-      </MachineSetUp>
-    </>
   );
 };
 
