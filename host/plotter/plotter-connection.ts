@@ -211,6 +211,8 @@ export class PlotterConnection {
     // Fails if the connection is lost; there is nothing left to do then.
     if (run || this.movingByHand) await this.machine?.stopAndLift(this.settings).catch(() => undefined);
     await this.connection?.machine.close();
+    // It still waits for its next reply, and then fails.
+    await this.movingByHand;
     this.virtual?.close();
   }
 
