@@ -117,7 +117,10 @@ export function lowerDuring(
   const dropS = Math.max(startS, nearS - aheadS);
   let hoverS: number | null = null;
   if (heightPct > hopPct) {
-    const hoverTimeS = frameS(pen) + liftMoveTime(pen, heightPct - hopPct) / SLOW;
+    // A fall, but at the rate of a lift, because the board takes it for one.
+    const fallPct = heightPct - hopPct;
+    const fallS = Math.max(liftMoveTime(pen, fallPct), dropMoveTime(pen, fallPct));
+    const hoverTimeS = frameS(pen) + fallS / SLOW;
     // If there is no time to lower it to the hop height first, it drops from where it is.
     if (dropS - hoverTimeS > startS) hoverS = dropS - hoverTimeS;
     else fromPct = heightPct;

@@ -125,8 +125,8 @@ describe("a pen in flight", () => {
     expect(moves[hover].heightPct).toBe(30 + 0.65 * 30);
     expect(moves[hover + 1].up).toBe(false);
     expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(
-      // 73.6 ms from the full height, of a slow servo.
-      0.024 + 0.07363 / 0.8,
+      // 75.1 ms from the full height, of a slow servo.
+      0.024 + 0.07515 / 0.8,
       4,
     );
   });
