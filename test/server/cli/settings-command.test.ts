@@ -378,6 +378,16 @@ describe("plotwright pen-times", () => {
     expect([code, err]).toEqual([2, expect.stringContaining("-900 ms: it must be -500 to 10000 ms")]);
   });
 
+  it("stores it with the plotter of a running server", async () => {
+    const server = await startServer();
+    try {
+      await done("pen-times", "--right", "40", "--url", server.url);
+      expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 40, extraDropMs: 40 });
+    } finally {
+      await server.close();
+    }
+  });
+
   it("and old waits in the database are read as extra waits of the plotter's model", async () => {
     await done("settings", "save", "Ink");
     const store = Store.open(data);
