@@ -8,7 +8,7 @@ import path from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { seriousFindings } from "../test/support/browser/axe.js";
 import { launchBrowser } from "../test/support/browser/browser.js";
-import { dropFile, waitForPlan } from "../test/support/browser/page-actions.js";
+import { dropFile, openPanel, waitForPlan } from "../test/support/browser/page-actions.js";
 import { inStates, LOOKS, type Look } from "../test/support/browser/in-states.js";
 import { PAGE_STATES } from "../test/support/browser/page-states.js";
 import { sampleText } from "../test/support/browser/page-states/page-state.js";
@@ -51,6 +51,7 @@ async function pictureForReadme(browser: Browser): Promise<void> {
     await desk.goto(server.url);
     await desk.getByText("Drop a drawing here").waitFor();
     await dropFile(desk, "three-colour-hills.svg", sampleText("three-colour-hills"));
+    await openPanel(desk, "Layers");
     await desk.getByText("1 Sun").first().waitFor();
     await waitForPlan(desk);
     await savePicture(desk, "prepare");

@@ -40,6 +40,8 @@ export async function openPanel(page: Page, name: Panel): Promise<void> {
     .getByRole("navigation", { name: "Panels" })
     .getByRole("button", { name: new RegExp(`^${name}( ?\\d+)?$`) });
   if ((await button.getAttribute("aria-expanded")) !== "true") await button.click();
+  // Its content is loaded when it is first opened.
+  await page.locator(".panel").locator(".card, .group").first().waitFor();
 }
 
 /** Opens or closes a group of settings, in the panel that has it. */

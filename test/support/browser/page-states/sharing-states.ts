@@ -1,6 +1,6 @@
 /** The server, other browsers on it, and the sheets about them. */
 import { ruledSheet } from "../../drawings/drawings.js";
-import { openPanel, plotBar, queuePanel } from "../page-actions.js";
+import { openPanel, plotBar, queuePanel, statusCard } from "../page-actions.js";
 import type { ServerProcess } from "../../processes/server-process.js";
 import { type PageState, type Stand, lay, sampleText, start, TWO_PENS } from "./page-state.js";
 
@@ -51,6 +51,7 @@ export const SHARING_STATES: readonly PageState[] = [
       await plotBar(operator).getByRole("button", { name: "Add to queue" }).click();
       await start(operator, "two-pens", TWO_PENS);
       await stand.page.goto(`${stand.server.url}${watchPath}`);
+      await statusCard(stand.page).getByRole("progressbar").waitFor();
       await openPanel(stand.page, "Queue");
       await queuePanel(stand.page).getByText("hills").waitFor();
     },
