@@ -364,10 +364,7 @@ describe("the size on the paper", () => {
     const { out } = await cli("plan", line(100), "--json", "--fit");
     expect(JSON.parse(out)).toMatchObject({ widthMm: 267, heightMm: 53.4, scale: 2.67 });
     const { out: commands, err } = await cli("plan", line(100), "--fit", "--commands", "-");
-    expect([commands.includes("drawn"), err]).toEqual([
-      false,
-      "drawn 267 × 53.4 mm, 267 %\n",
-    ]);
+    expect([commands.includes("drawn"), err]).toEqual([false, "drawn 267 × 53.4 mm, 267 %\n"]);
   });
 
   it("is not drawn outside the paper without a choice, in any way of placing", async () => {
