@@ -17,15 +17,16 @@ const [file, then] = process.argv.slice(2);
 const residentBefore = canMeasure ? status("VmRSS") : 0;
 const text = readFileSync(file, "utf8");
 
-function msOf(work) {
+async function msOf(work) {
   const from = performance.now();
-  const result = work();
+  const result = await work();
   return [performance.now() - from, result];
 }
-const textToPlan = () => plan(prepare(importSvg(text), DEFAULT_PREPARE).strokes, DEFAULT_MOTION, DEFAULT_PEN);
+const textToPlan = async () =>
+  plan(prepare(await importSvg(text), DEFAULT_PREPARE).strokes, DEFAULT_MOTION, DEFAULT_PEN);
 
-const [importMs, drawing] = msOf(() => importSvg(text));
+const [importMs, drawing] = await msOf(() => importSvg(text));
 const timesFile = canMeasure ? (status("VmHWM") - residentBefore) / text.length : null;
 let planMs = null;
-if (then === "plan") for (let run = 0; run < WARM_RUNS; run++) [planMs] = msOf(textToPlan);
+if (then === "plan") for (let run = 0; run < WARM_RUNS; run++) [planMs] = await msOf(textToPlan);
 console.log(JSON.stringify({ importMs, planMs, shapes: drawing.paths.count, timesFile }));

@@ -37,9 +37,9 @@ const FLOORS = [
 const ROUNDS = 7;
 const REPEATS = 5;
 
-export default function planBench(report: Report): void {
+export default async function planBench(report: Report): Promise<void> {
   // First, while the heap is empty: garbage collection of a million segments would be counted here.
-  report("Planning the samples with and without merging, blend, warm", samples());
+  report("Planning the samples with and without merging, blend, warm", await samples());
   const drawing = scribble(1_000_000, 1_000);
   const floor = prepareFloor(drawing);
   const motions: readonly (readonly [string, MotionSettings])[] = [
@@ -73,13 +73,13 @@ export default function planBench(report: Report): void {
     }),
   ]);
   report("Growth with the number of segments, blend", growth());
-  report("Shaped (quality fast, 15 and 25 Hz) against the same limits unshaped, warm", shaped());
+  report("Shaped (quality fast, 15 and 25 Hz) against the same limits unshaped, warm", await shaped());
 }
 
 const SAMPLES = path.join(import.meta.dirname, "..", "samples");
 
-const sampleStrokes = (file: string): StrokeSet =>
-  prepare(importSvg(readFileSync(path.join(SAMPLES, file), "utf8")), { ...DEFAULT_PREPARE, fit: false })
+const sampleStrokes = async (file: string): Promise<StrokeSet> =>
+  prepare(await importSvg(readFileSync(path.join(SAMPLES, file), "utf8")), { ...DEFAULT_PREPARE, fit: false })
     .strokes;
 
 /** Number of warm-up rounds, and of timed rounds. */
@@ -92,31 +92,33 @@ const SAMPLE_ROUNDS = 31;
 const POINTS_A_ROUND = 60_000;
 
 /** Processor ms with and without merging, alternating, warm; the ratio is the median of the rounds' ratios. */
-function samples(): Record<string, string | number>[] {
+async function samples(): Promise<Record<string, string | number>[]> {
   const files = readdirSync(SAMPLES).filter((name) => name.endsWith(".svg"));
-  return files.map((file) => {
-    const strokes = sampleStrokes(file);
-    const repeats = Math.ceil((2 * POINTS_A_ROUND) / strokes.xy.length);
-    const planned = (fit: MotionSettings["fit"]) => plan(strokes, { ...DEFAULT_MOTION, fit }, DEFAULT_PEN);
-    const timed = (fit: MotionSettings["fit"]): number =>
-      processorMs(() => {
-        for (let i = 0; i < repeats; i++) planned(fit);
-      }) / repeats;
-    const rounds = Array.from({ length: WARM_UP + SAMPLE_ROUNDS }, () => {
-      const plainMs = timed(null);
-      const mergedMs = timed(DEFAULT_FIT);
-      return { plainMs, mergedMs, ratio: mergedMs / plainMs };
-    }).slice(WARM_UP);
-    return {
-      sample: file,
-      points: strokes.xy.length / 2,
-      blocks: planned(null).blockCount,
-      merged: planned(DEFAULT_FIT).blockCount,
-      "plain, ms": Number(median(rounds.map(({ plainMs }) => plainMs)).toFixed(2)),
-      "merged, ms": Number(median(rounds.map(({ mergedMs }) => mergedMs)).toFixed(2)),
-      ratio: Number(median(rounds.map(({ ratio }) => ratio)).toFixed(2)),
-    };
-  });
+  return await Promise.all(
+    files.map(async (file) => {
+      const strokes = await sampleStrokes(file);
+      const repeats = Math.ceil((2 * POINTS_A_ROUND) / strokes.xy.length);
+      const planned = (fit: MotionSettings["fit"]) => plan(strokes, { ...DEFAULT_MOTION, fit }, DEFAULT_PEN);
+      const timed = (fit: MotionSettings["fit"]): number =>
+        processorMs(() => {
+          for (let i = 0; i < repeats; i++) planned(fit);
+        }) / repeats;
+      const rounds = Array.from({ length: WARM_UP + SAMPLE_ROUNDS }, () => {
+        const plainMs = timed(null);
+        const mergedMs = timed(DEFAULT_FIT);
+        return { plainMs, mergedMs, ratio: mergedMs / plainMs };
+      }).slice(WARM_UP);
+      return {
+        sample: file,
+        points: strokes.xy.length / 2,
+        blocks: planned(null).blockCount,
+        merged: planned(DEFAULT_FIT).blockCount,
+        "plain, ms": Number(median(rounds.map(({ plainMs }) => plainMs)).toFixed(2)),
+        "merged, ms": Number(median(rounds.map(({ mergedMs }) => mergedMs)).toFixed(2)),
+        ratio: Number(median(rounds.map(({ ratio }) => ratio)).toFixed(2)),
+      };
+    }),
+  );
 }
 
 /**
@@ -148,13 +150,15 @@ const SHAPED_ROUNDS = 9;
 const SHAPED_WARM_UP = 3;
 
 /** Medians of processor ms and of the rounds' ratios; bytes of a plan and the planned motion in it. */
-function shaped(): Record<string, string | number>[] {
+async function shaped(): Promise<Record<string, string | number>[]> {
   const lines = [100_000, 1_000_000].map(
     (segments) => [`${segments} segments, lines of 1000`, scribble(segments, segments / 1000)] as const,
   );
-  const files = readdirSync(SAMPLES)
-    .filter((name) => name.endsWith(".svg"))
-    .map((file) => [file, sampleStrokes(file)] as const);
+  const files = await Promise.all(
+    readdirSync(SAMPLES)
+      .filter((name) => name.endsWith(".svg"))
+      .map(async (file) => [file, await sampleStrokes(file)] as const),
+  );
   return [...lines, ...files].map(([what, strokes]) => {
     const motion = { ...DEFAULT_MOTION, ...motionOfQuality("fast", SPRINGS) };
     const machine = { ...machineById("axidraw-v3"), springs: SPRINGS };

@@ -68,5 +68,11 @@ const { metafile } = await build({
   metafile: true,
   logLevel: "warning",
 });
+// esbuild adds imports without names, to keep the order in which modules run. Nothing depends on that order (see
+// "sideEffects" in package.json), and such an import would make a bundler load chunks that are loaded on demand.
+for (const entry of ["index", ...Object.keys(libraryEntries).map((name) => name.slice(4))]) {
+  const file = path.join(ROOT, "dist", "src", `${entry}.js`);
+  writeFileSync(file, readFileSync(file, "utf8").replace(/^import "[^"]+";\n/gm, ""));
+}
 const inputs = Object.keys(metafile.inputs).map((file) => path.join(ROOT, file));
 writeFileSync(path.join(CHUNKS, "licences.txt"), licencesOf(inputs));

@@ -17,7 +17,10 @@ const command = new Command("compare")
 
 const { speed, accel, corner } = command.opts<{ speed: number; accel: number; corner: number }>();
 for (const file of command.args) {
-  const { strokes } = prepare(importSvg(readFileSync(file, "utf8")), { ...DEFAULT_PREPARE, fit: false });
+  const { strokes } = prepare(await importSvg(readFileSync(file, "utf8")), {
+    ...DEFAULT_PREPARE,
+    fit: false,
+  });
   const [count, points] = [strokes.offsets.length - 1, strokes.xy.length / 2];
   console.log(`\n${path.basename(file)}: ${count === 1 ? "1 stroke" : `${count} strokes`}, ${points} points`);
   console.log(`V ${speed} mm/s, A ${accel} mm/s², δ ${corner} mm, J ${20 * accel} mm/s³\n`);

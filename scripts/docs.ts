@@ -18,8 +18,8 @@ const DOCS = path.join(import.meta.dirname, "..", "docs");
 writeFileSync(SETTINGS_TYPES_FILE, await settingsTypes());
 writePart("cli.md", "settings", settingsTable());
 writePart("cli.md", "commands", await cliReference());
-writePart("motion.md", "pen gains", penGainsTable());
-writePart("comparison.md", "sample times", sampleTimesTable());
+writePart("motion.md", "pen gains", await penGainsTable());
+writePart("comparison.md", "sample times", await sampleTimesTable());
 writeFileSync(path.join(DOCS, "library-reference.md"), (await libraryReference()).markdown);
 writeFileSync(path.join(DOCS, "http-reference.md"), await httpReference());
 

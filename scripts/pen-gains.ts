@@ -37,21 +37,23 @@ const DRAWINGS: readonly (readonly [name: string, svg: string, settings?: Partia
   ["flower meadow (long curves)", sample("flower-meadow.svg")],
 ];
 
-export function penGainsTable(): string {
+export async function penGainsTable(): Promise<string> {
   const machine = machineById("axidraw-v3");
-  const rows = DRAWINGS.map(([name, svg, settings]) => {
-    const { strokes } = prepare(importSvg(svg), { ...DEFAULT_PREPARE, fit: false, ...settings });
-    const timeS = (overlap: PenOverlap, dropsAtStroke: boolean): number =>
-      plan(strokes, DEFAULT_MOTION, { ...DEFAULT_PEN, overlap }, { machine, dropsAtStroke }).totalS;
-    const [off, ...others] = [
-      timeS("off", false),
-      timeS("safe", false),
-      timeS("fast", false),
-      timeS("fast", true),
-    ];
-    const cells = others.map((s) => `${seconds(s)} (−${Math.round(100 - (100 * s) / off)} %)`);
-    return [name, `${strokes.offsets.length - 1}`, seconds(off), ...cells];
-  });
+  const rows = await Promise.all(
+    DRAWINGS.map(async ([name, svg, settings]) => {
+      const { strokes } = prepare(await importSvg(svg), { ...DEFAULT_PREPARE, fit: false, ...settings });
+      const timeS = (overlap: PenOverlap, dropsAtStroke: boolean): number =>
+        plan(strokes, DEFAULT_MOTION, { ...DEFAULT_PEN, overlap }, { machine, dropsAtStroke }).totalS;
+      const [off, ...others] = [
+        timeS("off", false),
+        timeS("safe", false),
+        timeS("fast", false),
+        timeS("fast", true),
+      ];
+      const cells = others.map((s) => `${seconds(s)} (−${Math.round(100 - (100 * s) / off)} %)`);
+      return [name, `${strokes.offsets.length - 1}`, seconds(off), ...cells];
+    }),
+  );
   return markdownTable([["drawing", "strokes", "off", "safe", "fast", "fast before 3.0.1"], ...rows]);
 }
 

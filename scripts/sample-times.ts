@@ -9,15 +9,16 @@ const FOLDER = path.join(import.meta.dirname, "..", "samples");
 const FIRMWARE = "3.0.3";
 
 /** The time of the whole plot, s, as `plotwright plan --no-fit` reports it. */
-export function sampleTimesTable(): string {
-  const rows = readdirSync(FOLDER).map((file) => {
+export async function sampleTimesTable(): Promise<string> {
+  const rows: string[][] = [];
+  for (const file of readdirSync(FOLDER)) {
     const svg = readFileSync(path.join(FOLDER, file), "utf8");
-    const timeS = (mode: (typeof MOTION_MODES)[number]): string => {
+    const timeS = async (mode: (typeof MOTION_MODES)[number]): Promise<string> => {
       const settings = { prepare: { fit: false }, motion: { ...DEFAULT_MOTION, mode } };
-      const { trajectory } = planSvg(svg, settings, { firmware: FIRMWARE, liftFirst: true });
+      const { trajectory } = await planSvg(svg, settings, { firmware: FIRMWARE, liftFirst: true });
       return trajectoryStats(trajectory).durationS.toFixed(2);
     };
-    return [file.replace(".svg", ""), ...MOTION_MODES.map(timeS)];
-  });
+    rows.push([file.replace(".svg", ""), ...(await Promise.all(MOTION_MODES.map(timeS)))]);
+  }
   return markdownTable([["sample", ...MOTION_MODES.map((mode) => `${mode}, s`)], ...rows]);
 }

@@ -43,10 +43,14 @@ const SPRINGS: readonly Springs[] = [
 /** The machine's true frequency as a multiple of the shaper's. */
 const FACTORS = [1, 0.9, 1.1, 0.8, 1.2];
 
-const drawings: readonly StrokeSet[] = readdirSync(FOLDER).map(
-  (file) =>
-    prepare(importSvg(readFileSync(path.join(FOLDER, file), "utf8")), { ...DEFAULT_PREPARE, fit: true })
-      .strokes,
+const drawings: readonly StrokeSet[] = await Promise.all(
+  readdirSync(FOLDER).map(
+    async (file) =>
+      prepare(await importSvg(readFileSync(path.join(FOLDER, file), "utf8")), {
+        ...DEFAULT_PREPARE,
+        fit: true,
+      }).strokes,
+  ),
 );
 
 interface Variant {

@@ -32,8 +32,8 @@ declare module "culori/fn" {
   export function parse(text: string): CssColor | undefined;
   export function parseHex(text: string): RgbColor | undefined;
   export function converter(mode: "rgb"): (color: CssColor) => CssColor;
-  export function converter(mode: "oklab"): (color: string) => OklabColor | undefined;
   export function convertLchToLab(color: LchColor, mode: "oklab"): OklabColor;
+  export function convertRgbToOklab(color: RgbColor): OklabColor;
   export function convertOklabToRgb(color: OklabColor): RgbColor;
   export function convertRgbToHsv(color: RgbColor): HsvColor;
   export function clampRgb(color: CssColor): CssColor;

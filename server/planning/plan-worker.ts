@@ -21,7 +21,7 @@ const post = (message: FromWorker, transfer: TransferListItem[] = []): void =>
 
 try {
   // Without a file name the format is detected from the content.
-  const drawing = importDrawing("", readDrawing(input.path), await inFont(input.font));
+  const drawing = await importDrawing("", readDrawing(input.path), await inFont(input.font));
   mustFitMemory(drawing, input.growthMb);
   post({ type: "imported" });
   const settings = withOnlyLayers(drawing, input.settings, input.only);

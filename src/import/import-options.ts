@@ -1,11 +1,6 @@
 /** Options for reading a file of any format. */
 import { checkNames, checkObject, refuseSetting } from "../check-arguments.js";
-import { singleStrokeFont } from "./text/single-stroke-font.js";
-import type { TextFont } from "./text/text-font.js";
-
-const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
-/** How the text of a drawing is drawn. */
-export type TextMode = (typeof TEXT_MODES)[number];
+import { type TextFont, TEXT_MODES, type TextMode } from "./text/text-font.js";
 
 /** How to read a file. Every option has a default. */
 export interface ImportOptions {
@@ -33,7 +28,3 @@ export function checkImportOptions(options: ImportOptions): void {
   if (font !== undefined)
     checkObject("import", "the font", font, ["layout"], "what openOutlineFont returns, awaited");
 }
-
-/** The font that draws text; null for none. */
-export const fontOf = ({ text = "single-stroke", font }: ImportOptions): TextFont | null =>
-  text === "none" ? null : text === "outline" && font !== undefined ? font : singleStrokeFont;

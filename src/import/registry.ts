@@ -41,7 +41,7 @@ const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
 };
 
 /** Throws PlotwrightError("bad-file"). */
-type Reader = (text: string, options: ImportOptions) => Drawing;
+type Reader = (text: string, options: ImportOptions) => Drawing | Promise<Drawing>;
 
 const READERS: Readonly<Record<DrawingFormat, Reader>> = {
   svg: importSvg,
@@ -79,9 +79,13 @@ export function formatOf(name: string, text: string): DrawingFormat | null {
  *
  * @throws PlotwrightError "bad-file" for an unknown format or a damaged file
  * @example
- * const drawing = importDrawing("box.dxf", text);
+ * const drawing = await importDrawing("box.dxf", text);
  */
-export function importDrawing(name: string, text: string, options: ImportOptions = {}): Drawing {
+export async function importDrawing(
+  name: string,
+  text: string,
+  options: ImportOptions = {},
+): Promise<Drawing> {
   checkText("importDrawing(name, text)", text);
   checkImportOptions(options);
   return readerOf(name, text)(text, options);

@@ -42,7 +42,11 @@ const NAMES = [
  *
  * @throws PlotwrightError "bad-file" (also if nothing is left to draw), "out-of-bounds", "bad-setting", "cancelled"
  */
-export function planSvg(text: string, settings: SvgSettings = {}, options: JobOptions = {}): PlannedSvg {
+export async function planSvg(
+  text: string,
+  settings: SvgSettings = {},
+  options: JobOptions = {},
+): Promise<PlannedSvg> {
   checkNames("planSvg", settings, NAMES);
   const whole = {
     machine: "axidraw-v3",
@@ -53,6 +57,6 @@ export function planSvg(text: string, settings: SvgSettings = {}, options: JobOp
     prepare: completeSettings(settings.prepare ?? {}),
   };
   const machine = machineOf(whole);
-  const { prepared, warnings } = prepareJob(importSvg(text), whole, machine);
+  const { prepared, warnings } = prepareJob(await importSvg(text), whole, machine);
   return { ...planJob(prepared, whole, machine, options), prepared, warnings };
 }

@@ -68,7 +68,7 @@ describe("saving", () => {
   it("writes an SVG that draws the same strokes in the same order, with the layers' settings in their names", async () => {
     const { name, text } = await saved("Prepared drawing as SVG");
     expect(name).toBe("beach.svg");
-    expectSameStrokes(prepare(importSvg(text), AS_IT_IS).strokes);
+    expectSameStrokes(prepare(await importSvg(text), AS_IT_IS).strokes);
     const labels = [...text.matchAll(/inkscape:label="([^"]*)"/g)].map(([, label]) => label);
     // Both layers begin with a stop: the first pen is asked for too.
     expect(labels).toEqual(["!sea", "!+s10sun"]);
@@ -77,7 +77,7 @@ describe("saving", () => {
   it("writes polylines as JSON that can be opened again", async () => {
     const { name, text } = await saved("Polylines as JSON");
     expect(name).toBe("beach.json");
-    expectSameStrokes(prepare(importDrawing(name, text), AS_IT_IS).strokes);
+    expectSameStrokes(prepare(await importDrawing(name, text), AS_IT_IS).strokes);
   });
 
   it.each(["3.0.3", "2.5.3"])(
@@ -126,8 +126,8 @@ describe("saving", () => {
     await test.planned();
     await test.panel("Drawing");
     const { text } = await saved("Prepared drawing as SVG");
-    const now = prepare(importSvg(SVG), prepareSettingsOf((await test.queue()).settings)).strokes;
-    const back = prepare(importSvg(text), AS_IT_IS).strokes;
+    const now = prepare(await importSvg(SVG), prepareSettingsOf((await test.queue()).settings)).strokes;
+    const back = prepare(await importSvg(text), AS_IT_IS).strokes;
     expect(back.xy.length).toBe(now.xy.length);
     for (const [k, mm] of back.xy.entries()) expect(Math.abs(mm - now.xy[k])).toBeLessThan(1e-3);
   });

@@ -120,7 +120,7 @@ describe("the installed package", () => {
       import { createServer } from "plotwright/server";
       import { requestBoard } from "plotwright/web-serial";
       const errors = [];
-      try { importSvg("no drawing"); } catch (error) { errors.push(error); }
+      try { await importSvg("no drawing"); } catch (error) { errors.push(error); }
       await createServer({ dataDir: "package.json" }).catch((error) => errors.push(error));
       await requestBoard().catch((error) => errors.push(error));
       console.log(errors.map((error) => error instanceof PlotwrightError).join(" "));

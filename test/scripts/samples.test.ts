@@ -15,9 +15,9 @@ describe("the samples", () => {
     expect(files.length).toBeGreaterThanOrEqual(5);
   });
 
-  it.each(files)("%s is A4 landscape, has a title, and is drawn completely", (file) => {
+  it.each(files)("%s is A4 landscape, has a title, and is drawn completely", async (file) => {
     expect(readFileSync(path.join(FOLDER, file), "utf8")).toMatch(/<title>[A-Z].+<\/title>/);
-    const drawing = drawingOf(file);
+    const drawing = await drawingOf(file);
     expect(drawing.widthMm).toBeCloseTo(297, 6);
     expect(drawing.heightMm).toBeCloseTo(210, 6);
     expect(drawing.warnings).toEqual([]);
@@ -30,18 +30,18 @@ describe("the samples", () => {
     }
   });
 
-  it.each(files)("%s loses nothing when it is fitted to the paper", (file) => {
-    expect(prepare(drawingOf(file), DEFAULT_PREPARE).warnings).toEqual([]);
+  it.each(files)("%s loses nothing when it is fitted to the paper", async (file) => {
+    expect(prepare(await drawingOf(file), DEFAULT_PREPARE).warnings).toEqual([]);
   });
 
-  it("cover the main uses of pens: layers by pen, one long curve, thousands of short strokes", () => {
-    expect(drawingOf("three-colour-hills.svg").groups.map((group) => group.name)).toEqual([
+  it("cover the main uses of pens: layers by pen, one long curve, thousands of short strokes", async () => {
+    expect((await drawingOf("three-colour-hills.svg")).groups.map((group) => group.name)).toEqual([
       "1 Sun",
       "2 Hills",
       "3 Pines and birds",
     ]);
-    expect(new Set(drawingOf("three-colour-hills.svg").colors).size).toBe(3);
-    expect(drawingOf("harmonograph.svg").paths.count).toBe(1);
-    expect(drawingOf("moonrise.svg").paths.count).toBeGreaterThan(5_000);
+    expect(new Set((await drawingOf("three-colour-hills.svg")).colors).size).toBe(3);
+    expect((await drawingOf("harmonograph.svg")).paths.count).toBe(1);
+    expect((await drawingOf("moonrise.svg")).paths.count).toBeGreaterThan(5_000);
   });
 });

@@ -65,7 +65,7 @@ describe("a drawing on a board behind a pseudo-terminal", () => {
     await driver.start();
     expect(driver.state).toMatchObject({ connection: "idle", kind: "serial", firmware: "2.8.1" });
 
-    const drawing = importSvg(sample(name));
+    const drawing = await importSvg(sample(name));
     const planner = new LocalPlanner(prepare(drawing, SETTINGS.prepare).strokes);
     const run = await driver.plot(planner, SETTINGS);
     expect(await run.finished).toEqual({ kind: "done" });

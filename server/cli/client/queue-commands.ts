@@ -89,10 +89,10 @@ export const addDrawing = (
   file: string,
   { only, pen, ...job }: AddedDrawing,
 ): Promise<Job> =>
-  withDrawingFile(file, (path) => {
+  withDrawingFile(file, async (path) => {
     const bytes = readBytes(path);
     const isByName = only !== undefined || pen !== undefined;
-    const drawing = isByName ? importDrawing(file, textOfBytes(bytes)) : null;
+    const drawing = isByName ? await importDrawing(file, textOfBytes(bytes)) : null;
     const settings =
       drawing === null ? base : withLayerPens(drawing, withOnlyLayers(drawing, base, only), pen);
     return addJob(access, { name: basename(nameOf(file)), settings, ...job }, bytes);

@@ -17,7 +17,7 @@ try {
     imported: (drawing) => mustFitMemory(drawing, growthMb),
     begin: (step) => post({ type: "begin", step }),
   };
-  runPlan(file, settings, options, output, await inFont(options.font));
+  await runPlan(file, settings, options, output, await inFont(options.font));
 } catch (error) {
   fault = faultOf(error);
 }

@@ -131,13 +131,13 @@ export interface PlanOutput {
 export type PlanStep = "prepare" | "plan";
 
 /** @param font as `inFont` has read it */
-export function runPlan(
+export async function runPlan(
   file: string,
   base: PlotSettings,
   options: PlanCommandOptions,
   io: PlanOutput,
   font: Pick<ImportOptions, "text" | "font"> = {},
-): void {
+): Promise<void> {
   const toStdout = [
     ...(options.json === true ? ["--json"] : []),
     ...(["commands", "preview", "svg", "strokes"] as const)
@@ -150,7 +150,7 @@ export function runPlan(
       `${toStdout.join(" and ")} both write to stdout: give one of them a file.`,
     );
   }
-  const { report, settings, job, trajectory, lines } = planFile(file, base, options, io, font);
+  const { report, settings, job, trajectory, lines } = await planFile(file, base, options, io, font);
   const { prepared } = job;
   const paper = { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm };
   if (options.commands !== undefined) writeOut(options.commands, `${lines.join("\n")}\n`, io);
@@ -166,16 +166,16 @@ export function runPlan(
   else io.err(`${sizeInWords(prepared.size)}\n`);
 }
 
-function planFile(
+async function planFile(
   file: string,
   base: PlotSettings,
   options: PlanCommandOptions,
   io: PlanOutput,
   font: Pick<ImportOptions, "text" | "font">,
-): PlannedFile {
+): Promise<PlannedFile> {
   const machine: MachineProfile = machineOf(base);
   const clock = stopwatch();
-  const drawing = importDrawing(basename(file), readDrawing(file), font);
+  const drawing = await importDrawing(basename(file), readDrawing(file), font);
   const importMs = clock();
   io.imported(drawing);
   io.begin("prepare");

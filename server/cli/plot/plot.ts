@@ -132,13 +132,15 @@ export async function runPlot(
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   mustHaveEnded(record, options);
   return plotInTurn(files, options, io, (file, end, over) =>
-    withDrawingFile(file, (path) => {
+    withDrawingFile(file, async (path) => {
       const { only, pen, font } = options;
       const plot: Plot = {
         name: basename(nameOf(file)),
         path,
         settings:
-          pen === undefined ? settings : withLayerPens(importDrawing("", readDrawing(path)), settings, pen),
+          pen === undefined
+            ? settings
+            : withLayerPens(await importDrawing("", readDrawing(path)), settings, pen),
         only,
         font,
         from: null,

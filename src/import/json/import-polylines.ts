@@ -11,7 +11,7 @@
 import { type Drawing, isSpeedFactor } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { IDENTITY } from "../../geometry/affine.js";
-import { parseColor } from "../color.js";
+import { parseCssColor } from "../css-color.js";
 import { DrawingBuilder, type Look } from "../drawing-builder.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import { Warnings } from "../warnings.js";
@@ -65,7 +65,7 @@ function addLayer(builder: DrawingBuilder, value: unknown, index: number, warnin
   const name = typeof layer["name"] === "string" ? layer["name"] : `Layer ${index + 1}`;
   const id = typeof layer["id"] === "string" ? layer["id"] : `layer-${index + 1}`;
   const given = layer["color"];
-  const color = typeof given === "string" ? (parseColor(given)?.hex ?? null) : "#000000";
+  const color = typeof given === "string" ? (parseCssColor(given)?.hex ?? null) : "#000000";
   if (color === null) throw bad(`the colour of layer ${index + 1} is not a CSS colour`);
   const strokes = layer["strokes"] ?? layer["strokesMm"];
   if (!Array.isArray(strokes)) throw bad(`layer ${index + 1} has no list of strokes`);

@@ -15,22 +15,24 @@ import { curvesOf, type Drawing } from "../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, type Affine } from "../../geometry/affine.js";
 import { MM_PER_INCH } from "../../units.js";
 import { backgroundsOf } from "./backgrounds.js";
-import type { Cascade } from "./css/cascade.js";
+import type { CssStyles } from "./css/css-styles.js";
 import type { Declared } from "./css/properties.js";
+import { type ColorParser, parseHexColor } from "../color.js";
 import { DrawingBuilder } from "../drawing-builder.js";
 import type { Context } from "./svg-context.js";
 import { SvgClips } from "./masks/clips.js";
-import { checkImportOptions, fontOf, type ImportOptions } from "../import-options.js";
+import { checkImportOptions, type ImportOptions } from "../import-options.js";
 import { SvgPaintServers } from "./shapes/paint-servers.js";
 import { SvgGeometry } from "./shapes/basic-shapes.js";
 import { SvgFile } from "./svg-file.js";
 import { type SvgPage, guessedPage, sizedPage, type SizedPage } from "./svg-page.js";
 import { SvgPainter } from "./svg-painter.js";
-import { parseSvgTree, type SvgTree } from "./svg-tree.js";
+import { attributeValue, parseSvgTree, type SvgTree } from "./svg-tree.js";
 import { SvgWalk } from "./svg-walk.js";
 import type { LengthBasis } from "./css/length.js";
 import { aroundOrigin, parseTransform } from "./css/transform.js";
-import { computeStyle, declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./css/style.js";
+import { declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./css/style.js";
+import type { TextPlacer } from "./text/placed-text.js";
 import { Warnings } from "../warnings.js";
 
 /** Max error of an arc, as a share of the page's diagonal: 0.3 µm on A4, 1 µm on A1. */
@@ -41,60 +43,96 @@ const ARC_TOLERANCE = 8e-7;
  *
  * @throws PlotwrightError "bad-file" for text that is not SVG
  * @example
- * const drawing = importSvg('<svg width="10mm" height="10mm" viewBox="0 0 1 1"><path d="M0 0L1 1" stroke="red"/></svg>');
+ * const drawing = await importSvg('<svg width="10mm" height="10mm" viewBox="0 0 1 1"><path d="M0 0L1 1" stroke="red"/></svg>');
  * drawing.paths.coords; // Float64Array [0, 0, 10, 10]
  */
-export function importSvg(text: string, options: ImportOptions = {}): Drawing {
+export async function importSvg(text: string, options: ImportOptions = {}): Promise<Drawing> {
   checkText("importSvg", text);
   checkImportOptions(options);
   const warnings = new Warnings();
   // The tree is out of scope when the columns are assembled, which halves the peak memory.
-  const { builder, page, pxPerInch } = draw(text, options, warnings);
+  const { builder, page, pxPerInch } = await draw(text, options, warnings);
   const drawing = finish(builder, page, warnings);
   return page.isInPx ? { ...drawing, pxPerInch } : drawing;
 }
 
-function draw(
+async function draw(
   text: string,
   options: ImportOptions,
   warnings: Warnings,
-): SizedPage & { readonly builder: DrawingBuilder } {
+): Promise<SizedPage & { readonly builder: DrawingBuilder }> {
+  const tree = parseSvgTree(text);
+  const { styles, parseColor, texts } = await neededFor(tree, options);
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
-  const file = new SvgFile(parseSvgTree(text), fontOf(options), languages);
-  const { tree, cascade, layers } = file;
-  reportParsing(tree, cascade, warnings);
+  const file = new SvgFile(tree, styles, parseColor, languages);
+  const { cascade, layers } = file;
+  reportParsing(tree, styles, warnings);
 
   const root = cascade.declaredOf(0);
   const { page, pxPerInch } =
     options.pxPerInch === undefined
       ? guessedPage(text, tree, root, warnings)
       : sizedPage(tree, root, options.pxPerInch);
-  const context = rootContext(page, root, pxPerInch);
+  const context = rootContext(file, page, root, pxPerInch);
   const builder = new DrawingBuilder(warnings);
   if (!layers.isSplit) warnings.add("too-many-layers", undefined, undefined, layers.groupCount);
   const arcToleranceMm = ARC_TOLERANCE * Math.hypot(page.widthMm, page.heightMm);
   const geometry = new SvgGeometry(tree, warnings, arcToleranceMm);
-  const painter = new SvgPainter(file, geometry, new SvgPaintServers(file), builder, warnings);
+  const painter = new SvgPainter(file, geometry, texts, new SvgPaintServers(file), builder, warnings);
   const clips = new SvgClips(file, geometry, painter, warnings);
   const walk = new SvgWalk(file, geometry, clips, painter, builder, warnings);
   if (isShown(root)) walk.run(context);
-  for (const selector of cascade.slowSelectors) warnings.add("style-slow", undefined, selector.slice(0, 80));
+  for (const selector of styles?.slowSelectors ?? [])
+    warnings.add("style-slow", undefined, selector.slice(0, 80));
   return { builder, page, pxPerInch };
 }
 
-function reportParsing(tree: SvgTree, cascade: Cascade, warnings: Warnings): void {
+/** What only some files need. */
+interface Needed {
+  readonly styles: CssStyles | null;
+  readonly parseColor: ColorParser;
+  readonly texts: TextPlacer | null;
+}
+
+/**
+ * Imports what a file needs for its CSS, its colours and its text. So a program that uses the library loads these large
+ * parts only for a file that has them.
+ */
+async function neededFor(tree: SvgTree, options: ImportOptions): Promise<Needed> {
+  const hasStyles = tree.names.includes("style");
+  const hasText = tree.names.includes("text");
+  const styles = hasStyles ? new (await import("./css/css-styles.js")).CssStyles(tree) : null;
+  const parseColor =
+    hasStyles || !hasSimplePaints(tree) ? (await import("../css-color.js")).parseCssColor : parseHexColor;
+  const texts = hasText ? (await import("./text/placed-text.js")).textPlacerOf(options) : null;
+  return { styles, parseColor, texts };
+}
+
+const COLOR_ATTRIBUTES = new Set(["fill", "stroke", "color", "stop-color"]);
+/** A value of these that `parseHexColor` is enough for. */
+const SIMPLE_PAINT = /^\s*(#[\da-f]*|none|currentcolor|inherit|url\([^)]*\))?\s*$/i;
+
+function hasSimplePaints(tree: SvgTree): boolean {
+  const isColor = tree.names.map((name) => COLOR_ATTRIBUTES.has(name));
+  return tree.attributeNames.every(
+    (name, index) => !isColor[name] || SIMPLE_PAINT.test(attributeValue(tree, index)),
+  );
+}
+
+function reportParsing(tree: SvgTree, styles: CssStyles | null, warnings: Warnings): void {
   for (const repair of tree.repairs) warnings.add("xml-repaired", undefined, repair);
   if (tree.foreignObjects > 0) warnings.add("foreign-object", undefined, undefined, tree.foreignObjects);
   if (tree.hasStylesheetLink) warnings.add("style-external");
-  if (cascade.importCount > 0) warnings.add("style-external", undefined, undefined, cascade.importCount);
-  for (const fault of cascade.faults) warnings.add("style-fault", undefined, fault);
+  if (styles === null) return;
+  if (styles.importCount > 0) warnings.add("style-external", undefined, undefined, styles.importCount);
+  for (const fault of styles.faults) warnings.add("style-fault", undefined, fault);
 }
 
-function rootContext(page: SvgPage, root: Declared, pxPerInch: number): Context {
+function rootContext(file: SvgFile, page: SvgPage, root: Declared, pxPerInch: number): Context {
   const { viewportWidth, viewportHeight } = page;
   const size = INITIAL_STYLE.fontSize;
   const basis = { fontSize: size, rootFontSize: size, viewportWidth, viewportHeight };
-  const style = computeStyle(INITIAL_STYLE, root, basis);
+  const style = file.computeStyle(INITIAL_STYLE, root, basis);
   const { fontSize } = style;
   return {
     map: compose(rootTransform(page, root, style, basis, MM_PER_INCH / pxPerInch), page.map),

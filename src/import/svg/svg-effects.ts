@@ -1,6 +1,6 @@
 /** Effects that a browser draws and a pen cannot: each gives a warning. */
 import type { Box } from "../../geometry/box.js";
-import { parseColor } from "../color.js";
+import type { ColorParser } from "../color.js";
 import { isFontLength } from "./css/length.js";
 import { NOT_DRAWN_PROPERTIES, type Declared, type Property } from "./css/properties.js";
 import { declaredValue, isUnknownPaint, parseOpacity, parseUrl, type Style } from "./css/style.js";
@@ -20,7 +20,7 @@ const DRAWS_AS_USUAL =
 const LIGHT = /^(lighter|[123]00)$/;
 
 /** The effects of the element to which `declared` belongs. */
-export function effectsOf(style: Style, declared: Declared): Effects {
+export function effectsOf(style: Style, declared: Declared, parseColor: ColorParser): Effects {
   const valueOf = (property: Property): string | null => {
     const value = declaredValue(style, declared, property);
     return value === undefined || value === "none" || value === "normal" ? null : value;
@@ -33,7 +33,8 @@ export function effectsOf(style: Style, declared: Declared): Effects {
   }
   for (const property of ["fill", "stroke"] as const) {
     const value = valueOf(property);
-    if (value !== null && isUnknownPaint(value)) effects.push(["color-unknown", value.slice(0, 40)]);
+    if (value !== null && isUnknownPaint(value, parseColor))
+      effects.push(["color-unknown", value.slice(0, 40)]);
   }
   if (LIGHT.test(valueOf("font-weight") ?? "")) effects.push(["text-style-ignored", "light"]);
   if (valueOf("mask") !== null) effects.push(["mask-ignored"]);
@@ -49,7 +50,7 @@ export function effectsOf(style: Style, declared: Declared): Effects {
 }
 
 /** The root element's background. White, like most paper, needs no warning. */
-export function backgroundOf(style: Style, declared: Declared): Effects {
+export function backgroundOf(style: Style, declared: Declared, parseColor: ColorParser): Effects {
   return (["background", "background-color"] as const).flatMap((name): [WarningCode, string][] => {
     const value = declaredValue(style, declared, name) ?? "none";
     const color = parseColor(value);

@@ -1,25 +1,28 @@
 /** A parsed SVG file, shared by all steps of its import. */
-import type { TextFont } from "../text/text-font.js";
+import type { ColorParser } from "../color.js";
 import { Cascade } from "./css/cascade.js";
+import type { CssStyles } from "./css/css-styles.js";
 import type { LengthBasis } from "./css/length.js";
 import { computeStyle, INITIAL_STYLE, type Style } from "./css/style.js";
 import { planLayers, type LayerPlan } from "./svg-layers.js";
 import { attribute, type SvgTree } from "./svg-tree.js";
+import type { Declared } from "./css/properties.js";
 
 export class SvgFile {
   readonly cascade: Cascade;
   readonly layers: LayerPlan;
   /** Styles of elements whose children were looked up. */
-  private readonly styles = new Map<number, Style>();
+  private readonly innerStyles = new Map<number, Style>();
 
   constructor(
     readonly tree: SvgTree,
-    /** The font for text; null if text is only reported. */
-    readonly font: TextFont | null,
+    /** Null if the file has none. */
+    readonly styles: CssStyles | null,
+    readonly parseColor: ColorParser,
     /** The user's languages, in lower case. */
     private readonly languages: readonly string[],
   ) {
-    this.cascade = new Cascade(tree);
+    this.cascade = new Cascade(tree, styles);
     this.layers = planLayers(tree);
   }
 
@@ -34,6 +37,11 @@ export class SvgFile {
     return this.languages.some((own) => wanted.some((tag) => tag === own || tag.startsWith(`${own}-`)));
   }
 
+  /** The style of an element that declares `declared` below `parent`; `parent` itself if nothing changes. */
+  computeStyle(parent: Style, declared: Declared, basis: LengthBasis): Style {
+    return computeStyle(parent, declared, basis, this.parseColor);
+  }
+
   /**
    * The style that an element inherits from its ancestors in the file. Markers and clip paths inherit from
    * there, not from the shape that refers to them (SVG 2, §13.7).
@@ -44,11 +52,14 @@ export class SvgFile {
     const { parents } = this.tree;
     const path: number[] = [];
     let at = parents[element];
-    for (; at >= 0 && !this.styles.has(at); at = parents[at]) path.push(at);
-    let style = this.styles.get(at) ?? INITIAL_STYLE;
+    for (; at >= 0 && !this.innerStyles.has(at); at = parents[at]) path.push(at);
+    let style = this.innerStyles.get(at) ?? INITIAL_STYLE;
     for (const ancestor of path.reverse()) {
-      style = computeStyle(style, this.cascade.declaredOf(ancestor), { ...basis, fontSize: style.fontSize });
-      this.styles.set(ancestor, style);
+      style = this.computeStyle(style, this.cascade.declaredOf(ancestor), {
+        ...basis,
+        fontSize: style.fontSize,
+      });
+      this.innerStyles.set(ancestor, style);
     }
     return style;
   }

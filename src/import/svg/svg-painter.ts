@@ -22,9 +22,8 @@ import { warnOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
 import { MaskPaintServers, type SvgPaintServers } from "./shapes/paint-servers.js";
 import type { SvgGeometry } from "./shapes/basic-shapes.js";
-import { placeText, type PlacedText } from "./text/placed-text.js";
+import type { PlacedText, TextPlacer } from "./text/placed-text.js";
 import type { PlacedLetter } from "./text/text-layout.js";
-import { SvgTextPaths } from "./text/text-path.js";
 import { USUAL_METRICS, type TextFont } from "../text/text-font.js";
 import { attribute } from "./svg-tree.js";
 import type { Color } from "../color.js";
@@ -32,30 +31,28 @@ import { declaredValue, INITIAL_STYLE } from "./css/style.js";
 import type { Warnings } from "../warnings.js";
 
 export class SvgPainter {
-  private readonly textPaths: SvgTextPaths;
-
   constructor(
     private readonly file: SvgFile,
     private readonly geometry: SvgGeometry,
+    /** Null if the file has no text, or it is only reported. */
+    private readonly texts: TextPlacer | null,
     private readonly servers: SvgPaintServers,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
-  ) {
-    this.textPaths = new SvgTextPaths(file, geometry);
-  }
+  ) {}
 
   /** A painter for the content of a mask. */
   forMask(builder: DrawingBuilder, warnings: Warnings): SvgPainter {
-    const { file, geometry } = this;
-    return new SvgPainter(file, geometry, new MaskPaintServers(file), builder, warnings);
+    const { file, geometry, texts } = this;
+    return new SvgPainter(file, geometry, texts, new MaskPaintServers(file), builder, warnings);
   }
 
   /** The box of a text in its user units: the full line height, from the first letter to the last. */
   textBox(element: number, context: Context): Box {
-    const { font } = this.file;
-    if (font === null) return EMPTY_BOX;
-    const { letters } = this.placed(element, context, font);
-    const { ascent, descent } = font.metrics ?? USUAL_METRICS;
+    const { texts } = this;
+    if (texts === null) return EMPTY_BOX;
+    const { letters } = this.placed(element, context, texts);
+    const { ascent, descent } = texts.font.metrics ?? USUAL_METRICS;
     return letters.reduce((box, { x, y, angle, advance, style: { fontSize } }) => {
       const turned = compose(translation(x, y), rotation(angle));
       const cell = { x0: 0, y0: -ascent * fontSize, x1: advance, y1: descent * fontSize };
@@ -65,20 +62,20 @@ export class SvgPainter {
 
   /** Calls `add` with each visible letter and its map to page mm; false if the font has no outlines. */
   outlinesOf(element: number, context: Context, add: (shape: ShapeBuffer, map: Affine) => void): boolean {
-    const { font } = this.file;
-    if (font?.kind !== "outline") return false;
-    const { letters } = this.placed(element, context, font);
+    const { texts } = this;
+    if (texts?.font.kind !== "outline") return false;
+    const { letters } = this.placed(element, context, texts);
     for (const letter of letters) {
       if (!letter.style.isVisible) continue;
       add(this.shapeOf(letter), mapOf(letter, context));
     }
-    for (const wanted of otherFaces(letters, font))
+    for (const wanted of otherFaces(letters, texts.font))
       this.warnings.add("text-style-ignored", undefined, wanted);
     return true;
   }
 
-  private placed(element: number, context: Context, font: TextFont): PlacedText {
-    return placeText(this.file, this.textPaths, element, context, font);
+  private placed(element: number, context: Context, texts: TextPlacer): PlacedText {
+    return texts.place(this.file, this.geometry, element, context);
   }
 
   /** In em. Valid until the next shape. */
@@ -109,20 +106,21 @@ export class SvgPainter {
   /** Draws the letters of a text as shapes; warns instead if there is no font. */
   drawText(element: number, context: Context): void {
     const { builder, warnings } = this;
-    const { font } = this.file;
-    if (font === null) {
+    const { texts } = this;
+    if (texts === null) {
       if (context.style.isVisible) warnings.add("text-not-drawn", this.roughPlaceOf(element, context));
       return;
     }
-    const text = this.placed(element, context, font);
+    const text = this.placed(element, context, texts);
     const firstShape = builder.shapeCount;
     for (const letter of text.letters) this.drawLetter(letter, element, context);
     let box = this.geometry.placeOf(context, text.x, text.y, 0, 0);
     if (builder.shapeCount > firstShape) {
       box = builder.boxOfShapes(firstShape, builder.shapeCount);
       warnOf(text.effects, box, warnings);
-      if (font.kind === "single-stroke") warnings.add("text-substituted", box);
-      for (const wanted of otherFaces(text.letters, font)) warnings.add("text-style-ignored", box, wanted);
+      if (texts.font.kind === "single-stroke") warnings.add("text-substituted", box);
+      for (const wanted of otherFaces(text.letters, texts.font))
+        warnings.add("text-style-ignored", box, wanted);
     }
     for (const char of text.missing) warnings.add("glyphs-missing", box, `"${char}"`);
     if (text.unsupported.length > 0) {
@@ -139,7 +137,7 @@ export class SvgPainter {
     const stroke = this.colorOf(style.stroke, style.strokeOpacity, own, "stroke");
     const fill = this.colorOf(style.fill, style.fillOpacity, own, "fill");
     if (stroke === null && fill === null) return;
-    const isOutline = this.file.font?.kind === "outline";
+    const isOutline = this.texts?.font.kind === "outline";
     const look: Look = {
       // A single stroke has no interior: the fill colour becomes its line colour.
       stroke: isOutline ? stroke : (stroke ?? fill),

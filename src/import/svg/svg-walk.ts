@@ -29,7 +29,7 @@ import { SvgMasks, type DrawApart } from "./masks/masks.js";
 import { LayerGroups } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree, childrenOf } from "./svg-tree.js";
-import { computeStyle, declaredValue, parseOpacity, type Style } from "./css/style.js";
+import { declaredValue, parseOpacity, type Style } from "./css/style.js";
 import { withoutAlignment, withoutShift } from "./css/text-style.js";
 import { viewportInside } from "./svg-viewport.js";
 import { Warnings } from "../warnings.js";
@@ -136,9 +136,13 @@ export class SvgWalk {
   /** The root element may have a clip, effects and a speed, too. */
   private enterRoot(outer: Context): void {
     const context = this.withSpeed(0, outer);
-    const declared = this.file.cascade.declaredOf(0);
+    const { cascade, parseColor } = this.file;
+    const declared = cascade.declaredOf(0);
     const value = declaredValue(context.style, declared, "clip-path");
-    const effects = [...effectsOf(context.style, declared), ...backgroundOf(context.style, declared)];
+    const effects = [
+      ...effectsOf(context.style, declared, parseColor),
+      ...backgroundOf(context.style, declared, parseColor),
+    ];
     const clip = this.clips.clipOf(0, value, context);
     if (clip !== "empty") this.push({ ...context, clip }, this.file.tree.firstChildren[0], false, effects);
   }
@@ -181,7 +185,7 @@ export class SvgWalk {
     const transform = this.transformOf(element, style, declared, outer);
     if (determinant(transform) === 0) return;
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
-    let effects = effectsOf(style, declared);
+    let effects = effectsOf(style, declared, this.file.parseColor);
     if (isErased(this.file.tree, style, declared)) return;
     const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
     if (clip === "empty") return;
@@ -206,7 +210,7 @@ export class SvgWalk {
     if (last?.outer === outer && isSameDeclared(last.declared, declared)) return last.inner;
     const text = withoutShift(withoutAlignment(outer.style.text));
     const parent = text === outer.style.text ? outer.style : { ...outer.style, text };
-    const inner = withStyle(outer, computeStyle(parent, declared, outer.basis), IDENTITY);
+    const inner = withStyle(outer, this.file.computeStyle(parent, declared, outer.basis), IDENTITY);
     this.last = { outer, declared, inner };
     return inner;
   }
@@ -316,7 +320,7 @@ export class SvgWalk {
     }
     if (INVISIBLE.has(tag) || !this.file.meetsConditions(element)) return;
     const declared = this.file.cascade.declaredOf(element);
-    const style = computeStyle(outer.style, declared, outer.basis);
+    const style = this.file.computeStyle(outer.style, declared, outer.basis);
     if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;
     if (isTransparent(style, declared)) return;
     const context = withStyle(outer, style, this.transformOf(element, style, declared, outer));

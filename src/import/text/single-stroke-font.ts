@@ -1,6 +1,6 @@
 /** The built-in letters: Hershey's sans and script, with accents assembled from strokes. */
 import { HERSHEY_SANS, HERSHEY_SCRIPT } from "./hershey-data.js";
-import type { LaidOutGlyph, TextFont } from "./text-font.js";
+import type { LaidOutGlyph, TextFont, TextMode } from "./text-font.js";
 
 /** Capitals of 21 units are then 0.7 em high, as in common fonts. */
 const UNITS_PER_EM = 30;
@@ -67,7 +67,7 @@ const SUBSTITUTES: Readonly<Record<string, string>> = {
   "\u00a0": " ",
 };
 
-export const singleStrokeFont: TextFont = {
+const singleStrokeFont: TextFont = {
   kind: "single-stroke",
   layout(text, { family }) {
     const isScript = /cursive|script|hand|brush/i.test(family);
@@ -85,6 +85,16 @@ export const singleStrokeFont: TextFont = {
     return { glyphs, missing };
   },
 };
+
+/** The font that draws text; null for none. */
+export const fontOf = ({
+  text = "single-stroke",
+  font,
+}: {
+  readonly text?: TextMode;
+  readonly font?: TextFont;
+}): TextFont | null =>
+  text === "none" ? null : text === "outline" && font !== undefined ? font : singleStrokeFont;
 
 /** The letters for one character of the text, with its combining marks; null if there are none. */
 function lettersOf(char: string, table: readonly string[]): Letter[] | null {

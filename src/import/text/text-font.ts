@@ -6,6 +6,10 @@ import { compose, translation, type Affine } from "../../geometry/affine.js";
 import { drawPathData } from "../path-data.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 
+export const TEXT_MODES = ["single-stroke", "outline", "none"] as const;
+/** How the text of a drawing is drawn. */
+export type TextMode = (typeof TEXT_MODES)[number];
+
 /** One letter of a text that a font has laid out. */
 export interface LaidOutGlyph {
   /** Path data with absolute commands; "" for a blank. */

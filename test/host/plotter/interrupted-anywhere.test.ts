@@ -28,8 +28,10 @@ const SAMPLES = [
   "three-colour-hills",
   "whirling-triangles",
 ];
-const DRAWINGS: readonly (readonly [string, () => StrokeSet])[] = [
-  ...Object.entries(RETRACED_DRAWINGS).map(([name, strokes]) => [name, () => strokes] as const),
+const DRAWINGS: readonly (readonly [string, () => Promise<StrokeSet>])[] = [
+  ...Object.entries(RETRACED_DRAWINGS).map(
+    ([name, strokes]) => [name, () => Promise.resolve(strokes)] as const,
+  ),
   ...SAMPLES.map((name) => [name, () => sampleStrokes(name)] as const),
 ];
 /** On each drawing. */
@@ -127,13 +129,14 @@ describe.each(["2.8.1", "3.0.3"])(
 
 describe.each(["2.8.1", "3.0.3"])("a plot on firmware %s that is interrupted at any instant", (firmware) => {
   it.each(DRAWINGS)("leaves out nothing of %s", { timeout: 300_000 }, async (_, strokes) => {
-    const found = await interruptedAnywhere(strokes(), DEFAULT_PLOT_SETTINGS, firmware);
+    const found = await interruptedAnywhere(await strokes(), DEFAULT_PLOT_SETTINGS, firmware);
     check(found, DEFAULT_PLOT_SETTINGS, UNSEEN_MM);
   });
 
   it.each(DRAWINGS.slice(0, IS_FULL ? undefined : 3))(
     "leaves out nothing of %s in shaped motion",
     { timeout: 300_000 },
-    async (_, strokes) => check(await interruptedAnywhere(strokes(), SHAPED, firmware), SHAPED, SHAPED_MM),
+    async (_, strokes) =>
+      check(await interruptedAnywhere(await strokes(), SHAPED, firmware), SHAPED, SHAPED_MM),
   );
 });

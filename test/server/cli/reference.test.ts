@@ -31,15 +31,11 @@ vi.mock("../../../server/serial/find-boards.js", () => ({ findBoards: () => Prom
 vi.mock("../../../server/cli/plan/plan-thread.js", async () => {
   const { runPlan } = await import("../../../server/cli/plan/plan.js");
   const runPlanInThread = ({ file, settings, options }: PlanThreadInput, io: PlanOutput): Promise<void> =>
-    new Promise((resolve) => {
-      resolve(
-        runPlan(file, settings, options, {
-          out: (text) => io.out(text),
-          err: () => undefined,
-          imported: () => undefined,
-          begin: () => undefined,
-        }),
-      );
+    runPlan(file, settings, options, {
+      out: (text) => io.out(text),
+      err: () => undefined,
+      imported: () => undefined,
+      begin: () => undefined,
     });
   return { runPlanInThread };
 });

@@ -32,11 +32,11 @@ describe("lines that a program computes", () => {
     expect([size.scaleX, size.scaleY, size.turnedDeg]).toEqual([1, 1, 0]);
   });
 
-  it("are placed, repeated and cut like the lines of a drawing of the paper's size", () => {
+  it("are placed, repeated and cut like the lines of a drawing of the paper's size", async () => {
     const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="148mm" viewBox="0 0 210 148" fill="none" stroke="black"><path d="M200 100H210"/><path d="M10 10H20V15"/></svg>`;
     const settings = { paper: PAPER_SIZES.A5, marginMm: 12, clipToMargins: true, rotateDeg: 90 };
     const ofLines = prepare([FAR, NEAR], settings);
-    const ofDrawing = prepare(importSvg(svg), settings);
+    const ofDrawing = prepare(await importSvg(svg), settings);
     expect(pointsOf(ofLines.strokes)).toEqual(pointsOf(ofDrawing.strokes));
     expect(ofLines.warnings).toEqual(ofDrawing.warnings);
   });

@@ -39,9 +39,9 @@ const drawing = drawingOf(
 const rounded = (set: StrokeSet): number[] => Array.from(set.xy, (v) => Math.round(v * 1000) / 1000);
 
 describe("toSvg", () => {
-  it("writes what the importer reads back as the same strokes in the same layers", () => {
+  it("writes what the importer reads back as the same strokes in the same layers", async () => {
     const { strokes } = prepare(drawing, SETTINGS);
-    const back = importSvg(toSvg(strokes, PAPER));
+    const back = await importSvg(toSvg(strokes, PAPER));
     const again = prepare(back, SETTINGS).strokes;
     expect(rounded(again)).toEqual(rounded(strokes));
     expect([...again.offsets]).toEqual([...strokes.offsets]);
@@ -58,18 +58,18 @@ describe("toSvg", () => {
     expect(svg).toContain('inkscape:label="curves"');
   });
 
-  it("writes what is on paper, in the pens' colours and widths, without their corrections", () => {
+  it("writes what is on paper, in the pens' colours and widths, without their corrections", async () => {
     const pen = { id: "p", name: "Gold", color: "#ccaa00", widthMm: 1.2, offsetXMm: 2, offsetYMm: -1 };
     const job = { ...NO_PENS, pens: [pen], layerPens: { g0: "p" }, motion: DEFAULT_MOTION, pen: DEFAULT_PEN };
     const askew = prepare(drawing, prepareSettingsOf({ ...job, prepare: SETTINGS }));
-    const back = prepare(importSvg(toSvg(askew.strokes, svgOptionsOf(askew, job))), SETTINGS).strokes;
+    const back = prepare(await importSvg(toSvg(askew.strokes, svgOptionsOf(askew, job))), SETTINGS).strokes;
     expect(rounded(back)).toEqual(rounded(prepare(drawing, SETTINGS).strokes));
     expect(back.layers[0]).toMatchObject({ name: '1 <red> & "hot"', color: "#ccaa00" });
     expect(toJson(askew.strokes, PAPER)).toEqual(toJson(prepare(drawing, SETTINGS).strokes, PAPER));
   });
 
-  it("writes an empty page for no strokes", () => {
-    expect(importSvg(toSvg(strokeSetOf([]), PAPER)).paths.count).toBe(0);
+  it("writes an empty page for no strokes", async () => {
+    expect((await importSvg(toSvg(strokeSetOf([]), PAPER))).paths.count).toBe(0);
   });
 });
 
@@ -82,10 +82,10 @@ describe("toJson", () => {
     expect(JSON.parse(JSON.stringify(json))).toEqual(json);
   });
 
-  it("is read back as the same strokes in the same layers", () => {
+  it("is read back as the same strokes in the same layers", async () => {
     const { strokes } = prepare(drawing, SETTINGS);
     const back = prepare(
-      importDrawing("plot.json", JSON.stringify(toJson(strokes, PAPER))),
+      await importDrawing("plot.json", JSON.stringify(toJson(strokes, PAPER))),
       SETTINGS,
     ).strokes;
     expect(rounded(back)).toEqual(rounded(strokes));

@@ -23,11 +23,12 @@ const REPORTED: Record<string, string> = {
 };
 
 /** The codes for an element of this name beside a line. */
-const codesOf = (tag: string): string[] => codes(draw(`${LINE}<${tag} width="5" height="5" href="#none"/>`));
+const codesOf = async (tag: string): Promise<string[]> =>
+  codes(await draw(`${LINE}<${tag} width="5" height="5" href="#none"/>`));
 
 describe("elements", () => {
-  it.each(INVISIBLE.trim().split(/\s+/))("%s draws nothing and needs no warning", (tag) => {
-    expect(codesOf(tag)).toEqual([]);
+  it.each(INVISIBLE.trim().split(/\s+/))("%s draws nothing and needs no warning", async (tag) => {
+    expect(await codesOf(tag)).toEqual([]);
   });
 
   it.each(
@@ -37,25 +38,25 @@ describe("elements", () => {
         .split(/\s+/)
         .map((tag) => [tag, code]),
     ),
-  )("%s is reported as %s", (tag, code) => {
-    expect(codesOf(tag)).toEqual([code]);
+  )("%s is reported as %s", async (tag, code) => {
+    expect(await codesOf(tag)).toEqual([code]);
   });
 
-  it.each(DRAWN.split(" "))("%s is drawn", (tag) => {
-    expect(codesOf(tag).filter((code) => code !== "reference-missing")).toEqual([]);
+  it.each(DRAWN.split(" "))("%s is drawn", async (tag) => {
+    expect((await codesOf(tag)).filter((code) => code !== "reference-missing")).toEqual([]);
   });
 
-  it("that are empty are reported for a filter, which can paint by itself", () => {
-    expect(codes(draw(`${LINE}<g filter="url(#f)"/><g opacity=".5"/>`))).toEqual(["filter-ignored"]);
+  it("that are empty are reported for a filter, which can paint by itself", async () => {
+    expect(codes(await draw(`${LINE}<g filter="url(#f)"/><g opacity=".5"/>`))).toEqual(["filter-ignored"]);
   });
 
-  it("that stack accents on a letter are reported", () => {
-    expect(codes(draw('<text x="9" y="9">a\u0301\u0302\u0303</text>'))).toContain("text-style-ignored");
-    expect(codes(draw('<text x="9" y="9">a\u0301\u0302b</text>'))).not.toContain("text-style-ignored");
+  it("that stack accents on a letter are reported", async () => {
+    expect(codes(await draw('<text x="9" y="9">a\u0301\u0302\u0303</text>'))).toContain("text-style-ignored");
+    expect(codes(await draw('<text x="9" y="9">a\u0301\u0302b</text>'))).not.toContain("text-style-ignored");
   });
 
-  it("in a text are reported, too", () => {
-    expect(codes(draw('<text x="9" y="9">a<tref href="#x"/></text>'))).toEqual([
+  it("in a text are reported, too", async () => {
+    expect(codes(await draw('<text x="9" y="9">a<tref href="#x"/></text>'))).toEqual([
       "text-substituted",
       "text-not-drawn",
     ]);
@@ -87,11 +88,11 @@ describe("properties", () => {
     expect(ALL.split(/\s+/).filter((property) => !known.has(property))).toEqual([]);
   });
 
-  it.each([...NOT_DRAWN_PROPERTIES])("%s is reported as %s", (property, code) => {
-    const styled = (style: string): string[] => codes(draw(`<g ${style}>${LINE}</g>`));
-    expect(styled(`style="${property}:some 3px value"`)).toEqual([code]);
-    expect(styled(`${property}="some"`)).toEqual([code]);
-    expect(styled(`style="${property}:none"`)).toEqual([]);
+  it.each([...NOT_DRAWN_PROPERTIES])("%s is reported as %s", async (property, code) => {
+    const styled = async (style: string): Promise<string[]> => codes(await draw(`<g ${style}>${LINE}</g>`));
+    expect(await styled(`style="${property}:some 3px value"`)).toEqual([code]);
+    expect(await styled(`${property}="some"`)).toEqual([code]);
+    expect(await styled(`style="${property}:none"`)).toEqual([]);
   });
 
   it.each([
@@ -111,8 +112,8 @@ describe("properties", () => {
     ['font-size="2ex"', "length-approximate"],
     ['stroke="url(#none)"', "paint-missing"],
     ['transform="rotate3d(1 1 1 45deg)"', "attribute-fault"],
-  ])("%s is reported as %s", (attributes, code) => {
-    expect(codes(draw(`<path d="M10 10H50" ${attributes}/>`))).toContain(code);
+  ])("%s is reported as %s", async (attributes, code) => {
+    expect(codes(await draw(`<path d="M10 10H50" ${attributes}/>`))).toContain(code);
   });
 
   it.each([
@@ -120,24 +121,24 @@ describe("properties", () => {
     ["background:url(a.png)", ["effect-ignored"]],
     ["background:#fff", []],
     ["background-color:transparent", []],
-  ])("%s on the outermost element is reported as %j", (style, expected) => {
-    expect(codes(importSvg(page(LINE, `style="${style}"`)))).toEqual(expected);
+  ])("%s on the outermost element is reported as %j", async (style, expected) => {
+    expect(codes(await importSvg(page(LINE, `style="${style}"`)))).toEqual(expected);
   });
 
-  it("with a length relative to a font's letters are named, with a count", () => {
-    const [{ code, message }] = draw('<rect width="3ch" height="2" x="-1.5ex"/>'.repeat(2)).warnings;
+  it("with a length relative to a font's letters are named, with a count", async () => {
+    const [{ code, message }] = (await draw('<rect width="3ch" height="2" x="-1.5ex"/>'.repeat(2))).warnings;
     expect(code).toBe("length-approximate");
     expect(message).toMatch(/^2 lengths are in ex or ch/);
   });
 
-  it("with a length of an unknown unit are named", () => {
-    const [{ code, message }] = draw(`${LINE}<rect width="3lh" height="2"/>`).warnings;
+  it("with a length of an unknown unit are named", async () => {
+    const [{ code, message }] = (await draw(`${LINE}<rect width="3lh" height="2"/>`)).warnings;
     expect(code).toBe("attribute-fault");
     expect(message).toContain('"3lh" is not a length');
   });
 
-  it("are not reported for solid colours, nor where nothing is drawn", () => {
-    expect(codes(draw(`<g opacity="1" fill-opacity="100%">${LINE}</g><g opacity=".5"/>`))).toEqual([]);
+  it("are not reported for solid colours, nor where nothing is drawn", async () => {
+    expect(codes(await draw(`<g opacity="1" fill-opacity="100%">${LINE}</g><g opacity=".5"/>`))).toEqual([]);
   });
 });
 
@@ -149,16 +150,16 @@ describe("colours", () => {
     ["oklch(60% 0.15 50)", "#c46016"],
     ["color(display-p3 1 0.5 0)", "#ff7600"],
     ["color(srgb 1 0 0)", "#ff0000"],
-  ])("%s is %s", (color, hex) => {
-    expect(draw(`<path d="M0 0H9" stroke="${color}"/>`).colors).toEqual([hex]);
+  ])("%s is %s", async (color, hex) => {
+    expect((await draw(`<path d="M0 0H9" stroke="${color}"/>`)).colors).toEqual([hex]);
   });
 });
 
 describe("markers", () => {
-  it("are drawn at a path that only moves, and at one that turns back", () => {
+  it("are drawn at a path that only moves, and at one that turns back", async () => {
     const marker =
       '<marker id="m" markerUnits="userSpaceOnUse" overflow="visible"><path d="M0 0H1"/></marker>';
-    const drawing = draw(`${marker}<path d="M5 5" marker-start="url(#m)"/>`);
+    const drawing = await draw(`${marker}<path d="M5 5" marker-start="url(#m)"/>`);
     expect([...drawing.paths.coords]).toEqual([5, 5, 6, 5]);
     expect(codes(drawing)).toEqual([]);
   });
@@ -166,24 +167,24 @@ describe("markers", () => {
   it.each([
     ['<svg overflow="visible">', "</svg>"],
     ["<g>", "</g>"],
-  ])("inherit overflow from %s", (open, close) => {
+  ])("inherit overflow from %s", async (open, close) => {
     const body = `${open}<marker id="m" overflow="inherit"><path d="M-9 0H1"/></marker>${close}<path d="M5 5H9" marker-end="url(#m)"/>`;
-    expect([...draw(body).paths.clip]).toEqual([-1, -1]);
+    expect([...(await draw(body)).paths.clip]).toEqual([-1, -1]);
   });
 });
 
 describe("references that lead nowhere", () => {
-  it("from a gradient to something else leave it without colours", () => {
+  it("from a gradient to something else leave it without colours", async () => {
     const stops = '<rect id="r"><stop stop-color="red"/></rect><linearGradient id="g" href="#r"/>';
-    expect(draw(`<defs>${stops}</defs><path d="M0 0H9V9z" stroke="none" fill="url(#g)"/>`).paths.count).toBe(
-      0,
-    );
+    expect(
+      (await draw(`<defs>${stops}</defs><path d="M0 0H9V9z" stroke="none" fill="url(#g)"/>`)).paths.count,
+    ).toBe(0);
   });
 
-  it("from a clip to itself are dropped and reported", () => {
+  it("from a clip to itself are dropped and reported", async () => {
     const clips = `<clipPath id="a"><rect width="30" height="30" clip-path="url(#b)"/></clipPath>
       <clipPath id="b"><rect x="5" width="30" height="30" clip-path="url(#a)"/></clipPath>`;
-    const drawing = draw(`${clips}<path d="M0 5H90" clip-path="url(#a)"/>`);
+    const drawing = await draw(`${clips}<path d="M0 5H90" clip-path="url(#a)"/>`);
     expect(codes(drawing)).toEqual(["clip-ignored"]);
     const xs = drawing.clips[0].coords.filter((_, i) => i % 2 === 0);
     expect([Math.min(...xs), Math.max(...xs)]).toEqual([5, 30]);

@@ -82,7 +82,7 @@ const PLAN_ALL = {
   board: { steps1: 0, steps2: 0, acc1: 0, acc2: 0 },
 };
 
-it(`damaged DXF and HPGL never crash, hang, or return a NaN, ${CASES} times`, () => {
+it(`damaged DXF and HPGL never crash, hang, or return a NaN, ${CASES} times`, async () => {
   const drawn = FILES.map(() => 0);
   for (let i = FIRST; i < FIRST + CASES; i++) {
     const [name, file] = FILES[i % FILES.length];
@@ -90,7 +90,7 @@ it(`damaged DXF and HPGL never crash, hang, or return a NaN, ${CASES} times`, ()
     let drawing: Drawing;
     try {
       const mark = process.cpuUsage();
-      drawing = endWhenOver(HANGS_MS, () => importDrawing(name, text));
+      drawing = await endWhenOver(HANGS_MS, () => importDrawing(name, text));
       const { paths, widthMm, heightMm } = drawing;
       expect(cpuS(mark), text).toBeLessThan(LONGEST_S);
       expect([...paths.coords, ...paths.strokeWidth].every(Number.isFinite), text).toBe(true);
@@ -103,7 +103,7 @@ it(`damaged DXF and HPGL never crash, hang, or return a NaN, ${CASES} times`, ()
     }
     if (Math.floor(i / FILES.length) % PLANNED_EACH !== 0) continue;
     try {
-      endWhenOver(HANGS_MS, () => {
+      await endWhenOver(HANGS_MS, () => {
         const { prepared } = prepareJob(drawing, DEFAULT_PLOT_SETTINGS, machine);
         planAndCompile(prepared, PLAN_ALL, machine);
       });

@@ -23,7 +23,7 @@ import { tipMarks } from "../../support/drawings/tip-marks.js";
 
 const machine = machineById("axidraw-v3");
 const pen = penOfSheet(DEFAULT_PEN);
-const prepared = prepare(importSvg(penSheet()), { ...DEFAULT_PREPARE, fit: false, order: "none" });
+const prepared = prepare(await importSvg(penSheet()), { ...DEFAULT_PREPARE, fit: false, order: "none" });
 
 describe("the pen sheet", () => {
   it("has one line for each wait, below its number, on a page of the stated size", () => {

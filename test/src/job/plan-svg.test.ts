@@ -20,16 +20,16 @@ const svg = (path: string): string =>
 const SVG = svg("M10 30H90M20 10V50");
 
 describe("without settings", () => {
-  it("prepare and plan use the defaults", () => {
-    const drawing = importSvg(SVG);
+  it("prepare and plan use the defaults", async () => {
+    const drawing = await importSvg(SVG);
     expect(prepare(drawing)).toEqual(prepare(drawing, DEFAULT_PREPARE));
     const { strokes } = prepare(drawing);
     expect(plan(strokes).totalS).toBe(plan(strokes, DEFAULT_MOTION, DEFAULT_PEN).totalS);
   });
 
-  it("planSvg gives the same plan as the single steps", () => {
-    const planned = planSvg(SVG);
-    const prepared = prepare(importSvg(SVG), DEFAULT_PREPARE);
+  it("planSvg gives the same plan as the single steps", async () => {
+    const planned = await planSvg(SVG);
+    const prepared = prepare(await importSvg(SVG), DEFAULT_PREPARE);
     const steps = planJob(prepared, DEFAULT_PLOT_SETTINGS, machineById("axidraw-v3"));
     expect(planned.commands()).toEqual(steps.commands());
     expect(planned.warnings).toEqual([]);
@@ -37,16 +37,18 @@ describe("without settings", () => {
 });
 
 describe("planSvg", () => {
-  it("takes a job's whole settings, with a custom machine", () => {
+  it("takes a job's whole settings, with a custom machine", async () => {
     const mine = { ...machineById("axidraw-v3"), id: "mine", widthMm: 20 };
     const settings = { ...DEFAULT_PLOT_SETTINGS, machine: "mine", customMachine: mine };
-    expect(() => planSvg(SVG, settings)).toThrow(expect.objectContaining({ code: "out-of-bounds" }) as Error);
+    await expect(planSvg(SVG, settings)).rejects.toThrow(
+      expect.objectContaining({ code: "out-of-bounds" }) as Error,
+    );
     const firmware = "3.0.3";
-    expect(planSvg(SVG, DEFAULT_PLOT_SETTINGS, { firmware }).commands().count).toBeGreaterThan(4);
+    expect((await planSvg(SVG, DEFAULT_PLOT_SETTINGS, { firmware })).commands().count).toBeGreaterThan(4);
   });
 
-  it("reports that there is nothing to draw", () => {
-    expect(() => planSvg(svg(""))).toThrow(expect.objectContaining({ code: "bad-file" }) as Error);
+  it("reports that there is nothing to draw", async () => {
+    await expect(planSvg(svg(""))).rejects.toThrow(expect.objectContaining({ code: "bad-file" }) as Error);
   });
 });
 

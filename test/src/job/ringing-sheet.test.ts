@@ -17,10 +17,14 @@ import {
 } from "../../../src/job/ringing-sheet.js";
 import { swingPen } from "../../../src/plan/simulate/spring-pen.js";
 
-describe("the ringing sheet", () => {
+describe("the ringing sheet", async () => {
   const springs = { xHz: 14, yHz: 23, damping: 0.05 };
   const machine = { ...machineById("axidraw-v3"), springs };
-  const prepared = prepare(importSvg(ringingSheet()), { ...DEFAULT_PREPARE, fit: false, order: "none" });
+  const prepared = prepare(await importSvg(ringingSheet()), {
+    ...DEFAULT_PREPARE,
+    fit: false,
+    order: "none",
+  });
   const { trajectory } = planJob(prepared, { motion: RINGING_MOTION, pen: DEFAULT_PEN }, machine);
 
   it("draws each figure at its speed", () => {
@@ -72,10 +76,10 @@ describe("the ringing sheet", () => {
     expect(() => frequencyOfRipples(30, 500, 10)).toThrow(/1500 Hz.*2 to 200 Hz/);
   });
 
-  it("has a second sheet with a figure without shaping and one for each of five factors", () => {
+  it("has a second sheet with a figure without shaping and one for each of five factors", async () => {
     const checks = ringingChecks(springs);
     expect(checks.map(({ factor }) => factor)).toEqual([null, 0.8, 0.9, 1, 1.1, 1.25]);
     expect(checks[1].springs?.xHz).toBeCloseTo(11.2, 9);
-    expect(importSvg(checks[0].svg).warnings).toEqual([]);
+    expect((await importSvg(checks[0].svg)).warnings).toEqual([]);
   });
 });

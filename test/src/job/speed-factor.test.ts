@@ -47,8 +47,8 @@ function speedsOf(
   return tops;
 }
 
-describe("data-plotwright-speed", () => {
-  const drawing = importSvg(
+describe("data-plotwright-speed", async () => {
+  const drawing = await importSvg(
     svg(`<path d="M10 10h100"/>
       <g data-plotwright-speed="0.5"><path d="M10 20h100"/><path d="M10 30h100" data-plotwright-speed="0.2"/>
         <g><path d="M10 40h100" data-plotwright-speed="1"/><path d="M10 50h100"/></g></g>`),
@@ -63,8 +63,9 @@ describe("data-plotwright-speed", () => {
     expect(speedsOf(strokes)).toEqual([50, 50, 25, 25, 10]);
   });
 
-  it("changes the time of the plan", () => {
-    const one = (attribute: string) => strokesOf(importSvg(svg(`<path d="M10 10h100"${attribute}/>`)));
+  it("changes the time of the plan", async () => {
+    const one = async (attribute: string) =>
+      strokesOf(await importSvg(svg(`<path d="M10 10h100"${attribute}/>`)));
     const drawS = (strokes: StrokeSet): number => {
       const job = planJob(
         { strokes },
@@ -74,25 +75,27 @@ describe("data-plotwright-speed", () => {
       return job.trajectory.totalS;
     };
     // 100 mm at 50 mm/s and 500 mm/s² take 2.1 s, at 25 mm/s 4.05 s.
-    expect(drawS(one(' data-plotwright-speed="0.5"')) - drawS(one(""))).toBeCloseTo(1.95, 6);
+    expect(drawS(await one(' data-plotwright-speed="0.5"')) - drawS(await one(""))).toBeCloseTo(1.95, 6);
   });
 
-  it.each(["fast", "", "0", "2", "-1"])("%j is ignored, with a warning that names it", (value) => {
-    const { warnings, paths } = importSvg(svg(`\n<path d="M10 10h100" data-plotwright-speed="${value}"/>`));
+  it.each(["fast", "", "0", "2", "-1"])("%j is ignored, with a warning that names it", async (value) => {
+    const { warnings, paths } = await importSvg(
+      svg(`\n<path d="M10 10h100" data-plotwright-speed="${value}"/>`),
+    );
     expect(paths.speedFactor).toBeUndefined();
     expect(warnings).toHaveLength(1);
     expect(warnings[0].code).toBe("speed-factor");
     expect(warnings[0].message).toContain(`"${value}" at line 2`);
   });
 
-  it("keeps strokes of different speeds apart where their ends meet", () => {
-    const meeting = (attribute: string) =>
-      strokesOf(importSvg(svg(`<path d="M10 10h50"/><path d="M60 10h50"${attribute}/>`)), {
+  it("keeps strokes of different speeds apart where their ends meet", async () => {
+    const meeting = async (attribute: string) =>
+      strokesOf(await importSvg(svg(`<path d="M10 10h50"/><path d="M60 10h50"${attribute}/>`)), {
         ...SETTINGS,
         joinMm: 0.5,
       });
-    expect(meeting("").offsets).toHaveLength(2);
-    expect(factorsOf(meeting(' data-plotwright-speed="0.5"'))).toEqual([1, 0.5]);
+    expect((await meeting("")).offsets).toHaveLength(2);
+    expect(factorsOf(await meeting(' data-plotwright-speed="0.5"'))).toEqual([1, 0.5]);
   });
 
   it("stays with each stroke where a layer is split to take up ink", () => {
@@ -104,19 +107,19 @@ describe("data-plotwright-speed", () => {
     expect(slowMm.reduce((sum, mm) => sum + mm, 0)).toBeCloseTo(100, 6);
   });
 
-  it("is read back from JSON and SVG", () => {
+  it("is read back from JSON and SVG", async () => {
     const strokes = strokesOf(drawing, { ...SETTINGS, layers: "all" });
     const size = { widthMm: 200, heightMm: 100 };
     const texts = { "a.json": JSON.stringify(toJson(strokes, size)), "a.svg": toSvg(strokes, size) };
     for (const [name, text] of Object.entries(texts)) {
-      const back = importDrawing(name, text);
+      const back = await importDrawing(name, text);
       expect(factorsOf(strokesOf(back, { ...SETTINGS, layers: "all" }))).toEqual(factorsOf(strokes));
     }
   });
 
-  it("is named in an error if it is wrong in JSON", () => {
+  it("is named in an error if it is wrong in JSON", async () => {
     const text = '{"widthMm":100,"heightMm":100,"layers":[{"strokes":[[1,1,9,9]],"speedFactors":[7]}]}';
-    const { warnings } = importDrawing("a.json", text);
+    const { warnings } = await importDrawing("a.json", text);
     expect(warnings[0].message).toContain('"7" of stroke 1 of layer 1');
   });
 
@@ -126,8 +129,8 @@ describe("data-plotwright-speed", () => {
   });
 });
 
-describe("the layer code +v", () => {
-  const drawing = importSvg(
+describe("the layer code +v", async () => {
+  const drawing = await importSvg(
     svg(`<g id="a" data-name="1 outline"><path d="M10 10h100"/></g>
       <g id="b" data-name="2+v50 shade"><path d="M10 20h100"/></g>
       <g id="c" data-name="3+s25+v50 fine"><path d="M10 30h100"/></g>`),

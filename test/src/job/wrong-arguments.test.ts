@@ -12,7 +12,7 @@ const { DEFAULT_MOTION, DEFAULT_PEN, DEFAULT_PREPARE, PAPER_SIZES, importSvg, pl
 
 const svg =
   '<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="50mm"><path d="M1 1H90" stroke="red"/></svg>';
-const drawing = importSvg(svg);
+const drawing = await importSvg(svg);
 const prepared = prepare(drawing);
 const { strokes } = prepared;
 const trajectory = plan(strokes);
@@ -43,6 +43,7 @@ const MISTAKES: readonly (readonly [
     ['"outlines"', "outline"],
   ],
   ["a font's bytes", () => call.importSvg(svg, { font: new Uint8Array(9) }), TypeError, ["openOutlineFont"]],
+  ["a drawing that is not awaited", () => call.prepare(importSvg(svg)), TypeError, ["await it"]],
   ["text for a drawing", () => call.prepare(svg), TypeError, ["the drawing is", "importSvg"]],
   [
     "a paper's name",
@@ -159,10 +160,10 @@ const MISTAKES: readonly (readonly [
 ];
 
 describe("a wrong argument", () => {
-  it.each(MISTAKES)("is named in the message: %s", (_name, mistake, kind, words) => {
+  it.each(MISTAKES)("is named in the message: %s", async (_name, mistake, kind, words) => {
     let error: unknown = null;
     try {
-      mistake();
+      await mistake();
     } catch (thrown) {
       error = thrown;
     }

@@ -56,8 +56,8 @@ describe("mm along the drawing on smooth lines", () => {
     ["three-colour-hills", "merged", DEFAULT_MOTION.fit, 0.1],
     ["flower-meadow", "not merged", null, 0.03],
     ["harmonograph", "merged", DEFAULT_MOTION.fit, 0.1],
-  ] as const)("match the pen's position on %s, %s", (name, _, fit, withinMm) => {
-    const strokes = sampleStrokes(name);
+  ] as const)("match the pen's position on %s, %s", async (name, _, fit, withinMm) => {
+    const strokes = await sampleStrokes(name);
     const trajectory = plan(strokes, { ...DEFAULT_MOTION, fit }, DEFAULT_PEN);
     const state = newMotionState();
     const { runs, startS } = trajectory;

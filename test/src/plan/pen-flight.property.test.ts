@@ -219,8 +219,8 @@ const EXTREMES: readonly TipServo[] = [
   { speed: 0.8, phaseMs: 23, contact: 0.45 },
 ].slice(0, cases(4, 2));
 
-describe.each(samples)("the sample %s", (name) => {
-  const strokes = sampleStrokes(name);
+describe.each(samples)("the sample %s", async (name) => {
+  const strokes = await sampleStrokes(name);
   const jobs = (["safe", "fast"] as const).map((overlap) => planned({ strokes, pen: penOf(overlap) }));
 
   it.each(EXTREMES)(
@@ -244,31 +244,31 @@ describe.each(samples)("the sample %s", (name) => {
 describe("the check itself", () => {
   const slow: TipServo = { speed: 0.8, phaseMs: 23, contact: 0.55 };
 
-  it("detects a planner that assumes that the tip is clear at 20 % of the lift", () => {
-    const strokes = sampleStrokes("flower-meadow");
+  it("detects a planner that assumes that the tip is clear at 20 % of the lift", async () => {
+    const strokes = await sampleStrokes("flower-meadow");
     const marks = marksOf({ strokes, pen: penOf("fast", { contactPct: 20 }) }, slow);
     expect(marks.strayMm).toBeGreaterThan(STRAY_MM);
   });
 
-  it("detects a servo that is slower than the planner allows for", () => {
-    const strokes = sampleStrokes("flower-meadow");
+  it("detects a servo that is slower than the planner allows for", async () => {
+    const strokes = await sampleStrokes("flower-meadow");
     const marks = marksOf({ strokes, pen: penOf("fast") }, { ...slow, speed: 0.6 });
     expect(marks.strayMm + marks.lateMm).toBeGreaterThan(STRAY_MM);
   });
 
-  it("finds nothing where the carriage waits for the pen", () => {
-    const strokes = sampleStrokes("hello-paper");
+  it("finds nothing where the carriage waits for the pen", async () => {
+    const strokes = await sampleStrokes("hello-paper");
     const marks = marksOf({ strokes, pen: penOf("off") }, { speed: 1, phaseMs: 23, contact: 0.5 });
     expect(marks.strayMm).toBeLessThan(1e-9);
     expect([marks.lateMm, marks.brokenCount]).toEqual([0, 0]);
   });
 });
 
-it("the samples take the time that the servo of their machine needs", () => {
-  const secondsOf = (name: string, machine: string): number =>
-    plan(sampleStrokes(name), DEFAULT_MOTION, DEFAULT_PEN, { machine: machineById(machine) }).totalS;
-  expect(secondsOf("moonrise", "axidraw-v3")).toBeLessThanOrEqual(3_660);
-  expect(secondsOf("moonrise", "nextdraw-8511")).toBeLessThanOrEqual(2_530);
-  expect(secondsOf("hello-paper", "axidraw-v3")).toBeLessThanOrEqual(445);
-  expect(secondsOf("hello-paper", "nextdraw-8511")).toBeLessThanOrEqual(342);
+it("the samples take the time that the servo of their machine needs", async () => {
+  const secondsOf = async (name: string, machine: string): Promise<number> =>
+    plan(await sampleStrokes(name), DEFAULT_MOTION, DEFAULT_PEN, { machine: machineById(machine) }).totalS;
+  expect(await secondsOf("moonrise", "axidraw-v3")).toBeLessThanOrEqual(3_660);
+  expect(await secondsOf("moonrise", "nextdraw-8511")).toBeLessThanOrEqual(2_530);
+  expect(await secondsOf("hello-paper", "axidraw-v3")).toBeLessThanOrEqual(445);
+  expect(await secondsOf("hello-paper", "nextdraw-8511")).toBeLessThanOrEqual(342);
 });

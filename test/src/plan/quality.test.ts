@@ -12,7 +12,7 @@ import { sampleStrokes } from "../../support/drawings/sample-strokes.js";
 
 const DRAWINGS: readonly StrokeSet[] = [
   ...Object.values(FIGURES),
-  ...(["hello-paper", "three-colour-hills", "whirling-triangles"] as const).map(sampleStrokes),
+  ...(await Promise.all(["hello-paper", "three-colour-hills", "whirling-triangles"].map(sampleStrokes))),
 ];
 
 const motionS = ({ durationS, blockCount }: Trajectory): number =>

@@ -17,8 +17,8 @@ const CASES = MOTION_MODES.flatMap((mode) => [
   { name: `${mode}, fitted`, mode, fit: DEFAULT_FIT },
 ]);
 
-describe.each(samples)("the sample %s", (name) => {
-  const strokes = sampleStrokes(name);
+describe.each(samples)("the sample %s", async (name) => {
+  const strokes = await sampleStrokes(name);
 
   it.each(CASES)("is drawn within all limits and without a gap in mode $name", ({ mode, fit }) => {
     const trajectory = plan(strokes, { mode, draw, travel, fit }, DEFAULT_PEN);
@@ -42,8 +42,8 @@ describe.each(samples)("the sample %s", (name) => {
 const LONGER: Readonly<Record<string, number>> = { "three-colour-hills": 1.056, "flower-meadow": 1.021 };
 
 describe.each(samples)("the corner curves of %s", (name) => {
-  it("take at most 2 % longer than a plan whose velocity jumps, on the hills 5.6 %, on the meadow 2.1 %", () => {
-    const strokes = sampleStrokes(name);
+  it("take at most 2 % longer than a plan whose velocity jumps, on the hills 5.6 %, on the meadow 2.1 %", async () => {
+    const strokes = await sampleStrokes(name);
     const drawS = (mode: MotionMode) =>
       total(drawnDurations(plan(strokes, { mode, draw, travel, fit: null }, DEFAULT_PEN)));
     expect(drawS("blend") / drawS("junction")).toBeLessThan(LONGER[name] ?? 1.02);
@@ -56,8 +56,8 @@ describe.each([
   { name: "flower-meadow", fewer: 1.29 },
   { name: "moonrise", fewer: 1 },
 ])("merging $name", ({ name, fewer }) => {
-  it("leaves fewer blocks (of single short lines, as many) and takes at most 1 % more time", () => {
-    const strokes = sampleStrokes(name);
+  it("leaves fewer blocks (of single short lines, as many) and takes at most 1 % more time", async () => {
+    const strokes = await sampleStrokes(name);
     const drawn = (fit: typeof DEFAULT_FIT | null) =>
       drawnDurations(plan(strokes, { mode: "blend", draw, travel, fit }, DEFAULT_PEN));
     const [plain, merged] = [drawn(null), drawn(DEFAULT_FIT)];

@@ -168,8 +168,8 @@ describe("points within 1 µm of a sample's lines", () => {
   const names = IS_FULL
     ? ["flower-meadow", "three-colour-hills", "harmonograph", "whirling-triangles", "hello-paper", "moonrise"]
     : ["three-colour-hills", "flower-meadow"];
-  it.each(names)("change the time of %s by at most 0.2 % in all modes", (name) => {
-    const lines = linesOf(name);
+  it.each(names)("change the time of %s by at most 0.2 % in all modes", async (name) => {
+    const lines = await linesOf(name);
     const noisy = lines.map((line, i) => withNoise(line, 1, i));
     for (const mode of IS_FULL ? CASES : [CASES[2]]) {
       expect(Math.abs(drawS(planned(noisy, mode)) / drawS(planned(lines, mode)) - 1)).toBeLessThan(0.002);
@@ -229,8 +229,8 @@ describe("a resampled line", () => {
   });
 });
 
-function linesOf(name: string): Point[][] {
-  const { xy, offsets } = sampleStrokes(name);
+async function linesOf(name: string): Promise<Point[][]> {
+  const { xy, offsets } = await sampleStrokes(name);
   return Array.from({ length: offsets.length - 1 }, (_, stroke) =>
     Array.from({ length: offsets[stroke + 1] - offsets[stroke] }, (_, i): Point => {
       const point = offsets[stroke] + i;

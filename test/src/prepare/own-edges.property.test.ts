@@ -114,9 +114,9 @@ function otherwise(curve: readonly Cubic[], begin: number, t: number, isReversed
 const pathOf = (curve: readonly Cubic[]): string =>
   `<path d="M${curve[0][0].join(" ")}${curve.map((c) => `C${c.slice(1).flat().join(" ")}`).join("")}Z"/>`;
 
-function drawn(body: string, settings: PrepareSettings): { strokes: number; mm: number } {
+async function drawn(body: string, settings: PrepareSettings): Promise<{ strokes: number; mm: number }> {
   const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100">${body}</svg>`;
-  const { strokes, drawMm } = prepare(importSvg(svg), settings);
+  const { strokes, drawMm } = prepare(await importSvg(svg), settings);
   return { strokes: strokeCount(strokes), mm: drawMm };
 }
 
@@ -128,14 +128,14 @@ const transform = fc.option(
   { nil: "" },
 );
 
-it("draws a line whole that is clipped, masked or covered by its own shape", () => {
-  fc.assert(
-    fc.property(
+it("draws a line whole that is clipped, masked or covered by its own shape", async () => {
+  await fc.assert(
+    fc.asyncProperty(
       twins,
       fc.constantFrom(100, 30, 400),
       fc.double({ min: -0.0004, max: 0.0004, noNaN: true }),
       fc.record({ isSwapped: fc.boolean(), isDashed: fc.boolean(), map: transform }),
-      ({ line, twin, crossesItself }, paperMm, shift, { isSwapped, isDashed, map }) => {
+      async ({ line, twin, crossesItself }, paperMm, shift, { isSwapped, isDashed, map }) => {
         const settings: PrepareSettings = {
           ...DEFAULT_PREPARE,
           paper: { widthMm: paperMm, heightMm: paperMm },
@@ -167,9 +167,9 @@ it("draws a line whole that is clipped, masked or covered by its own shape", () 
         // The page's frame keeps the scale.
         const framed = (body: string): ReturnType<typeof drawn> =>
           drawn(`${body}<path d="M0 0H100V100H0Z" fill="none" stroke="black"/>`, settings);
-        const whole = framed(stroked);
+        const whole = await framed(stroked);
         for (const [kind, body] of Object.entries(bodies)) {
-          const { strokes, mm } = framed(body);
+          const { strokes, mm } = await framed(body);
           expect(`${kind}: ${strokes} strokes`).toBe(`${kind}: ${whole.strokes} strokes`);
           // The tip of a hairpin can be too thin for the units of areas.
           expect(Math.abs(mm - whole.mm)).toBeLessThan(0.1);

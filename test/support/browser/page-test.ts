@@ -187,7 +187,7 @@ export class PageTest {
   /** The strokes that a job would draw, from its own file and settings. */
   async strokesOf(job: Job): Promise<StrokeSet> {
     const text = await (await fetch(`${this.server.url}/api/v1/jobs/${job.id}/drawing`)).text();
-    return prepare(importSvg(text), prepareSettingsOf(job.settings)).strokes;
+    return prepare(await importSvg(text), prepareSettingsOf(job.settings)).strokes;
   }
 
   /** The box that a drawing queued now would cover, mm. */

@@ -109,7 +109,10 @@ export class SerialPages {
     lines: number,
   ): Promise<{ gapMm: number; overlapMm: number; isGood: boolean }> {
     const { settings } = await storedJob(page);
-    const { gapMm, overlapMm, awayMm } = compareDrawn(strokesOf(comb(lines), settings), this.board.drawn());
+    const { gapMm, overlapMm, awayMm } = compareDrawn(
+      await strokesOf(comb(lines), settings),
+      this.board.drawn(),
+    );
     expect(awayMm).toBeLessThan(MAX_OFF_MM);
     return { gapMm, overlapMm, isGood: gapMm < MAX_OFF_MM && overlapMm < MAX_OFF_MM };
   }

@@ -3,5 +3,5 @@ import { importDrawing, type StrokeSet } from "../../../src/index.js";
 import { machineOf, prepareJob } from "../../../src/internal.js";
 import type { PlotSettings } from "../../../src/schema/index.js";
 
-export const strokesOf = (text: string, settings: PlotSettings): StrokeSet =>
-  prepareJob(importDrawing("", text), settings, machineOf(settings)).prepared.strokes;
+export const strokesOf = async (text: string, settings: PlotSettings): Promise<StrokeSet> =>
+  prepareJob(await importDrawing("", text), settings, machineOf(settings)).prepared.strokes;

@@ -1,18 +1,37 @@
 /** Ends work that hangs, and measures its processor time: load on the machine makes neither fail. */
-import { runInThisContext } from "node:vm";
+import { Worker } from "node:worker_threads";
 
-const scope = globalThis as { watchedWork?: (() => unknown) | undefined };
+/** Stops what the main thread runs when the time that it was told is over. Null: it is over in time. */
+const WATCHDOG = `
+  const { Session } = require("node:inspector");
+  const { parentPort } = require("node:worker_threads");
+  const session = new Session();
+  session.connectToMainThread();
+  let timer;
+  parentPort.on("message", (limitMs) => {
+    clearTimeout(timer);
+    if (limitMs === null) return;
+    timer = setTimeout(() => {
+      session.post("Runtime.terminateExecution");
+      parentPort.postMessage("over");
+    }, limitMs);
+  });`;
 
-/**
- * Runs synchronous work; throws (ERR_SCRIPT_EXECUTION_TIMEOUT) if it is not over in time, endless loops
- * included.
- */
-export function endWhenOver<T>(limitMs: number, work: () => T): T {
-  scope.watchedWork = work;
+const watchdog = new Worker(WATCHDOG, { eval: true, execArgv: [] });
+watchdog.unref();
+
+/** Rejects if the work is not over in time, endless loops included. */
+export async function endWhenOver<T>(limitMs: number, work: () => T | Promise<T>): Promise<T> {
+  watchdog.postMessage(limitMs);
+  const over = new Promise<never>((_, reject) => {
+    watchdog.once("message", () => reject(new Error(`not over in ${limitMs} ms`)));
+  });
   try {
-    return runInThisContext("watchedWork()", { timeout: limitMs }) as T;
+    // In a job of its own: all that waits for it goes on when it is stopped.
+    return await Promise.race([Promise.resolve().then(work), over]);
   } finally {
-    scope.watchedWork = undefined;
+    watchdog.postMessage(null);
+    watchdog.removeAllListeners("message");
   }
 }
 

@@ -6,11 +6,11 @@ import { DEFAULT_PREPARE, importSvg, prepare, type StrokeSet } from "../../../sr
 
 const known = new Map<string, StrokeSet>();
 
-export function sampleStrokes(name: string): StrokeSet {
+export async function sampleStrokes(name: string): Promise<StrokeSet> {
   const before = known.get(name);
   if (before) return before;
   const text = readFileSync(path.join(ROOT, "samples", `${name}.svg`), "utf8");
-  const { strokes } = prepare(importSvg(text), { ...DEFAULT_PREPARE, fit: true });
+  const { strokes } = prepare(await importSvg(text), { ...DEFAULT_PREPARE, fit: true });
   known.set(name, strokes);
   return strokes;
 }

@@ -46,9 +46,9 @@ export function ourShapes({ paths }: Drawing): Polyline[][] {
 }
 
 /** Max distance, in both directions, shape by shape, as a fraction of the page. */
-export function disagreement(svg: string): number {
+export async function disagreement(svg: string): Promise<number> {
   const theirs = resvgShapes(svg);
-  const ours = ourShapes(importSvg(svg));
+  const ours = ourShapes(await importSvg(svg));
   expect(ours.length).toBe(theirs.shapes.length);
   const side = Math.max(theirs.width, theirs.height);
   return Math.max(

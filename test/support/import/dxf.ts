@@ -22,13 +22,13 @@ export const boxes: TextFont = {
 };
 
 /** Groups as "code value" lines, so that values may have spaces. */
-export function drawDxf(entities: string, options: ImportOptions = {}, blocks = ""): Drawing {
+export async function drawDxf(entities: string, options: ImportOptions = {}, blocks = ""): Promise<Drawing> {
   const lines = [
     "0 SECTION\n2 HEADER\n9 $INSUNITS\n70 4\n0 ENDSEC",
     ...(blocks === "" ? [] : [`0 SECTION\n2 BLOCKS\n${blocks}\n0 ENDSEC`]),
     `0 SECTION\n2 ENTITIES\n${FRAME}\n${entities}\n0 ENDSEC\n0 EOF`,
   ];
-  return importDrawing("a.dxf", lines.join("\n").replace(/^(\d+) /gm, "$1\n"), options);
+  return await importDrawing("a.dxf", lines.join("\n").replace(/^(\d+) /gm, "$1\n"), options);
 }
 
 interface DxfParts {
@@ -41,7 +41,7 @@ interface DxfParts {
 export const drawParts = (
   entities: string,
   { header = "", tables = "", blocks = "" }: DxfParts = {},
-): Drawing =>
+): Promise<Drawing> =>
   importDrawing(
     "a.dxf",
     [

@@ -27,10 +27,11 @@ export function shapesOf({ paths }: Drawing): string[] {
   });
 }
 
-export const draw = (body: string, options?: ImportOptions): Drawing => importSvg(page(body), options);
+export const draw = (body: string, options?: ImportOptions): Promise<Drawing> =>
+  importSvg(page(body), options);
 
 /** The shapes of a body on the 100 mm page. */
-export const shapes = (body: string): string[] => shapesOf(draw(body));
+export const shapes = async (body: string): Promise<string[]> => shapesOf(await draw(body));
 
 export const codes = (drawing: Drawing): string[] => drawing.warnings.map((warning) => warning.code);
 
@@ -61,8 +62,8 @@ export function pointsOf({ paths }: Drawing, index = 0): [number, number][] {
 }
 
 /** The clips of the first shape, from the outermost in, as the numbers of their outlines. */
-export function clipsOf(body: string): number[][] {
-  const { paths, clips } = draw(body);
+export async function clipsOf(body: string): Promise<number[][]> {
+  const { paths, clips } = await draw(body);
   const chain: number[][] = [];
   for (let at = paths.clip[0]; at >= 0; at = clips[at].parent) {
     chain.unshift(Array.from(clips[at].coords, (mm) => Math.round(mm * 1e4) / 1e4));

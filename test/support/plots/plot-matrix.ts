@@ -55,8 +55,8 @@ export interface MatrixRow {
 }
 
 const MACHINE = machineById("axidraw-v3");
-const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: SegmentGrid } => {
-  const strokes = sampleStrokes(sample);
+const strokesOf = remembered(async (sample: Sample): Promise<{ strokes: StrokeSet; grid: SegmentGrid }> => {
+  const strokes = await sampleStrokes(sample);
   const grid = new SegmentGrid(0.5);
   for (let i = 0; i + 1 < strokes.offsets.length; i++) {
     grid.addPolyline(strokes.xy, 2 * strokes.offsets[i], 2 * strokes.offsets[i + 1]);
@@ -65,15 +65,15 @@ const strokesOf = remembered((sample: Sample): { strokes: StrokeSet; grid: Segme
 });
 
 /** Plots a sample that many times in a row, without homing in between. */
-export function plotOften(
+export async function plotOften(
   sample: Sample,
   firmware: Firmware,
   mode: MotionMode,
   plots: number,
   /** Default: as the firmware is known to have. */
   idleTicksTimed?: number,
-): MatrixRow {
-  const { strokes, grid } = strokesOf(sample);
+): Promise<MatrixRow> {
+  const { strokes, grid } = await strokesOf(sample);
   const motion = motionForFirmware({ ...DEFAULT_MOTION, mode }, firmware);
   const trajectory = plan(strokes, motion, DEFAULT_PEN, { machine: MACHINE });
   const fast = new FastBoard(

@@ -157,16 +157,19 @@ describe("a preset", () => {
 describe("the alignment mark", () => {
   const pen = { ...addPen(DEFAULTS, { name: "Brush" }).pens[0], offsetXMm: 1.5, offsetYMm: -0.5 };
 
-  it.each(CORNERS)("is a cross at the %s, drawn with the pen's own correction and no stop", (corner) => {
-    const placed = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, rotateDeg: 33, marginMm: 40 } };
-    const job = alignmentJob(placed, pen, corner, "Mark");
-    expect(newJobSchema.safeParse(job).success).toBe(true);
-    const { strokes } = prepare(importSvg(job.drawing), prepareSettingsOf(job.settings));
-    const { xMm, yMm } = markPlace(placed, corner);
-    const [x, y] = [xMm - 1.5, yMm + 0.5];
-    const expected = [x - 5, y, x + 5, y, x, y - 5, x, y + 5];
-    expect(strokes.xy.length).toBe(expected.length);
-    expected.forEach((value, k) => expect(strokes.xy[k]).toBeCloseTo(value, 6));
-    expect(penStopsOf(strokes, job.settings)).toEqual([]);
-  });
+  it.each(CORNERS)(
+    "is a cross at the %s, drawn with the pen's own correction and no stop",
+    async (corner) => {
+      const placed = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, rotateDeg: 33, marginMm: 40 } };
+      const job = alignmentJob(placed, pen, corner, "Mark");
+      expect(newJobSchema.safeParse(job).success).toBe(true);
+      const { strokes } = prepare(await importSvg(job.drawing), prepareSettingsOf(job.settings));
+      const { xMm, yMm } = markPlace(placed, corner);
+      const [x, y] = [xMm - 1.5, yMm + 0.5];
+      const expected = [x - 5, y, x + 5, y, x, y - 5, x, y + 5];
+      expect(strokes.xy.length).toBe(expected.length);
+      expected.forEach((value, k) => expect(strokes.xy[k]).toBeCloseTo(value, 6));
+      expect(penStopsOf(strokes, job.settings)).toEqual([]);
+    },
+  );
 });

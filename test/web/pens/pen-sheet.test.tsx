@@ -26,14 +26,14 @@ const shown = (settings: PlotSettings): string => {
   );
 };
 
-it("is plotted in the middle of the paper that the machine reaches, with the plotter's pen", () => {
+it("is plotted in the middle of the paper that the machine reaches, with the plotter's pen", async () => {
   const pen = { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 70, downPct: 40, layers: { sky: { downPct: 10 } } };
   for (const machine of ["axidraw-v3", "axidraw-minikit"]) {
     const job = penSheetJob({ ...DEFAULT_PLOT_SETTINGS, machine, pen }, "Pen sheet")!;
     const settings = plotSettingsSchema.parse(job.settings);
     expect(settings.pen).toMatchObject({ upPct: 70, downPct: 40, overlap: "off" });
     expect(Object.keys(settings.pen.layers ?? {})).toHaveLength(PEN_SHEET_WAITS_MS.length + 1);
-    const { strokes } = prepare(importSvg(job.drawing), settings.prepare);
+    const { strokes } = prepare(await importSvg(job.drawing), settings.prepare);
     const { widthMm, heightMm } = machineById(machine);
     for (let i = 0; i < strokes.xy.length; i += 2) {
       expect(strokes.xy[i]).toBeGreaterThanOrEqual(0);

@@ -9,8 +9,8 @@ import { gainsOf } from "../../../web/ringing/ringing-gain.js";
 import { checkJobs, sheetJob, type SheetJob } from "../../../web/ringing/ringing-job.js";
 
 const SPRINGS: Springs = { xHz: 15, yHz: 25, damping: 0.05 };
-const strokesOf = ({ drawing, settings }: SheetJob) =>
-  prepare(importSvg(drawing), prepareSettingsOf(settings));
+const strokesOf = async ({ drawing, settings }: SheetJob) =>
+  prepare(await importSvg(drawing), prepareSettingsOf(settings));
 const on = (machine: string, paper: PlotSettings["prepare"]["paper"]): PlotSettings => ({
   ...DEFAULT_PLOT_SETTINGS,
   machine,
@@ -19,14 +19,14 @@ const on = (machine: string, paper: PlotSettings["prepare"]["paper"]): PlotSetti
 const A4 = { widthMm: 297, heightMm: 210 };
 
 describe("the first sheet", () => {
-  it("is one job at true size, centred on the paper and within the reach of every machine with room for it", () => {
+  it("is one job at true size, centred on the paper and within the reach of every machine with room for it", async () => {
     let count = 0;
     for (const { id, widthMm, heightMm } of MACHINES) {
       const job = sheetJob(on(id, A4), "sheet");
       if (job === null) continue;
       count++;
       expect(newJobSchema.safeParse(job).success).toBe(true);
-      const { strokes, warnings } = strokesOf(job);
+      const { strokes, warnings } = await strokesOf(job);
       expect(warnings).toEqual([]);
       const { x0, y0, x1, y1 } = boxOfPoints(strokes.xy);
       expect([x1 - x0, y1 - y0]).toEqual([expect.closeTo(99, 6), expect.closeTo(99, 6)]);
@@ -37,8 +37,8 @@ describe("the first sheet", () => {
     expect(count).toBeGreaterThan(8);
   });
 
-  it("has no lines that overlap", () => {
-    const { xy, offsets } = strokesOf(sheetJob(DEFAULT_PLOT_SETTINGS, "sheet")!).strokes;
+  it("has no lines that overlap", async () => {
+    const { xy, offsets } = (await strokesOf(sheetJob(DEFAULT_PLOT_SETTINGS, "sheet")!)).strokes;
     const seen = new Set<string>();
     for (let stroke = 0; stroke + 1 < offsets.length; stroke++) {
       const columns = new Set<string>();
@@ -55,26 +55,28 @@ describe("the first sheet", () => {
 });
 
 describe("the second sheet", () => {
-  it("has six lines of the same drawing side by side, shaped for different frequencies", () => {
+  it("has six lines of the same drawing side by side, shaped for different frequencies", async () => {
     const jobs = checkJobs(DEFAULT_PLOT_SETTINGS, SPRINGS, ({ factor }) => `× ${factor}`);
     expect(jobs.map(({ settings }) => machineOf(settings).springs?.xHz ?? null)).toEqual([
       null,
       ...[12, 13.5, 15, 16.5, 18.75].map((hz) => expect.closeTo(hz, 6)),
     ]);
-    const boxes = jobs.map((job) => boxOfPoints(strokesOf(job).strokes.xy));
+    const boxes = await Promise.all(jobs.map(async (job) => boxOfPoints((await strokesOf(job)).strokes.xy)));
     boxes.slice(1).forEach((box, i) => {
       expect(box.x0 - boxes[i].x0).toBeCloseTo(12, 6);
       expect(box.y0 - boxes[i].y0).toBeCloseTo(-12, 6);
     });
   });
 
-  it("shows the right frequency: with a simulated pen, that line is the straightest", () => {
+  it("shows the right frequency: with a simulated pen, that line is the straightest", async () => {
     const jobs = checkJobs(DEFAULT_PLOT_SETTINGS, SPRINGS, () => "check");
-    const errors = jobs.map((job) => {
-      const { strokes } = strokesOf(job);
-      const { trajectory } = planJob({ strokes }, job.settings, machineOf(job.settings));
-      return penError(strokes, trajectory, SPRINGS).rmsMm;
-    });
+    const errors = await Promise.all(
+      jobs.map(async (job) => {
+        const { strokes } = await strokesOf(job);
+        const { trajectory } = planJob({ strokes }, job.settings, machineOf(job.settings));
+        return penError(strokes, trajectory, SPRINGS).rmsMm;
+      }),
+    );
     expect(errors.indexOf(Math.min(...errors))).toBe(3);
     expect(errors[0]).toBeGreaterThan(3 * errors[3]);
   });

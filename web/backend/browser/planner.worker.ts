@@ -18,11 +18,13 @@ const scope = globalThis as unknown as {
   onmessage: ((event: MessageEvent<unknown>) => void) | null;
 };
 
-scope.onmessage = ({ data }) => {
-  const input = data as PlannerStart;
+scope.onmessage = ({ data }) => void begin(data as PlannerStart);
+
+/** The host asks nothing before the planner is ready. */
+async function begin(input: PlannerStart): Promise<void> {
   try {
     // Without a file name the format is detected from the content.
-    const drawing = importDrawing("", textOf(input.drawing));
+    const drawing = await importDrawing("", textOf(input.drawing));
     const { prepared, warnings } = prepareJob(drawing, input.settings, input.machine);
     scope.onmessage = (event) => {
       const answer = answerOf(prepared, warnings, input, event.data as ToWorker);
@@ -32,4 +34,4 @@ scope.onmessage = ({ data }) => {
   } catch (error) {
     scope.postMessage({ type: "failed", id: null, ...faultOf(error) });
   }
-};
+}

@@ -1,6 +1,6 @@
 /** Computed style: inherited and declared properties, as values ready for drawing. */
 import type { Declared, Property, Paint } from "./properties.js";
-import { parseColor, type Color } from "../../color.js";
+import type { Color, ColorParser } from "../../color.js";
 import { computeTextStyle, INITIAL_TEXT_STYLE, type TextStyle } from "./text-style.js";
 import { lengthPx, listIn, splitLength, type LengthBasis } from "./length.js";
 import { clamp } from "../../../geometry/polyline.js";
@@ -69,12 +69,16 @@ type Mutable<T> = { -readonly [K in keyof T]: T[K] };
 interface Reader {
   readonly field: keyof Style;
   /** Undefined for an invalid value: the inherited one stays, as if it were not declared. */
-  readonly read: (value: string, basis: LengthBasis) => Style[keyof Style] | undefined;
+  readonly read: (
+    value: string,
+    basis: LengthBasis,
+    parseColor: ColorParser,
+  ) => Style[keyof Style] | undefined;
 }
 
 const reader = <Field extends keyof Style>(
   field: Field,
-  read: (value: string, basis: LengthBasis) => Style[Field] | undefined,
+  read: (value: string, basis: LengthBasis, parseColor: ColorParser) => Style[Field] | undefined,
 ): Reader => ({ field, read });
 
 const oneOf =
@@ -86,9 +90,12 @@ const opacityOf = (value: string): number | undefined => parseOpacity(value) ?? 
 const lengthOf = (value: string, basis: LengthBasis): number | undefined =>
   lengthPx(value, basis, "both") ?? undefined;
 
+const paintOf = (value: string, _basis: LengthBasis, parseColor: ColorParser): Paint | undefined =>
+  parsePaint(value, parseColor);
+
 const READERS: Partial<Record<Property, Reader>> = {
-  fill: reader("fill", parsePaint),
-  stroke: reader("stroke", parsePaint),
+  fill: reader("fill", paintOf),
+  stroke: reader("stroke", paintOf),
   "fill-opacity": reader("fillOpacity", opacityOf),
   "stroke-opacity": reader("strokeOpacity", opacityOf),
   "fill-rule": reader("fillRule", oneOf("nonzero", "evenodd")),
@@ -99,7 +106,7 @@ const READERS: Partial<Record<Property, Reader>> = {
   }),
   "stroke-dasharray": reader("dashes", parseDashes),
   "stroke-dashoffset": reader("dashOffset", lengthOf),
-  color: reader("color", (value) => parseColor(value) ?? undefined),
+  color: reader("color", (value, _basis, parseColor) => parseColor(value) ?? undefined),
   visibility: reader("isVisible", (value) =>
     /^(visible|hidden|collapse)$/.test(value) ? value === "visible" : undefined,
   ),
@@ -116,7 +123,12 @@ const READERS: Partial<Record<Property, Reader>> = {
 };
 
 /** The style of an element that declares `declared` below `parent`; `parent` itself if nothing changes. */
-export function computeStyle(parent: Style, declared: Declared, basis: LengthBasis): Style {
+export function computeStyle(
+  parent: Style,
+  declared: Declared,
+  basis: LengthBasis,
+  parseColor: ColorParser,
+): Style {
   if (declared.size === 0) return parent;
   const style: Mutable<Style> = { ...parent };
   setVariables(style, declared);
@@ -133,7 +145,7 @@ export function computeStyle(parent: Style, declared: Declared, basis: LengthBas
     const text = resolve(style, declaredText);
     if (text === null) continue;
     const origin = originOf(text, parent);
-    const value = origin === null ? read(text, own) : origin[field];
+    const value = origin === null ? read(text, own, parseColor) : origin[field];
     if (value !== undefined) Object.assign(style, { [field]: value });
   }
   style.text = computeTextStyle(
@@ -187,9 +199,10 @@ function originOf(value: string, parent: Style): Style | null {
 }
 
 /** Whether a fill or stroke is not a paint, so that the inherited one applies. */
-export const isUnknownPaint = (text: string): boolean => parsePaint(text) === undefined;
+export const isUnknownPaint = (text: string, parseColor: ColorParser): boolean =>
+  parsePaint(text, parseColor) === undefined;
 
-function parsePaint(text: string): Paint | undefined {
+function parsePaint(text: string, parseColor: ColorParser): Paint | undefined {
   const value = text.trim();
   if (value.toLowerCase() === "none") return NONE;
   if (value.toLowerCase() === "currentcolor") return { kind: "currentColor" };
@@ -197,7 +210,7 @@ function parsePaint(text: string): Paint | undefined {
   if (value === "context-stroke") return { kind: "context", of: "stroke" };
   const server = /^url\(([^)]*)\)\s*(.*)$/s.exec(value);
   if (server !== null) {
-    const fallback = server[2] === "" ? NONE : (parsePaint(server[2]) ?? NONE);
+    const fallback = server[2] === "" ? NONE : (parsePaint(server[2], parseColor) ?? NONE);
     return { kind: "server", id: parseUrl(value) ?? "", fallback };
   }
   const color = parseColor(value);

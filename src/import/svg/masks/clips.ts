@@ -20,7 +20,7 @@ import { withStyle, type Context, contentKey } from "../svg-context.js";
 import type { SvgFile } from "../svg-file.js";
 import type { SvgPainter } from "../svg-painter.js";
 import { attribute, childrenOf, HREF, tagOf } from "../svg-tree.js";
-import { computeStyle, declaredValue, parseUrl } from "../css/style.js";
+import { declaredValue, parseUrl } from "../css/style.js";
 import type { Warnings } from "../../warnings.js";
 import { clamp } from "../../../geometry/polyline.js";
 
@@ -104,7 +104,11 @@ export class SvgClips {
     nesting: number,
   ): ClipNode | null | "empty" {
     const declared = this.file.cascade.declaredOf(target);
-    const style = computeStyle(this.file.styleAround(target, context.basis), declared, context.basis);
+    const style = this.file.computeStyle(
+      this.file.styleAround(target, context.basis),
+      declared,
+      context.basis,
+    );
     // A clipPath with display none does not clip.
     if (declaredValue(style, declared, "display") === "none") return context.clip;
     const own = declaredValue(style, declared, "clip-path");
@@ -144,7 +148,7 @@ export class SvgClips {
     const tag = tagOf(tree, child);
     if (!SHAPE_TAGS.has(tag) && tag !== "use" && tag !== "text") return;
     const declared = this.file.cascade.declaredOf(child);
-    const style = computeStyle(outer.style, declared, outer.basis);
+    const style = this.file.computeStyle(outer.style, declared, outer.basis);
     if (declaredValue(style, declared, "display") === "none") return;
     const boxOf = (): Box | null => this.boxOf(child, { ...outer, style });
     const transform = elementTransform(style, declared, outer.basis, boxOf) ?? IDENTITY;
@@ -212,7 +216,7 @@ export class SvgClips {
       }
       const tag = tagOf(tree, at);
       const declared = this.file.cascade.declaredOf(at);
-      const style = computeStyle(context.style, declared, context.basis);
+      const style = this.file.computeStyle(context.style, declared, context.basis);
       if (declaredValue(style, declared, "display") === "none") continue;
       const own = at === element ? IDENTITY : elementTransform(style, declared, context.basis, () => null);
       const inner = own === null || own === IDENTITY ? map : compose(map, own);

@@ -14,7 +14,7 @@ import { withStyle, type Context, contentKey } from "../svg-context.js";
 import { effectsOf } from "../svg-effects.js";
 import type { SvgFile } from "../svg-file.js";
 import { attribute, tagOf } from "../svg-tree.js";
-import { computeStyle, declaredValue, parseUrl } from "../css/style.js";
+import { declaredValue, parseUrl } from "../css/style.js";
 import { ClipType, FillRule, type Paths64 } from "clipper2-ts/dist/Core.js";
 import { ClipperOffset, EndType, JoinType } from "clipper2-ts/dist/Offset.js";
 import { cleanRings, combine, SCALE } from "../../../geometry/region.js";
@@ -54,8 +54,15 @@ export class SvgMasks {
     const target = id === null ? undefined : tree.elementById.get(id);
     if (target === undefined || tagOf(tree, target) !== "mask" || this.open.has(target)) return null;
     const declared = this.file.cascade.declaredOf(target);
-    const style = computeStyle(this.file.styleAround(target, context.basis), declared, context.basis);
-    if (effectsOf(style, declared).length > 0 || declaredValue(style, declared, "clip-path") !== undefined)
+    const style = this.file.computeStyle(
+      this.file.styleAround(target, context.basis),
+      declared,
+      context.basis,
+    );
+    if (
+      effectsOf(style, declared, this.file.parseColor).length > 0 ||
+      declaredValue(style, declared, "clip-path") !== undefined
+    )
       return null;
     const isAlpha = declaredValue(style, declared, "mask-type") === "alpha";
     const box = this.clips.boxOf(element, context);

@@ -19,7 +19,7 @@ import { lengthPx, type LengthBasis, type Side } from "../css/length.js";
 import { MAX_COPY_DEPTH, type Context, type UseChain, withViewport, contextPaints } from "../svg-context.js";
 import type { SvgFile } from "../svg-file.js";
 import { attribute } from "../svg-tree.js";
-import { computeStyle, declaredValue, type Style } from "../css/style.js";
+import { declaredValue, type Style } from "../css/style.js";
 import { parseTransform } from "../css/transform.js";
 import { isEmptyViewBox, parseViewBox, viewBoxMap } from "../svg-viewport.js";
 import { VERB_CLOSE, VERB_CUBIC, VERB_LINE, VERB_MOVE } from "../../../drawing/drawing.js";
@@ -193,7 +193,7 @@ export function insideMarker(
   };
   const declared = file.cascade.declaredOf(marker);
   const outside = file.styleAround(marker, context.basis);
-  const style = computeStyle(outside, declared, { ...context.basis, fontSize: outside.fontSize });
+  const style = file.computeStyle(outside, declared, { ...context.basis, fontSize: outside.fontSize });
   const inside = {
     ...withViewport(context, map, box?.width ?? width, box?.height ?? height),
     style,

@@ -1,5 +1,4 @@
 /** The single colour that replaces a gradient or pattern. */
-import { parseColor } from "../../color.js";
 import type { Context } from "../svg-context.js";
 import type { SvgFile } from "../svg-file.js";
 import { attribute, childrenOf, HREF, tagOf } from "../svg-tree.js";
@@ -74,7 +73,7 @@ export class SvgPaintServers {
     const text = declaredValue(context.style, this.file.cascade.declaredOf(stop), "stop-color");
     if (text === undefined) return INITIAL_STYLE.color.hex;
     if (text.toLowerCase() === "currentcolor") return context.style.color.hex;
-    return (parseColor(text) ?? INITIAL_STYLE.color).hex;
+    return (this.file.parseColor(text) ?? INITIAL_STYLE.color).hex;
   }
 }
 

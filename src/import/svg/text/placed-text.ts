@@ -1,18 +1,21 @@
 /**
  * SVG text to positioned letters (SVG 2, chapter 11): collects the characters with their style, path and x,
- * y, dx, dy, rotate values, then lays them out.
+ * y, dx, dy, rotate values, then lays them out. Imported only for files that have text.
  */
 import type { Declared } from "../css/properties.js";
 import { lengthPx, listIn, type LengthBasis, type Side } from "../css/length.js";
 import { attribute, childrenOf, tagOf, textOf, TEXT_NODE } from "../svg-tree.js";
 import { type Effects, effectsOf } from "../svg-effects.js";
-import { computeStyle, declaredValue, type Style } from "../css/style.js";
+import { declaredValue, type Style } from "../css/style.js";
 import { getOrAdd } from "../../../get-or-add.js";
 import { withoutAlignment, withoutShift } from "../css/text-style.js";
 import type { Context } from "../svg-context.js";
 import type { SvgFile } from "../svg-file.js";
 import { type Char, type LaidOutText, type Stretch, layOutText } from "./text-layout.js";
-import type { SvgTextPaths } from "./text-path.js";
+import { SvgTextPaths } from "./text-path.js";
+import type { SvgGeometry } from "../shapes/basic-shapes.js";
+import type { ImportOptions } from "../../import-options.js";
+import { fontOf } from "../../text/single-stroke-font.js";
 import type { TextFont } from "../../text/text-font.js";
 import { RAD_PER_DEG } from "../../../units.js";
 
@@ -39,20 +42,27 @@ const MAX_DEPTH = 64;
 /** Size of synthetic small capitals, as a share of the font size. */
 const SMALL_CAPS = 0.7;
 
-export function placeText(
-  file: SvgFile,
-  paths: SvgTextPaths,
-  element: number,
-  context: Context,
-  font: TextFont,
-): PlacedText {
-  const gatherer = new Gatherer(file, paths, context, font.hasSmallCaps ?? false);
-  gatherer.gather(element);
-  const chars = collapseBlanks(gatherer.chars);
-  gatherer.assignPositions(chars);
-  const { x, y } = chars[0] ?? {};
-  const { unsupported, effects } = gatherer;
-  return { ...layOutText(chars, font), unsupported, effects, x: x ?? 0, y: y ?? 0 };
+/** Places text in the letters of a font. */
+export class TextPlacer {
+  constructor(readonly font: TextFont) {}
+
+  place(file: SvgFile, geometry: SvgGeometry, element: number, context: Context): PlacedText {
+    const { font } = this;
+    const paths = new SvgTextPaths(file, geometry);
+    const gatherer = new Gatherer(file, paths, context, font.hasSmallCaps ?? false);
+    gatherer.gather(element);
+    const chars = collapseBlanks(gatherer.chars);
+    gatherer.assignPositions(chars);
+    const { x, y } = chars[0] ?? {};
+    const { unsupported, effects } = gatherer;
+    return { ...layOutText(chars, font), unsupported, effects, x: x ?? 0, y: y ?? 0 };
+  }
+}
+
+/** Null if text is not drawn. */
+export function textPlacerOf(options: ImportOptions): TextPlacer | null {
+  const font = fontOf(options);
+  return font === null ? null : new TextPlacer(font);
 }
 
 class Gatherer {
@@ -114,7 +124,7 @@ class Gatherer {
     const style = this.styleInside(inside.style, declared);
     // No real file nests spans deeper than this: deeper ones are not laid out.
     if (declaredValue(style, declared, "display") === "none" || inside.open.length >= MAX_DEPTH) return;
-    this.effects.push(...effectsOf(style, declared));
+    this.effects.push(...effectsOf(style, declared, this.file.parseColor));
     const clip = declaredValue(style, declared, "clip-path") ?? "none";
     if (attribute(tree, node, "side")?.trim() === "right")
       this.effects.push(["text-style-ignored", "textPath side"]);
@@ -126,7 +136,7 @@ class Gatherer {
   private styleInside(style: Style, declared: Declared): Style {
     const passedOn = withoutAlignment(style.text);
     const parent = passedOn === style.text ? style : { ...style, text: passedOn };
-    const own = computeStyle(parent, declared, this.basisOf(style));
+    const own = this.file.computeStyle(parent, declared, this.basisOf(style));
     const { isVertical } = this.context.style.text;
     // The writing mode is that of the whole text.
     return own.text.isVertical === isVertical ? own : { ...own, text: { ...own.text, isVertical } };

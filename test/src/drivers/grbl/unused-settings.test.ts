@@ -29,24 +29,24 @@ const CHANGED = {
 const START = `${GRBL.name} does not use these settings, because its controller plans by itself: `;
 
 describe("a plan for Grbl", () => {
-  it("names the shaper that it does not use, and draws the same", () => {
-    const { warnings, ...job } = planned(SHAPED);
+  it("names the shaper that it does not use, and draws the same", async () => {
+    const { warnings, ...job } = await planned(SHAPED);
     expect(warnings).toEqual([`${START}Reduce ringing.`]);
-    expect(job.lines()).toEqual(planned({}).lines());
+    expect(job.lines()).toEqual((await planned({})).lines());
   });
 
-  it("names all other settings that it does not use, and draws the same", () => {
-    const { warnings, ...job } = planned(CHANGED);
+  it("names all other settings that it does not use, and draws the same", async () => {
+    const { warnings, ...job } = await planned(CHANGED);
     expect(warnings).toEqual([
       `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Lifting speed, Move while the pen lifts.`,
     ]);
-    expect(job.lines()).toEqual(planned({}).lines());
+    expect(job.lines()).toEqual((await planned({})).lines());
   });
 
-  it("names no settings if they are defaults or used", () => {
-    expect(planned({}).warnings).toEqual([]);
+  it("names no settings if they are defaults or used", async () => {
+    expect((await planned({})).warnings).toEqual([]);
     const draw = { ...DEFAULT_MOTION.draw, speedMmPerS: 20 };
-    expect(planned({ motion: { ...DEFAULT_MOTION, draw } }).warnings).toEqual([]);
+    expect((await planned({ motion: { ...DEFAULT_MOTION, draw } })).warnings).toEqual([]);
   });
 
   it("has settings that an AxiDraw uses without a warning", () => {

@@ -15,8 +15,8 @@ const file = (codePage: string, layers: readonly (readonly number[])[], version 
     ...layers.flatMap((name) => [...ascii(LINE.split("@")[0]), ...name, ...ascii(LINE.split("@")[1])]),
     ...ascii("0\nENDSEC\n0\nEOF\n"),
   ]);
-const layersOf = (bytes: Uint8Array): string[] =>
-  importDrawing("a.dxf", textOfBytes(bytes)).groups.map(({ name }) => name);
+const layersOf = async (bytes: Uint8Array): Promise<string[]> =>
+  (await importDrawing("a.dxf", textOfBytes(bytes))).groups.map(({ name }) => name);
 
 describe("the letters of a DXF", () => {
   it.each([
@@ -48,13 +48,13 @@ describe("the letters of a DXF", () => {
     ["DOS932", [0x95, 0xc7], "壁"],
     ["ISO8859-2", [0xa3], "Ł"],
     ["MACINTOSH", [0x9f], "ü"],
-  ])("are read in code page %s", (codePage, bytes, name) => {
-    expect(layersOf(file(codePage, [bytes]))).toEqual([name]);
+  ])("are read in code page %s", async (codePage, bytes, name) => {
+    expect(await layersOf(file(codePage, [bytes]))).toEqual([name]);
   });
 
-  it("do not merge layers that differ in one of them", () => {
+  it("do not merge layers that differ in one of them", async () => {
     expect(
-      layersOf(
+      await layersOf(
         file("ANSI_1252", [
           [0x54, 0xfc, 0x72],
           [0x54, 0xf6, 0x72],
@@ -65,19 +65,19 @@ describe("the letters of a DXF", () => {
 
   it.each(["ANSI_1252", "ANSI_1251", "ANSI_936", "DOS850", ""])(
     "are UTF-8 where they can be, whatever the header says: %s",
-    (codePage) => {
+    async (codePage) => {
       const name = codePage === "ANSI_936" ? "墙体" : "Türwand";
-      expect(layersOf(file(codePage, [[...new TextEncoder().encode(name)]]))).toEqual([name]);
+      expect(await layersOf(file(codePage, [[...new TextEncoder().encode(name)]]))).toEqual([name]);
     },
   );
 
-  it("are UTF-8 since R2007, even if some are damaged", () => {
+  it("are UTF-8 since R2007, even if some are damaged", async () => {
     const name = [...new TextEncoder().encode("ü"), 0xff];
-    expect(layersOf(file("ANSI_1252", [name], "AC1021"))).toEqual(["ü\ufffd"]);
+    expect(await layersOf(file("ANSI_1252", [name], "AC1021"))).toEqual(["ü\ufffd"]);
   });
 
-  it("may be written by their number", () => {
-    expect(layersOf(file("ANSI_1252", [ascii("T\\U+00fcr"), [0x54, 0xfc, 0x72]]))).toEqual(["Tür"]);
+  it("may be written by their number", async () => {
+    expect(await layersOf(file("ANSI_1252", [ascii("T\\U+00fcr"), [0x54, 0xfc, 0x72]]))).toEqual(["Tür"]);
   });
 
   it("of an SVG that quotes a DXF are left alone", () => {

@@ -23,8 +23,8 @@ const square = (from: number, to: number, flags = 0): string =>
 const circle = "92 1\n93 1\n72 2\n10 50\n20 50\n40 30\n50 0\n51 360\n73 1\n97 0";
 
 /** The lines of the hatch as "x y x y". */
-const linesOf = (paths: string, lines: readonly Line[], style = 0): string[] =>
-  shapesOf(drawDxf(hatch(paths, lines, style)))[1]
+const linesOf = async (paths: string, lines: readonly Line[], style = 0): Promise<string[]> =>
+  shapesOf(await drawDxf(hatch(paths, lines, style)))[1]
     .split("M")
     .slice(1)
     .map((line) => line.replace("L", " "));
@@ -33,27 +33,27 @@ const numbers = (lines: readonly string[]): number[][] => lines.map((line) => li
 const LEVEL: Line = { angle: 0, base: [0, 5], offset: [0, 10] };
 
 describe("the pattern of a HATCH", () => {
-  it("is drawn as lines in the hatch's colour, without a fill, and needs no warning", () => {
-    const drawing = drawDxf(hatch(`91 1\n${square(10, 50)}`, [LEVEL]));
+  it("is drawn as lines in the hatch's colour, without a fill, and needs no warning", async () => {
+    const drawing = await drawDxf(hatch(`91 1\n${square(10, 50)}`, [LEVEL]));
     expect(shapesOf(drawing)[1]).toBe("M10 85L50 85M10 75L50 75M10 65L50 65M10 55L50 55");
     expect(drawing.colors[drawing.paths.stroke[1]]).toBe("#00ff00");
     expect(drawing.paths.fill[1]).toBe(-1);
     expect(codes(drawing)).toEqual([]);
   });
 
-  it("leaves out islands, and what its style excludes", () => {
+  it("leaves out islands, and what its style excludes", async () => {
     const paths = `91 3\n${square(10, 60, 1)}\n${square(20, 50, 16)}\n${square(30, 40)}`;
-    const at35 = (style: number): string[] =>
-      linesOf(paths, [LEVEL], style).filter((line) => line.includes(" 65 "));
-    expect(at35(0)).toEqual(["10 65 20 65", "30 65 40 65", "50 65 60 65"]);
-    expect(at35(1)).toEqual(["10 65 20 65", "50 65 60 65"]);
-    expect(at35(2)).toEqual(["10 65 60 65"]);
+    const at35 = async (style: number): Promise<string[]> =>
+      (await linesOf(paths, [LEVEL], style)).filter((line) => line.includes(" 65 "));
+    expect(await at35(0)).toEqual(["10 65 20 65", "30 65 40 65", "50 65 60 65"]);
+    expect(await at35(1)).toEqual(["10 65 20 65", "50 65 60 65"]);
+    expect(await at35(2)).toEqual(["10 65 60 65"]);
   });
 
-  it("has dashes that begin at each line's own point, and dots", () => {
+  it("has dashes that begin at each line's own point, and dots", async () => {
     // The line at 15 is the first from the base: its dashes begin at 3.
     const dashed: Line = { ...LEVEL, offset: [3, 10], dashes: [4, -2] };
-    const first = linesOf(`91 1\n${square(10, 50)}`, [dashed]).filter((line) => line.endsWith(" 85"));
+    const first = (await linesOf(`91 1\n${square(10, 50)}`, [dashed])).filter((line) => line.endsWith(" 85"));
     expect(first).toEqual([
       "10 85 13 85",
       "15 85 19 85",
@@ -64,17 +64,19 @@ describe("the pattern of a HATCH", () => {
       "45 85 49 85",
     ]);
     const dotted: Line = { angle: 0, base: [0, 25], offset: [0, 40], dashes: [0, -15, 5, -5] };
-    expect(linesOf(`91 1\n${square(10, 50)}`, [dotted])).toEqual([
+    expect(await linesOf(`91 1\n${square(10, 50)}`, [dotted])).toEqual([
       "15 75 20 75",
       "25 75 25 75",
       "40 75 45 75",
     ]);
   });
 
-  it("runs at its angle: each line of the computed length, one spacing from the next", () => {
+  it("runs at its angle: each line of the computed length, one spacing from the next", async () => {
     // 45°, 4 apart, through the circle's middle.
     const step = 4 / Math.SQRT2;
-    const lines = numbers(linesOf(`91 1\n${circle}`, [{ angle: 45, base: [50, 50], offset: [-step, step] }]));
+    const lines = numbers(
+      await linesOf(`91 1\n${circle}`, [{ angle: 45, base: [50, 50], offset: [-step, step] }]),
+    );
     expect(lines).toHaveLength(15);
     lines.forEach(([x0, y0, x1, y1], i) => {
       const away = 4 * (i - 7);
@@ -85,9 +87,9 @@ describe("the pattern of a HATCH", () => {
     });
   });
 
-  it("crosses if it has two families of lines", () => {
+  it("crosses if it has two families of lines", async () => {
     const upright: Line = { angle: 90, base: [5, 0], offset: [-10, 0] };
-    expect(linesOf(`91 1\n${square(10, 30)}`, [LEVEL, upright])).toEqual([
+    expect(await linesOf(`91 1\n${square(10, 30)}`, [LEVEL, upright])).toEqual([
       "10 85 30 85",
       "10 75 30 75",
       "25 90 25 70",
@@ -100,8 +102,8 @@ describe("the pattern of a HATCH", () => {
     ["has overlapping lines", [{ angle: 0, offset: [1, 0] }]],
     ["has more lines than a pen could draw", [{ angle: 0, offset: [0, 1e-6] }]],
     ["has more dashes than a pen could draw", [{ ...LEVEL, dashes: [1e-6, -1e-6] }]],
-  ] as [string, Line[]][])("is taken as a filled shape, with a warning, if it %s", (_what, lines) => {
-    const drawing = drawDxf(hatch(`91 1\n${square(10, 50)}`, lines));
+  ] as [string, Line[]][])("is taken as a filled shape, with a warning, if it %s", async (_what, lines) => {
+    const drawing = await drawDxf(hatch(`91 1\n${square(10, 50)}`, lines));
     expect(shapesOf(drawing)[1]).toBe("M10 90L50 90L50 50L10 50Z");
     expect(drawing.paths.stroke[1]).toBe(-1);
     expect(codes(drawing)).toEqual(["gradient-fill"]);
@@ -127,7 +129,7 @@ describe("an elliptical edge of a HATCH", () => {
     ["a tilt beyond a half turn", 215, 45, 170],
   ])(
     "goes anticlockwise between its angles, and clockwise between their mirrored ones: %s",
-    (_what, tilt, from, to) => {
+    async (_what, tilt, from, to) => {
       const axis = [40 * Math.cos((tilt * Math.PI) / 180), 40 * Math.sin((tilt * Math.PI) / 180)];
       const [start, middle, end] = [from, (from + to) / 2, to].map((deg) => onRay(deg, tilt)) as [
         [number, number],
@@ -141,7 +143,7 @@ describe("an elliptical edge of a HATCH", () => {
       ]) {
         const edge = `72 3\n10 50\n20 50\n11 ${axis[0]}\n21 ${axis[1]}\n40 0.5\n50 ${first}\n51 ${last}\n73 ${ccw}`;
         const solid = hatch(`91 1\n92 1\n93 2\n${edge}\n${chord}\n97 0`, []).replace("70 0", "70 1");
-        const points = pointsOf(drawDxf(solid), 1);
+        const points = pointsOf(await drawDxf(solid), 1);
         const gapTo = ([x, y]: [number, number]): number =>
           Math.min(...points.map(([px, py]) => Math.hypot(px - x, py - y)));
         expect(Math.hypot(points[0][0] - start[0], points[0][1] - start[1])).toBeLessThan(1e-3);

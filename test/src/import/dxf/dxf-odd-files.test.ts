@@ -8,8 +8,8 @@ const LINE = lineOn("0", 0);
 /** 100 mm high and wide; shapes are measured from its lower left corner, which is the origin. */
 const FRAME = "|0 LWPOLYLINE|8 0|90 3|70 0|10 0|20 100|10 0|20 0|10 100|20 0";
 /** The corners of the shape after the frame, mm, y up. */
-function boxOf(entities: string, blocks = ""): number[] {
-  const drawing = draw(`${FRAME}${entities}`, { blocks });
+async function boxOf(entities: string, blocks = ""): Promise<number[]> {
+  const drawing = await draw(`${FRAME}${entities}`, { blocks });
   const [, [x, y]] = pointsOf(drawing, 0);
   const points = pointsOf(drawing, 1).map(([px, py]) => [px - x, y - py]);
   const [xs, ys] = [0, 1].map((i) => points.map((point) => point[i]));
@@ -56,59 +56,63 @@ describe("an entity in a plane of its own is drawn as seen from above", () => {
       `|0 LINE|8 0|10 10|20 10|11 60|21 20${facing(0, 0, -1)}`,
       [10, 10, 60, 20],
     ],
-  ])("%s", (_what, entity, box) => {
-    const [x0, y0, x1, y1] = boxOf(entity);
+  ])("%s", async (_what, entity, box) => {
+    const [x0, y0, x1, y1] = await boxOf(entity);
     [x0, y0, x1, y1].forEach((mm, i) => expect(mm).toBeCloseTo(box[i], 2));
   });
 
-  it("a copy of a block, scaled differently, turned and from below", () => {
+  it("a copy of a block, scaled differently, turned and from below", async () => {
     const blocks = "|0 BLOCK|2 B|10 0|20 0|0 LINE|8 0|10 0|20 0|11 10|21 5|0 ENDBLK";
     // (10, 5) scaled to (20, 5), turned to (-5, 20), moved by (-60, 0), mirrored to (65, 20).
     const copy = `|0 INSERT|8 0|2 B|10 -60|20 0|41 2|42 1|50 90${facing(0, 0, -1)}`;
-    expect(boxOf(copy, blocks)).toEqual([60, 0, 65, 20]);
+    expect(await boxOf(copy, blocks)).toEqual([60, 0, 65, 20]);
   });
 
-  it("a dimension, whose block is in the world's coordinates", () => {
+  it("a dimension, whose block is in the world's coordinates", async () => {
     const blocks = "|0 BLOCK|2 *D1|10 0|20 0|0 LINE|8 0|10 10|20 30|11 90|21 30|0 ENDBLK";
     const points = "|70 0|10 0|20 30|13 10|23 0|14 90|24 0";
-    expect(boxOf(`|0 DIMENSION|8 0|2 *D1${points}${facing(0, 0, -1)}`, blocks)).toEqual([10, 30, 90, 30]);
+    expect(await boxOf(`|0 DIMENSION|8 0|2 *D1${points}${facing(0, 0, -1)}`, blocks)).toEqual([
+      10, 30, 90, 30,
+    ]);
   });
 
-  it("a text in paragraphs, whose place is the world's and whose letters are mirrored", () => {
-    const text = (more: string): number[] => boxOf(`|0 MTEXT|8 0|10 50|20 50|40 10|71 7|1 L${more}`);
-    const [x0, y0, x1, y1] = text("");
-    expect(text(facing(0, 0, -1))).toEqual([100 - x1, y0, 100 - x0, y1]);
+  it("a text in paragraphs, whose place is the world's and whose letters are mirrored", async () => {
+    const text = (more: string): Promise<number[]> => boxOf(`|0 MTEXT|8 0|10 50|20 50|40 10|71 7|1 L${more}`);
+    const [x0, y0, x1, y1] = await text("");
+    expect(await text(facing(0, 0, -1))).toEqual([100 - x1, y0, 100 - x0, y1]);
     // With a direction of its own it is upside down instead.
-    expect(text(`${facing(0, 0, -1)}|11 1|21 0|31 0`)).toEqual([x0, 100 - y1, x1, 100 - y0]);
+    expect(await text(`${facing(0, 0, -1)}|11 1|21 0|31 0`)).toEqual([x0, 100 - y1, x1, 100 - y0]);
   });
 });
 
 describe("a file", () => {
   const text = `0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n50\n21\n0\n0\nENDSEC\n0\nEOF\n`;
-  const read = (dxf: string): string[] => shapesOf(importDrawing("a.dxf", dxf));
+  const read = async (dxf: string): Promise<string[]> => shapesOf(await importDrawing("a.dxf", dxf));
 
-  it("without EOF is read if its last section has an end", () => {
-    expect(read(text.replace("0\nEOF\n", ""))).toEqual(["M0 0L50 0"]);
-    expect(() => read(text.replace("0\nENDSEC\n0\nEOF\n", ""))).toThrow(/a part of the file is missing/);
-    expect(() => read(text.slice(0, text.indexOf("21\n")))).toThrow(/a part of the file is missing/);
-  });
-
-  it("without the end of a section is read", () => {
-    expect(read(text.replace("0\nENDSEC\n", ""))).toEqual(["M0 0L50 0"]);
-  });
-
-  it.each(["\r\n", "\r", "\r\r\n"])("has lines that end with %j", (end) => {
-    expect(read(text.replaceAll("\n", end))).toEqual(["M0 0L50 0"]);
-  });
-
-  it("of a million line ends is refused at once", { timeout: 10_000 }, () => {
-    expect(() => read(`0\nSECTION\n2\nENTITIES\n${"\r".repeat(1_000_000)}x`)).toThrow(/is damaged/);
-  });
-
-  it("may have blanks before and behind its codes, and codes that no entity has", () => {
-    expect(read(text.replaceAll(/^(\d+)$/gm, "   $1 ").replace("   8 ", "5001\nodd\n -5\n7\n   8 "))).toEqual(
-      ["M0 0L50 0"],
+  it("without EOF is read if its last section has an end", async () => {
+    expect(await read(text.replace("0\nEOF\n", ""))).toEqual(["M0 0L50 0"]);
+    await expect(read(text.replace("0\nENDSEC\n0\nEOF\n", ""))).rejects.toThrow(
+      /a part of the file is missing/,
     );
+    await expect(read(text.slice(0, text.indexOf("21\n")))).rejects.toThrow(/a part of the file is missing/);
+  });
+
+  it("without the end of a section is read", async () => {
+    expect(await read(text.replace("0\nENDSEC\n", ""))).toEqual(["M0 0L50 0"]);
+  });
+
+  it.each(["\r\n", "\r", "\r\r\n"])("has lines that end with %j", async (end) => {
+    expect(await read(text.replaceAll("\n", end))).toEqual(["M0 0L50 0"]);
+  });
+
+  it("of a million line ends is refused at once", { timeout: 10_000 }, async () => {
+    await expect(read(`0\nSECTION\n2\nENTITIES\n${"\r".repeat(1_000_000)}x`)).rejects.toThrow(/is damaged/);
+  });
+
+  it("may have blanks before and behind its codes, and codes that no entity has", async () => {
+    expect(
+      await read(text.replaceAll(/^(\d+)$/gm, "   $1 ").replace("   8 ", "5001\nodd\n -5\n7\n   8 ")),
+    ).toEqual(["M0 0L50 0"]);
   });
 
   it.each([
@@ -117,9 +121,9 @@ describe("a file", () => {
     [23, 914.4018],
     [12, 1e-6],
     [15, 10_000],
-  ])("has the unit %i", (unit, mm) => {
+  ])("has the unit %i", async (unit, mm) => {
     const size = 1 / mm;
-    const drawing = importDrawing(
+    const drawing = await importDrawing(
       "a.dxf",
       `0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n${unit}\n0\nENDSEC\n${text.replace("\n50\n", `\n${50 * size}\n`)}`,
     );
@@ -129,35 +133,37 @@ describe("a file", () => {
 });
 
 describe("what is not drawn", () => {
-  it("in paper space is counted, without the windows that show the model", () => {
+  it("in paper space is counted, without the windows that show the model", async () => {
     const sheet = `${LINE.replace("|8 0", "|67 1|8 0")}|0 VIEWPORT|67 1|8 0|69 2|10 0|20 0`;
     const blocks = `|0 BLOCK|2 *Paper_Space0|10 0|20 0${LINE}|0 VIEWPORT|8 0|69 1|0 ENDBLK`;
-    const { warnings } = draw(`${LINE}${sheet}`, { blocks });
+    const { warnings } = await draw(`${LINE}${sheet}`, { blocks });
     expect(warnings).toMatchObject([{ code: "paper-space", count: 2 }]);
     // Without a model the sheet is the drawing.
-    expect(codes(draw(LINE.replace("|8 0", "|67 1|8 0")))).toEqual([]);
-    expect(codes(draw(`${LINE}|0 VIEWPORT|67 1|8 0|69 1|10 0|20 0`))).toEqual([]);
+    expect(codes(await draw(LINE.replace("|8 0", "|67 1|8 0")))).toEqual([]);
+    expect(codes(await draw(`${LINE}|0 VIEWPORT|67 1|8 0|69 1|10 0|20 0`))).toEqual([]);
   });
 
-  it("is the second colour of a fill", () => {
+  it("is the second colour of a fill", async () => {
     const corners = "|10 0|20 0|10 9|20 0|10 9|20 9";
     const hatch = `|0 HATCH|8 0|2 SOLID|70 1|71 0|91 1|92 3|72 0|73 1|93 3${corners}|97 0|75 0|76 1|98 0`;
-    expect(codes(draw(hatch))).toEqual([]);
-    expect(codes(draw(`${hatch}|450 1|453 2|463 0|63 5|463 1|63 2|470 LINEAR`))).toEqual(["gradient-fill"]);
+    expect(codes(await draw(hatch))).toEqual([]);
+    expect(codes(await draw(`${hatch}|450 1|453 2|463 0|63 5|463 1|63 2|470 LINEAR`))).toEqual([
+      "gradient-fill",
+    ]);
   });
 
-  it("is a copy of size 0, which would be a dot", () => {
+  it("is a copy of size 0, which would be a dot", async () => {
     const blocks = `|0 BLOCK|2 B|10 0|20 0${LINE}|0 ENDBLK`;
-    const drawing = draw(`${LINE}|0 INSERT|8 0|2 B|10 9|20 9|41 0|42 0`, { blocks });
+    const drawing = await draw(`${LINE}|0 INSERT|8 0|2 B|10 9|20 9|41 0|42 0`, { blocks });
     expect(shapesOf(drawing)).toEqual(["M0 0L50 0"]);
     expect(codes(drawing)).toEqual(["object-unreadable"]);
   });
 });
 
-it("Data of an application in an entity are no part of it", () => {
+it("Data of an application in an entity are no part of it", async () => {
   const data = "|102 {MYAPP|10 5|20 7|40 9|60 1|62 1|102 }";
-  const plain = draw(LINE);
-  const drawing = draw(LINE.replace("|8 0", `|8 0${data}`));
+  const plain = await draw(LINE);
+  const drawing = await draw(LINE.replace("|8 0", `|8 0${data}`));
   expect(shapesOf(drawing)).toEqual(shapesOf(plain));
   expect(drawing.colors).toEqual(plain.colors);
 });

@@ -49,8 +49,8 @@ const PARTS_OF_OTHERS = ["SEQEND", "VERTEX"];
 describe("the table of entities", () => {
   it.each([...DXF_ENTITIES].filter(([, { how }]) => how === "reported").map(([name]) => name))(
     "%s is reported and not drawn",
-    (name) => {
-      const drawing = draw(`${line("0", 0)}|0 ${name}|8 0|10 0|20 0|11 9|21 9|69 2`);
+    async (name) => {
+      const drawing = await draw(`${line("0", 0)}|0 ${name}|8 0|10 0|20 0|11 9|21 9|69 2`);
       expect(shapesOf(drawing)).toEqual(["M0 0L50 0"]);
       expect(codes(drawing)).toEqual([name === "IMAGE" ? "image-not-drawn" : "not-supported"]);
     },
@@ -74,8 +74,8 @@ describe("the table of entities", () => {
     expect(reference.split(" ").filter((name) => !DXF_ENTITIES.has(name))).toEqual([]);
   });
 
-  it("an entity that is in no table is reported by its name", () => {
-    const [{ code, message }] = draw(`${line("0", 0)}|0 ACME_WALL|8 0`).warnings;
+  it("an entity that is in no table is reported by its name", async () => {
+    const [{ code, message }] = (await draw(`${line("0", 0)}|0 ACME_WALL|8 0`)).warnings;
     expect([code, message]).toEqual(["not-supported", expect.stringContaining("ACME_WALL")]);
   });
 
@@ -83,9 +83,9 @@ describe("the table of entities", () => {
     [...DXF_ENTITIES]
       .filter(([name, { how }]) => how !== "reported" && !PARTS_OF_OTHERS.includes(name))
       .map(([name]) => name),
-  )("%s is drawn", (name) => {
+  )("%s is drawn", async (name) => {
     const frame = `${line("0", 0)}${line("0", 40)}`;
-    const drawing = draw(`${frame}|0 ${name}|8 0${EXAMPLES[name] ?? ""}`, { blocks: BLOCK });
+    const drawing = await draw(`${frame}|0 ${name}|8 0${EXAMPLES[name] ?? ""}`, { blocks: BLOCK });
     expect(shapesOf(drawing).length).toBeGreaterThan(2);
     expect(codes(drawing).filter((code) => code !== "text-substituted")).toEqual([]);
   });

@@ -17,7 +17,7 @@ describe("encoded lines of HPGL", () => {
       parts.flatMap((part) => (typeof part === "string" ? [...part].map((c) => c.charCodeAt(0)) : part)),
     );
 
-  it("are right from all bytes of a file, which is not text in UTF-8", () => {
+  it("are right from all bytes of a file, which is not text in UTF-8", async () => {
     for (const preface of [
       "",
       "\u001b.(",
@@ -29,13 +29,13 @@ describe("encoded lines of HPGL", () => {
         [...digits(0), ...digits(0), ...digits(2000), ...digits(0), ...digits(-1000), ...digits(4000)],
         ";PU;",
       );
-      const drawing = importDrawing("a", textOfBytes(file));
+      const drawing = await importDrawing("a", textOfBytes(file));
       expect(shapesOf(drawing), preface).toEqual(["M0 100L50 100L25 0"]);
       expect(codes(drawing)).toEqual([]);
     }
   });
 
-  it("have flags with any eighth bit, and may be broken by blanks and control characters", () => {
+  it("have flags with any eighth bit, and may be broken by blanks and control characters", async () => {
     const flag = (char: string): number[] => [char.charCodeAt(0) + 128];
     const to = (x: number, y: number): number[] => [...digits(x), ...digits(y)];
     const plain = bytesOf(
@@ -59,14 +59,14 @@ describe("encoded lines of HPGL", () => {
       ...[":", digits(2), "<=", to(0, 400), to(800, 0), ";"],
     );
     for (const file of [plain, flags, broken]) {
-      const drawing = importDrawing("a", textOfBytes(file));
+      const drawing = await importDrawing("a", textOfBytes(file));
       expect(shapesOf(drawing)).toEqual(["M0 10L50 10", "M0 0L20 0"]);
       expect(drawing.groups.map(({ name }) => name)).toEqual(["Pen 1", "Pen 2"]);
     }
   });
 
-  it("are reported instead of drawn if bytes were lost", () => {
-    const drawing = importDrawing("a.plt", `IN;SP1;PU0,0;PD1000,0;PU;PE<=\ufffd\ufffd\ufffd\ufffd;PU;`);
+  it("are reported instead of drawn if bytes were lost", async () => {
+    const drawing = await importDrawing("a.plt", `IN;SP1;PU0,0;PD1000,0;PU;PE<=\ufffd\ufffd\ufffd\ufffd;PU;`);
     expect(codes(drawing)).toEqual(["attribute-fault"]);
     expect(drawing.paths.count).toBe(1);
   });

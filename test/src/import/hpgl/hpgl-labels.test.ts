@@ -25,15 +25,15 @@ const boxes: TextFont = {
 };
 
 /** The boxes as "left bottom" mm on the page, whose y points down from 100 at the plotter's 0. */
-const feet = (commands: string): string[] =>
-  shapesOf(draw(commands, { text: "outline", font: boxes }))
+const feet = async (commands: string): Promise<string[]> =>
+  shapesOf(await draw(commands, { text: "outline", font: boxes }))
     .slice(1)
     .flatMap((shape) => shape.split(/(?=M)/))
     .map((box) => /^M([^L]*)/.exec(box)![1]);
 
 describe("labels of HPGL", () => {
-  it("are at the pen's position in letters of the size that SI sets", () => {
-    const drawing = draw(`PU400,800;LBH${ETX}`);
+  it("are at the pen's position in letters of the size that SI sets", async () => {
+    const drawing = await draw(`PU400,800;LBH${ETX}`);
     const points = pointsOf(drawing, 1);
     const round = (values: number[]): number[] => values.map((v) => Math.round(v * 1e4) / 1e4);
     // An H of 4 × 8 mm at 10, 20.
@@ -47,22 +47,22 @@ describe("labels of HPGL", () => {
     expect(codes(drawing)).toEqual([]);
   });
 
-  it("advance by one and a half letters, and leave the pen after the last one", () => {
-    expect(feet(`PU400,800;LBab c${ETX}LBd${ETX}`)).toEqual(["10 80", "16 80", "28 80", "34 80"]);
+  it("advance by one and a half letters, and leave the pen after the last one", async () => {
+    expect(await feet(`PU400,800;LBab c${ETX}LBd${ETX}`)).toEqual(["10 80", "16 80", "28 80", "34 80"]);
   });
 
-  it("are text up to their end, whatever commands they contain", () => {
-    expect(feet(`PU400,800;LBPD;PU1${ETX}`)).toHaveLength(6);
-    expect(feet(`DT#;PU400,800;LBa;b#PU0,0;LBc#`)).toEqual(["10 80", "16 80", "22 80", "0 100"]);
-    expect(feet(`DTA;DT;PU400,800;LBA${ETX}`)).toHaveLength(1);
-    expect(feet(`PU400,800;LB12${ETX}`)).toHaveLength(2);
+  it("are text up to their end, whatever commands they contain", async () => {
+    expect(await feet(`PU400,800;LBPD;PU1${ETX}`)).toHaveLength(6);
+    expect(await feet(`DT#;PU400,800;LBa;b#PU0,0;LBc#`)).toEqual(["10 80", "16 80", "22 80", "0 100"]);
+    expect(await feet(`DTA;DT;PU400,800;LBA${ETX}`)).toHaveLength(1);
+    expect(await feet(`PU400,800;LB12${ETX}`)).toHaveLength(2);
   });
 
-  it("begin a new line two letters below", () => {
-    expect(feet(`PU400,1600;LBa\r\nb${ETX}`)).toEqual(["10 60", "10 76"]);
-    expect(feet(`PU400,1600;LBa\nb${ETX}`)).toEqual(["10 60", "16 76"]);
-    expect(feet(`PU400,1600;LBa${ETX}CP;LBb${ETX}`)).toEqual(["10 60", "10 76"]);
-    expect(feet(`PU400,1600;CP2,-0.5;LBa${ETX}`)).toEqual(["22 68"]);
+  it("begin a new line two letters below", async () => {
+    expect(await feet(`PU400,1600;LBa\r\nb${ETX}`)).toEqual(["10 60", "10 76"]);
+    expect(await feet(`PU400,1600;LBa\nb${ETX}`)).toEqual(["10 60", "16 76"]);
+    expect(await feet(`PU400,1600;LBa${ETX}CP;LBb${ETX}`)).toEqual(["10 60", "10 76"]);
+    expect(await feet(`PU400,1600;CP2,-0.5;LBa${ETX}`)).toEqual(["22 68"]);
   });
 
   // "ab" is 10 wide and 8 high; the pen is at 50, 50 on the page.
@@ -81,18 +81,18 @@ describe("labels of HPGL", () => {
     [15, "45 54"],
     [17, "38 46"],
     [19, "38 62"],
-  ])("are placed about the pen's position by LO%i", (origin, first) => {
-    expect(feet(`LO${origin};PU2000,2000;LBab${ETX}`)[0]).toBe(first);
+  ])("are placed about the pen's position by LO%i", async (origin, first) => {
+    expect((await feet(`LO${origin};PU2000,2000;LBab${ETX}`))[0]).toBe(first);
   });
 
   // Letters of 4 × 8 mm: 6 mm from one to the next, 16 from a line to the next.
-  it("have extra space between letters and lines", () => {
-    expect(feet(`ES0.5;PU400,800;LBab${ETX}LBc${ETX}`)).toEqual(["10 80", "19 80", "28 80"]);
-    expect(feet(`ES-0.5,0.25;PU400,1600;LBa\r\nbc${ETX}`)).toEqual(["10 60", "10 80", "13 80"]);
-    expect(feet(`ES0,0.25;PU400,1600;LBa${ETX}CP;LBb${ETX}`)).toEqual(["10 60", "10 80"]);
-    expect(feet(`ES1,1;ES;PU400,800;LBab${ETX}`)).toEqual(["10 80", "16 80"]);
+  it("have extra space between letters and lines", async () => {
+    expect(await feet(`ES0.5;PU400,800;LBab${ETX}LBc${ETX}`)).toEqual(["10 80", "19 80", "28 80"]);
+    expect(await feet(`ES-0.5,0.25;PU400,1600;LBa\r\nbc${ETX}`)).toEqual(["10 60", "10 80", "13 80"]);
+    expect(await feet(`ES0,0.25;PU400,1600;LBa${ETX}CP;LBb${ETX}`)).toEqual(["10 60", "10 80"]);
+    expect(await feet(`ES1,1;ES;PU400,800;LBab${ETX}`)).toEqual(["10 80", "16 80"]);
     // The middle of "ab", which is 4 + 9 wide.
-    expect(feet(`ES0.5;LO4;PU2000,2000;LBab${ETX}`)).toEqual(["43.5 50", "52.5 50"]);
+    expect(await feet(`ES0.5;LO4;PU2000,2000;LBab${ETX}`)).toEqual(["43.5 50", "52.5 50"]);
   });
 
   it.each([
@@ -100,44 +100,44 @@ describe("labels of HPGL", () => {
     ["down", "DV1;LO3", ["50 58", "50 74"], ["50 90"]],
     ["to the left", "DV2;LO7", ["46 50", "40 50"], ["34 50"]],
     ["up", "DV3;LO1", ["50 50", "50 34"], ["50 18"]],
-  ])("run %s, and the next label continues from there", (_way, settings, first, next) => {
-    expect(feet(`${settings};PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual([...first, ...next]);
+  ])("run %s, and the next label continues from there", async (_way, settings, first, next) => {
+    expect(await feet(`${settings};PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual([...first, ...next]);
   });
 
-  it("are placed as a whole column about the pen's position, which is unchanged if they do not begin there", () => {
+  it("are placed as a whole column about the pen's position, which is unchanged if they do not begin there", async () => {
     // 24 high: 8, 16 apart.
-    expect(feet(`DV1;LO1;PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual(["50 34", "50 50", "50 50"]);
-    expect(feet(`DV1;LO5;PU2000,2000;LBab${ETX}`)).toEqual(["48 46", "48 62"]);
-    expect(feet(`DV3;LO9;PU2000,2000;LBab${ETX}`)).toEqual(["46 74", "46 58"]);
+    expect(await feet(`DV1;LO1;PU2000,2000;LBab${ETX}LBc${ETX}`)).toEqual(["50 34", "50 50", "50 50"]);
+    expect(await feet(`DV1;LO5;PU2000,2000;LBab${ETX}`)).toEqual(["48 46", "48 62"]);
+    expect(await feet(`DV3;LO9;PU2000,2000;LBab${ETX}`)).toEqual(["46 74", "46 58"]);
   });
 
-  it("begin a new line clockwise from their direction, or the other way round", () => {
-    expect(feet(`DV1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "44 58"]);
-    expect(feet(`DV1,1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "56 58"]);
-    expect(feet(`DV0,1;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 50", "50 34"]);
-    expect(feet(`DV2;LO7;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["46 50", "46 34"]);
-    expect(feet(`DV3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 50", "56 50"]);
-    expect(feet(`DV1,1;IN;SP1;SI0.4,0.8;PU2000,2000;LBab${ETX}`)).toEqual(["50 50", "56 50"]);
+  it("begin a new line clockwise from their direction, or the other way round", async () => {
+    expect(await feet(`DV1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "44 58"]);
+    expect(await feet(`DV1,1;LO3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 58", "56 58"]);
+    expect(await feet(`DV0,1;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 50", "50 34"]);
+    expect(await feet(`DV2;LO7;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["46 50", "46 34"]);
+    expect(await feet(`DV3;PU2000,2000;LBa\r\nb${ETX}`)).toEqual(["50 50", "56 50"]);
+    expect(await feet(`DV1,1;IN;SP1;SI0.4,0.8;PU2000,2000;LBab${ETX}`)).toEqual(["50 50", "56 50"]);
   });
 
-  it("have the given direction and slant", () => {
-    const box = (commands: string): string =>
-      shapesOf(draw(`${commands};PU2000,2000;LBa${ETX}`, { text: "outline", font: boxes }))[1];
-    expect(box("DI0,1")).toBe("M50 50L50 46L42 46L42 50Z");
-    expect(box("IP0,0,1000,2000;DR1,0.5")).toBe(box("DI1,1"));
-    expect(box("SL1")).toBe("M50 50L54 50L62 42L58 42Z");
-    expect(box("IP0,0,4000,8000;SR2,3")).toBe("M50 50L52 50L52 44L50 44Z");
-    expect(box("DI0,1;DI")).toBe("M50 50L54 50L54 42L50 42Z");
+  it("have the given direction and slant", async () => {
+    const box = async (commands: string): Promise<string> =>
+      shapesOf(await draw(`${commands};PU2000,2000;LBa${ETX}`, { text: "outline", font: boxes }))[1];
+    expect(await box("DI0,1")).toBe("M50 50L50 46L42 46L42 50Z");
+    expect(await box("IP0,0,1000,2000;DR1,0.5")).toBe(await box("DI1,1"));
+    expect(await box("SL1")).toBe("M50 50L54 50L62 42L58 42Z");
+    expect(await box("IP0,0,4000,8000;SR2,3")).toBe("M50 50L52 50L52 44L50 44Z");
+    expect(await box("DI0,1;DI")).toBe("M50 50L54 50L54 42L50 42Z");
   });
 
-  it("are drawn with the pen up, by the pen in the holder, and not without one", () => {
-    const drawing = draw(`SP2;PU400,800;LBH${ETX}SP0;PU800,800;LBH${ETX}`);
+  it("are drawn with the pen up, by the pen in the holder, and not without one", async () => {
+    const drawing = await draw(`SP2;PU400,800;LBH${ETX}SP0;PU800,800;LBH${ETX}`);
     expect(drawing.paths.count).toBe(2);
     expect(drawing.groups.map((group) => group.name)).toEqual(["Pen 1", "Pen 2"]);
   });
 
-  it("are reported if text is excluded, and if letters are missing", () => {
-    expect(codes(draw(`PU400,800;LBH${ETX}PD500,800;`, { text: "none" }))).toEqual(["text-not-drawn"]);
-    expect(codes(draw(`PU400,800;LBA漢${ETX}`))).toEqual(["glyphs-missing"]);
+  it("are reported if text is excluded, and if letters are missing", async () => {
+    expect(codes(await draw(`PU400,800;LBH${ETX}PD500,800;`, { text: "none" }))).toEqual(["text-not-drawn"]);
+    expect(codes(await draw(`PU400,800;LBA漢${ETX}`))).toEqual(["glyphs-missing"]);
   });
 });

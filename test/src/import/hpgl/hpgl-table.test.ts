@@ -7,7 +7,7 @@ import { importDrawing } from "../../../../src/import/registry.js";
 import { codes, shapesOf } from "../../../support/import/shapes.js";
 
 const ETX = "\u0003";
-const hpgl = (text: string): Drawing => importDrawing("a.plt", text);
+const hpgl = (text: string): Promise<Drawing> => importDrawing("a.plt", text);
 const LINE = "SP1;PU0,0;PD1000,0;PU;";
 
 /** By command: a file in which it makes a difference. The command is between « and ». */
@@ -73,8 +73,8 @@ const EXAMPLES: Readonly<Record<string, string>> = {
 };
 
 /** All that a reader notices of a drawing. */
-function noticed(text: string): string {
-  const drawing = hpgl(`IN;SP1;${text}`);
+async function noticed(text: string): Promise<string> {
+  const drawing = await hpgl(`IN;SP1;${text}`);
   const { widthMm, heightMm, groups, colors, dashes, paths, warnings } = drawing;
   const looks = [paths.stroke, paths.fill, paths.dash, paths.group].map((column) => [...column]);
   return JSON.stringify([
@@ -115,9 +115,9 @@ describe("the table of HPGL commands", () => {
 
   it.each(COMMAND_GROUPS.flatMap((group) => group.names.map((name) => [name, group] as const)))(
     "tells the truth about %s",
-    (name, { outcome, warning, reads }) => {
+    async (name, { outcome, warning, reads }) => {
       const parameters = reads === "numbers" || reads === "encoded" ? "1,1,1,1,1,1" : `A${ETX}`;
-      const warnings = codes(hpgl(`IN;${LINE}${name}${parameters};IN;SP1;PU0,0;PD90,90;`));
+      const warnings = codes(await hpgl(`IN;${LINE}${name}${parameters};IN;SP1;PU0,0;PD90,90;`));
       if (outcome === "reported") expect(warnings).toEqual([warning]);
       else expect(warnings).not.toContain("not-supported");
       if (outcome === "setting") expect(warnings).toEqual([]);
@@ -128,9 +128,11 @@ describe("the table of HPGL commands", () => {
     COMMAND_GROUPS.filter(({ outcome }) => outcome === "drawn" || outcome === "alike").flatMap(
       ({ names: all }) => all,
     ),
-  )("draws what %s asks for", (name) => {
+  )("draws what %s asks for", async (name) => {
     const example = EXAMPLES[name] ?? "";
     expect(example).toContain(`«${name}`);
-    expect(noticed(example.replace(/[«»]/g, ""))).not.toBe(noticed(example.replace(/«[^»]*»/, "")));
+    expect(await noticed(example.replace(/[«»]/g, ""))).not.toBe(
+      await noticed(example.replace(/«[^»]*»/, "")),
+    );
   });
 });

@@ -7,7 +7,7 @@ import { countFor } from "../../../support/runs/full-run.js";
 
 const RUNS = { numRuns: countFor("PLOTWRIGHT_HPGL_CASES", 1_000, 100) };
 const hpgl = (text: string) => importDrawing("a.plt", text);
-const coordsOf = (text: string): number[] => [...hpgl(text).paths.coords];
+const coordsOf = async (text: string): Promise<number[]> => [...(await hpgl(text)).paths.coords];
 
 const coordinate = fc.integer({ min: -9_999, max: 9_999 });
 const COMMANDS: readonly fc.Arbitrary<string>[] = [
@@ -49,22 +49,22 @@ const step = fc.oneof(coordinate, fc.integer({ min: -31, max: 31 }), fc.constant
 const asciiBytes = (text: string): number[] => [...text].map((char) => char.charCodeAt(0));
 
 describe("HPGL of random lines", () => {
-  it("draws encoded lines from the bytes of a file as the same lines in numbers", () => {
-    fc.assert(
-      fc.property(fc.array(fc.tuple(step, step), { minLength: 1, maxLength: 6 }), (points) => {
+  it("draws encoded lines from the bytes of a file as the same lines in numbers", async () => {
+    await fc.assert(
+      fc.asyncProperty(fc.array(fc.tuple(step, step), { minLength: 1, maxLength: 6 }), async (points) => {
         const bytes = [
           ...asciiBytes("IN;SP1;PU0,0;PE"),
           ...points.flat().flatMap(digits),
           ...asciiBytes(";PU;"),
         ];
-        const encoded = importDrawing("a.plt", textOfBytes(Uint8Array.from(bytes)));
-        expect([...encoded.paths.coords]).toEqual(coordsOf(`IN;SP1;PU0,0;PR;PD${points.join()};PU;`));
+        const encoded = await importDrawing("a.plt", textOfBytes(Uint8Array.from(bytes)));
+        expect([...encoded.paths.coords]).toEqual(await coordsOf(`IN;SP1;PU0,0;PR;PD${points.join()};PU;`));
       }),
       RUNS,
     );
   });
 
-  it("draws no text of a comment, message, name or stored label", () => {
+  it("draws no text of a comment, message, name or stored label", async () => {
     const texts = [
       without('"').map((text) => `CO "${text}"`),
       without('"').map((text) => `MG"${text}";`),
@@ -74,34 +74,36 @@ describe("HPGL of random lines", () => {
       without("\u0003").map((text) => `WD${text}\u0003`),
       without("#").map((text) => `DT#;BL${text}#DT;`),
     ];
-    fc.assert(
-      fc.property(drawn, fc.oneof(...texts), drawn, (before, text, after) => {
-        expect(coordsOf(`IN;SP1;${before}${text}${after}`)).toEqual(coordsOf(`IN;SP1;${before}${after}`));
+    await fc.assert(
+      fc.asyncProperty(drawn, fc.oneof(...texts), drawn, async (before, text, after) => {
+        expect(await coordsOf(`IN;SP1;${before}${text}${after}`)).toEqual(
+          await coordsOf(`IN;SP1;${before}${after}`),
+        );
       }),
       RUNS,
     );
   });
 
-  it("is the same with IP before SC and after it", () => {
+  it("is the same with IP before SC and after it", async () => {
     const corners = fc
       .tuple(coordinate, coordinate, coordinate, coordinate)
       .filter(([a, b, c, d]) => a !== c && b !== d);
     const scales = fc
       .tuple(coordinate, coordinate, coordinate, coordinate, fc.constantFrom(0, 1, 2))
       .filter(([a, b, c, d, type]) => (type === 2 ? b !== 0 && d !== 0 : a !== b && c !== d));
-    fc.assert(
-      fc.property(corners, scales, drawn, (ip, sc, lines) => {
-        const after = hpgl(`IN;SP1;SC${sc};IP${ip};${lines}`);
-        expect([...after.paths.coords]).toEqual(coordsOf(`IN;SP1;IP${ip};SC${sc};${lines}`));
+    await fc.assert(
+      fc.asyncProperty(corners, scales, drawn, async (ip, sc, lines) => {
+        const after = await hpgl(`IN;SP1;SC${sc};IP${ip};${lines}`);
+        expect([...after.paths.coords]).toEqual(await coordsOf(`IN;SP1;IP${ip};SC${sc};${lines}`));
       }),
       RUNS,
     );
   });
 
-  it("is turned as a whole by RO, without a change of shape", () => {
-    fc.assert(
-      fc.property(drawn, fc.constantFrom(90, 180, 270, -90, 450), (lines, deg) => {
-        const [plain, turned] = [hpgl(`IN;SP1;${lines}`), hpgl(`IN;RO${deg};SP1;${lines}`)];
+  it("is turned as a whole by RO, without a change of shape", async () => {
+    await fc.assert(
+      fc.asyncProperty(drawn, fc.constantFrom(90, 180, 270, -90, 450), async (lines, deg) => {
+        const [plain, turned] = [await hpgl(`IN;SP1;${lines}`), await hpgl(`IN;RO${deg};SP1;${lines}`)];
         const size = [plain.widthMm, plain.heightMm];
         const [width, height] = deg % 180 === 0 ? size : size.reverse();
         expect(turned.widthMm).toBeCloseTo(width, 3);

@@ -12,8 +12,8 @@ const page = (body: string): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100">${body}</svg>`;
 
 /** Drawn length in mm at true size. */
-const drawnMm = (svg: string, settings: Partial<PrepareSettings> = {}): number =>
-  prepare(importSvg(svg), { fit: false, order: "none", outside: "allow", ...settings }).drawMm;
+const drawnMm = async (svg: string, settings: Partial<PrepareSettings> = {}): Promise<number> =>
+  prepare(await importSvg(svg), { fit: false, order: "none", outside: "allow", ...settings }).drawMm;
 
 const FULL = 'width="100" height="100"';
 
@@ -79,26 +79,26 @@ const BACKGROUNDS: readonly (readonly [program: string, body: string])[] = [
 ];
 
 describe("a background is not drawn, and said to be left out", () => {
-  it.each(BACKGROUNDS)("%s", (_program, body) => {
-    const drawing = importSvg(page(body));
-    expect(drawnMm(page(body))).toBeCloseTo(100, 6);
+  it.each(BACKGROUNDS)("%s", async (_program, body) => {
+    const drawing = await importSvg(page(body));
+    expect(await drawnMm(page(body))).toBeCloseTo(100, 6);
     expect(codes(drawing)).toContain("background");
   });
 
-  it("also by colour, without a layer of its own", () => {
-    const drawing = importSvg(page(`<rect ${FULL} fill="white"/>${INK}`));
+  it("also by colour, without a layer of its own", async () => {
+    const drawing = await importSvg(page(`<rect ${FULL} fill="white"/>${INK}`));
     const { layers } = prepare(drawing, { layers: "stroke" });
     expect(layers.map(({ name }) => name)).toEqual(["#000000"]);
   });
 
-  it("and is not hatched", () => {
+  it("and is not hatched", async () => {
     const hatch = { spacingMm: 1, angleDeg: 0, cross: false };
-    expect(drawnMm(page(`<rect ${FULL} fill="white"/>${INK}`), { hatch })).toBeCloseTo(100, 6);
+    expect(await drawnMm(page(`<rect ${FULL} fill="white"/>${INK}`), { hatch })).toBeCloseTo(100, 6);
   });
 
-  it("and what is drawn fills the paper when it is fitted", () => {
+  it("and what is drawn fills the paper when it is fitted", async () => {
     const paper = { widthMm: 120, heightMm: 120 };
-    const { size } = prepare(importSvg(page(`<rect ${FULL} fill="white"/>${INK}`)), {
+    const { size } = prepare(await importSvg(page(`<rect ${FULL} fill="white"/>${INK}`)), {
       fit: true,
       marginMm: 10,
       paper,
@@ -106,15 +106,15 @@ describe("a background is not drawn, and said to be left out", () => {
     expect(size.widthMm).toBeCloseTo(100, 6);
   });
 
-  it("but hides what is painted before it, if hidden lines are left out", () => {
+  it("but hides what is painted before it, if hidden lines are left out", async () => {
     const body = `<path d="M5 5H95" stroke="red"/><rect ${FULL} fill="white"/>${INK}`;
-    expect(drawnMm(page(body))).toBeCloseTo(190, 6);
-    expect(drawnMm(page(body), { hideCovered: true })).toBeCloseTo(100, 6);
+    expect(await drawnMm(page(body))).toBeCloseTo(190, 6);
+    expect(await drawnMm(page(body), { hideCovered: true })).toBeCloseTo(100, 6);
   });
 
-  it("in a file without a page, if it lies around the drawing", () => {
+  it("in a file without a page, if it lies around the drawing", async () => {
     const svg = `<svg xmlns="http://www.w3.org/2000/svg"><rect width="400" height="400" fill="beige"/><path d="M10 10H106" stroke="red"/></svg>`;
-    expect(drawnMm(svg)).toBeCloseTo(96 / (96 / 25.4), 6);
+    expect(await drawnMm(svg)).toBeCloseTo(96 / (96 / 25.4), 6);
   });
 });
 
@@ -149,24 +149,25 @@ describe("a filled shape is drawn", () => {
       300,
     ],
     ["as a frame 2 mm inside the page", `<rect x="2" y="2" width="96" height="96" fill="red"/>${INK}`, 484],
-  ])("%s", (_what, body, mm) => {
-    const drawing = importSvg(page(body));
-    expect(drawnMm(page(body))).toBeCloseTo(mm, 2);
+  ])("%s", async (_what, body, mm) => {
+    const drawing = await importSvg(page(body));
+    expect(await drawnMm(page(body))).toBeCloseTo(mm, 2);
     if (!body.includes('fill="black"')) expect(codes(drawing)).not.toContain("background");
   });
 });
 
-it("Nothing that is visible on screen is taken for background", { timeout: 20_000 }, () => {
+it("Nothing that is visible on screen is taken for background", { timeout: 20_000 }, async () => {
   const side = fc.integer({ min: 5, max: 60 });
   const color = fc.constantFrom("white", "#fefefe", "red", "#88a");
   const rect = fc.record({ x: side, y: side, width: side, height: side, color });
-  fc.assert(
-    fc.property(fc.array(rect, { minLength: 1, maxLength: 8 }), (rects) => {
+  await fc.assert(
+    fc.asyncProperty(fc.array(rect, { minLength: 1, maxLength: 8 }), async (rects) => {
       const body = rects.map(
         ({ x, y, width, height, color: fill }) =>
           `<rect x="${x}" y="${y}" width="${width}" height="${height}" fill="${fill}"/>`,
       );
-      const { background } = importSvg(page(`<rect ${FULL} fill="white"/>${body.join("")}${INK}`)).paths;
+      const { background } = (await importSvg(page(`<rect ${FULL} fill="white"/>${body.join("")}${INK}`)))
+        .paths;
       const isWhite = (k: number): boolean => rects[k].color === "white" || rects[k].color === "#fefefe";
       const isOver = (k: number, j: number): boolean =>
         rects[k].x < rects[j].x + rects[j].width &&

@@ -29,19 +29,21 @@ describe("clip-path", () => {
     ["polygon(0 0, 100% 0, 0 100%)", [20, 10, 60, 10, 20, 30]],
     ["polygon(0 0, 100% 0, 0 100%) view-box", [0, 0, 100, 0, 0, 100]],
     ["fill-box polygon(0 0, 100% 0, 0 100%)", [20, 10, 60, 10, 20, 30]],
-  ])("%s is in its reference box", (value, expected) => {
-    const { clips, warnings } = draw(`<rect x="20" y="10" width="40" height="20" clip-path="${value}"/>`);
+  ])("%s is in its reference box", async (value, expected) => {
+    const { clips, warnings } = await draw(
+      `<rect x="20" y="10" width="40" height="20" clip-path="${value}"/>`,
+    );
     expect(clips.map(({ coords }) => [...coords])).toEqual([expected]);
     expect(warnings).toEqual([]);
   });
 
-  it("has the fill rule of a polygon", () => {
+  it("has the fill rule of a polygon", async () => {
     const body = '<rect width="40" height="20" style="clip-path:polygon(evenodd, 0 0, 10px 0, 0 10px)"/>';
-    expect([...draw(body).clips[0].rule]).toEqual([1]);
+    expect([...(await draw(body)).clips[0].rule]).toEqual([1]);
   });
 
-  it("hides a shape of which nothing remains", () => {
-    expect(draw('<rect width="40" height="20" style="clip-path:inset(50%)"/>').paths.count).toBe(0);
+  it("hides a shape of which nothing remains", async () => {
+    expect((await draw('<rect width="40" height="20" style="clip-path:inset(50%)"/>')).paths.count).toBe(0);
   });
 
   it.each([
@@ -50,8 +52,8 @@ describe("clip-path", () => {
     "polygon(1px)",
     "shape(from 0 0)",
     "circle(5px at left 10px top 0)",
-  ])("%s is reported and not applied", (value) => {
-    const { warnings, clips } = draw(`<rect width="40" height="20" style="clip-path:${value}"/>`);
+  ])("%s is reported and not applied", async (value) => {
+    const { warnings, clips } = await draw(`<rect width="40" height="20" style="clip-path:${value}"/>`);
     expect(clips).toEqual([]);
     expect(warnings.map(({ code }) => code)).toEqual(["clip-ignored"]);
   });

@@ -8,9 +8,9 @@ const TOLERANCE = 0.0005;
 
 beforeAll(loadResvg);
 
-const expectAgreement = (body: string, attributes = 'width="100" height="100"'): void => {
+const expectAgreement = async (body: string, attributes = 'width="100" height="100"'): Promise<void> => {
   const head = `xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ${attributes}`;
-  expect(disagreement(`<svg ${head}>${body}</svg>`)).toBeLessThan(TOLERANCE);
+  expect(await disagreement(`<svg ${head}>${body}</svg>`)).toBeLessThan(TOLERANCE);
 };
 
 describe("markers", () => {
@@ -34,8 +34,8 @@ describe("markers", () => {
       `<marker id="m" markerWidth="5" markerHeight="5" orient="auto" overflow="visible"><path d="M1 1L3 2L1 3z"/></marker>
        <path d="M20 75C47 70 50 52 50 20C50 52 52 70 80 80" fill="none" stroke="red" marker-mid="url(#m)"/>`,
     ],
-  ])("%s", (_name, body) => {
-    expectAgreement(body);
+  ])("%s", async (_name, body) => {
+    await expectAgreement(body);
   });
 });
 
@@ -44,7 +44,7 @@ describe("shapes", () => {
     ["a rectangle with a negative rx", '<rect x="10" y="10" width="50" height="40" rx="-5" ry="8"/>'],
     ["a rectangle with two negative radii", '<rect x="10" y="10" width="50" height="40" rx="-5" ry="-8"/>'],
     ["an ellipse with a negative rx", '<ellipse cx="50" cy="50" rx="-5" ry="20"/>'],
-  ])("%s", (_name, body) => {
-    expectAgreement(body);
+  ])("%s", async (_name, body) => {
+    await expectAgreement(body);
   });
 });

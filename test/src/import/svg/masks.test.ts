@@ -7,27 +7,27 @@ const SHAPE = '<rect x="20" y="10" width="40" height="20" mask="url(#m)"/>';
 const WHITE = '<path d="M0 0H30V40z" fill="white" stroke="none"/>';
 
 describe("a mask of light shapes", () => {
-  it("clips to them, inside its own rectangle", () => {
+  it("clips to them, inside its own rectangle", async () => {
     const body = `<mask id="m" maskUnits="userSpaceOnUse" x="1" y="2" width="40" height="20">${WHITE}</mask>${SHAPE}`;
-    expect(clipsOf(body)).toEqual([
+    expect(await clipsOf(body)).toEqual([
       [1, 2, 41, 2, 41, 22, 1, 22],
       [0, 0, 30, 0, 30, 40],
     ]);
-    expect(codes(draw(body))).toEqual([]);
+    expect(codes(await draw(body))).toEqual([]);
   });
 
-  it("may be relative to the box of the shape", () => {
+  it("may be relative to the box of the shape", async () => {
     const square = '<path d="M0 0H.5V1H0z" fill="white" stroke="none"/>';
     const units = 'maskContentUnits="objectBoundingBox" x="10%" y="0.25" width="0.5" height="50%"';
-    expect(clipsOf(`<mask id="m" ${units}>${square}</mask>${SHAPE}`)).toEqual([
+    expect(await clipsOf(`<mask id="m" ${units}>${square}</mask>${SHAPE}`)).toEqual([
       [24, 15, 44, 15, 44, 25, 24, 25],
       [20, 10, 40, 10, 40, 30, 20, 30],
     ]);
   });
 
-  it("has the fill rule of its shapes", () => {
+  it("has the fill rule of its shapes", async () => {
     const odd = WHITE.replace("/>", ' fill-rule="evenodd"/>');
-    expect([...draw(`<mask id="m">${odd}</mask>${SHAPE}`).clips.at(-1)!.rule]).toEqual([1]);
+    expect([...(await draw(`<mask id="m">${odd}</mask>${SHAPE}`)).clips.at(-1)!.rule]).toEqual([1]);
   });
 
   it.each([
@@ -40,20 +40,20 @@ describe("a mask of light shapes", () => {
       `<mask id="m" style="mask-type:alpha">${WHITE.replace("white", "blue")}</mask>`,
     ],
     ["shapes that are not displayed", `<mask id="m"><circle r="99" display="none"/>${WHITE}</mask>`],
-  ])("may contain %s", (_what, mask) => {
-    expect(clipsOf(mask + SHAPE).at(-1)).toEqual([0, 0, 30, 0, 30, 40]);
-    expect(codes(draw(mask + SHAPE))).toEqual([]);
+  ])("may contain %s", async (_what, mask) => {
+    expect((await clipsOf(mask + SHAPE)).at(-1)).toEqual([0, 0, 30, 0, 30, 40]);
+    expect(codes(await draw(mask + SHAPE))).toEqual([]);
   });
 
-  it.each(["gray", "#fff8", "url(#g)"])("that is %s cuts, too, and is reported", (fill) => {
+  it.each(["gray", "#fff8", "url(#g)"])("that is %s cuts, too, and is reported", async (fill) => {
     const gradient = '<linearGradient id="g"><stop stop-color="white"/><stop offset="1"/></linearGradient>';
-    const drawing = draw(`${gradient}<mask id="m">${WHITE.replace("white", fill)}</mask>${SHAPE}`);
+    const drawing = await draw(`${gradient}<mask id="m">${WHITE.replace("white", fill)}</mask>${SHAPE}`);
     expect(drawing.clips).toHaveLength(1);
     expect(codes(drawing)).toEqual(["mask-ignored"]);
   });
 
-  it("hides a shape if all of them are hidden", () => {
-    expect(draw(`<mask id="m"><circle r="99" display="none"/></mask>${SHAPE}`).paths.count).toBe(0);
+  it("hides a shape if all of them are hidden", async () => {
+    expect((await draw(`<mask id="m"><circle r="99" display="none"/></mask>${SHAPE}`)).paths.count).toBe(0);
   });
 });
 
@@ -112,31 +112,37 @@ describe("a mask of several shapes and lines", () => {
       `<mask id="n" maskUnits="userSpaceOnUse" x="0" y="0" width="99" height="99">${square(0, 20, "white")}</mask><g mask="url(#n)">${whole}${square(10, 5, "black")}</g>`,
       375,
     ],
-  ])("%s", (_what, content, area) => {
-    const drawing = draw(`<mask id="m">${content}</mask>${SHAPE}`);
+  ])("%s", async (_what, content, area) => {
+    const drawing = await draw(`<mask id="m">${content}</mask>${SHAPE}`);
     expect(codes(drawing)).toEqual([]);
     expect(areaOf(drawing)).toBeCloseTo(area, 1);
   });
 
-  it("hides everything if all of them are black", () => {
-    expect(draw(`<mask id="m">${square(0, 99, "black")}</mask>${SHAPE}`).paths.count).toBe(0);
+  it("hides everything if all of them are black", async () => {
+    expect((await draw(`<mask id="m">${square(0, 99, "black")}</mask>${SHAPE}`)).paths.count).toBe(0);
   });
 
-  it("stays quick with masks in masks that double at each level", { timeout: 60_000 }, () => {
+  it("stays quick with masks in masks that double at each level", { timeout: 60_000 }, async () => {
     const masks = Array.from({ length: 40 }, (_, i) => {
       const inner = `<g transform="scale(.9)" mask="url(#m${i + 1})">${whole}</g>`;
       return `<mask id="m${i}">${inner}<g transform="translate(1)">${inner}</g></mask>`;
     });
-    const drawing = draw(masks.join("") + SHAPE.replace("#m", "#m0"));
+    const drawing = await draw(masks.join("") + SHAPE.replace("#m", "#m0"));
     expect(codes(drawing)).toEqual(["mask-ignored"]);
   });
 
-  it.each([3000, 499])("stays quick with %i shapes and thousands of uses", { timeout: 60_000 }, (count) => {
-    const many = Array.from({ length: count }, (_, i) => square(i % 40, 9, i % 2 === 0 ? "white" : "black"));
-    const uses = Array.from({ length: 3000 }, (_, i) => `<g transform="translate(${i / 99})">${SHAPE}</g>`);
-    const drawing = draw(`<mask id="m">${many.join("")}</mask><g>${uses.join("")}</g>`);
-    expect(codes(drawing)).toContain("mask-ignored");
-  });
+  it.each([3000, 499])(
+    "stays quick with %i shapes and thousands of uses",
+    { timeout: 60_000 },
+    async (count) => {
+      const many = Array.from({ length: count }, (_, i) =>
+        square(i % 40, 9, i % 2 === 0 ? "white" : "black"),
+      );
+      const uses = Array.from({ length: 3000 }, (_, i) => `<g transform="translate(${i / 99})">${SHAPE}</g>`);
+      const drawing = await draw(`<mask id="m">${many.join("")}</mask><g>${uses.join("")}</g>`);
+      expect(codes(drawing)).toContain("mask-ignored");
+    },
+  );
 });
 
 describe("a mask of something else", () => {
@@ -148,8 +154,8 @@ describe("a mask of something else", () => {
     ["a picture", '<image width="9" height="9"/>'],
     ["text", '<text fill="white">a</text>'],
     ["masked shapes", WHITE.replace("<path", '<path mask="url(#m)"')],
-  ])("is reported and not applied: %s", (_what, content) => {
-    const drawing = draw(`<mask id="m">${content}</mask>${SHAPE}`);
+  ])("is reported and not applied: %s", async (_what, content) => {
+    const drawing = await draw(`<mask id="m">${content}</mask>${SHAPE}`);
     expect(drawing.clips).toEqual([]);
     expect(codes(drawing)).toEqual(["mask-ignored"]);
   });

@@ -35,10 +35,10 @@ const svgOf = ({
 
 const close = (a: number, b: number): boolean => Math.abs(a - b) <= 1e-9 * (1 + Math.abs(a) + Math.abs(b));
 
-it("is so for any page", () => {
-  fc.assert(
-    fc.property(page, pxPerInch, (px, perInch) => {
-      const drawing = importSvg(svgOf(px));
+it("is so for any page", async () => {
+  await fc.assert(
+    fc.asyncProperty(page, pxPerInch, async (px, perInch) => {
+      const drawing = await importSvg(svgOf(px));
       const { size, strokes } = prepare(drawing, {
         pxPerInch: perInch,
         fit: false,
@@ -69,11 +69,11 @@ const lengthsOf = ({ widthMm, heightMm, dashes, clips, paths, warnings }: Drawin
   ...warnings.flatMap(({ boxes }) => boxes.flat()),
 ];
 
-it("gives the same drawing as reading the file with them", () => {
-  fc.assert(
-    fc.property(page, pxPerInch, (px, perInch) => {
-      const read = importSvg(svgOf(px), { pxPerInch: perInch });
-      const set = withPxPerInch(importSvg(svgOf(px)), perInch);
+it("gives the same drawing as reading the file with them", async () => {
+  await fc.assert(
+    fc.asyncProperty(page, pxPerInch, async (px, perInch) => {
+      const read = await importSvg(svgOf(px), { pxPerInch: perInch });
+      const set = withPxPerInch(await importSvg(svgOf(px)), perInch);
       const [a, b] = [lengthsOf(read), lengthsOf(set)];
       expect(a.length).toBe(b.length);
       expect(a.filter((mm, i) => !close(mm, b[i]))).toEqual([]);

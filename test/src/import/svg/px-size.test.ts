@@ -28,8 +28,10 @@ const INKSCAPE =
 const SERIF = 'xmlns:serif="http://www.serif.com/"';
 
 /** px per inch as the drawing has them: its line of 100 px, whatever its page says. */
-const pxPerInchOf = (svg: string): number => Math.round((100 / importSvg(svg).paths.coords[2]) * 25.4);
-const notes = (svg: string): string[] => importSvg(svg).warnings.map(({ message }) => message);
+const pxPerInchOf = async (svg: string): Promise<number> =>
+  Math.round((100 / (await importSvg(svg)).paths.coords[2]) * 25.4);
+const notes = async (svg: string): Promise<string[]> =>
+  (await importSvg(svg)).warnings.map(({ message }) => message);
 
 describe("the writer's px", () => {
   it.each([
@@ -101,11 +103,11 @@ describe("the writer's px", () => {
       "215.9 × 279.4 mm at 96",
     ],
     ["Affinity's A4 at 150", svgOf(`${SERIF} ${sized(1240, 1754)}`), 150, "210 × 297 mm at 150"],
-  ])("is taken from %s, and the size is said", (_what, svg, pxPerInch, size) => {
-    expect(pxPerInchOf(svg)).toBe(pxPerInch);
-    expect(notes(svg)).toEqual([expect.stringContaining(`(${size} px per inch; written by `)]);
+  ])("is taken from %s, and the size is said", async (_what, svg, pxPerInch, size) => {
+    expect(await pxPerInchOf(svg)).toBe(pxPerInch);
+    expect(await notes(svg)).toEqual([expect.stringContaining(`(${size} px per inch; written by `)]);
     // At true size on paper that it fits.
-    const { size: drawn } = prepare(importSvg(svg), {
+    const { size: drawn } = prepare(await importSvg(svg), {
       paper: PAPER_SIZES.A3,
       landscape: false,
       rotateDeg: "auto",
@@ -113,17 +115,17 @@ describe("the writer's px", () => {
     expect(drawn.scaleX).toBeCloseTo(1, 3);
   });
 
-  it("is CSS's if Inkscape from 0.92 on has written the file again", () => {
+  it("is CSS's if Inkscape from 0.92 on has written the file again", async () => {
     for (const version of ["0.92.4 (5da689c313, 2019-01-14)", "1.3.2 (091e20e, 2023-11-25)"]) {
       const svg = svgOf(
         `${INKSCAPE} ${SERIF} sodipodi:version="0.32" inkscape:version="${version}" ${sized(500, 500)}`,
         ILLUSTRATOR,
       );
-      expect([pxPerInchOf(svg), notes(svg)]).toEqual([96, []]);
+      expect([await pxPerInchOf(svg), await notes(svg)]).toEqual([96, []]);
     }
   });
 
-  it("is not asked for on a page in real units", () => {
+  it("is not asked for on a page in real units", async () => {
     for (const [size, mm] of [
       ["210mm", 210],
       ["21cm", 210],
@@ -132,7 +134,7 @@ describe("the writer's px", () => {
       ["51pc", 215.9],
     ] as const) {
       for (const writer of [SERIF, `${INKSCAPE} inkscape:version="0.91"`, 'data-name="a"']) {
-        const drawing = importSvg(
+        const drawing = await importSvg(
           svgOf(`${writer} width="${size}" height="${size}" viewBox="0 0 100 100"`, ILLUSTRATOR),
         );
         expect([drawing.widthMm, drawing.pxPerInch]).toEqual([mm, undefined]);
@@ -142,35 +144,35 @@ describe("the writer's px", () => {
     }
   });
 
-  it("is that of the lines too, on a page in mm without a viewBox", () => {
+  it("is that of the lines too, on a page in mm without a viewBox", async () => {
     const svg = svgOf(`${INKSCAPE} inkscape:version="0.48.4" width="210mm" height="297mm"`);
-    expect([importSvg(svg).widthMm, pxPerInchOf(svg)]).toEqual([210, 90]);
-    expect(notes(svg)).toEqual([expect.stringContaining("210 × 297 mm at 90 px per inch")]);
+    expect([(await importSvg(svg)).widthMm, await pxPerInchOf(svg)]).toEqual([210, 90]);
+    expect(await notes(svg)).toEqual([expect.stringContaining("210 × 297 mm at 90 px per inch")]);
   });
 
-  it("is said to be unknown if Affinity's page is no paper", () => {
+  it("is said to be unknown if Affinity's page is no paper", async () => {
     const svg = svgOf(`${SERIF} width="100%" height="100%" ${boxed(1000, 1000)}`);
-    expect(notes(svg)).toEqual([
+    expect(await notes(svg)).toEqual([
       expect.stringContaining("(only its proportions are known; written by Affinity)"),
     ]);
-    expect(importSvg(svg).pageFrom).toBe("proportions");
+    expect((await importSvg(svg)).pageFrom).toBe("proportions");
   });
 
-  it("is not taken from a comment further down, or from names without layers", () => {
+  it("is not taken from a comment further down, or from names without layers", async () => {
     for (const svg of [
       svgOf(sized(500, 500)).replace("</svg>", "<!-- Generator: Adobe Illustrator --></svg>"),
       svgOf(`id="chart" ${sized(500, 500)}`).replace("<path", '<g id="a_1" data-name="a"/><path'),
     ])
-      expect([pxPerInchOf(svg), notes(svg)]).toEqual([96, []]);
+      expect([await pxPerInchOf(svg), await notes(svg)]).toEqual([96, []]);
   });
 });
 
 describe("a page in px that would be a paper", () => {
-  it.each([72, 90, 150, 300])("is offered as each paper at %i px per inch", (pxPerInch) => {
+  it.each([72, 90, 150, 300])("is offered as each paper at %i px per inch", async (pxPerInch) => {
     for (const name of ["A5", "A4", "A3", "Letter", "Legal"] satisfies PaperName[]) {
       const { widthMm, heightMm } = PAPER_SIZES[name];
       const [width, height] = [heightMm, widthMm].map((mm) => Math.round((mm / 25.4) * pxPerInch));
-      const drawing = importSvg(svgOf(sized(width, height)));
+      const drawing = await importSvg(svgOf(sized(width, height)));
       expect(otherPapers(drawing)).toContainEqual({ name, pxPerInch });
       expect(drawing.warnings.map(({ message }) => message)).toEqual([
         expect.stringContaining(`; --px-per-inch ${pxPerInch} gives ${name}`),
@@ -181,8 +183,8 @@ describe("a page in px that would be a paper", () => {
     }
   });
 
-  it("is offered at 96 too if only its proportions are known", () => {
-    const drawing = importSvg(svgOf(boxed(794, 1123)));
+  it("is offered at 96 too if only its proportions are known", async () => {
+    const drawing = await importSvg(svgOf(boxed(794, 1123)));
     expect(otherPapers(drawing)).toEqual([{ name: "A4", pxPerInch: 96 }]);
     const { size } = prepare(drawing, { pxPerInch: 96 });
     expect(size).toMatchObject({ scaleX: 1, scaleY: 1 });
@@ -193,17 +195,17 @@ describe("a page in px that would be a paper", () => {
     ["no paper", sized(500, 500)],
     ["in mm", 'width="595mm" height="842mm" viewBox="0 0 595 842"'],
     ["the drawing's extent", ""],
-  ])("is not offered if it is %s", (_what, attributes) => {
-    const drawing = importSvg(svgOf(attributes));
+  ])("is not offered if it is %s", async (_what, attributes) => {
+    const drawing = await importSvg(svgOf(attributes));
     expect(otherPapers(drawing)).toEqual([]);
     expect(drawing.warnings.filter(({ code }) => code === "px-per-inch")).toEqual([]);
   });
 });
 
 describe("the setting for px per inch", () => {
-  const plotted = (svg: string, pxPerInch: number | "auto") =>
+  const plotted = async (svg: string, pxPerInch: number | "auto") =>
     prepareJob(
-      importSvg(svg),
+      await importSvg(svg),
       {
         prepare: { ...DEFAULT_PREPARE, paper: PAPER_SIZES.A3, pxPerInch },
         motion: DEFAULT_MOTION,
@@ -213,35 +215,35 @@ describe("the setting for px per inch", () => {
       machineById("axidraw-v3-a3"),
     );
 
-  it("overrides the guess, and its note disappears", () => {
+  it("overrides the guess, and its note disappears", async () => {
     const svg = svgOf(sized(300, 300), ILLUSTRATOR);
-    const guessed = plotted(svg, "auto");
+    const guessed = await plotted(svg, "auto");
     expect(guessed.prepared.size.widthMm).toBeCloseTo((100 * 25.4) / 72, 6);
     expect(guessed.warnings.join()).toContain("105.8 × 105.8 mm at 72 px per inch");
-    const set = plotted(svg, 96);
+    const set = await plotted(svg, 96);
     expect(set.prepared.size).toMatchObject({ scaleX: 1 });
     expect(set.prepared.size.widthMm).toBeCloseTo((100 * 25.4) / 96, 6);
     expect(set.warnings).toEqual([]);
   });
 
-  it("tells the scale of a viewBox without a size, so that it is drawn at true size", () => {
+  it("tells the scale of a viewBox without a size, so that it is drawn at true size", async () => {
     const svg = svgOf(boxed(300, 300));
-    expect(plotted(svg, "auto").prepared.size.widthMm).toBeGreaterThan(50);
-    expect(plotted(svg, 72).prepared.size.widthMm).toBeCloseTo((100 * 25.4) / 72, 6);
-    expect(plotted(svg, 300).prepared.size.widthMm).toBeCloseTo((100 * 25.4) / 300, 6);
+    expect((await plotted(svg, "auto")).prepared.size.widthMm).toBeGreaterThan(50);
+    expect((await plotted(svg, 72)).prepared.size.widthMm).toBeCloseTo((100 * 25.4) / 72, 6);
+    expect((await plotted(svg, 300)).prepared.size.widthMm).toBeCloseTo((100 * 25.4) / 300, 6);
   });
 
-  it("applies to a file without any page", () => {
-    expect(plotted(svgOf(""), 50).prepared.size.widthMm).toBeCloseTo(50.8, 6);
+  it("applies to a file without any page", async () => {
+    expect((await plotted(svgOf(""), 50)).prepared.size.widthMm).toBeCloseTo(50.8, 6);
   });
 
-  it("changes nothing on a page in mm, and in formats without px", () => {
+  it("changes nothing on a page in mm, and in formats without px", async () => {
     const mm = svgOf('width="200mm" height="200mm" viewBox="0 0 200 200"');
-    expect(plotted(mm, 10).prepared.size).toEqual(plotted(mm, "auto").prepared.size);
+    expect((await plotted(mm, 10)).prepared.size).toEqual((await plotted(mm, "auto")).prepared.size);
   });
 
-  it("is refused with its range if it is no number", () => {
-    expect(() => prepare(importSvg(svgOf("")), { pxPerInch: 0 })).toThrow(
+  it("is refused with its range if it is no number", async () => {
+    await expect(async () => prepare(await importSvg(svgOf("")), { pxPerInch: 0 })).rejects.toThrow(
       /pxPerInch.*"auto", or 1 to 10000 px\/in/,
     );
   });

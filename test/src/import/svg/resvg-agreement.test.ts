@@ -30,9 +30,9 @@ describe("agreement with an independent renderer", () => {
     ["feather-icons", "dist/icons"],
     ["bootstrap-icons", "icons"],
     ["heroicons", "24/outline"],
-  ])(`on ${ICONS_PER_SET} icons of %s`, (packageName, folder) => {
+  ])(`on ${ICONS_PER_SET} icons of %s`, async (packageName, folder) => {
     for (const [name, svg] of sample(packageName, folder)) {
-      expect(disagreement(svg), name).toBeLessThan(TOLERANCE);
+      expect(await disagreement(svg), name).toBeLessThan(TOLERANCE);
     }
   });
 
@@ -85,9 +85,9 @@ describe("agreement with an independent renderer", () => {
       "markers",
       '<marker id="m" orient="auto" markerWidth="5" markerHeight="5" refX="2" refY="2" viewBox="0 0 4 4"><path d="M1 1L3 2L1 3" stroke="red"/></marker><path d="M10 10L40 20L30 60" fill="none" stroke="red" stroke-width="2" marker-start="url(#m)" marker-mid="url(#m)" marker-end="url(#m)"/>',
     ],
-  ])("on %s", (_name, body) => {
+  ])("on %s", async (_name, body) => {
     expect(
-      disagreement(`<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">${body}</svg>`),
+      await disagreement(`<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">${body}</svg>`),
     ).toBeLessThan(TOLERANCE / 2);
   });
 });

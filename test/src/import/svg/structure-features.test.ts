@@ -47,84 +47,85 @@ describe("copies", () => {
       '<defs><svg id="a" viewBox="0 0 10 10" width="5" height="5"><path d="M0 0h10"/></svg></defs><use href="#a" width="20" height="20"/>',
       ["M0 0L20 0"],
     ],
-  ])("%s", (_name, body, expected) => {
-    expect(shapes(body)).toEqual(expected);
+  ])("%s", async (_name, body, expected) => {
+    expect(await shapes(body)).toEqual(expected);
   });
 
-  it("inherits style from the copy, not from the parent of the original", () => {
-    const drawing = draw(
+  it("inherits style from the copy, not from the parent of the original", async () => {
+    const drawing = await draw(
       `<defs stroke="blue"><path id="a" ${PATH}/></defs><g stroke="red"><use href="#a"/></g>`,
     );
     expect(strokes(drawing)).toEqual(["#ff0000"]);
   });
 
-  it("matches rules on the original's own place", () => {
-    const drawing = draw(
+  it("matches rules on the original's own place", async () => {
+    const drawing = await draw(
       `<style>.d path{stroke:red}</style><defs class="d"><path id="a" ${PATH}/></defs><use href="#a"/>`,
     );
     expect(strokes(drawing)).toEqual(["#ff0000"]);
   });
 
-  it("warns of missing and external originals", () => {
-    expect(codes(draw('<use href="#no"/>'))).toContain("reference-missing");
-    expect(codes(draw('<use href="other.svg#a"/>'))).toContain("reference-external");
+  it("warns of missing and external originals", async () => {
+    expect(codes(await draw('<use href="#no"/>'))).toContain("reference-missing");
+    expect(codes(await draw('<use href="other.svg#a"/>'))).toContain("reference-external");
   });
 });
 
 describe("layers", () => {
-  const names = (body: string): string[] => draw(body).groups.map((group) => group.name);
+  const names = async (body: string): Promise<string[]> =>
+    (await draw(body)).groups.map((group) => group.name);
   const g = (attributes: string, content = `<path ${PATH}/>`): string => `<g ${attributes}>${content}</g>`;
 
-  it("names groups by label, data-name, id or number", () => {
+  it("names groups by label, data-name, id or number", async () => {
     const body =
       g('inkscape:label="Pen one" id="x"') + g('data-name="Ink &lt;2&gt;" id="y"') + g('id="third"') + g("");
-    expect(names(body)).toEqual(["Pen one", "Ink <2>", "third", "Layer 4"]);
+    expect(await names(body)).toEqual(["Pen one", "Ink <2>", "third", "Layer 4"]);
   });
 
-  it("decodes Illustrator's ids", () => {
-    expect(names(g('id="Layer_x5F_1"') + g('id="_x31_0_x20_mm"'))).toEqual(["Layer_1", "10 mm"]);
+  it("decodes Illustrator's ids", async () => {
+    expect(await names(g('id="Layer_x5F_1"') + g('id="_x31_0_x20_mm"'))).toEqual(["Layer_1", "10 mm"]);
   });
 
-  it("skips one outer group, and several", () => {
-    expect(names(g('id="all"', g('id="a"') + g('id="b"')))).toEqual(["a", "b"]);
-    expect(names(g('id="o"', g('id="p"', g('id="a"') + g('id="b"'))))).toEqual(["a", "b"]);
+  it("skips one outer group, and several", async () => {
+    expect(await names(g('id="all"', g('id="a"') + g('id="b"')))).toEqual(["a", "b"]);
+    expect(await names(g('id="o"', g('id="p"', g('id="a"') + g('id="b"'))))).toEqual(["a", "b"]);
   });
 
-  it("skips a switch as Illustrator writes it", () => {
+  it("skips a switch as Illustrator writes it", async () => {
     const body = `<switch><foreignObject requiredExtensions="x"/><g>${g('id="a"')}${g('id="b"')}</g></switch>`;
-    expect(names(body)).toEqual(["a", "b"]);
+    expect(await names(body)).toEqual(["a", "b"]);
   });
 
-  it("keeps a single group of plain shapes as the layer", () => {
-    expect(names(g('id="only"'))).toEqual(["only"]);
+  it("keeps a single group of plain shapes as the layer", async () => {
+    expect(await names(g('id="only"'))).toEqual(["only"]);
   });
 
-  it("keeps a single Inkscape layer whose groups are not layers", () => {
+  it("keeps a single Inkscape layer whose groups are not layers", async () => {
     const body = g('inkscape:groupmode="layer" inkscape:label="Ink"', g('id="a"') + g('id="b"'));
-    expect(names(body)).toEqual(["Ink"]);
+    expect(await names(body)).toEqual(["Ink"]);
   });
 
-  it("treats only Inkscape's layers as layers if there are any", () => {
+  it("treats only Inkscape's layers as layers if there are any", async () => {
     const body = g('inkscape:groupmode="layer" inkscape:label="Ink"') + g('id="a"') + g('id="b"');
-    const drawing = draw(body);
+    const drawing = await draw(body);
     expect(drawing.groups.map((group) => group.name)).toEqual(["Ink", "Layer 2"]);
     expect([...drawing.paths.group]).toEqual([0, 1, 1]);
   });
 
-  it("puts loose shapes into one layer and keeps paint order", () => {
-    const drawing = draw(`<path ${PATH}/>${g('id="a"')}<path ${PATH}/>`);
+  it("puts loose shapes into one layer and keeps paint order", async () => {
+    const drawing = await draw(`<path ${PATH}/>${g('id="a"')}<path ${PATH}/>`);
     expect(drawing.groups.map((group) => group.name)).toEqual(["Layer 1", "a"]);
     expect([...drawing.paths.group]).toEqual([0, 1, 0]);
   });
 
-  it("keeps ids distinct", () => {
-    const ids = draw(g('id="a"') + g('id="a"') + g("")).groups.map((group) => group.id);
+  it("keeps ids distinct", async () => {
+    const ids = (await draw(g('id="a"') + g('id="a"') + g(""))).groups.map((group) => group.id);
     expect(new Set(ids).size).toBe(3);
     expect(ids[0]).toBe("a");
   });
 
-  it("lists a hidden layer, does not draw it and reports it", () => {
-    const drawing = draw(g('inkscape:label="Off" style="display:none"') + g('inkscape:label="On"'));
+  it("lists a hidden layer, does not draw it and reports it", async () => {
+    const drawing = await draw(g('inkscape:label="Off" style="display:none"') + g('inkscape:label="On"'));
     expect(drawing.groups.map(({ name, hidden }) => [name, hidden])).toEqual([
       ["Off", true],
       ["On", false],
@@ -133,32 +134,32 @@ describe("layers", () => {
     expect(drawing.warnings[0].message).toContain("Off");
   });
 
-  it("does not say that a hidden layer is not drawn if something in it is drawn", () => {
+  it("does not say that a hidden layer is not drawn if something in it is drawn", async () => {
     const visible = '<path d="M10 20H60" visibility="visible"/>';
-    const drawing = draw(g('id="A" visibility="hidden"', `<path ${PATH}/>${visible}`) + g('id="B"'));
+    const drawing = await draw(g('id="A" visibility="hidden"', `<path ${PATH}/>${visible}`) + g('id="B"'));
     expect(shapesOf(drawing)).toHaveLength(2);
     expect(codes(drawing)).toEqual([]);
     const inside = g('inkscape:groupmode="layer" id="C"', visible);
     const nested = g('inkscape:groupmode="layer" id="A" visibility="hidden"', `<path ${PATH}/>${inside}`);
-    expect(codes(draw(nested + g('inkscape:groupmode="layer" id="B"')))).toEqual([]);
-    const { warnings } = draw(g('id="A" visibility="hidden"') + g('id="B"'));
+    expect(codes(await draw(nested + g('inkscape:groupmode="layer" id="B"')))).toEqual([]);
+    const { warnings } = await draw(g('id="A" visibility="hidden"') + g('id="B"'));
     expect(warnings.map(({ message }) => message).join()).toMatch(/^1 layer is hidden .*\(A\)/);
   });
 
-  it("takes the names that were typed in Affinity and Illustrator", () => {
+  it("takes the names that were typed in Affinity and Illustrator", async () => {
     const serif = `xmlns:serif="http://www.serif.com/"`;
     const body =
       g(`${serif} id="-guides" serif:id="% guides"`) +
       g('id="b" data-name="1 red"') +
       g(`${serif} id="c" serif:id="2 & blue" data-name="c2"`.replace("&", "&amp;"));
-    expect(names(body)).toEqual(["% guides", "1 red", "2 & blue"]);
-    expect(prepare(draw(body)).strokes.layers.map(({ name }) => name)).toEqual(["1 red", "2 & blue"]);
+    expect(await names(body)).toEqual(["% guides", "1 red", "2 & blue"]);
+    expect(prepare(await draw(body)).strokes.layers.map(({ name }) => name)).toEqual(["1 red", "2 & blue"]);
   });
 
-  it("lists Inkscape's sublayers with their layer, and leaves out those whose name begins with %", () => {
+  it("lists Inkscape's sublayers with their layer, and leaves out those whose name begins with %", async () => {
     const layer = (name: string, content: string): string =>
       g(`inkscape:groupmode="layer" inkscape:label="${name}"`, content);
-    const drawing = draw(
+    const drawing = await draw(
       layer(
         "Ink",
         `<path ${PATH}/>${layer("1 red", `<path ${PATH}/>${layer("%help", `<path ${PATH}/>`)}`)}`,
@@ -177,8 +178,8 @@ describe("layers", () => {
     expect(strokeCount(prepare(drawing, { joinMm: 0 }).strokes)).toBe(3);
   });
 
-  it("treats hundreds of groups as data, not layers", () => {
-    const drawing = draw(g("").repeat(500));
+  it("treats hundreds of groups as data, not layers", async () => {
+    const drawing = await draw(g("").repeat(500));
     expect(drawing.groups.length).toBe(1);
     expect(codes(drawing)).toEqual(["too-many-layers"]);
   });

@@ -29,25 +29,25 @@ describe("colours", () => {
     ["rgba(0,0,0,0)", "-"],
     ["transparent", "-"],
     ["none", "-"],
-  ])("reads the stroke %s", (color, expected) => {
-    const drawing = draw(`<path ${PATH} fill="blue" color="lime" stroke="${color}"/>`);
+  ])("reads the stroke %s", async (color, expected) => {
+    const drawing = await draw(`<path ${PATH} fill="blue" color="lime" stroke="${color}"/>`);
     expect(strokes(drawing)).toEqual([expected]);
   });
 
-  it("keeps the inherited value if a colour is malformed", () => {
-    expect(strokes(draw(`<path ${PATH} stroke="#ggg"/>`))).toEqual(["#000000"]);
+  it("keeps the inherited value if a colour is malformed", async () => {
+    expect(strokes(await draw(`<path ${PATH} stroke="#ggg"/>`))).toEqual(["#000000"]);
   });
 
-  it("lists each colour once, in order of first use", () => {
-    const drawing = draw(
+  it("lists each colour once, in order of first use", async () => {
+    const drawing = await draw(
       `<path ${PATH} stroke="blue"/><path ${PATH} stroke="red"/><path ${PATH} stroke="#00F" fill="red"/>`,
     );
     expect(drawing.colors).toEqual(["#0000ff", "#ff0000"]);
     expect(fills(drawing)).toEqual(["-", "-", "#ff0000"]);
   });
 
-  it("draws a gradient stroke in its first colour, found through href, and reports it", () => {
-    const drawing = draw(
+  it("draws a gradient stroke in its first colour, found through href, and reports it", async () => {
+    const drawing = await draw(
       `<defs><linearGradient id="a"><stop stop-color="teal"/><stop stop-color="red"/></linearGradient><linearGradient id="b" xlink:href="#a"/></defs><path d="M0 0l9 9" stroke="url(#b)"/>`,
     );
     expect(strokes(drawing)).toEqual(["#008080"]);
@@ -55,18 +55,18 @@ describe("colours", () => {
     expect(drawing.warnings[0].boxes).toEqual([[0, 0, 0, 0]]);
   });
 
-  it("uses the fallback of a missing gradient", () => {
-    expect(strokes(draw(`<path ${PATH} stroke="url(#none) red"/>`))).toEqual(["#ff0000"]);
+  it("uses the fallback of a missing gradient", async () => {
+    expect(strokes(await draw(`<path ${PATH} stroke="url(#none) red"/>`))).toEqual(["#ff0000"]);
   });
 
-  it("warns of a missing gradient without fallback", () => {
-    expect(codes(draw(`<path ${PATH} stroke="url(#none)"/>`))).toContain("paint-missing");
+  it("warns of a missing gradient without fallback", async () => {
+    expect(codes(await draw(`<path ${PATH} stroke="url(#none)"/>`))).toContain("paint-missing");
   });
 });
 
 describe("the cascade", () => {
-  const stroke = (style: string, element: string): string[] =>
-    strokes(draw(`<style>${style}</style>${element}`));
+  const stroke = async (style: string, element: string): Promise<string[]> =>
+    strokes(await draw(`<style>${style}</style>${element}`));
 
   it.each([
     ["a class", ".a{stroke:red}", `<path class="b a" ${PATH}/>`],
@@ -110,8 +110,8 @@ describe("the cascade", () => {
       "path{stroke:blue;;x;:y} p..q{fill:red} .a{stroke:red}",
       `<path class="a" ${PATH}/>`,
     ],
-  ])("obeys %s", (_name, style, element) => {
-    expect(stroke(style, element)).toEqual(["#ff0000"]);
+  ])("obeys %s", async (_name, style, element) => {
+    expect(await stroke(style, element)).toEqual(["#ff0000"]);
   });
 
   it.each([
@@ -121,37 +121,41 @@ describe("the cascade", () => {
     ["-n+3", [1, 2, 3]],
     ["4", [4]],
     [" n + 6 ", [6, 7]],
-  ])("counts children: :nth-child(%s)", (formula, expected) => {
+  ])("counts children: :nth-child(%s)", async (formula, expected) => {
     const body = `<style>path:nth-child(${formula}){stroke:red}</style><g>${`<path ${PATH}/>`.repeat(7)}</g>`;
-    const red = strokes(draw(body)).flatMap((color, i) => (color === "#ff0000" ? [i + 1] : []));
+    const red = strokes(await draw(body)).flatMap((color, i) => (color === "#ff0000" ? [i + 1] : []));
     expect(red).toEqual(expected);
   });
 
-  it("counts children from the end", () => {
+  it("counts children from the end", async () => {
     const body = `<style>path:nth-last-child(2),path:last-child{stroke:red}</style><g>${`<path ${PATH}/>`.repeat(4)}</g>`;
-    expect(strokes(draw(body))).toEqual(["#000000", "#000000", "#ff0000", "#ff0000"]);
+    expect(strokes(await draw(body))).toEqual(["#000000", "#000000", "#ff0000", "#ff0000"]);
   });
 
-  it("counts among 50 000 siblings without counting them each time", () => {
+  it("counts among 50 000 siblings without counting them each time", async () => {
     const body = `<style>path:nth-child(2n) + path{stroke:red}</style><g>${`<path ${PATH}/>`.repeat(50_000)}</g>`;
-    expect(strokes(draw(body)).filter((color) => color === "#ff0000").length).toBe(24_999);
+    expect(strokes(await draw(body)).filter((color) => color === "#ff0000").length).toBe(24_999);
   });
 
-  it("reads style sheets in CDATA, and those at the end", () => {
-    expect(strokes(draw(`<path ${PATH}/><style><![CDATA[ g > x, path { stroke: red } ]]></style>`))).toEqual([
-      "#ff0000",
+  it("reads style sheets in CDATA, and those at the end", async () => {
+    expect(
+      strokes(await draw(`<path ${PATH}/><style><![CDATA[ g > x, path { stroke: red } ]]></style>`)),
+    ).toEqual(["#ff0000"]);
+  });
+
+  it("reads geometry from CSS", async () => {
+    expect(await shapes("<style>rect{width:4px;height:3px;x:1px}</style><rect/>")).toEqual([
+      "M1 0L5 0L5 3L1 3Z",
     ]);
   });
 
-  it("reads geometry from CSS", () => {
-    expect(shapes("<style>rect{width:4px;height:3px;x:1px}</style><rect/>")).toEqual(["M1 0L5 0L5 3L1 3Z"]);
-  });
-
-  it("warns of @import, of linked sheets and of selectors it cannot read", () => {
-    expect(codes(draw(`<style>@import url(a.css);</style><path ${PATH}/>`))).toEqual(["style-external"]);
+  it("warns of @import, of linked sheets and of selectors it cannot read", async () => {
+    expect(codes(await draw(`<style>@import url(a.css);</style><path ${PATH}/>`))).toEqual([
+      "style-external",
+    ]);
     const linked = `<?xml-stylesheet href="a.css"?>${page(`<path ${PATH}/>`)}`;
-    expect(codes(importSvg(linked))).toEqual(["style-external"]);
-    expect(codes(draw(`<style>path:frobnicate(2) g{stroke:red}</style><path ${PATH}/>`))).toEqual([
+    expect(codes(await importSvg(linked))).toEqual(["style-external"]);
+    expect(codes(await draw(`<style>path:frobnicate(2) g{stroke:red}</style><path ${PATH}/>`))).toEqual([
       "style-fault",
     ]);
   });
@@ -178,22 +182,24 @@ describe("what is invisible is not drawn", () => {
     ["unknown elements", `<frame><path ${PATH}/></frame>`],
     ["other vocabularies", `<i:pgf xmlns:i="x"><path ${PATH}/></i:pgf>`],
     ["metadata", `<metadata><path ${PATH}/></metadata>`],
-  ])("%s", (_name, body) => {
-    expect(shapes(body)).toEqual([]);
+  ])("%s", async (_name, body) => {
+    expect(await shapes(body)).toEqual([]);
   });
 
-  it("draws the visible child of a hidden group", () => {
-    expect(shapes(`<g visibility="hidden"><path visibility="visible" ${PATH}/></g>`)).toEqual(["M0 0L1 0"]);
+  it("draws the visible child of a hidden group", async () => {
+    expect(await shapes(`<g visibility="hidden"><path visibility="visible" ${PATH}/></g>`)).toEqual([
+      "M0 0L1 0",
+    ]);
   });
 
-  it("keeps filled shapes without a stroke, marked as such", () => {
-    const drawing = draw(`<path ${PATH} stroke="none" fill="red"/>`);
+  it("keeps filled shapes without a stroke, marked as such", async () => {
+    const drawing = await draw(`<path ${PATH} stroke="none" fill="red"/>`);
     expect([...drawing.paths.stroke]).toEqual([-1]);
     expect(fills(drawing)).toEqual(["#ff0000"]);
   });
 
-  it("warns of lines of width 0", () => {
-    expect(codes(draw(`<path ${PATH} stroke-width="0"/>`))).toContain("zero-width-stroke");
+  it("warns of lines of width 0", async () => {
+    expect(codes(await draw(`<path ${PATH} stroke-width="0"/>`))).toContain("zero-width-stroke");
   });
 
   it.each([
@@ -205,25 +211,25 @@ describe("what is invisible is not drawn", () => {
       "filter-ignored",
       [1, 2, 4, 6],
     ],
-  ])("reports what is lost and where: %s", (_name, body, code, box) => {
-    const [warning] = draw(body).warnings;
+  ])("reports what is lost and where: %s", async (_name, body, code, box) => {
+    const [warning] = (await draw(body)).warnings;
     expect(warning.code).toBe(code);
     expect(warning.boxes[0].map((mm) => Math.round(mm * 1e6) / 1e6)).toEqual(box);
     expect(warning.message).toMatch(/\.$/);
   });
 
-  it("counts its warnings and names only the first places", () => {
-    const [warning] = draw('<image x="1" width="1" height="1"/>'.repeat(50)).warnings;
+  it("counts its warnings and names only the first places", async () => {
+    const [warning] = (await draw('<image x="1" width="1" height="1"/>'.repeat(50))).warnings;
     expect(warning.count).toBe(50);
     expect(warning.boxes.length).toBe(20);
     expect(warning.message).toContain("50 pictures");
   });
 
-  it("warns of embedded web pages and animations", () => {
-    expect(codes(draw(`<foreignObject><p>hi</p></foreignObject><path ${PATH}/>`))).toEqual([
+  it("warns of embedded web pages and animations", async () => {
+    expect(codes(await draw(`<foreignObject><p>hi</p></foreignObject><path ${PATH}/>`))).toEqual([
       "foreign-object",
     ]);
-    expect(codes(draw(`<path ${PATH}/><animate/>`))).toEqual(["animation-ignored"]);
+    expect(codes(await draw(`<path ${PATH}/><animate/>`))).toEqual(["animation-ignored"]);
   });
 
   it.each([
@@ -248,7 +254,7 @@ describe("what is invisible is not drawn", () => {
       `<switch><foreignObject/><g><path d="M0 0h3"/></g></switch>`,
       ["M0 0L3 0"],
     ],
-  ])("switch draws %s", (_name, body, expected) => {
-    expect(shapes(body)).toEqual(expected);
+  ])("switch draws %s", async (_name, body, expected) => {
+    expect(await shapes(body)).toEqual(expected);
   });
 });

@@ -12,7 +12,7 @@ const FIRMWARE = [
   { firmware: "2.8.1", jump: 1 },
   { firmware: "3.0.3", jump: 0.5 },
 ] as const;
-const DRAWINGS = { ...FIGURES, "hello-paper": sampleStrokes("hello-paper") };
+const DRAWINGS = { ...FIGURES, "hello-paper": await sampleStrokes("hello-paper") };
 
 const cases = FIRMWARE.flatMap((one) =>
   SPRINGS.flatMap((springs) =>

@@ -27,7 +27,7 @@ const SAMPLES = [
 ];
 const DRAWINGS: Readonly<Record<string, StrokeSet>> = {
   ...FIGURES,
-  ...Object.fromEntries(SAMPLES.map((name) => [name, sampleStrokes(name)])),
+  ...Object.fromEntries(await Promise.all(SAMPLES.map(async (name) => [name, await sampleStrokes(name)]))),
 };
 /** The machine's true frequency over the one that it is shaped for. */
 const FACTORS = [1, 0.9, 1.1];

@@ -36,16 +36,19 @@ const combinations = FIRMWARE.flatMap((firmware, f) => {
 });
 
 describe(`a sample plotted ${PLOTS} times in a row`, () => {
-  it.each(combinations)("is $sample, exact to the step on firmware $firmware in $mode", (combination) => {
-    const { sample, firmware, mode } = combination;
-    const row = plotOften(sample, firmware, mode, PLOTS);
-    rows.push(row);
-    expect(row).toMatchObject({ firstWrong: null, endSteps: [0, 0], errors: [] });
-    expect(row.timeShare).toBeLessThan(0.002);
-    expect(row.offMm).toBeLessThan(ALLOWED_MM);
-    expect(row.missedMm).toBeLessThan(ALLOWED_MM);
-    expect(row.jumpMmPerS).toBeLessThanOrEqual(allowedJump(mode, firmware) ?? Infinity);
-  });
+  it.each(combinations)(
+    "is $sample, exact to the step on firmware $firmware in $mode",
+    async (combination) => {
+      const { sample, firmware, mode } = combination;
+      const row = await plotOften(sample, firmware, mode, PLOTS);
+      rows.push(row);
+      expect(row).toMatchObject({ firstWrong: null, endSteps: [0, 0], errors: [] });
+      expect(row.timeShare).toBeLessThan(0.002);
+      expect(row.offMm).toBeLessThan(ALLOWED_MM);
+      expect(row.missedMm).toBeLessThan(ALLOWED_MM);
+      expect(row.jumpMmPerS).toBeLessThanOrEqual(allowedJump(mode, firmware) ?? Infinity);
+    },
+  );
 
   // The most commands per second are those of scurve.
   const ANY_IDLE = (isWhole ? SAMPLES : QUICK).flatMap((sample) =>
@@ -53,8 +56,8 @@ describe(`a sample plotted ${PLOTS} times in a row`, () => {
   );
   it.each(ANY_IDLE)(
     "is $sample, exact to the step in $mode on a 3.1.7 that idles after timed commands after all",
-    ({ sample, mode }) => {
-      const row = plotOften(sample, "3.1.7", mode, 1, 1);
+    async ({ sample, mode }) => {
+      const row = await plotOften(sample, "3.1.7", mode, 1, 1);
       expect(row).toMatchObject({ firstWrong: null, endSteps: [0, 0], errors: [] });
       expect(row.timeShare).toBeLessThan(0.002);
     },
