@@ -2,12 +2,11 @@
  * The stored plotters. Plotters can be added, changed and removed at any time. Every change is stored before it is
  * announced.
  */
-import { PlotwrightError, type MachineProfile } from "../../src/index.js";
-import { findMachine, machineOf } from "../../src/internal.js";
+import { PlotwrightError } from "../../src/index.js";
+import { machineOf } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   plotterSettingsSchema,
-  withExtraWaits,
   type Device,
   type NewPlotter,
   type Plotter,
@@ -80,18 +79,10 @@ export class PlotterRegistry {
   settings(): Record<string, PlotterSettings> {
     return Object.fromEntries(
       Object.entries(this.parts.store.plotterSettings()).flatMap(([id, stored]) => {
-        const parsed = plotterSettingsSchema.safeParse(withExtraWaits(stored, this.machineOf(id)));
+        const parsed = plotterSettingsSchema.safeParse(stored);
         return parsed.success ? [[id, parsed.data]] : [];
       }),
     );
-  }
-
-  /** The chosen model; null: none, or a custom one that was removed. */
-  private machineOf(id: string): MachineProfile | null {
-    const machine = this.rows.get(id)?.machine ?? null;
-    return machine === null
-      ? null
-      : findMachine(this.parts.withMachine({ ...DEFAULT_PLOT_SETTINGS, machine }));
   }
 
   /** The settings from which jobs and manual moves start. `last`: those of its last job. */

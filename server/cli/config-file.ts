@@ -5,13 +5,8 @@
 import { mkdirSync, readFileSync, renameSync, writeFileSync } from "node:fs";
 import { homedir } from "node:os";
 import { dirname, join } from "node:path";
-import { PlotwrightError, type MachineProfile } from "../../src/index.js";
-import {
-  firstFault,
-  givenSettingsSchema,
-  withExtraWaits,
-  type GivenSettings,
-} from "../../src/schema/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import { firstFault, givenSettingsSchema, type GivenSettings } from "../../src/schema/index.js";
 import { fileFault } from "../storage/file-fault.js";
 import { readText } from "./files.js";
 
@@ -33,9 +28,9 @@ export function readUsualConfig(): GivenSettings {
   return text === null ? {} : checked(path, parsed(path, text));
 }
 
-/** The settings in a file of --config, or in stdin for "-". `machine`: that of a file that names none, if it is known. */
-export const readConfig = (path: string, machine: MachineProfile | null = null): GivenSettings =>
-  fromFile("--config", path, (text) => checked(`--config ${path}`, JSON.parse(text), machine));
+/** The settings in a file of --config, or in stdin for "-". */
+export const readConfig = (path: string): GivenSettings =>
+  fromFile("--config", path, (text) => checked(`--config ${path}`, JSON.parse(text)));
 
 /** Reads a JSON file; an error names the option and the file. */
 export function fromFile<T>(
@@ -100,12 +95,12 @@ const fault = (where: string, cause: unknown): PlotwrightError =>
   );
 
 /** Any part of the settings may be there. An unknown name is an error. */
-function checked(where: string, value: unknown, machine: MachineProfile | null = null): GivenSettings {
+function checked(where: string, value: unknown): GivenSettings {
   const at = where === "" ? "" : `${where}: `;
   if (typeof value !== "object" || value === null || Array.isArray(value)) {
     throw new PlotwrightError("bad-setting", `${at}it is not a JSON object.`);
   }
-  const result = givenSettingsSchema.safeParse(withExtraWaits(value, machine));
+  const result = givenSettingsSchema.safeParse(value);
   if (result.success) return result.data;
   const { path, words } = firstFault(result.error);
   throw new PlotwrightError("bad-setting", `${at}${path}: ${words}.`);

@@ -19,7 +19,6 @@ import {
 import {
   DEFAULT_PLOT_SETTINGS,
   firstFault,
-  extraWaitOf,
   fromPreset,
   plotSettingsSchema,
   presetNamed,
@@ -36,24 +35,20 @@ import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles, machineOfText } from "../storage/machine-files.js";
 import { fromFile, readConfig, readUsualConfig, usualConfigPath } from "./config-file.js";
 import { NOTHING_STORED, storedPlotter } from "./stored-plotter.js";
-import { SETTING_OPTIONS, isOwnSize, number, type SettingOption } from "./setting-table.js";
+import { SETTING_OPTIONS, isOwnSize, type SettingOption } from "./setting-table.js";
 
 /** The option values that commander passes to an action: names in camel case. */
 export type OptionValues = Readonly<Record<string, unknown>>;
 
 /** @param parts paths of the settings that the command uses: "pen", "motion.travel". Absent: all. */
 export function addSettingOptions(command: Command, parts?: readonly string[]): Command {
-  const isMeant = ({ path }: Pick<SettingOption, "path">): boolean =>
+  const isMeant = ({ path }: SettingOption): boolean =>
     parts === undefined || parts.some((part) => path === part || path.startsWith(`${part}.`));
   for (const { flags, about, parse, choices } of SETTING_OPTIONS.filter(isMeant)) {
     const option = new Option(flags, about);
     if (choices !== undefined) option.choices(choices);
     if (parse !== undefined) option.argParser(parse);
     command.addOption(option);
-  }
-  if (isMeant({ path: "pen" })) {
-    for (const { flag } of OLD_WAIT_FLAGS)
-      command.addOption(new Option(`${flag} <ms>`).argParser(number).hideHelp());
   }
   return command
     .addOption(new Option("--machine-file <file>", "JSON file with the profile of your own plotter, or -"))
@@ -129,9 +124,7 @@ export function settingsInLayers(
   const profile =
     typeof machineFile === "string" ? fromFile("--machine-file", machineFile, machineOfText) : null;
   const usual = config === false ? {} : readUsualConfig();
-  const named = profile?.id ?? (typeof machine === "string" ? machine : null);
-  const known = profile ?? findMachine({ machine: named ?? stored.machine ?? "" });
-  const given = typeof config === "string" ? readConfig(config, known) : {};
+  const given = typeof config === "string" ? readConfig(config) : {};
   const profiles = [
     profile,
     ...[given, usual].map((one) => plotSettingsSchema.shape.customMachine.parse(one.customMachine ?? null)),
@@ -140,6 +133,7 @@ export function settingsInLayers(
     const own = profiles.find((one) => one?.id === settings.machine);
     return own ? { ...settings, customMachine: own } : serverMachine(withOwnMachine(settings, values));
   };
+  const named = profile?.id ?? (typeof machine === "string" ? machine : null);
   if (named !== null) machineOf(withMachine({ ...DEFAULT_PLOT_SETTINGS, machine: named }));
   const usualPath = usualConfigPath();
   const configSource = `--config ${String(config)}`;
@@ -224,7 +218,6 @@ function withFlags(before: PlotSettings, values: OptionValues): PlotSettings {
     const value = values[keyOf(option)];
     if (value !== undefined) setPath(settings, option.path.split("."), value);
   }
-  setOldWaits(settings, values);
   const result = plotSettingsSchema.safeParse(settings);
   if (result.success) return result.data;
   const { path, words } = firstFault(result.error);
@@ -245,21 +238,6 @@ function givenByFlags(values: OptionValues): GivenSettings {
 /** Whether the option is part of a job's settings, and not handled before. */
 const isStored = ({ path }: SettingOption): boolean =>
   path !== "machine" && path !== QUALITY_PATH && !path.startsWith(`${SPRINGS_PATH}.`);
-
-/** Whole waits, as before the machine's servo gave the times: they still mean the same. */
-const OLD_WAIT_FLAGS = [
-  { flag: "--pen-lift-ms", key: "penLiftMs", old: "liftMs", extra: "extraLiftMs" },
-  { flag: "--pen-drop-ms", key: "penDropMs", old: "dropMs", extra: "extraDropMs" },
-] as const;
-
-function setOldWaits(settings: Record<string, unknown>, values: OptionValues): void {
-  for (const { key, old, extra } of OLD_WAIT_FLAGS) {
-    const waitMs = values[key];
-    if (typeof waitMs !== "number") continue;
-    const now = settings as unknown as PlotSettings;
-    setPath(settings, ["pen", extra], extraWaitOf(old, waitMs, now.pen, findMachine(now)));
-  }
-}
 
 /** Flags for the machine's swing override its profile. */
 function setSprings(settings: Record<string, unknown>, values: OptionValues): void {

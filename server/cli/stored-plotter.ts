@@ -2,8 +2,7 @@
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { findMachine } from "../../src/internal.js";
-import { plotterSettingsSchema, withExtraWaits } from "../../src/schema/index.js";
+import { plotterSettingsSchema } from "../../src/schema/index.js";
 import { FIRST_PLOTTER } from "../../host/plotter/named-plotter.js";
 import type { StoredOfPlotter } from "../../host/plotter/settings-of-plotter.js";
 import { prepareDataDir } from "../storage/data-dir.js";
@@ -79,9 +78,7 @@ export function plottersIn(store: Store): KnownPlotter[] {
     device,
     stored: {
       machine,
-      own: plotterSettingsSchema.safeParse(
-        withExtraWaits(settings[id], findMachine({ machine: machine ?? "" })),
-      ).data,
+      own: plotterSettingsSchema.safeParse(settings[id]).data,
       last: begun.find(({ plotterId }) => plotterId === id)?.settings,
     },
   }));

@@ -3,7 +3,7 @@
  * returns only after the change is on disk (WAL with synchronous=FULL), so callers can then announce it.
  */
 import type { Database } from "node-sqlite3-wasm";
-import { ENDED_STATES, jobSchema, withExtraWaits, type Job } from "../../src/schema/index.js";
+import { ENDED_STATES, jobSchema, type Job } from "../../src/schema/index.js";
 import { PlotwrightError } from "../../src/index.js";
 import { lockDataDir } from "./data-lock.js";
 import { openDatabase, type OpenedDatabase } from "./open-database.js";
@@ -331,7 +331,7 @@ function jobFromRow(row: Row): Job {
     plotterId: row["plotter_id"],
     state: row["state"],
     name: row["name"],
-    settings: withExtraWaits(JSON.parse(String(row["settings"]))),
+    settings: JSON.parse(String(row["settings"])) as unknown,
     stats: row["stats"] === null ? null : (JSON.parse(String(row["stats"])) as unknown),
     warnings: JSON.parse(String(row["warnings"])) as unknown,
     progress: row["progress"],

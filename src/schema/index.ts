@@ -3,7 +3,6 @@ export * from "./faults.js";
 export * from "./name.js";
 export * from "./settings.js";
 export * from "./given-settings.js";
-export * from "./old-waits.js";
 export * from "./plotter-settings.js";
 export * from "./job.js";
 export * from "./api.js";

@@ -3,12 +3,7 @@
  */
 import { z } from "zod";
 import { findMachine, LENGTH_UNITS, withoutShaperIfUnmeasured } from "../../src/internal.js";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  plotSettingsSchema,
-  withExtraWaits,
-  type PlotSettings,
-} from "../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, plotSettingsSchema, type PlotSettings } from "../../src/schema/index.js";
 
 const PAGE_KEY = "plotwright.page.v1";
 
@@ -67,10 +62,7 @@ export interface TextStore {
 /** Never throws: a part that does not parse is replaced by its default. */
 export const parseRemembered = (stored: string | null): Remembered => {
   const root = recordOf(parseJson(stored));
-  return {
-    settings: settingsOr(recordOf(withExtraWaits(root.settings))),
-    view: partOr(viewSchema, DEFAULT_VIEW, root.view),
-  };
+  return { settings: settingsOr(recordOf(root.settings)), view: partOr(viewSchema, DEFAULT_VIEW, root.view) };
 };
 
 /**

@@ -6,7 +6,7 @@ import { copyFileSync, existsSync, readFileSync, renameSync, rmSync, writeFileSy
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
-import { plotSettingsSchema, withExtraWaits, type PlotSettings } from "../../../src/schema/index.js";
+import { plotSettingsSchema, type PlotSettings } from "../../../src/schema/index.js";
 import { journalSchema } from "../../../host/plotter/resume-position.js";
 import type { JournalEntry } from "../../../host/plotter/plotter-port.js";
 import { makeDataFolder } from "../../storage/data-dir.js";
@@ -17,7 +17,7 @@ import { isAlive, thisProcess } from "../../storage/process-owner.js";
 const ownerSchema = z.object({ pid: z.number(), began: z.string().default("") });
 const plotSchema = ownerSchema.extend({
   name: z.string(),
-  settings: z.preprocess((stored) => withExtraWaits(stored), plotSettingsSchema),
+  settings: plotSettingsSchema,
   only: z.array(z.string()).optional(),
 });
 const entrySchema = journalSchema.extend({ progress: z.number() });

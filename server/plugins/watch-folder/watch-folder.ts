@@ -21,7 +21,6 @@ import {
   cleanName,
   DEFAULT_PLOT_SETTINGS,
   givenSettingsSchema,
-  withExtraWaits,
   type GivenSettings,
   type Job,
 } from "../../../src/schema/index.js";
@@ -191,7 +190,7 @@ async function settingsBeside(path: string): Promise<GivenSettings> {
   for (const file of [join(dirname(path), `${name}.settings.json`), join(dirname(path), "settings.json")]) {
     const text = await settingsText(file);
     if (text === null) continue;
-    const result = givenSettingsSchema.safeParse(withExtraWaits(parsed(text, file)));
+    const result = givenSettingsSchema.safeParse(parsed(text, file));
     if (result.success) return result.data;
     const { path: field, words } = firstFault(result.error);
     throw new PlotwrightError("bad-setting", `${basename(file)}: ${field}: ${words}.`);

@@ -387,18 +387,6 @@ describe("plotwright pen-times", () => {
       await server.close();
     }
   });
-
-  it("and old waits in the database are read as extra waits of the plotter's model", async () => {
-    await done("settings", "save", "Ink");
-    const store = Store.open(data);
-    const [row] = store.plotters();
-    store.savePlotter({ ...row, machine: "nextdraw-8511" });
-    const { extraLiftMs, extraDropMs, ...pen } = DEFAULT_PLOT_SETTINGS.pen;
-    expect([extraLiftMs, extraDropMs]).toEqual([0, 0]);
-    store.savePlotterSettings(row.id, { pen: { ...pen, upPct: 50, liftMs: 100, dropMs: 300 }, pens: [] });
-    store.close();
-    expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 100 - 46, extraDropMs: 0 });
-  });
 });
 
 const plotterName = (): string => {

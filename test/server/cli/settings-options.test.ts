@@ -98,29 +98,6 @@ describe("the settings' options", () => {
     });
   });
 
-  it("take whole waits by their old names, on the machine and at the heights that are given", () => {
-    const whole = ["--pen-lift-ms", "250", "--pen-drop-ms", "100"];
-    expect(settingsOf(...whole).pen).toMatchObject({ extraLiftMs: 250 - 131, extraDropMs: 100 - 147 });
-    const nextdraw = ["--machine", "nextdraw-8511", "--pen-up", "50"];
-    expect(settingsOf(...whole, ...nextdraw).pen).toMatchObject({
-      extraLiftMs: 250 - 46,
-      extraDropMs: 100 - 48,
-    });
-  });
-
-  it("take the old waits of a config file, of the file's machine or of the given one", () => {
-    const file = join(folderOfTest(), "old.json");
-    const extraOf = (config: object, ...args: string[]): number[] => {
-      writeFileSync(file, JSON.stringify(config));
-      const { extraLiftMs, extraDropMs } = settingsOf("--config", file, ...args).pen;
-      return [extraLiftMs, extraDropMs];
-    };
-    const pen = { upPct: 50, downPct: 30, liftMs: 80, dropMs: 300 };
-    expect(extraOf({ pen })).toEqual([80 - 101, 0]);
-    expect(extraOf({ pen, machine: "nextdraw-8511" })).toEqual([80 - 46, 0]);
-    expect(extraOf({ pen }, "--machine", "nextdraw-8511")).toEqual([80 - 46, 0]);
-  });
-
   it("take a custom paper size as it is written, wide or high", () => {
     expect(settingsOf("--paper", "300x200").prepare.landscape).toBe(true);
     expect(settingsOf("--paper", "200x300.5").prepare).toMatchObject({

@@ -3,7 +3,7 @@
  * made in one turn of the event loop, so they are stored in one transaction.
  */
 import { PlotwrightError } from "../../../src/index.js";
-import { ENDED_STATES, jobSchema, withExtraWaits, type Job } from "../../../src/schema/index.js";
+import { ENDED_STATES, jobSchema, type Job } from "../../../src/schema/index.js";
 import type { JobStore, PlotterRow, PlotterStore, StoredDrawing } from "../../../host/storage.js";
 import type { Database } from "./database.js";
 
@@ -43,8 +43,7 @@ export class StoredModel implements JobStore, PlotterStore {
     let unreadableCount = 0;
     for (const [id, stored] of records.jobs) {
       const row = stored as JobRow;
-      const settings = withExtraWaits(row.job.settings);
-      const parsed = jobSchema.safeParse({ ...row.job, settings });
+      const parsed = jobSchema.safeParse(row.job);
       if (parsed.success) this.jobRows.set(id, { ...row, job: parsed.data });
       else unreadableCount++;
     }
