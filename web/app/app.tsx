@@ -1,4 +1,3 @@
-import type { ComponentType } from "react";
 import { DrawnSize } from "../drawing/drawn-size.js";
 import { Notices } from "../ui/notices.js";
 import { PlotBar } from "../queue/plot-bar.js";
@@ -19,14 +18,31 @@ import { PAGE_ACTIONS } from "./page-actions.js";
 const EmptyPaper = lazyPart(async () => (await import("../drawing/empty-paper.js")).EmptyPaper);
 const Watch = lazyPart(async () => (await import("../watch/watch.js")).Watch);
 /** What is in each panel, loaded when it is first opened. */
-const PANEL_PARTS: Readonly<Record<PanelName, ComponentType>> = {
-  drawing: lazyPart(async () => (await import("../drawing/drawing.js")).DrawingPanel),
-  paper: lazyPart(async () => (await import("../drawing/paper.js")).PaperPanel),
-  layers: lazyPart(async () => (await import("./panels.js")).LayersAndPens),
-  lines: lazyPart(async () => (await import("../drawing/lines.js")).LinesPanel),
-  speed: lazyPart(async () => (await import("./panels.js")).SpeedAndPresets),
-  plotter: lazyPart(async () => (await import("./panels.js")).PlotterAndSetUp),
-  queue: lazyPart(async () => (await import("./panels.js")).QueueAndHistory),
+const DrawingPanel = lazyPart(async () => (await import("../drawing/drawing.js")).DrawingPanel);
+const PaperPanel = lazyPart(async () => (await import("../drawing/paper.js")).PaperPanel);
+const LayersAndPens = lazyPart(async () => (await import("./panels.js")).LayersAndPens);
+const LinesPanel = lazyPart(async () => (await import("../drawing/lines.js")).LinesPanel);
+const SpeedAndPresets = lazyPart(async () => (await import("./panels.js")).SpeedAndPresets);
+const PlotterAndSetUp = lazyPart(async () => (await import("./panels.js")).PlotterAndSetUp);
+const QueueAndHistory = lazyPart(async () => (await import("./panels.js")).QueueAndHistory);
+
+const OpenPanel = ({ name }: { name: PanelName }) => {
+  switch (name) {
+    case "drawing":
+      return <DrawingPanel />;
+    case "paper":
+      return <PaperPanel />;
+    case "layers":
+      return <LayersAndPens />;
+    case "lines":
+      return <LinesPanel />;
+    case "speed":
+      return <SpeedAndPresets />;
+    case "plotter":
+      return <PlotterAndSetUp />;
+    case "queue":
+      return <QueueAndHistory />;
+  }
 };
 const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
 const Camera = lazyPart(async () => (await import("../sharing/camera.js")).Camera);
@@ -44,7 +60,6 @@ export const App = () => {
   const isUnpaired = usePageState((state) => state.isUnpaired);
   const view = usePageState(shownView);
   const panel = usePageState(openPanel);
-  const OpenPanel = panel && PANEL_PARTS[panel];
   const isFull = usePageState((state) => state.isFullScreen);
   const isWatching = view === "watch";
   const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
@@ -60,7 +75,7 @@ export const App = () => {
             <Camera />
           </aside>
         )}
-        {!isFull && panel && OpenPanel && (
+        {!isFull && panel && (
           <aside id={PANEL_ID} className="panel" aria-label={railText.panel(railText.panels[panel])}>
             <IconButton
               kind="tool"
@@ -69,7 +84,7 @@ export const App = () => {
               className="panel-close"
               onClick={() => showPanel(null)}
             />
-            <OpenPanel />
+            <OpenPanel name={panel} />
           </aside>
         )}
         <main className="centre">
