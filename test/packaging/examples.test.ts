@@ -198,11 +198,19 @@ describe("the commands of the documents", () => {
     expect(program).toBe("plotwright");
     const data = ["--data", path.join(folder, "data")];
     const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
-    const withoutBoard: Readonly<Record<string, string[]>> = { plan: [], devices: [], logs: data };
+    const withoutBoard: Readonly<Record<string, string[]>> = {
+      plan: [],
+      devices: [],
+      logs: data,
+      settings: data,
+    };
     const additions = (args.includes("--device") ? board.slice(2) : withoutBoard[args[0]]) ?? board;
+    // What `settings` stores must not reach the other examples, nor the user who runs the tests.
+    const config = path.join(folder, args[0] === "settings" ? "stored" : "none");
     return spawnSync(process.execPath, [path.join(ROOT, "dist/server/main.js"), ...args, ...additions], {
       cwd: folder,
       encoding: "utf8",
+      env: { ...process.env, XDG_CONFIG_HOME: config, APPDATA: config },
     });
   }
 
