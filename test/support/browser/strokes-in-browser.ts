@@ -17,9 +17,9 @@ export async function strokesInBrowser(page: Page, text: string, settings: PlotS
   });
   const call = `library.strokesOf(${JSON.stringify(text)}, ${JSON.stringify(settings)})`;
   const json = await page.evaluate<string>(
-    `(() => {
+    `(async () => {
       ${outputFiles[0].text}
-      const { xy, offsets, layer, ...others } = ${call};
+      const { xy, offsets, layer, ...others } = await ${call};
       return JSON.stringify({ xy: [...xy], offsets: [...offsets], layer: [...layer], ...others });
     })()`,
   );
