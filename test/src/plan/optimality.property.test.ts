@@ -89,7 +89,9 @@ function pathOf(points: readonly Point[]): RunPath {
 }
 
 function planned(points: readonly Point[], mode: MotionMode, draw: MotionLimits) {
-  return plan(strokeSetOf([points]), { mode, draw, travel: draw, fit: null }, DEFAULT_PEN, { returnHome: false });
+  return plan(strokeSetOf([points]), { mode, draw, travel: draw, fit: null }, DEFAULT_PEN, {
+    returnHome: false,
+  });
 }
 
 /**
