@@ -210,7 +210,7 @@ describe.each(LOOKS_IN_FONTS)(
         const findings = await seriousFindings(page);
         found.push(...findings.map((finding) => `${name}, ${scheme}: ${finding}`));
         const wide = await page.evaluate(() =>
-          [...document.querySelectorAll(".panel, .group-body, .card, .status-card, dialog")]
+          [...document.querySelectorAll(".panel, .group-body, .card, .watch > *, dialog")]
             .filter(({ scrollWidth, clientWidth }) => scrollWidth > clientWidth + 1)
             .map(({ className }) => className),
         );

@@ -88,7 +88,9 @@ export const App = () => {
           </aside>
         )}
         <main className="centre">
-          <Strips />
+          <div className="strips">
+            <Strips />
+          </div>
           {isWatching && <Watch />}
           <div className="paper-area">
             <Preview />

@@ -17,14 +17,8 @@ export const StatusCard = ({ job }: { job: Job }) => {
   const isActive = ACTIVE_STATES.includes(job.state);
   const wait = penWait(job);
   return (
-    <section
-      id="plot-status"
-      tabIndex={-1}
-      className="status-card"
-      aria-label={words.status}
-      data-state={job.state}
-    >
-      <div className="status-words">
+    <>
+      <div id="plot-status" tabIndex={-1} className="status-words">
         <p className="status-name">
           <strong>{job.name}</strong>
           <StateBadge job={job} />
@@ -36,9 +30,11 @@ export const StatusCard = ({ job }: { job: Job }) => {
         {isActive && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}
         {!isActive && <EndedButtons job={job} />}
       </div>
-      {job.state !== "queued" && <Progress job={job} />}
-      <Message job={job} isWaiting={wait !== null} />
-    </section>
+      <div className="status-below">
+        {job.state !== "queued" && <Progress job={job} />}
+        <Message job={job} isWaiting={wait !== null} />
+      </div>
+    </>
   );
 };
 

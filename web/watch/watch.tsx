@@ -17,13 +17,13 @@ export const Watch = () => {
   const job = usePageState(watchedJob);
   usePlan();
   return (
-    <div className="watch">
+    <section className="watch" aria-label={words.status} data-state={job?.state}>
       {job ? <StatusCard job={job} /> : <NothingCard />}
       <div className="watch-area">
         <WatchSheet />
         <Notices />
       </div>
-    </div>
+    </section>
   );
 };
 
@@ -44,8 +44,8 @@ const NothingCard = () => {
   const { showView } = useActions();
   const isWatcher = usePageState((state) => state.me?.role === "watch");
   return (
-    <section id="plot-status" tabIndex={-1} className="status-card" aria-label={words.status}>
-      <div className="status-words">
+    <>
+      <div id="plot-status" tabIndex={-1} className="status-words">
         <p className="status-name">
           <strong>{words.nothing}</strong>
         </p>
@@ -55,7 +55,7 @@ const NothingCard = () => {
           <Button onClick={() => showView("prepare")}>{words.toPrepare}</Button>
         </div>
       )}
-    </section>
+    </>
   );
 };
 

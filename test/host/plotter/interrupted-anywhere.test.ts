@@ -70,14 +70,20 @@ async function interruptedAnywhere(strokes: StrokeSet, settings: PlotSettings, f
   return found;
 }
 
+/**
+ * The most that is drawn again although the board's position is known. Two lines as near to each other as the carriage
+ * may leave the drawing cannot be told apart, so beside a sharp corner the earlier one counts.
+ */
+const mostAlikeMm = (settings: PlotSettings, unseenMm: number): number =>
+  unseenMm + 2 * maxOffDrawingMm(settings.motion, machineOf(settings));
+
 const overlapOf = ({ missingMm }: Resumption): number => Math.max(0, -missingMm);
 
 function check(found: readonly Resumption[], settings: PlotSettings, unseenMm: number): void {
   const { motion, sendAheadMs } = settings;
   const unsureS = sendAheadMs / 1_000 + JOURNAL_S + PROGRESS_S;
   const mostMm = motion.draw.speedMmPerS * unsureS + unseenMm;
-  // Two passes as near to each other as the carriage may leave the line count as one.
-  const alikeMm = unseenMm + 2 * maxOffDrawingMm(motion, machineOf(settings));
+  const alikeMm = mostAlikeMm(settings, unseenMm);
   expect(found.length).toBeGreaterThanOrEqual(INSTANTS);
   expect(found.filter(({ missingMm }) => missingMm > unseenMm)).toEqual([]);
   expect(found.filter((one) => overlapOf(one) > one.unsureMm + alikeMm)).toEqual([]);
@@ -113,14 +119,14 @@ describe.each(["2.8.1", "3.0.3"])(
       ["", DEFAULT_PLOT_SETTINGS, UNSEEN_MM],
       [" in shaped motion", SHAPED, 2 * SHAPED_MM],
     ] as const)(
-      "leaves nothing out and draws nothing twice%s",
+      "leaves nothing out and draws no more than a corner twice%s",
       { timeout: 120_000 },
       async (_, settings, mostMm) => {
         const random = seeded(23);
         for (let i = 0; i < cases(100, 10); i++) {
           const { gapMm, overlapMm } = await killedInPause(settings, firmware, random);
           expect(gapMm).toBeLessThan(mostMm);
-          expect(overlapMm).toBeLessThan(mostMm);
+          expect(overlapMm).toBeLessThan(mostAlikeMm(settings, mostMm));
         }
       },
     );
