@@ -58,14 +58,14 @@ const MOSTLY_WAITING = { maxWorkers: 5 };
 
 /** The files that take longest, the slowest first. */
 const SLOWEST = [
-  "test/e2e/accessibility.test.ts",
-  "test/e2e/without-server.test.ts",
-  "test/e2e/both-backends.test.ts",
-  "test/e2e/site.test.ts",
+  "test/e2e/page/accessibility.test.ts",
+  "test/e2e/without-server/second-tab.test.ts",
+  "test/e2e/without-server/both-backends.test.ts",
+  "test/e2e/page/site.test.ts",
   "test/server/plugins/shared-queue/shared-queue.alone.test.ts",
   "test/server/cli/reference.test.ts",
-  "test/e2e/machine.test.ts",
-  "test/e2e/layers.test.ts",
+  "test/e2e/plotter/machine.test.ts",
+  "test/e2e/drawing/layers.test.ts",
   "test/src/drivers/ebb/virtual/plot-matrix.test.ts",
   "test/server/composition/server.test.ts",
   "test/server/http/attacks.test.ts",

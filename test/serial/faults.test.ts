@@ -1,6 +1,6 @@
 /**
  * Faults of a connection during a plot, over a real pseudo-terminal: each ends in a defined state. Those of the board itself
- * are tested without real time, in test/host/plotter/plotter.test.ts.
+ * are tested without real time, in test/host/plotter/connection/plotter.test.ts.
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
@@ -17,7 +17,7 @@ import { wakefulClock } from "../support/clocks/wakeful-clock.js";
 
 const LONG = strokesOf([10, 10, 250, 10, 250, 20, 10, 20, 10, 30, 250, 30]);
 /**
- * An undetected fault never ends, or only with the plot. test/host/plotter/plotter.test.ts tests the limit of 3 s, without real
+ * An undetected fault never ends, or only with the plot. test/host/plotter/connection/plotter.test.ts tests the limit of 3 s, without real
  * time: here a busy computer delays the board and the driver.
  */
 const WITHIN_S = 15;

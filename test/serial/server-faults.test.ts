@@ -10,7 +10,7 @@ import { PtyBoard, type ToBoard } from "../support/processes/pty-board.js";
 import { folderOfTest } from "../support/processes/folders.js";
 import { wakefulClock } from "../support/clocks/wakeful-clock.js";
 
-/** An undetected fault never ends. The limit of 3 s is tested without real time, in test/host/plotter/plotter.test.ts. */
+/** An undetected fault never ends. The limit of 3 s is tested without real time, in test/host/plotter/connection/plotter.test.ts. */
 const WITHIN_S = 15;
 const clock = wakefulClock({ countsWork: true });
 const SVG =

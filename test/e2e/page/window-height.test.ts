@@ -1,0 +1,131 @@
+/** The page is as high as the window and does not scroll; its panel does. The sheet has most of the window. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { plotBar, queuePanel } from "../../support/browser/page-actions.js";
+import { PageTest } from "../../support/browser/page-test.js";
+
+const SIZES = [
+  { width: 1440, height: 900 },
+  { width: 1920, height: 1080 },
+  { width: 1024, height: 768 },
+];
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.open("window-height");
+});
+
+afterAll(async () => test.close());
+
+/** Height of the document and its scroll position, px. */
+const documentPx = (): Promise<{ height: number; scrolled: number }> =>
+  test.page.evaluate(() => ({
+    height: document.documentElement.scrollHeight,
+    scrolled: document.scrollingElement?.scrollTop ?? 0,
+  }));
+
+describe("before the first plot", () => {
+  it("the guide is in sight in a window of 1440 × 900, without scrolling", async () => {
+    const { page } = test;
+    const guide = page.getByRole("region", { name: "First plot with this plotter" });
+    await guide.waitFor();
+    const inSight = async (): Promise<void> => {
+      const { y, height } = (await guide.boundingBox())!;
+      expect(y + height).toBeLessThanOrEqual(900);
+    };
+    await inSight();
+    // With its model known, and the longer help of a plotter that finds home.
+    for (const label of ["NextDraw 8511", "AxiDraw V3"]) {
+      await guide.getByLabel("Which plotter is this?").selectOption({ label });
+      await guide.getByText("Press Plot.").waitFor();
+      await inSight();
+      if (label === "NextDraw 8511") await guide.getByRole("button", { name: "Another model…" }).click();
+    }
+    await guide.getByRole("button", { name: "Home", exact: true }).click();
+    // Done: one line, from which it can be opened again.
+    await guide.getByText("The carriage is home.").waitFor();
+    await inSight();
+    await guide.getByRole("button", { name: "Home again…" }).click();
+    await guide.getByRole("button", { name: "Motors off" }).waitFor();
+  });
+});
+
+/** The part of the window in which sheet and desk are drawn. */
+async function canvasShare(): Promise<number> {
+  const { width, height } = (await test.page.locator(".canvas:visible").boundingBox())!;
+  const window = test.page.viewportSize()!;
+  return (width * height) / (window.width * window.height);
+}
+
+/** The larger of the two shares of the canvas that the sheet fills in one dimension. */
+async function sheetShare(): Promise<number> {
+  const sheet = await test.onScreen("paper");
+  const canvas = (await test.page.locator(".canvas:visible").boundingBox())!;
+  return Math.max((sheet.right - sheet.left) / canvas.width, (sheet.bottom - sheet.top) / canvas.height);
+}
+
+describe("the sheet", () => {
+  const close = () => test.page.getByRole("button", { name: "Close the panel" });
+
+  it("has at least 55 % of a desktop's window with a panel open, and 70 % without", async () => {
+    await test.page.setViewportSize({ width: 1440, height: 900 });
+    await test.panel("Paper");
+    expect(await canvasShare()).toBeGreaterThan(0.55);
+    expect(await sheetShare()).toBeGreaterThan(0.85);
+    await close().click();
+    expect(await canvasShare()).toBeGreaterThan(0.7);
+    expect(await sheetShare()).toBeGreaterThan(0.85);
+  });
+
+  it("has at least half of a phone's", async () => {
+    await test.page.setViewportSize({ width: 390, height: 844 });
+    expect(await canvasShare()).toBeGreaterThan(0.5);
+    await test.page.setViewportSize({ width: 1440, height: 900 });
+  });
+});
+
+describe("the menu of the last plot in the queue", () => {
+  it("opens within the window, where its plot is at the window's end", async () => {
+    const { page } = test;
+    await page.setViewportSize({ width: 1440, height: 620 });
+    await test.panel("Queue");
+    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    const opener = queuePanel(page).getByRole("button", { name: /^More for / });
+    await opener.evaluate((element) => element.scrollIntoView({ block: "end" }));
+    await opener.click();
+    const last = queuePanel(page).getByRole("button", { name: /^Remove / });
+    await last.waitFor();
+    const { y, height } = (await last.boundingBox())!;
+    expect(y + height).toBeLessThanOrEqual(620);
+    await last.click();
+  });
+});
+
+describe.each(SIZES)("a window of $width × $height", (size) => {
+  it("holds the whole page with all groups of settings open, also after scrolling past a panel's end", async () => {
+    const { page } = test;
+    await page.setViewportSize(size);
+    expect(await documentPx()).toEqual({ height: size.height, scrolled: 0 });
+    const panel = page.locator(".panel");
+    for (const name of ["Drawing", "Paper", "Layers", "Lines", "Speed", "Plotter", "Queue"] as const) {
+      await test.panel(name);
+      const folded = panel.locator(".group-head[aria-expanded=false]");
+      while ((await folded.count()) > 0) await folded.first().click();
+      const box = (await panel.boundingBox())!;
+      await page.mouse.move(box.x + 20, box.y + box.height / 2);
+      // Parts that are loaded meanwhile make it longer.
+      await expect
+        .poll(async () => {
+          await page.mouse.wheel(0, 1_000);
+          return panel.evaluate(
+            (element) => element.scrollTop + element.clientHeight >= element.scrollHeight - 1,
+          );
+        })
+        .toBe(true);
+      expect(await documentPx()).toEqual({ height: size.height, scrolled: 0 });
+    }
+    const plot = (await plotBar(page).boundingBox())!;
+    expect(plot.y).toBeGreaterThanOrEqual(0);
+    expect(plot.y + plot.height).toBeLessThanOrEqual(size.height);
+  });
+});

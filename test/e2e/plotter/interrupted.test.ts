@@ -1,0 +1,77 @@
+/** A plot that was killed half way: Watch shows its progress, and the drawn part in another colour than the rest. */
+import { once } from "node:events";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { snapshotSchema, type Job } from "../../../src/schema/index.js";
+import { launchBrowser } from "../../support/browser/browser.js";
+import { combOf, expectPartlyDrawn, SHARP } from "../../support/browser/half-drawn.js";
+import { dropFile, openPanel, plotBar, queuePanel, waitForPlan } from "../../support/browser/page-actions.js";
+import { temporaryFolder } from "../../support/processes/folders.js";
+import { startServerProcess, type ServerProcess } from "../../support/processes/server-process.js";
+
+const PATIENCE_MS = 120_000;
+const NAME = "comb";
+const COMB = combOf("near", "far");
+
+const data = temporaryFolder("interrupted");
+let browser: Browser;
+let server: ServerProcess;
+let page: Page;
+async function openPage(): Promise<void> {
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 },
+    ...SHARP,
+    colorScheme: "light",
+  });
+  page = await context.newPage();
+  await page.goto(server.url);
+}
+
+async function theJob(): Promise<Job> {
+  const answer: unknown = await (await fetch(`${server.url}/api/v1/state`)).json();
+  return snapshotSchema.parse(answer).jobs[0];
+}
+
+const expectAt = async (state: string): Promise<void> => expectPartlyDrawn(page, await theJob(), state);
+
+beforeAll(async () => {
+  browser = await launchBrowser();
+  server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
+  await openPage();
+}, PATIENCE_MS);
+
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+  data.remove();
+});
+
+describe("a plot whose server was killed", () => {
+  it("is shown at its position at once, on a page that is opened then", async () => {
+    await dropFile(page, `${NAME}.svg`, COMB);
+    await page.getByText(NAME, { exact: true }).first().waitFor();
+    await waitForPlan(page);
+    await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+    await openPanel(page, "Queue");
+    await queuePanel(page)
+      .getByRole("button", { name: /^Start / })
+      .click();
+    await expect.poll(async () => (await theJob()).progress, { interval: 50 }).toBeGreaterThan(0.3);
+    const ended = once(server.process, "exit");
+    server.process.kill("SIGKILL");
+    await ended;
+    await page.context().close();
+    server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8 });
+    await openPage();
+    await expectAt("Interrupted");
+  });
+
+  it("is shown there when it is resumed and held, after a reload too", async () => {
+    const { id } = await theJob();
+    await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
+    await expect.poll(async () => (await theJob()).state).toBe("paused");
+    await expectAt("Paused");
+    await page.reload();
+    await expectAt("Paused");
+  });
+});

@@ -1,0 +1,74 @@
+/** A plot that waits for a pen, or was reopened: the page shows its progress, and never all of it as drawn. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import type { Job } from "../../../src/schema/index.js";
+import { combOf, expectPartlyDrawn, expectShareOnCanvas, SHARP } from "../../support/browser/half-drawn.js";
+import { historyPanel, openView, plotBar } from "../../support/browser/page-actions.js";
+import { PageTest } from "../../support/browser/page-test.js";
+
+const LIMIT_MS = 120_000;
+const NAME = "two pens";
+const WAITS = "Waits for the pen for “Red”";
+
+let test: PageTest;
+
+beforeAll(async () => {
+  test = await PageTest.firstVisit("pen-change", SHARP);
+}, LIMIT_MS);
+
+afterAll(async () => test.close());
+
+const theJob = async (): Promise<Job> => (await test.jobs()).find(({ name }) => name === NAME)!;
+const history = () => historyPanel(test.page);
+
+describe("a plot that waits for a pen", () => {
+  it("is shown at its position, and on a page that is opened then", async () => {
+    await test.drop(NAME, combOf("Blue", "!Red"));
+    await plotBar(test.page).getByRole("button", { name: "Plot", exact: true }).click();
+    await expect.poll(async () => (await theJob())?.wait?.layerName).toContain("Red");
+    await expectPartlyDrawn(test.page, await theJob(), WAITS);
+    await test.page.reload();
+    await expectPartlyDrawn(test.page, await theJob(), WAITS);
+  });
+});
+
+describe("a plot that was cancelled half way", () => {
+  it("is shown at its position as soon as it is recovered, and waits for the pen again", async () => {
+    const { id } = await theJob();
+    await test.page.request.post(`${test.server.url}/api/v1/jobs/${id}/cancel`);
+    await expect.poll(async () => (await theJob()).state).toBe("cancelled");
+    await history()
+      .getByRole("button", { name: `Go on from where it was cancelled: ${NAME}` })
+      .click();
+    await expect.poll(async () => (await theJob()).state).toBe("paused");
+    await expectPartlyDrawn(test.page, await theJob(), WAITS);
+  });
+
+  it("is shown partly drawn in Prepare, too, where it lies on the paper", async () => {
+    await openView(test.page, "Prepare");
+    await test.look("Ink");
+    await expectShareOnCanvas(test.page, await theJob(), "Preview");
+  });
+
+  it("is shown partly drawn where it was opened from the history", async () => {
+    const { page } = test;
+    const { id } = await theJob();
+    await page.request.post(`${test.server.url}/api/v1/jobs/${id}/cancel`);
+    await test.panel("Queue");
+    await history()
+      .getByRole("button", { name: `More for ${NAME}` })
+      .click();
+    await history()
+      .getByRole("button", { name: `Open ${NAME}` })
+      .click();
+    await test.planned();
+    await test.panel("Queue");
+    await history()
+      .getByRole("button", { name: `Go on from where it was cancelled: ${NAME}` })
+      .click();
+    await expect.poll(async () => (await theJob()).state).toBe("paused");
+    await expectPartlyDrawn(page, await theJob(), WAITS);
+    await openView(page, "Prepare");
+    await expectShareOnCanvas(page, await theJob(), "Preview");
+    expect(test.complaints).toEqual([]);
+  });
+});
