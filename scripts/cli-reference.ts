@@ -3,7 +3,7 @@ import type { Command, Option } from "commander";
 import { COMMANDS } from "../server/cli/commands.js";
 import { buildProgram } from "../server/cli/program.js";
 import { SETTING_OPTIONS } from "../server/cli/setting-table.js";
-import { markdownTable } from "./settings-table.js";
+import { markdownTable } from "./doc-parts.js";
 
 const NO_IO = {
   out: () => undefined,

@@ -1,43 +1,46 @@
 /**
- * npm run compare -- FILE.svg [--speed MM/S] [--accel MM/S2] [--corner MM]
- * Plans one drawing under the rules of each system and of plotwright, and prints one table.
+ * npm run compare: writes the tables of planners and of whole plots into docs/comparison.md.
+ *
+ * npm run compare -- FILE.svg... [--speed MM/S] [--accel MM/S2] [--corner MM]: plans each drawing under the rules of each
+ * planner and prints a table.
  */
-import { readFileSync } from "node:fs";
 import path from "node:path";
 import { Command, InvalidArgumentError } from "commander";
-import { DEFAULT_PREPARE, importSvg, prepare } from "../src/index.js";
-import { comparePlanners, type ComparisonRow } from "../test/support/reference-planners/compare.js";
+import {
+  COMPARED_LIMITS,
+  drawingOf,
+  plannersTable,
+  SAMPLE_NAMES,
+  sampleDrawing,
+  WHOLE_TABLES,
+  wholePlotRows,
+} from "./comparison-tables.js";
+import { markdownTable, writePart } from "./doc-parts.js";
 
 const command = new Command("compare")
-  .argument("<file...>", "SVG files")
-  .option("--speed <mm/s>", "V", positive, 50)
-  .option("--accel <mm/s²>", "A", positive, 500)
-  .option("--corner <mm>", "δ", positive, 0.05)
+  .argument("[file...]", "SVG files; none: the samples, written into docs/comparison.md")
+  .option("--speed <mm/s>", "V", positive, COMPARED_LIMITS.speed)
+  .option("--accel <mm/s²>", "A", positive, COMPARED_LIMITS.accel)
+  .option("--corner <mm>", "δ", positive, COMPARED_LIMITS.deviation)
   .parse();
 
 const { speed, accel, corner } = command.opts<{ speed: number; accel: number; corner: number }>();
 for (const file of command.args) {
-  const { strokes } = prepare(await importSvg(readFileSync(file, "utf8")), {
-    ...DEFAULT_PREPARE,
-    fit: false,
-  });
-  const [count, points] = [strokes.offsets.length - 1, strokes.xy.length / 2];
-  console.log(`\n${path.basename(file)}: ${count === 1 ? "1 stroke" : `${count} strokes`}, ${points} points`);
-  console.log(`V ${speed} mm/s, A ${accel} mm/s², δ ${corner} mm, J ${20 * accel} mm/s³\n`);
-  console.log(table(comparePlanners(strokes, { speed, accel, deviation: corner })));
+  const limits = { speed, accel, deviation: corner };
+  console.log(`\n${plannersTable(path.basename(file, ".svg"), await drawingOf(file), limits)}`);
 }
-
-function table(rows: readonly ComparisonRow[]): string {
-  const lines = rows.map(
-    (row) =>
-      `| ${row.planner.padEnd(30)} | ${row.drawS.toFixed(2).padStart(9)} | ${row.worstAccel.toFixed(2).padStart(16)} | ` +
-      `${row.worstJump.toFixed(2).padStart(14)} | ${String(row.pieces).padStart(7)} |`,
-  );
-  return [
-    "| planner                        | drawing s | acceleration / A | velocity jump  |  pieces |",
-    "| ------------------------------ | --------: | ---------------: | -------------: | ------: |",
-    ...lines,
-  ].join("\n");
+if (command.args.length === 0) {
+  const planners: string[] = [];
+  const plots: Awaited<ReturnType<typeof wholePlotRows>>[] = [];
+  for (const name of SAMPLE_NAMES) {
+    planners.push(plannersTable(name, await sampleDrawing(name), COMPARED_LIMITS));
+    plots.push(await wholePlotRows(name));
+  }
+  writePart("comparison.md", "planners", planners.join("\n\n"));
+  for (const part of Object.keys(WHOLE_TABLES) as (keyof typeof WHOLE_TABLES)[]) {
+    const rows = [WHOLE_TABLES[part], ...plots.map((row) => row[part])];
+    writePart("comparison.md", part, markdownTable(rows, 1));
+  }
 }
 
 function positive(text: string): number {

@@ -2,17 +2,16 @@
  * `npm run docs`: writes the types of the settings, and the generated parts of docs/*.md: parts of cli.md, motion.md and
  * comparison.md, and both references.
  */
-import { readFileSync, writeFileSync } from "node:fs";
+import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { cliReference } from "./cli-reference.js";
+import { DOCS, writePart } from "./doc-parts.js";
 import { httpReference } from "./http-reference.js";
 import { libraryReference } from "./library-reference.js";
 import { penGainsTable } from "./pen-gains.js";
 import { sampleTimesTable } from "./sample-times.js";
 import { settingsTable } from "./settings-table.js";
 import { SETTINGS_TYPES_FILE, settingsTypes } from "./settings-types.js";
-
-const DOCS = path.join(import.meta.dirname, "..", "docs");
 
 // First, because the library's reference is made from them.
 writeFileSync(SETTINGS_TYPES_FILE, await settingsTypes());
@@ -22,13 +21,3 @@ writePart("motion.md", "pen gains", await penGainsTable());
 writePart("comparison.md", "sample times", await sampleTimesTable());
 writeFileSync(path.join(DOCS, "library-reference.md"), (await libraryReference()).markdown);
 writeFileSync(path.join(DOCS, "http-reference.md"), await httpReference());
-
-function writePart(file: string, name: string, part: string): void {
-  const at = path.join(DOCS, file);
-  const document = readFileSync(at, "utf8");
-  const begin = `<!-- ${name} -->\n`;
-  const end = `<!-- /${name} -->`;
-  const [from, to] = [document.indexOf(begin), document.indexOf(end)];
-  if (from < 0 || to < 0) throw new Error(`docs/${file} has no part ${name}`);
-  writeFileSync(at, `${document.slice(0, from)}${begin}\n${part}\n\n${document.slice(to)}`);
-}

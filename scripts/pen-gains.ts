@@ -12,7 +12,7 @@ import {
   type PrepareSettings,
 } from "../src/index.js";
 import type { PenOverlap } from "../src/internal.js";
-import { markdownTable } from "./settings-table.js";
+import { markdownTable } from "./doc-parts.js";
 
 const SAMPLES = path.join(import.meta.dirname, "..", "samples");
 const sample = (name: string): string => readFileSync(path.join(SAMPLES, name), "utf8");

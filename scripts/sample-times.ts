@@ -3,7 +3,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { DEFAULT_MOTION, planSvg, trajectoryStats } from "../src/index.js";
 import { MOTION_MODES } from "../src/internal.js";
-import { markdownTable } from "./settings-table.js";
+import { markdownTable } from "./doc-parts.js";
 
 const FOLDER = path.join(import.meta.dirname, "..", "samples");
 const FIRMWARE = "3.0.3";

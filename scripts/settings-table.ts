@@ -1,5 +1,6 @@
 /** The settings of the command line as a Markdown table, from the settings tables. */
 import { SETTING_FLAGS, flagInWords, valuesInWords } from "../src/internal.js";
+import { markdownTable } from "./doc-parts.js";
 
 export function settingsTable(): string {
   const rows = SETTING_FLAGS.map((setting) => {
@@ -8,13 +9,4 @@ export function settingsTable(): string {
     return [`\`${flagInWords(setting).replaceAll("|", "\\|")}\`${off}`, row.about, valuesInWords(setting)];
   });
   return markdownTable([["option", "meaning", "values"], ...rows]);
-}
-
-/** Columns are padded as prettier does. */
-export function markdownTable(rows: readonly (readonly string[])[]): string {
-  const widths = rows[0].map((_, column) => Math.max(...rows.map((row) => row[column].length)));
-  const line = (cells: readonly string[]): string =>
-    `| ${cells.map((cell, column) => cell.padEnd(widths[column])).join(" | ")} |`;
-  const rule = `| ${widths.map((width) => "-".repeat(width)).join(" | ")} |`;
-  return `${[line(rows[0]), rule, ...rows.slice(1).map(line)].join("\n")}`;
 }

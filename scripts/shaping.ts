@@ -32,7 +32,7 @@ import type { RunPlanner } from "../src/plan/run-writer.js";
 import { inverseMotion } from "../test/support/trajectories/inverse-motion.js";
 import { referenceRuns, shapedRuns } from "../test/support/reference-planners/motion.js";
 import { REFERENCE_PLANNERS } from "../test/support/reference-planners/systems.js";
-import { markdownTable } from "./settings-table.js";
+import { markdownTable } from "./doc-parts.js";
 
 const FOLDER = path.join(import.meta.dirname, "..", "samples");
 const SPRINGS: readonly Springs[] = [

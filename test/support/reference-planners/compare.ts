@@ -2,6 +2,7 @@
 import { DEFAULT_PEN, plan, type MotionSettings, type StrokeSet } from "../../../src/index.js";
 import { DEFAULT_FIT, MOTION_MODES } from "../../../src/internal.js";
 import { distinct, worstCurveAccel, type Limits, type Point } from "./polyline.js";
+import { NEXTDRAW } from "./nextdraw.js";
 import { REFERENCE_PLANNERS } from "./systems.js";
 
 export interface ComparisonRow {
@@ -16,8 +17,8 @@ export interface ComparisonRow {
 }
 
 export function comparePlanners(strokes: StrokeSet, limits: Limits): ComparisonRow[] {
-  const lines = linesOf(strokes);
-  const others = REFERENCE_PLANNERS.map((reference) => {
+  const lines = linesOf(strokes).filter((line) => line.length > 1);
+  const others = [...REFERENCE_PLANNERS, NEXTDRAW].map((reference) => {
     let [drawS, worstAccel, pieces, worstJump] = [0, 0, 0, 0];
     for (const line of lines) {
       const result = reference.plan(line, limits);
@@ -35,16 +36,15 @@ export function comparePlanners(strokes: StrokeSet, limits: Limits): ComparisonR
   return [...others, ...ours];
 }
 
-/** The strokes as lists of points, without repeated points and dots. */
-function linesOf(strokes: StrokeSet): Point[][] {
+/** The strokes as lists of points, without repeated points; a dot has one point. */
+export function linesOf(strokes: StrokeSet): Point[][] {
   const lines: Point[][] = [];
   for (let s = 0; s + 1 < strokes.offsets.length; s++) {
     const line: Point[] = [];
     for (let i = strokes.offsets[s]; i < strokes.offsets[s + 1]; i++) {
       line.push([strokes.xy[2 * i], strokes.xy[2 * i + 1]]);
     }
-    const points = distinct(line);
-    if (points.length > 1) lines.push(points);
+    lines.push(distinct(line));
   }
   return lines;
 }

@@ -6,17 +6,18 @@ import { BlockColumns } from "../../../src/plan/block-columns.js";
 import { ImpulseFilter, type Kernel } from "../../../src/plan/shaping/impulse-filter.js";
 import type { RunPath } from "../../../src/plan/run-path.js";
 import type { RunPlanner } from "../../../src/plan/run-writer.js";
-import { newStraight, writeStraight } from "../../../src/plan/trapezoid.js";
-import { distance, type Point, type ReferencePlanner } from "./polyline.js";
+import { newStraight, writeStraight, type Straight } from "../../../src/plan/trapezoid.js";
+import { distance, type Point, type ReferencePlanner, type SCurve } from "./polyline.js";
 
 /** Shorter straights are rounding errors, mm. */
 const NO_LENGTH_MM = 1e-9;
 
 /** Writes runs by a reference planner, for `plan`. */
 export const referenceRuns = (reference: ReferencePlanner): RunPlanner => ({
-  write(path, { speed, accel, corner }, out) {
+  write(path, { speed, accel, corner, jerk }, out) {
     const points = pointsOf(path);
-    const { speeds } = reference.plan(points, { speed, accel, deviation: corner });
+    const limits = { speed, accel, deviation: corner, jerk };
+    const { speeds } = reference.plan(points, limits);
     const first = out.count;
     const straight = { ...newStraight(), cap2: speed * speed };
     let alongMm = path.startAlong;
@@ -35,7 +36,9 @@ export const referenceRuns = (reference: ReferencePlanner): RunPlanner => ({
       straight.v0 = speeds[i];
       straight.v1 = speeds[i + 1];
       straight.alongMm = alongMm + takenMm;
-      if (straight.length > NO_LENGTH_MM) writeStraight(straight, accel, out);
+      if (reference.scurvesOf !== undefined) {
+        writeSCurves(straight, reference.scurvesOf(length, speeds[i], speeds[i + 1], limits), out);
+      } else if (straight.length > NO_LENGTH_MM) writeStraight(straight, accel, out);
       if (blend) {
         const [v, before] = [speeds[i + 1], length - reach];
         out.push(
@@ -56,6 +59,29 @@ export const referenceRuns = (reference: ReferencePlanner): RunPlanner => ({
     out.addSegments(path.segmentCount);
   },
 });
+
+/** Needs columns with jerk, as mode `scurve` has them. */
+function writeSCurves(
+  { x, y, ux, uy, alongMm }: Straight,
+  curves: readonly SCurve[],
+  out: BlockColumns,
+): void {
+  if (out.jx === null || out.jy === null) throw new RangeError("S-curves need the mode scurve");
+  let mm = 0;
+  for (const { durationS, v0, v1 } of curves) {
+    const halfS = durationS / 2;
+    const peak = (v1 - v0) / halfS;
+    for (const [v, accel, jerk] of [
+      [v0, 0, peak / halfS],
+      [(v0 + v1) / 2, peak, -peak / halfS],
+    ]) {
+      out.push(halfS, x + mm * ux, y + mm * uy, v * ux, v * uy, accel * ux, accel * uy, alongMm + mm);
+      out.jx[out.count - 1] = jerk * ux;
+      out.jy[out.count - 1] = jerk * uy;
+      mm += halfS * (v + halfS * (accel / 2 + (halfS * jerk) / 6));
+    }
+  }
+}
 
 /** The same runs through an input shaper. */
 export function shapedRuns(runs: RunPlanner, kernel: Kernel): RunPlanner {

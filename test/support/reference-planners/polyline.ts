@@ -9,6 +9,8 @@ export interface Limits {
   readonly accel: number;
   /** δ, mm: each system's own corner setting is chosen to give the same δ. */
   readonly deviation: number;
+  /** J, mm/s³, of planners whose own limit it is. */
+  readonly jerk?: number;
 }
 
 /** One vertex between two segments. */
@@ -30,6 +32,15 @@ export interface ReferencePlanner {
   /** It sends slices of constant speed of about this duration, s. */
   readonly sliceS?: number;
   plan(points: readonly Point[], limits: Limits): ReferencePlan;
+  /** One segment from speed v0 to v1; without it, a trapezoid. */
+  scurvesOf?(length: number, v0: number, v1: number, limits: Limits): readonly SCurve[];
+}
+
+/** A change of speed along a line: half of its time the jerk is +J, the other half −J. */
+export interface SCurve {
+  readonly durationS: number;
+  readonly v0: number;
+  readonly v1: number;
 }
 
 interface ReferencePlan {

@@ -25,7 +25,7 @@ const GRBL: ReferencePlanner = {
 };
 
 /** axi treats a reversal as a full stop, and anything within 1e-9 of straight as no corner. */
-const AXI: ReferencePlanner = {
+export const AXI: ReferencePlanner = {
   name: "axi, motion (Fogleman), saxi",
   cornerRule: "junction deviation",
   profile: "trapezoid, back-tracking look-ahead",
@@ -38,7 +38,7 @@ const AXI: ReferencePlanner = {
 
 /** AxiDraw's software: junction deviation as well; it sends slices of constant speed of about 1/40 s. */
 const AXIDRAW_SLICE_S = 0.025;
-const AXIDRAW: ReferencePlanner = {
+export const AXIDRAW: ReferencePlanner = {
   name: "AxiDraw software",
   cornerRule: "junction deviation",
   profile: "trapezoid cut into slices of constant speed",
