@@ -79,18 +79,12 @@ const TABLES = `
     is_told    INTEGER NOT NULL DEFAULT 0 -- the other servers know that it has begun
   );`;
 
-/** What version 10 has more than version 9. */
-const FROM_9 = `
-  ALTER TABLE jobs ADD COLUMN submitted_by TEXT;
-  ALTER TABLE webhooks ADD COLUMN progress TEXT;`;
-
-/** Makes the tables of a new database, or updates them. One of another version is refused, and stays as it is. */
+/** Makes the tables of a new database. One of another version is refused, and stays as it is. */
 export function prepareTables(db: Database, path: string): void {
   const version = Number(db.get("PRAGMA user_version")?.["user_version"] ?? 0);
   if (version === VERSION) return;
-  if (version === 0 || version === 9) {
-    const changes = version === 0 ? TABLES : FROM_9;
-    db.exec(`BEGIN IMMEDIATE; ${changes}\nPRAGMA user_version = ${VERSION}; COMMIT;`);
+  if (version === 0) {
+    db.exec(`BEGIN IMMEDIATE; ${TABLES}\nPRAGMA user_version = ${VERSION}; COMMIT;`);
     return;
   }
   const advice = version > VERSION ? "Update plotwright" : "Use the plotwright that made it";
