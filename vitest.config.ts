@@ -1,3 +1,4 @@
+import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { defineConfig } from "vitest/config";
@@ -39,12 +40,18 @@ const limits = (limitMs: number) => ({
 /** A larger young generation needs less garbage collection. */
 const EXEC_ARGV = ["--max-semi-space-size=64"];
 
+/**
+ * What whoever runs the tests has set, and their plotters, queue and server, do not reach the tests and the programs that
+ * these start. Tests that need such folders have their own.
+ */
+const EMPTY = mkdtempSync(path.join(tmpdir(), "plotwright-tests-"));
+process.once("exit", () => rmSync(EMPTY, { recursive: true, force: true }));
+
 const COMMON = {
   pool: "forks" as const,
   execArgv: EXEC_ARGV,
   setupFiles: ["test/support/runs/fixed-seed.ts"],
-  // The config file of whoever runs the tests does not apply. Tests of that file set the folder themselves.
-  env: { XDG_CONFIG_HOME: path.join(tmpdir(), "plotwright-tests-have-no-config") },
+  env: { XDG_CONFIG_HOME: path.join(EMPTY, "config"), XDG_DATA_HOME: path.join(EMPTY, "data") },
 };
 
 /** These tests leave nothing behind, so they share workers that have loaded the product once. */
