@@ -4,7 +4,14 @@
  */
 import { InvalidArgumentError, type Command } from "commander";
 import { PlotwrightError } from "../../src/index.js";
-import { GIVEN_WHOLE, isSameJson, machineOf, printableJson } from "../../src/internal.js";
+import {
+  GIVEN_WHOLE,
+  isSameJson,
+  machineOf,
+  printableJson,
+  QUALITY_PATH,
+  SPRINGS_PATH,
+} from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   firstFault,
@@ -42,9 +49,9 @@ export const declareSettings: Declare = (settings, { io }) => {
   const sub = (name: string, about: string, isDefault = false): Command =>
     addPlotter(settings.command(name, { isDefault }).description(about).copyInheritedSettings(settings));
 
-  addJson(addSettingOptions(sub("show", "show all settings, and where each is from", true))).action(
-    (options: OptionValues) => show(options, io),
-  );
+  addJson(addSettingOptions(sub("show", "show all settings or some, and where each is from", true)))
+    .argument("[keys...]", "only these: an option's name, or a path such as pen (default: all)")
+    .action((keys: string[], options: OptionValues) => show(keys, options, io));
   sub("set", "change a setting in the config file that always applies")
     .argument("<key>", "an option's name, such as margin, or a path, such as pen.upPct")
     .argument("<value>", "as for the option, or JSON")
@@ -75,22 +82,43 @@ interface Leaf {
   readonly value: unknown;
 }
 
-async function show(options: OptionValues, io: CliIo): Promise<void> {
+async function show(keys: readonly string[], options: OptionValues, io: CliIo): Promise<void> {
+  const paths = keys.map(shownPath);
   const { plotters, withMachine } = await knownPlotters(options);
   const plotter = chosenOf(plotters, options);
   const layered = settingsInLayers(options, plotter?.stored ?? NOTHING_STORED, withMachine);
   const settings = layered.layers[layered.layers.length - 1].settings;
   const plotterSource = `plotter ${plotter?.id ?? ""}`;
-  const rows = leavesOf(settings).map((leaf) => {
-    const source = sourceOf(leaf, layered, options);
-    return { ...leaf, source: source === PLOTTER ? plotterSource : source };
-  });
+  const isAsked = ({ path }: Leaf): boolean =>
+    paths.length === 0 || paths.some((asked) => `${path}.`.startsWith(`${asked}.`));
+  const rows = leavesOf(settings)
+    .filter(isAsked)
+    .map((leaf) => {
+      const source = sourceOf(leaf, layered, options);
+      return { ...leaf, source: source === PLOTTER ? plotterSource : source };
+    });
   if (options["json"] === true) {
     const sources = Object.fromEntries(rows.map(({ path, source }) => [path, source]));
-    io.out(`${printableJson({ settings, sources })}\n`);
+    io.out(`${printableJson({ settings: paths.length === 0 ? settings : ofLeaves(rows), sources })}\n`);
     return;
   }
+  if (rows.length === 0) io.err("Not set.\n");
   for (const { path, value, source } of rows) io.out(printed`${path}\t${inWords(value)}\t${source}` + "\n");
+}
+
+/** The path of a setting, or the beginning of several. Throws `bad-setting` if there is none. */
+function shownPath(key: string): string {
+  const path = optionOf(key)?.path ?? key;
+  const { error } = givenSettingsSchema.safeParse(at(path.split("."), undefined));
+  if (error?.issues[0]?.code !== "unrecognized_keys") return path;
+  const fault = firstFault(error);
+  throw new PlotwrightError("bad-setting", `${fault.path}: ${fault.words}.`);
+}
+
+function ofLeaves(leaves: readonly Leaf[]): object {
+  const settings = {};
+  for (const { path, value } of leaves) setPath(settings, path.split("."), value);
+  return settings;
 }
 
 const isWhole = (key: string, value: unknown): boolean =>
@@ -140,22 +168,27 @@ const inWords = (value: unknown): string => {
 };
 
 /** Settings that flags have but a file does not. */
-const NOT_IN_FILE: Readonly<Record<string, string>> = {
-  quality:
+const NOT_IN_FILE: ReadonlyMap<string, string> = new Map([
+  [
+    QUALITY_PATH,
     "it sets several settings at once: set motion.draw.speedMmPerS and the others, or keep it in a preset: plotwright settings save NAME --quality …",
-  springs: "it belongs to the machine's profile: set it on the page, or in a file of --machine-file",
-};
+  ],
+  [SPRINGS_PATH, "it belongs to the machine's profile: set it on the page, or in a file of --machine-file"],
+]);
 
 /** The path of a setting, from an option's name or as it is. */
 function pathOf(key: string): string {
   const option = optionOf(key);
   const path = option?.path ?? key;
-  const why = NOT_IN_FILE[path.split(".")[0]];
+  const why = NOT_IN_FILE.get(path.split(".")[0]);
   if (why !== undefined) throw new PlotwrightError("bad-setting", `${key}: ${why}.`);
   return path;
 }
 
-const SWITCHES: Readonly<Record<string, unknown>> = { on: true, off: false };
+const SWITCHES: ReadonlyMap<string, unknown> = new Map([
+  ["on", true],
+  ["off", false],
+]);
 
 async function set(key: string, text: string, options: OptionValues, io: CliIo): Promise<void> {
   const path = pathOf(key);
@@ -178,7 +211,7 @@ async function set(key: string, text: string, options: OptionValues, io: CliIo):
 function valueOf(path: string, text: string): unknown {
   const isValid = (value: unknown): boolean =>
     givenSettingsSchema.safeParse(at(path.split("."), value)).success;
-  const plain = SWITCHES[text] ?? jsonOr(text);
+  const plain = SWITCHES.get(text) ?? jsonOr(text);
   if (isValid(plain)) return plain;
   const parse = optionAt(path)?.parse;
   if (parse !== undefined) {
@@ -187,7 +220,7 @@ function valueOf(path: string, text: string): unknown {
       if (isValid(value)) return value;
     } catch (error) {
       if (!(error instanceof InvalidArgumentError)) throw error;
-      throw new PlotwrightError("bad-setting", `${path}: ${error.message}`);
+      throw new PlotwrightError("bad-setting", `${path}: ${afterColon(error.message)}`);
     }
   }
   const result = givenSettingsSchema.safeParse(at(path.split("."), plain));
@@ -195,6 +228,8 @@ function valueOf(path: string, text: string): unknown {
   const fault = firstFault(result.error);
   throw new PlotwrightError("bad-setting", `${fault.path}: ${fault.words}.`);
 }
+
+const afterColon = (sentence: string): string => sentence.charAt(0).toLowerCase() + sentence.slice(1);
 
 function jsonOr(text: string): unknown {
   try {

@@ -53,9 +53,15 @@ export function addSettingOptions(command: Command, parts?: readonly string[]): 
   return command
     .addOption(new Option("--machine-file <file>", "JSON file with the profile of your own plotter, or -"))
     .addOption(new Option("--config <file>", "JSON file with settings, or -; flags override it"))
-    .addOption(new Option("--no-config", "leave out the config file that always applies"))
+    .addOption(noConfig())
     .addOption(new Option("--preset <name>", "settings that are stored for the plotter under a name"));
 }
+
+/** A value of its own. Commander would take it as the opposite of --config, so that the last of both won. */
+const noConfig = (): Option =>
+  Object.assign(new Option("--no-config", "leave out the config file that always applies"), {
+    negate: false,
+  });
 
 /** Settings of a command, and what to tell its user about the machine; null: nothing. */
 export interface FoundSettings {
@@ -120,10 +126,10 @@ export function settingsInLayers(
   stored: StoredOfPlotter,
   serverMachine: WithMachine = (settings) => settings,
 ): LayeredSettings {
-  const { config, machineFile, machine, preset } = values;
+  const { config, noConfig: isUsualLeftOut, machineFile, machine, preset } = values;
   const profile =
     typeof machineFile === "string" ? fromFile("--machine-file", machineFile, machineOfText) : null;
-  const usual = config === false ? {} : readUsualConfig();
+  const usual = isUsualLeftOut === true ? {} : readUsualConfig();
   const given = typeof config === "string" ? readConfig(config) : {};
   const profiles = [
     profile,

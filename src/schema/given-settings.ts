@@ -1,9 +1,11 @@
 /**
  * Settings as a caller gives them: any part of a job's settings, to be laid over those of the plotter. Unknown names are
- * refused with the nearest known one: a misspelt height must not be ignored.
+ * refused, and the probable one is named: a misspelt height must not be ignored.
  */
 import { z } from "zod";
+import { bestMatches, type Searched } from "../settings/matching.js";
 import type { DeepPartial } from "../settings/partial.js";
+import { SETTING_FLAGS } from "../settings/tables.js";
 import { machineProfileSchema } from "./machine.js";
 import {
   motionSettingsSchema,
@@ -78,14 +80,41 @@ function offsIn(shape: z.ZodRawShape): Record<string, unknown> {
   return Object.fromEntries(offs) as Record<string, unknown>;
 }
 
-/** What to say about a name that an object with these fields does not have: where else it is, or a similar name. */
+/** What to say about a name that an object with these fields does not have: the setting that was probably meant. */
 function unknownName(known: readonly string[]): z.core.$ZodErrorMap {
   return (issue) => {
     if (issue.code !== "unrecognized_keys") return undefined;
-    const name = String((issue as z.core.$ZodIssueUnrecognizedKeys).keys[0]);
-    const elsewhere = settingPaths().find((path) => path.split(".").at(-1) === name);
-    return `there is no such setting (did you mean ${elsewhere ?? nearest(name, known)}?)`;
+    const name = String((issue as z.core.$ZodIssueUnrecognizedKeys).keys[0]).slice(0, MAX_NAME);
+    const meant = meantBy(name, known);
+    return `there is no such setting${meant === undefined ? "" : ` (did you mean ${meant}?)`}`;
   };
+}
+
+/** Names come from outside, and may be long. */
+const MAX_NAME = 60;
+
+/** A name in this object, or the path of a setting: by its option, its own name, words for it, or a misspelt name. */
+function meantBy(name: string, known: readonly string[]): string | undefined {
+  const paths = settingPaths();
+  const misspelt = nearest(name, paths.map(lastOf));
+  return (
+    nearest(name, known) ??
+    SETTING_FLAGS.find(({ path, flag }) => flag === `--${name}` && paths.includes(path))?.path ??
+    paths.find((path) => lastOf(path) === name) ??
+    bestMatches(inWords(name), paths.map(searchedAt))[0]?.path ??
+    paths.find((path) => lastOf(path) === misspelt)
+  );
+}
+
+const lastOf = (path: string): string => path.split(".").at(-1) ?? "";
+
+/** "extraLiftMs" as "extra Lift Ms"; an option that switches something off is known by what it switches. */
+const inWords = (name: string): string => name.replace(/^no-/, "").replace(/([a-z])([A-Z])/g, "$1 $2");
+
+function searchedAt(path: string): Searched & { readonly path: string } {
+  const { flag = "", row } = SETTING_FLAGS.find((one) => one.path === path) ?? {};
+  const words = `${row?.label ?? ""}, ${row?.words ?? ""}`;
+  return { path, label: inWords(`${path} ${flag}`), words, where: row?.about ?? "" };
 }
 
 /** The paths of all settings; `*` is the id of a layer or the number of an entry. */
@@ -105,15 +134,11 @@ function pathsIn(schema: unknown, at: readonly string[]): string[] {
   return isWrapped ? pathsIn(schema.unwrap(), at) : [];
 }
 
-/** Longer names are compared by their beginning, since they come from outside. */
-const MAX_NAME = 60;
-
-/** The known name with the fewest letters to change, in any case. */
-function nearest(name: string, known: readonly string[]): string {
-  const distances = known.map((one) =>
-    editDistance(name.slice(0, MAX_NAME).toLowerCase(), one.toLowerCase()),
-  );
-  return String(known[distances.indexOf(Math.min(...distances))]);
+/** The known name with the fewest letters to change, in any case; none if that is more than every third letter. */
+function nearest(name: string, known: readonly string[]): string | undefined {
+  const distances = known.map((one) => editDistance(name.toLowerCase(), one.toLowerCase()));
+  const least = Math.min(...distances);
+  return least <= Math.max(1, name.length / 3) ? known[distances.indexOf(least)] : undefined;
 }
 
 /** Levenshtein distance, one row of its table at a time. */

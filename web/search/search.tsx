@@ -1,4 +1,5 @@
 import { useEffect, useId, useMemo, useRef, useState, type KeyboardEvent } from "react";
+import { bestMatches, type Searched } from "../../src/internal.js";
 import { isOffered, labelOf, whyOff, type Page, type PageAction } from "../state/page-action.js";
 import { maySubmit } from "../state/store.js";
 import { usePage, usePageState } from "../state/use-store.js";
@@ -6,7 +7,6 @@ import { Dialog } from "../ui/dialog.js";
 import { Icon } from "../ui/icon.js";
 import { FIELDS } from "./fields.js";
 import { goToField } from "./focus-field.js";
-import { bestMatches, type Searched } from "./matching.js";
 import { searchText as words } from "./text.js";
 import "./search.css";
 

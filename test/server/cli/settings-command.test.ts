@@ -87,6 +87,31 @@ describe("the config file that always applies", () => {
       machine: "default",
     });
     expect((await shown("--no-config")).settings).toEqual(DEFAULT_PLOT_SETTINGS);
+    // In any order, --no-config leaves out only the usual file.
+    for (const flags of [
+      ["--no-config", "--config", file],
+      ["--config", file, "--no-config"],
+    ]) {
+      const { pen, prepare } = (await shown(...flags)).settings;
+      expect([flags, pen.downPct, prepare]).toEqual([flags, 22, DEFAULT_PLOT_SETTINGS.prepare]);
+      expect(pen.upPct).toBe(DEFAULT_PLOT_SETTINGS.pen.upPct);
+    }
+  });
+
+  it("shows only the settings that are asked for, by option or by path", async () => {
+    writeConfig({ pen: { upPct: 71 } });
+    const source = usualConfigPath();
+    expect(await done("settings", "show", "pen-up", "margin")).toBe(
+      `prepare.marginMm\t15\tdefault\npen.upPct\t71\t${source}\n`,
+    );
+    const pen = await shown("pen");
+    expect(pen.settings).toEqual({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 71 } });
+    expect(Object.keys(pen.sources).every((path) => path.startsWith("pen."))).toBe(true);
+    expect(await there("settings", "show", "get", "margin")).toMatchObject({
+      code: 2,
+      out: "",
+      err: expect.stringContaining("get: there is no such setting"),
+    });
   });
 
   it.each([
@@ -139,7 +164,7 @@ describe("settings set and unset", () => {
   });
 
   it.each([
-    ["margin", "wide", "prepare.marginMm: It must be a length"],
+    ["margin", "wide", "prepare.marginMm: it must be a length"],
     ["margin", "-3", "prepare.marginMm: it must be 0 to 1000 mm"],
     ["speed", "0", "motion.draw.speedMmPerS: it must be more than 0"],
     ["order", "random", "prepare.order: it must be one of none, fast, best"],
@@ -147,7 +172,17 @@ describe("settings set and unset", () => {
     ["machine", "typewriter", 'There is no machine "typewriter"'],
     ["quality", "fine", "quality: it sets several settings"],
     ["spring-x", "20", "spring-x: it belongs to the machine's profile"],
-    ["__proto__.a", "1", "__proto__"],
+    ["liftMs", "3", "liftMs: there is no such setting (did you mean pen.extraLiftMs?)"],
+    ["pen.lift", "3", "pen.lift: there is no such setting (did you mean pen.extraLiftMs?)"],
+    ["no-landscape", "on", "no-landscape: there is no such setting (did you mean prepare.landscape?)"],
+    ["delay", "3", "delay: there is no such setting (did you mean pen.extraLiftMs?)"],
+    ["acceleration", "3", "(did you mean motion.draw.accelMmPerS2?)"],
+    ["dpi", "96", "(did you mean prepare.pxPerInch?)"],
+    ["pen.speed", "96", "pen.speed: there is no such setting (did you mean motion.draw.speedMmPerS?)"],
+    ["xyzzy", "3", "plotwright: xyzzy: there is no such setting.\n"],
+    ["__proto__.a", "1", "__proto__: there is no such setting.\n"],
+    ["constructor", "1", "constructor: there is no such setting.\n"],
+    ["penStops", "constructor", "penStops: it must be one of "],
   ])("%s to %s is refused, and writes nothing", async (key, value, words) => {
     const { code, err } = await there("settings", "set", key, value);
     expect([code, err]).toEqual([2, expect.stringContaining(words)]);

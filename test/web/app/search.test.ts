@@ -1,9 +1,9 @@
 /** What the search finds for the words that people use. */
 import { describe, expect, it } from "vitest";
+import { bestMatches, type Searched } from "../../../src/settings/matching.js";
 import { SETTINGS_TABLES } from "../../../src/settings/tables.js";
 import { PAGE_ACTIONS } from "../../../web/app/page-actions.js";
 import { FIELDS } from "../../../web/search/fields.js";
-import { bestMatches, type Searched } from "../../../web/search/matching.js";
 
 const ENTRIES: readonly (Searched & { readonly id: string })[] = [
   ...PAGE_ACTIONS.map(({ id, label, words = "" }) => ({

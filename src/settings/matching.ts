@@ -1,4 +1,4 @@
-/** Which entries of the search fit what was typed, best first. */
+/** Finds settings and actions by the words that people use: which entries fit what was typed, best first. */
 
 export interface Searched {
   readonly label: string;
