@@ -207,7 +207,8 @@ async function usePlotter(
   });
   // It may reject while nothing waits for it: before the plotter is open, or when the move is done.
   interrupted.catch(() => undefined);
-  const untilInterrupt = (plotter: HandPlotter): Promise<void> => Promise.race([use(plotter), interrupted]);
+  const untilInterrupt = (plotter: HandPlotter): Promise<void> =>
+    stop.signal.aborted ? interrupted : Promise.race([use(plotter), interrupted]);
   const forget = io.onInterrupt(() => stop.abort());
   try {
     if (served === null) await withPlotter(options, settings, untilInterrupt);

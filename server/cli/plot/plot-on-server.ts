@@ -1,10 +1,12 @@
 /** `plotwright plot FILE…` while a server has the plotter: each drawing becomes a job there, is started and followed. */
 import { sizeInWords } from "../../../src/internal.js";
+import type { Job } from "../../../src/schema/index.js";
 import type { PenChoice } from "../../planning/layers-by-name.js";
 import { printed, type CliIo } from "../io.js";
 import { JobRun } from "./job-run.js";
 import { plotReport } from "./plot-report.js";
 import { CANCELLED, cancelled, watch } from "./plot-watch.js";
+import type { ServerClient } from "../client/server-client.js";
 import { addDrawing } from "../client/queue-commands.js";
 import type { ServedPlotter } from "../client/served-plotter.js";
 
@@ -30,25 +32,44 @@ export async function plotOnServer(
     settings: { settings },
   } = served;
   const { only, pen } = options;
-  const job = await addDrawing(access, settings, file, { only, pen, plotterId: plotter.id });
-  if (options.quiet !== true) {
-    io.err(printed`The server at ${access.url} has ${plotter.name}, and plots it: job ${job.id}.\n`);
-    job.warnings.forEach((warning) => io.err(printed`note: ${warning}\n`));
-    if (job.stats) io.err(printed`${job.name}: ${sizeInWords(job.stats.size)}\n`);
+  let isInterrupted = false;
+  /** Until the plot is watched. */
+  const forget = io.onInterrupt((isFinal) => {
+    if (!isFinal && !isInterrupted) io.err("Stopping.\n");
+    isInterrupted = true;
+  });
+  try {
+    const job = await addDrawing(access, settings, file, { only, pen, plotterId: plotter.id });
+    if (isInterrupted && (await isRemoved(client, job))) return cancelled(io);
+    if (options.quiet !== true) {
+      io.err(printed`The server at ${access.url} has ${plotter.name}, and plots it: job ${job.id}.\n`);
+      job.warnings.forEach((warning) => io.err(printed`note: ${warning}\n`));
+      if (job.stats) io.err(printed`${job.name}: ${sizeInWords(job.stats.size)}\n`);
+    }
+    await start(client, job);
+    const report = plotReport(job.name, options, io);
+    const endWords = `The plot continues on the server. To follow it: plotwright follow ${job.id}`;
+    const run = new JobRun(client, job.id);
+    forget();
+    const ended = await watch(run, { report, resumed: null, isInterrupted, end, endWords }, io);
+    if (ended === "interrupted") return CANCELLED;
+    return ended === "done" ? 0 : cancelled(io);
+  } finally {
+    forget();
   }
+}
+
+async function start(client: ServerClient, job: Job): Promise<void> {
   try {
     await client.jobs.start(job.id);
   } catch (error) {
-    // A queue that runs on by itself may have started it already.
-    if ((await client.jobs.get(job.id)).state === "queued") {
-      await client.jobs.remove(job.id);
-      throw error;
-    }
+    if (await isRemoved(client, job)) throw error;
   }
-  const report = plotReport(job.name, options, io);
-  const endWords = `The plot continues on the server. To follow it: plotwright follow ${job.id}`;
-  const run = new JobRun(client, job.id);
-  const ended = await watch(run, { report, resumed: null, end, endWords }, io);
-  if (ended === "interrupted") return CANCELLED;
-  return ended === "done" ? 0 : cancelled(io);
+}
+
+/** Removes the job if it waits. A queue that runs on by itself may have started it already: then false. */
+async function isRemoved({ jobs }: ServerClient, { id }: Job): Promise<boolean> {
+  if ((await jobs.get(id)).state !== "queued") return false;
+  await jobs.remove(id);
+  return true;
 }

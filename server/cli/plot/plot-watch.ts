@@ -15,6 +15,8 @@ interface Watched {
   readonly report: PlotReport;
   /** Resumed after an interruption: whether the board still knows the position, or is another board. */
   readonly resumed: { readonly position: keyof typeof POSITIONS; readonly findsHome: boolean } | null;
+  /** Ctrl-C was pressed while the plot was being started. */
+  readonly isInterrupted: boolean;
   /** Aborted when the process must end: the plot is then interrupted. */
   readonly end: AbortSignal;
   /** What happens to the plot when the process must end. */
@@ -24,7 +26,7 @@ interface Watched {
 /** Runs until the plot ends. */
 export async function watch(
   run: WatchedRun,
-  { report, resumed, end, endWords }: Watched,
+  { report, resumed, isInterrupted, end, endWords }: Watched,
   io: CliIo,
 ): Promise<"done" | "cancelled" | "interrupted"> {
   const isHeld = resumed !== null && io.hasKeyboard;
@@ -47,6 +49,7 @@ export async function watch(
   report.begins(resumed === null ? "Plotting" : "Resuming");
   if (isHeld)
     io.err(`${POSITIONS[resumed.position](homeAgain(resumed.findsHome))} Enter resumes, Ctrl-C cancels.\n`);
+  else if (isInterrupted) control.interrupt();
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
     const ended =

@@ -200,30 +200,35 @@ function mustHaveEnded(record: PlotRecord, { restart }: PlotCommandOptions): voi
 async function plotOne(plot: Plot, course: Course, options: PlotCommandOptions, io: CliIo): Promise<number> {
   const { path, settings, only, font } = plot;
   const say = options.quiet === true ? () => undefined : (text: string) => io.err(text);
-  const stop = new AbortController();
-  const forget = io.onInterrupt(() => stop.abort());
+  const opening = new AbortController();
+  let isOpen = false;
+  let isInterrupted = false;
+  const forget = io.onInterrupt(() => {
+    isInterrupted = true;
+    if (!isOpen) opening.abort();
+  });
   try {
     const planner = await openPlanner(
       { path, settings, machine: machineOf(settings), only, font, limits: OWN_PLANNING_LIMITS },
-      stop.signal,
+      opening.signal,
     );
     try {
       if (!io.hasKeyboard) mustNotWaitForPen(planner, plot);
       planner.warnings.forEach((warning) => say(printed`note: ${warning}\n`));
       return await withPlotter(options, settings, (plotter) => {
         // Ctrl-C while the board was being connected.
-        if (stop.signal.aborted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
-        forget();
+        if (isInterrupted) throw new PlotwrightError("cancelled", "The plot was cancelled.");
+        isOpen = true;
         const advice = firmwareAdvice(machineOf(settings), plotter.snapshot());
         if (advice !== null) say(printed`note: ${advice}\n`);
         say(printed`${plot.name}: ${sizeInWords(planner.size)}\n`);
-        return onPlotter(plotter, planner, plot, course, options, io);
+        return onPlotter(plotter, planner, plot, course, () => isInterrupted, options, io);
       });
     } finally {
       await planner.close();
     }
   } catch (error) {
-    if (error instanceof PlotwrightError && error.code === "cancelled" && stop.signal.aborted) {
+    if (error instanceof PlotwrightError && error.code === "cancelled" && opening.signal.aborted) {
       return course.end.aborted ? interrupted(course.record, io) : cancelled(io);
     }
     throw error;
@@ -253,6 +258,7 @@ async function onPlotter(
   planner: OpenPlanner,
   { name, settings, from, received, board, progress: before }: Plot,
   { begin, record, end, over }: Course,
+  isInterrupted: () => boolean,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
@@ -270,7 +276,9 @@ async function onPlotter(
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : ({ position, findsHome: findsHome(machineOf(settings)) } as const);
   const report = plotReport(name, options, io);
-  const ended = await watch(run, { report, resumed, end, endWords: "Interrupted: the pen lifts." }, io);
+  const endWords = "Interrupted: the pen lifts.";
+  const watched = { report, resumed, isInterrupted: isInterrupted(), end, endWords };
+  const ended = await watch(run, watched, io);
   over?.();
   // The motors stay on, so that the carriage stays where the plot is to be resumed.
   if (ended === "interrupted") return interrupted(record, io);

@@ -104,6 +104,31 @@ describe("plotwright plot beside a running server", () => {
     expect(io.errText).toMatch(/Paused\. Enter resumes.*\n(.*\n)*Cancelling/);
   });
 
+  it("removes the job at a Ctrl-C before it is started, and pauses at one while it is started", async () => {
+    writeFileSync(file, LONG);
+    const io = new CaughtIo();
+    const plotted = cliWith(io, "plot", file, "--data", data);
+    await expect.poll(() => io.listens).toBe(true);
+    io.interrupt();
+    expect(await plotted).toEqual({
+      code: 5,
+      out: "",
+      err: "Stopping.\nplotwright: the plot was cancelled.\n",
+    });
+    expect([await jobs(), (await plotter()).activity]).toEqual([[], "none"]);
+    const later = new (class extends CaughtIo {
+      override err(text: string): void {
+        super.err(text);
+        if (text.includes(": drawn ")) this.interrupt();
+      }
+    })();
+    const started = cliWith(later, "plot", file, "--data", data);
+    await expect.poll(() => stateOf("a.svg")).toBe("paused");
+    later.interrupt();
+    expect((await started).code).toBe(5);
+    expect(later.errText).toMatch(/Plotting a\.svg\.\nPaused\./);
+  });
+
   it("pauses at Ctrl-C although the plot was paused and resumed elsewhere before", async () => {
     writeFileSync(file, LONG);
     const io = new CaughtIo();

@@ -180,6 +180,26 @@ describe("plotwright plot", () => {
     expect((await plotted).code).toBe(0);
   });
 
+  it("heeds a Ctrl-C between connecting and the first motion", async () => {
+    writeFileSync(file, SVG.replace("M1 2h9", "M1 2h18v16h-18z".repeat(2000)));
+    /** Presses Ctrl-C as soon as the board is connected. */
+    class AtOnce extends CaughtIo {
+      override err(text: string): void {
+        super.err(text);
+        if (text.includes(": drawn ")) this.interrupt();
+      }
+    }
+    const io = new AtOnce();
+    const plotted = plot(io, file);
+    await expect.poll(() => io.errText).toMatch(/Plotting a\.svg\.\nPaused\. Enter resumes/);
+    io.interrupt();
+    expect((await plotted).code).toBe(5);
+    const alone = new AtOnce();
+    alone.hasKeyboard = false;
+    const { code, err } = await plot(alone, file);
+    expect([code, err]).toEqual([5, expect.stringMatching(/Plotting a\.svg\.\nCancelling: /)]);
+  });
+
   it("resumes at Enter when the button on the machine has paused it", async () => {
     const line = await openPtyBoard({ speed: 5 });
     writeFileSync(file, SVG.replace("M1 2h9", "M1 2h18v16h-18z"));
