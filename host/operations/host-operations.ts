@@ -22,7 +22,7 @@ import type { JobQueue } from "../queue/job-queue.js";
 import type { Notices } from "../queue/notices.js";
 import type { UploadedDrawings } from "../queue/uploaded-drawings.js";
 import type { StoredDrawing } from "../storage.js";
-import { parseWith } from "../parse-with.js";
+import { parseRequest, parseWith } from "../parse-with.js";
 
 export interface HostParts {
   readonly queue: JobQueue;
@@ -202,10 +202,12 @@ export async function performOperation(
   { id, sent }: OperationInput,
   context: unknown,
 ): Promise<unknown> {
-  const { body, query, isBodyOptional } = operation;
+  const { method, body, query, isBodyOptional } = operation;
   const schema = query ?? (body === "file" ? undefined : body);
   const given = isBodyOptional === true ? (sent ?? {}) : sent;
-  const checked = schema === undefined ? given : parseWith(schema, given);
+  // What is put may be what was read, with all that it had.
+  const parse = method === "put" ? parseWith : parseRequest;
+  const checked = schema === undefined ? given : parse(schema, given);
   const args = [...handlerArguments(operation, { id, sent: checked }), context];
   const answer = await (handler as (...all: unknown[]) => unknown)(...args);
   return answer === undefined ? { ok: true } : answer;

@@ -40,14 +40,20 @@ export interface Caller {
   readonly keyName: string | null;
 }
 
-/** Null for a client that has not identified itself. Pages of other origins do so only with a key. */
+/**
+ * Null for a client that has not identified itself. A key counts on this computer too, so that a program has the same rights
+ * here and elsewhere. Pages of other origins identify themselves only with a key.
+ */
 export function callerOf(request: IncomingMessage, access: Access): Caller | null {
-  if (isTrusted(request, access))
+  const bearer = bearerOf(request);
+  const byBearer = bearer === null ? null : access.entryOf(bearer);
+  const hasKey = byBearer?.kind === "key";
+  if (!hasKey && isTrusted(request, access))
     return { id: "this computer", role: "operate", isLocal: true, keyName: null };
-  const needsKey = isCrossOrigin(request);
-  const secret = bearerOf(request) ?? (needsKey ? null : cookieOf(request, SESSION_COOKIE));
-  const entry = secret === null ? null : access.entryOf(secret);
-  if (entry === null || (needsKey && entry.kind !== "key")) return null;
+  if (!hasKey && isCrossOrigin(request)) return null;
+  const cookie = bearer === null ? cookieOf(request, SESSION_COOKIE) : null;
+  const entry = cookie === null ? byBearer : access.entryOf(cookie);
+  if (entry === null) return null;
   const { id, role, kind, name } = entry;
   return { id, role, isLocal: false, keyName: kind === "key" ? name : null };
 }

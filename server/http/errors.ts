@@ -8,8 +8,8 @@ import type { Refusals } from "./refusals.js";
 /** Longer paths are cut in the log. */
 const MAX_PATH = 200;
 
-export const notFound: RequestHandler = (request) => {
-  throw new PlotwrightError("not-found", `There is nothing at ${request.method} ${request.path}.`);
+export const notFound: RequestHandler = ({ method, baseUrl, path }) => {
+  throw new PlotwrightError("not-found", `There is nothing at ${method} ${baseUrl}${path}.`);
 };
 
 export function errorResponder(log: (line: string) => void, refusals: Refusals): ErrorRequestHandler {

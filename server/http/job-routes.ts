@@ -13,7 +13,7 @@ import {
   type FileFields,
   type GivenSettings,
 } from "../../src/schema/index.js";
-import { parseWith } from "../../host/parse-with.js";
+import { mustKnow, parseWith } from "../../host/parse-with.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import { readForm } from "./form.js";
@@ -48,6 +48,7 @@ const addFromFile =
 const FIELDS = fileFieldsSchema.keyof().options;
 
 async function fromBody(request: Request<Record<string, string>>, files: DrawingFiles) {
+  mustKnow(FIELDS, request.query);
   const wanted = wantedIn(request.query);
   return { ...wanted, drawing: await files.addFile(bytesOf(request)) };
 }

@@ -27,7 +27,7 @@ export async function openApiText(version: string, table: Partial<OperationTable
   const paths: Record<string, Record<string, object>> = {};
   for (const [group, operations] of Object.entries(table)) {
     for (const [name, one] of Object.entries(operations ?? {})) {
-      const path = `${API_PATH}${one.path.replace(/:(\w+)/g, "{$1}")}`;
+      const path = one.path.replace(/:(\w+)/g, "{$1}");
       const described = { operationId: idOf(group, name), tags: [group], ...describe(one, components) };
       paths[path] = { ...paths[path], [one.method]: described };
       await new Promise((resolve) => setImmediate(resolve));
@@ -46,7 +46,8 @@ export async function openApiText(version: string, table: Partial<OperationTable
         "Pen plotters: their queue, their plots and moves by hand. docs/api.md explains how the parts work together.",
       license: { name: "MIT", identifier: "MIT" },
     },
-    servers: [{ url: "/" }],
+    // With "/" here and the whole path below, clients that join the two would ask for //api.
+    servers: [{ url: API_PATH }],
     // The last: programs on the server's computer need neither.
     security: [{ key: [] }, { session: [] }, {}],
     tags: Object.keys(table).map((name) => ({ name })),

@@ -70,7 +70,10 @@ export class DrawingFiles implements DrawingStore {
     const drawing = await this.add(chunks);
     if (drawing.bytes > 0) return drawing;
     await this.remove(drawing.id);
-    throw new PlotwrightError("bad-file", "The file is empty. Send the drawing as the request's body.");
+    throw new PlotwrightError(
+      "bad-file",
+      "The file is empty. Send the drawing as the request's body, or in a form.",
+    );
   }
 
   async remove(id: string): Promise<void> {

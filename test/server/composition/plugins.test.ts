@@ -43,7 +43,7 @@ describe("a requested plug-in", () => {
     await open({});
     expect(await get("/webhooks")).toEqual([200, '{"webhooks":[]}']);
     const [, text] = await get("/openapi.json");
-    expect((JSON.parse(text) as { paths: object }).paths).toHaveProperty(["/api/v1/webhooks/{id}"]);
+    expect((JSON.parse(text) as { paths: object }).paths).toHaveProperty(["/webhooks/{id}"]);
   }, 30_000);
 
   it("a plug-in that fails to start prevents the server from starting, and everything else is closed", async () => {

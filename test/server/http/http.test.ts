@@ -216,7 +216,11 @@ describe("the HTTP interface", () => {
   });
 
   it("answers in one form to every invalid request", async () => {
-    expect(await fault(await call("GET", "/nothing"))).toMatchObject({ status: 404, code: "not-found" });
+    expect(await fault(await call("GET", "/nothing"))).toEqual({
+      status: 404,
+      code: "not-found",
+      message: "There is nothing at GET /api/v1/nothing.",
+    });
     expect(await fault(await call("POST", "/jobs", { name: "x" }))).toMatchObject({ status: 400 });
     expect(await fault(await fetch(`${app.url}/api/v1/jobs`, { method: "POST" }))).toMatchObject({
       status: 422,
@@ -231,6 +235,34 @@ describe("the HTTP interface", () => {
       status: 404,
     });
     expect(await fault(await call("GET", "/jobs/%ff"))).toMatchObject({ status: 400 });
+  });
+
+  it("refuses a request with a name that it does not have, and says which there are", async () => {
+    const job = { name: "a", drawing: SVG };
+    for (const [path, body, words] of [
+      [
+        "/jobs",
+        { ...job, setings: { pen: { downPct: 3 } } },
+        /^setings: there is no such field\. There is name,/,
+      ],
+      ["/jobs", { ...job, constructor: 3 }, /^constructor: there is no such field/],
+      [
+        "/plotters/virtual/move-to",
+        { xMm: 1, yMm: 1, y: 3 },
+        /^y: there is no such field\. There is xMm, yMm/,
+      ],
+      ["/plotters/virtual/frame", { boxMM: {} }, /^boxMM: there is no such field\. There is jobId, .*boxMm/],
+      ["/plotters/virtual/pen", { up: true, height: 30 }, /^height: there is no such field/],
+    ] as const) {
+      const { status, message } = await fault(await call("POST", path, body));
+      expect([path, status, message]).toEqual([path, 400, expect.stringMatching(words)]);
+    }
+    for (const query of ["name=a&setings=3", "Name=a"]) {
+      const response = await fetch(`${app.url}/api/v1/jobs?${query}`, { method: "POST", body: SVG });
+      expect([query, (await fault(response)).status]).toEqual([query, 400]);
+    }
+    expect((await call("GET", "/history?afterId=3")).status).toBe(400);
+    expect([app.queue.list(), app.drawingsOnDisk()]).toEqual([[], []]);
   });
 
   it("hides internal errors from the page and logs them", async () => {

@@ -1,6 +1,7 @@
 import { readFileSync } from "node:fs";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { httpReference, routeHeading } from "../../../scripts/http-reference.js";
+import type { Snapshot } from "../../../src/schema/index.js";
 import { startApp, type TestApp } from "../../support/servers/app.js";
 
 let app: TestApp;
@@ -18,14 +19,18 @@ describe("the OpenAPI document", () => {
   it("is served, with a schema for each body and answer", async () => {
     const document = await documentOf(app);
     expect(document.openapi).toBe("3.1.0");
+    // A client joins the address of the server and the path as they are.
+    const [{ url }] = document.servers;
+    const { plotters } = (await (await fetch(`${app.url}${url}/state`)).json()) as Snapshot;
+    expect([Object.keys(document.paths)[0], plotters.length]).toEqual(["/state", 1]);
     expect(Object.values(document.paths).flatMap((path) => Object.keys(path))).toHaveLength(
       app.documented().length,
     );
-    const add = document.paths["/api/v1/jobs"]?.["post"];
+    const add = document.paths["/jobs"]?.["post"];
     expect(JSON.stringify(add?.requestBody)).toContain(`${REF}NewJob`);
     expect(JSON.stringify(document.components.schemas["GivenSettings"])).toMatch(/speedMmPerS/);
     expect(Object.keys(add?.responses ?? {})).toEqual(["201", "default"]);
-    expect(document.paths["/api/v1/jobs/{id}/move"]?.["post"]).toMatchObject({
+    expect(document.paths["/jobs/{id}/move"]?.["post"]).toMatchObject({
       parameters: [{ name: "id", in: "path" }],
     });
   });
@@ -90,7 +95,7 @@ describe("for programs that generate a client, the OpenAPI document", () => {
 
   it("has the file itself and a form as bodies, with the same fields", async () => {
     const { paths } = await documentOf(app);
-    const add = paths["/api/v1/jobs"]?.["post"];
+    const add = paths["/jobs"]?.["post"];
     expect(add?.parameters?.map(({ name, in: where }) => `${name} in ${where}`)).toEqual([
       "name in query",
       "settings in query",
@@ -106,14 +111,11 @@ describe("for programs that generate a client, the OpenAPI document", () => {
       required: ["drawing"],
       properties: { name: {}, settings: {}, plotterId: {}, drawing: { format: "binary" } },
     });
-    expect(Object.keys(paths["/api/v1/drawings"]?.["post"]?.requestBody?.content ?? {})).toEqual([
+    expect(Object.keys(paths["/drawings"]?.["post"]?.requestBody?.content ?? {})).toEqual([
       "application/octet-stream",
     ]);
-    expect(paths["/api/v1/history"]?.["get"]?.parameters?.map(({ name }) => name)).toEqual([
-      "after",
-      "plotterId",
-    ]);
-    expect(paths["/api/v1/plotters/{id}/home"]?.["post"]?.requestBody?.required).toBe(false);
+    expect(paths["/history"]?.["get"]?.parameters?.map(({ name }) => name)).toEqual(["after", "plotterId"]);
+    expect(paths["/plotters/{id}/home"]?.["post"]?.requestBody?.required).toBe(false);
   });
 });
 
@@ -121,6 +123,7 @@ const REF = "#/components/schemas/";
 
 interface Document {
   readonly openapi: string;
+  readonly servers: readonly [{ readonly url: string }];
   readonly paths: Record<string, Record<string, Described>>;
   readonly security: unknown;
   readonly tags: readonly { readonly name: string }[];

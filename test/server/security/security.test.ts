@@ -313,3 +313,33 @@ describe("a server on the network", () => {
     expect((await call(app.access.pairingPath("operate"))).status).toBe(429);
   });
 });
+
+describe("a key on the server's own computer", () => {
+  it("has the rights that it has elsewhere, but a wrong one leaves those of the computer", async () => {
+    const local = await startApp();
+    const roleOf = async (secret: string): Promise<unknown> => {
+      const headers = { Authorization: `Bearer ${secret}` };
+      const me = (await (await fetch(`${local.url}/api/v1/me`, { headers })).json()) as { role?: unknown };
+      return me.role;
+    };
+    const statusOf = async (secret: string): Promise<number> => {
+      const headers = { Authorization: `Bearer ${secret}` };
+      const url = `${local.url}/api/v1/plotters/virtual/motors-off`;
+      return (await fetch(url, { method: "POST", headers })).status;
+    };
+    try {
+      for (const [role, status] of [
+        ["operate", 200],
+        ["submit", 403],
+        ["watch", 403],
+      ] as const) {
+        const { secret } = local.access.createKey(role, role);
+        expect([await roleOf(secret), await statusOf(secret)]).toEqual([role, status]);
+      }
+      // As it is in the environment of somebody who also has a server elsewhere.
+      expect([await roleOf("a".repeat(43)), await statusOf("a".repeat(43))]).toEqual(["operate", 200]);
+    } finally {
+      await local.close();
+    }
+  });
+});
