@@ -29,7 +29,7 @@ it("the built program that a test starts has neither the user's settings nor the
   const options = { encoding: "utf8", env: withHome(home) } as const;
   expect(spawnSync(process.execPath, ARGS, options).stdout).toBe(DEFAULTS);
   // With the user's own environment they would count.
-  const { XDG_CONFIG_HOME: _config, XDG_DATA_HOME: _data, ...own } = options.env;
+  const own = { ...options.env, XDG_CONFIG_HOME: undefined, XDG_DATA_HOME: undefined };
   const result = spawnSync(process.execPath, ARGS, { ...options, env: own });
   expect(result.stdout).toMatch(/^machine\taxidraw-v3-a3\tplotter main\nprepare\.marginMm\t77\t/);
 });
