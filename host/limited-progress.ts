@@ -9,14 +9,14 @@ const PROGRESS_MS = 100;
 type ProgressEvent = Extract<ServerEvent, { type: "progress" }>;
 
 export class LimitedProgress {
-  private readonly waiting = new Map<string, ProgressEvent>();
+  private readonly waiting = new Map<string, { readonly event: ProgressEvent; readonly sinceMs: number }>();
   private timer: ReturnType<typeof setTimeout> | null = null;
 
   constructor(private readonly send: (event: ServerEvent) => void) {}
 
   announce(event: ServerEvent): void {
     if (event.type === "progress") {
-      this.waiting.set(event.plotterId, event);
+      this.waiting.set(event.plotterId, { event, sinceMs: Date.now() });
       this.timer ??= setTimeout(() => this.sendWaiting(), PROGRESS_MS);
       return;
     }
@@ -35,6 +35,6 @@ export class LimitedProgress {
   private sendWaiting(): void {
     const events = [...this.waiting.values()];
     this.close();
-    for (const event of events) this.send(event);
+    for (const { event, sinceMs } of events) this.send({ ...event, heldBackMs: Date.now() - sinceMs });
   }
 }

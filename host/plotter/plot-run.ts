@@ -14,8 +14,10 @@ import { PlotwrightError, type StrokePosition, type StrokeSet } from "../../src/
 import {
   movedPosition,
   pointAt,
+  AHEAD_STEP_MS,
   type Machine,
   type Playback,
+  type PlotProgress,
   type MachineState,
   machineOf,
   PositionTimes,
@@ -32,7 +34,7 @@ import type {
   LivePlotRun,
   PlotChange,
   PlotOutcome,
-  PlotProgress,
+  ReportedProgress,
   PlotStart,
 } from "./plotter-port.js";
 import { Waiters } from "./waiters.js";
@@ -40,6 +42,8 @@ import { Waiters } from "./waiters.js";
 /** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
+/** Moments in a report of progress: enough until the next one arrives. */
+const AHEAD_COUNT = 20;
 
 /** The state that the user asked for. */
 type RequestedState = "run" | "hold" | "cancel";
@@ -74,7 +78,7 @@ export class MachinePlot implements LivePlotRun {
   /** The carriage stays where it is until the next request: after an emergency stop, or when a held plot is left. */
   private holdsPosition = false;
   private readonly heldListeners: HeldListener[] = [];
-  private readonly progressListeners: ((progress: PlotProgress) => void)[] = [];
+  private readonly progressListeners: ((report: ReportedProgress) => void)[] = [];
   private readonly waiters = new Waiters();
   private readonly start: PlotStart;
 
@@ -112,9 +116,9 @@ export class MachinePlot implements LivePlotRun {
     return this.held;
   }
 
-  onProgress(listener: (progress: PlotProgress) => void): void {
+  onProgress(listener: (report: ReportedProgress) => void): void {
     this.progressListeners.push(listener);
-    if (this.stream.progress.latest) listener(this.stream.progress.latest);
+    if (this.stream.progress.latest) listener(this.reportOf(this.stream.progress.latest));
   }
 
   /** If the plot is held already, the listener learns it now. */
@@ -416,7 +420,7 @@ export class MachinePlot implements LivePlotRun {
       if (now) {
         // The replies that came meanwhile are read first: they tell how far the board has drawn.
         if (!now.penUp && stalledS >= BLOT_S) clock.after(0, () => this.noteStall(stalledS));
-        this.report(now);
+        this.report(now, this.stream.ahead((AHEAD_STEP_MS / 1_000) * speed, AHEAD_COUNT));
         if (clock.nowS() >= this.journalDueS) {
           this.writeJournal(this.stream.progress.place, this.stream.receivedPlace);
         }
@@ -432,8 +436,14 @@ export class MachinePlot implements LivePlotRun {
     if (now && !now.penUp) this.start.noted?.(restedWhileStalled(now, stalledS));
   }
 
-  private report(progress: PlotProgress): void {
-    for (const listener of this.progressListeners) listener(progress);
+  private report(progress: PlotProgress, ahead?: ReportedProgress["ahead"]): void {
+    const report = this.reportOf(progress, ahead);
+    for (const listener of this.progressListeners) listener(report);
+  }
+
+  private reportOf(progress: PlotProgress, ahead: ReportedProgress["ahead"] = []): ReportedProgress {
+    const { clock, speed } = this.machine;
+    return { ...progress, atMs: (1_000 * clock.nowS()) / speed, ahead };
   }
 
   private writeJournal(left: StrokePosition | null, received?: StrokePosition): void {

@@ -14,7 +14,7 @@ import type {
 } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/planning.js";
 import type { MotionSettings, PenSettings, StrokePosition } from "../../src/index.js";
-import type { PlotProgress } from "../../src/internal.js";
+import type { PenMoment, PlotProgress } from "../../src/internal.js";
 
 interface PenTarget {
   readonly up: boolean;
@@ -56,12 +56,20 @@ export interface ManagedPlotter extends PlotterPort {
 
 export type { PlotProgress } from "../../src/internal.js";
 
+/** The progress of a plot, and where the pen goes next, so that a page can show it moving between two reports. */
+export interface ReportedProgress extends PlotProgress {
+  /** This computer's time, ms from an arbitrary start. */
+  readonly atMs: number;
+  /** The pen every `AHEAD_STEP_MS` from then, as far as motion is sent that only a stop can change. */
+  readonly ahead: readonly PenMoment[];
+}
+
 export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelled" };
 
 /** A running plot. `finished` rejects with a PlotwrightError when the board fails. */
 export interface PlotRun {
   readonly finished: Promise<PlotOutcome>;
-  onProgress(listener: (progress: PlotProgress) => void): void;
+  onProgress(listener: (report: ReportedProgress) => void): void;
   /** `wait`: what the plot waits for if it stopped by itself; none if the hold was requested. */
   onHeld(listener: (held: boolean, wait?: PlotWait | null) => void): void;
   /** Resolves when the pen is up and the carriage has stopped. */

@@ -19,7 +19,7 @@ import type {
   JournalEntry,
   LivePlotRun,
   PlotOutcome,
-  PlotProgress,
+  ReportedProgress,
   PlotStart,
   PlotterPort,
 } from "../plotter/plotter-port.js";
@@ -306,14 +306,14 @@ export class RunningPlots {
     }
   }
 
-  private progress(jobId: string, plotterId: string, progress: PlotProgress): void {
+  private progress(jobId: string, plotterId: string, report: ReportedProgress): void {
     // The travel home of a cancelled plot is not progress of the drawing.
     if (this.running.get(plotterId)?.abort.signal.aborted !== true) {
-      const { progress: share, elapsedS, remainingS } = progress;
+      const { progress: share, elapsedS, remainingS } = report;
       this.jobs.progressed(jobId, { progress: share, elapsedS, remainingS });
       this.parts.onProgress?.(this.jobs.get(jobId));
     }
-    this.parts.announce({ type: "progress", jobId, plotterId, ...progress });
+    this.parts.announce({ type: "progress", jobId, plotterId, ...report, heldBackMs: 0 });
   }
 
   /** If an interrupted job waited for a pen, it still waits for that pen until it is resumed. */

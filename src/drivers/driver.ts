@@ -16,7 +16,7 @@ import type { Controller, ControllerFields, MachineProfile, Springs } from "../m
 import type { StrokePosition } from "../plan/trajectory.js";
 import type { Cancellation } from "../prepare/work.js";
 import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
-import type { PlotProgress, RunProgress } from "./run-progress.js";
+import type { PenMoment, PlotProgress, RunProgress } from "./run-progress.js";
 import type { Clock, Transport } from "./transport.js";
 
 /** A kind of USB device, in hexadecimal, lower case. */
@@ -236,6 +236,11 @@ export interface Playback {
   play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void>;
   /** Current position of the pen; null at rest. */
   now(): PlotProgress | null;
+  /**
+   * Where the pen will be every `stepS` from now, at most `count` times: as far as motion is sent that only a stop can
+   * change. `stepS` in the machine's seconds.
+   */
+  ahead(stepS: number, count: number): readonly PenMoment[];
   /** Slows down along the path and lifts the pen; `play` ends. */
   slowToRest(): void;
   /** Clears the machine's queue; `play` ends and the position is read back. */

@@ -9,11 +9,8 @@ import {
 } from "../plan/trajectory.js";
 import type { MachineCommands } from "./machine-job.js";
 
-export interface PlotProgress {
-  /** Share of the whole plot's time, 0 … 1. */
-  readonly progress: number;
-  readonly elapsedS: number;
-  readonly remainingS: number;
+/** The pen at one moment of a plot. */
+export interface PenMoment {
   /** Seconds along the first, whole trajectory. */
   readonly planS: number;
   readonly xMm: number;
@@ -21,6 +18,23 @@ export interface PlotProgress {
   readonly penUp: boolean;
   /** The pen is still on its way up or down. */
   readonly penMoving: boolean;
+}
+
+export interface PlotProgress extends PenMoment {
+  /** Share of the whole plot's time, 0 … 1. */
+  readonly progress: number;
+  readonly elapsedS: number;
+  readonly remainingS: number;
+}
+
+/** Time between two moments that are reported ahead, in real ms. */
+export const AHEAD_STEP_MS = 20;
+
+/** A position of the machine in its commands. */
+interface CommandPosition {
+  readonly stream: MachineCommands;
+  /** Seconds along their plan. */
+  readonly planS: number;
 }
 
 /** A section of motion that is or will be streamed, and its plan. */
@@ -84,7 +98,7 @@ export class RunProgress<P extends PlanPart = PlanPart> {
   }
 
   /** Computes the progress from the board's current position. */
-  update(at: { readonly stream: MachineCommands; readonly planS: number }): PlotProgress {
+  update(at: CommandPosition): PlotProgress {
     const part = this.partOf(at.stream);
     if (part !== this.part) this.enter(part, at.stream.planS[0]);
     this.partS = Math.max(this.partS, at.planS - this.partStartS);
@@ -101,13 +115,20 @@ export class RunProgress<P extends PlanPart = PlanPart> {
       progress: Math.max(progress, this.latest?.progress ?? 0),
       elapsedS,
       remainingS,
-      planS: this.firstPlanS(part, at.planS, now),
-      xMm: now.x,
-      yMm: now.y,
-      penUp: now.penUp,
-      penMoving: now.penMoving,
+      ...this.penAt(part, at.planS, now, this.latest?.planS ?? null),
     };
     return this.latest;
+  }
+
+  /** The pen at later positions, in order of time. */
+  ahead(positions: readonly CommandPosition[]): PenMoment[] {
+    let lastS = this.latest?.planS ?? null;
+    return positions.map(({ stream, planS }) => {
+      const part = this.partOf(stream);
+      const moment = this.penAt(part, planS, stateAt(part.trajectory, planS, this.motion), lastS);
+      lastS = moment.planS;
+      return moment;
+    });
   }
 
   /** For a held plot that will resume from another place. Null while the plan's times are unknown. */
@@ -134,11 +155,26 @@ export class RunProgress<P extends PlanPart = PlanPart> {
     this.parts = this.parts.slice(Math.max(0, this.parts.indexOf(part) - PAST_PARTS));
   }
 
-  /** The time of the same place in the first plan. */
-  private firstPlanS({ trajectory, afterS }: PlanPart, planS: number, now: MotionState): number {
+  private penAt(part: P, planS: number, now: MotionState, lastS: number | null): PenMoment {
+    return {
+      planS: this.firstPlanS(part, planS, now, lastS),
+      xMm: now.x,
+      yMm: now.y,
+      penUp: now.penUp,
+      penMoving: now.penMoving,
+    };
+  }
+
+  /** The time of the same place in the first plan. `lastS`: the one before it, which applies while the pen travels. */
+  private firstPlanS(
+    { trajectory, afterS }: PlanPart,
+    planS: number,
+    now: MotionState,
+    lastS: number | null,
+  ): number {
     if (!this.firstTrajectory || trajectory === this.firstTrajectory) return planS;
     const timeS = now.stroke >= 0 ? this.times!.timeOf(now) : null;
     const leftS = trajectory.totalS - planS + afterS;
-    return timeS ?? this.latest?.planS ?? Math.max(0, this.firstTrajectory.totalS - leftS);
+    return timeS ?? lastS ?? Math.max(0, this.firstTrajectory.totalS - leftS);
   }
 }

@@ -173,6 +173,15 @@ export const snapshotSchema = z.object({
 });
 export type Snapshot = z.infer<typeof snapshotSchema>;
 
+const penMomentSchema = z.object({
+  /** Time in the job's trajectory, s, for the page's own copy of the plan. */
+  planS: z.number(),
+  xMm: z.number(),
+  yMm: z.number(),
+  penUp: z.boolean(),
+  penMoving: z.boolean().default(false),
+});
+
 export const serverEventSchema = z.discriminatedUnion("type", [
   z.object({ type: z.literal("snapshot"), snapshot: snapshotSchema }),
   z.object({ type: z.literal("job"), job: jobSchema }),
@@ -206,12 +215,13 @@ export const serverEventSchema = z.discriminatedUnion("type", [
     progress: z.number(),
     elapsedS: z.number(),
     remainingS: z.number(),
-    /** Time in the job's trajectory, s, for the page's own copy of the plan. */
-    planS: z.number(),
-    xMm: z.number(),
-    yMm: z.number(),
-    penUp: z.boolean(),
-    penMoving: z.boolean().default(false),
+    ...penMomentSchema.shape,
+    /** The host's time of this report, ms from an arbitrary start. */
+    atMs: z.number(),
+    /** How long the report waited before it was sent. */
+    heldBackMs: z.number(),
+    /** The pen every 20 ms from then: motion that the machine already has, and that only a stop can change. */
+    ahead: z.array(penMomentSchema).readonly(),
   }),
 ]);
 export type ServerEvent = z.infer<typeof serverEventSchema>;

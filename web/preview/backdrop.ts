@@ -13,7 +13,6 @@ const COLOR_NAMES = [
   "ruler-text",
   "ruler-line",
   "accent",
-  "halo",
 ] as const;
 export type DeskColors = Readonly<Record<(typeof COLOR_NAMES)[number], string>>;
 

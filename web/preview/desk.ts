@@ -1,11 +1,11 @@
-/** The desk of the preview: paper, margins and the machine's reach, from a job's settings, and the plotter's pen. */
+/** The desk of the preview: paper, margins and the machine's reach, from a job's settings, and where the plotter's pen is. */
 import { findMachine, mmFromLength, orientedPaper, type LengthUnit } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { formatSize } from "../ui/format.js";
 import type { Desk } from "./backdrop.js";
 import { previewText } from "./text.js";
 import { currentPlotter, type PageState } from "../state/store.js";
-import type { Marker } from "./overlay.js";
+import type { PenGlide } from "./pen-glide.js";
 
 export const deskOf = (settings: PlotSettings, unit: LengthUnit): Desk => {
   const { paper, landscape, margins, marginMm } = settings.prepare;
@@ -23,10 +23,21 @@ export const deskOf = (settings: PlotSettings, unit: LengthUnit): Desk => {
   };
 };
 
-/** Where the plotter's pen is on the paper; null: unknown. */
-export const plotterMarker = (state: PageState): Marker | null => {
+/** Tells the glide of a change of the page's state where the plotter's pen is. */
+export const followPen = (
+  glide: PenGlide,
+  state: PageState,
+  before: PageState | null,
+  nowMs: number,
+): void => {
+  const { link, live } = state;
   const plotter = currentPlotter(state);
-  if (state.link !== "connected" || !plotter) return null;
-  const { xMm, yMm, penUp, penMoving } = plotter;
-  return xMm === null || yMm === null ? null : { xMm, yMm, penDown: penUp === false && !penMoving };
+  if (link !== "connected" || !plotter) return glide.forget();
+  const { id, xMm, yMm, penUp, penMoving } = plotter;
+  if (xMm === null || yMm === null) return glide.forget();
+  if (live !== null && live !== before?.live && live.plotterId === id) return glide.report(live, nowMs);
+  const old = before?.link === link ? currentPlotter(before) : null;
+  const isSame = old?.id === id && old.xMm === xMm && old.yMm === yMm && old.penUp === penUp;
+  if (isSame && old.penMoving === penMoving) return;
+  glide.put({ xMm, yMm, penUp: penUp !== false, penMoving }, nowMs);
 };

@@ -1,17 +1,10 @@
-/** Drawn over the strokes: rulers along the edges, and the pen's position. */
+/** Drawn over the strokes: rulers along the edges, and what lies beside the paper. */
 import type { Box } from "../../src/internal.js";
 import type { DeskColors } from "./backdrop.js";
 import { rulerStep, type Size, type View } from "../scene/view.js";
 import type { CutOffPicture } from "../worker/cut-off.js";
 
 export const RULER_PX = 22;
-
-export interface Marker {
-  readonly xMm: number;
-  readonly yMm: number;
-  /** Completely down: neither up nor moving. */
-  readonly penDown: boolean;
-}
 
 /** `span`: the marked part of the rulers, mm. */
 export const drawRulers = (
@@ -102,34 +95,6 @@ const drawTicks = (
       context.fillText(label, px + 3, 10);
     }
   }
-};
-
-/** The pen on the paper: filled while it draws, hollow while it is up. */
-export const drawMarker = (
-  context: CanvasRenderingContext2D,
-  view: View,
-  marker: Marker,
-  colors: DeskColors,
-): void => {
-  const x = view.offsetX + marker.xMm * view.scale;
-  const y = view.offsetY + marker.yMm * view.scale;
-  context.lineWidth = 1;
-  context.strokeStyle = colors.accent;
-  context.globalAlpha = 0.45;
-  context.beginPath();
-  context.moveTo(x - 26, y);
-  context.lineTo(x + 26, y);
-  context.moveTo(x, y - 26);
-  context.lineTo(x, y + 26);
-  context.stroke();
-  context.globalAlpha = 1;
-  context.beginPath();
-  context.arc(x, y, 7, 0, 2 * Math.PI);
-  context.fillStyle = marker.penDown ? colors.accent : colors.halo;
-  context.fill();
-  context.lineWidth = 2;
-  context.strokeStyle = marker.penDown ? colors.halo : colors.accent;
-  context.stroke();
 };
 
 /** Visible on the paper and beside it, in both themes. */

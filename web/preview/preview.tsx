@@ -3,8 +3,9 @@ import { drawnUntilS } from "./drawn-until.js";
 import { activeJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
-import { deskOf, plotterMarker } from "./desk.js";
-import { paintBesidePaper, paintCutOff, type Marker } from "./overlay.js";
+import { deskOf, followPen } from "./desk.js";
+import { paintBesidePaper, paintCutOff } from "./overlay.js";
+import { PenGlide } from "./pen-glide.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
 import type { Point } from "./gestures.js";
@@ -13,10 +14,10 @@ import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { boxAround } from "../scene/placing.js";
 import { Legend, PreviewTools, ViewModes } from "./preview-tools.js";
 import { Sheet, type SheetKind } from "./sheet.js";
-import type { FrameLook, Stage } from "./stage.js";
+import type { FrameLook, ShownPen, Stage } from "./stage.js";
 import { selectionPainter } from "./stroke.js";
 import { TimeLine } from "./time-line.js";
-import { viewModeOf } from "./view-modes.js";
+import { penLooks, viewModeOf } from "./view-modes.js";
 import { mmFromScreen, type View } from "../scene/view.js";
 
 /** Height of the legend under the paper. */
@@ -44,12 +45,15 @@ export const Preview = () => (
 );
 
 const showState = (stage: Stage, store: PageStore): (() => void) => {
+  const glide = new PenGlide();
   const show = (state: PageState, before: PageState | null): void => {
     const hasChanged = (...parts: readonly (keyof PageState)[]): boolean =>
       before === null || parts.some((part) => state[part] !== before[part]);
     const picture = viewModeOf(state).picture?.(state);
     if (picture) stage.setScene(picture, null);
     else stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
+    followPen(glide, state, before, performance.now());
+    stage.setPen(penOf(state, glide));
     if (hasChanged("settings", "view")) stage.setDesk(deskOfState(state));
     if (
       hasChanged("view", "planned", "live", "jobs", "momentS", "swing", "drawing") ||
@@ -59,7 +63,6 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
       stage.setLook(lookOf(state));
     }
     if (state.view.theme !== before?.view.theme) stage.recolor();
-    stage.setMarker(markerOf(state));
     if (
       hasChanged("planned", "settings", "selected", "noteBoxes", "snapLines") ||
       state.view.lengthUnit !== before?.view.lengthUnit
@@ -106,15 +109,18 @@ const lookOf = (state: PageState): FrameLook => {
   };
 };
 
-const markerOf = (state: PageState): Marker | null => {
-  if (state.momentS !== null && state.planned) {
-    const { x, y, penUp, penMoving } = stateAt(state.planned.trajectory, state.momentS);
-    return { xMm: x, yMm: y, penDown: !penUp && !penMoving };
+const penOf = (state: PageState, glide: PenGlide): ShownPen | null => {
+  const { momentS, planned, settings } = state;
+  const colors = planned ? penLooks({ planned, settings }).map(({ color }) => color) : [];
+  if (momentS !== null && planned) {
+    const { x, y, penUp, penMoving } = stateAt(planned.trajectory, momentS);
+    const place = { xMm: x, yMm: y, penDown: !penUp && !penMoving, planS: momentS, isMoving: false };
+    return { at: () => place, colors, isDrawing: false };
   }
   // The pen of a plot is shown only on that plot's drawing.
   const job = activeJob(state);
   if (job && job.id !== state.drawing?.jobId) return null;
-  return plotterMarker(state);
+  return { at: (nowMs) => glide.at(nowMs), colors, isDrawing: job?.state === "plotting" };
 };
 
 /** The laid-out drawing: its strokes can be pointed at and selected, and it can be placed by hand. */

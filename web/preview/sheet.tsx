@@ -34,17 +34,19 @@ export const Sheet = ({ kind, label, pictureLabel, children, foot }: SheetProps)
   const box = useRef<HTMLDivElement>(null);
   const desk = useRef<HTMLCanvasElement>(null);
   const strokes = useRef<HTMLCanvasElement>(null);
+  const pen = useRef<HTMLCanvasElement>(null);
   const overlay = useRef<HTMLCanvasElement>(null);
   const stage = useRef<Stage | null>(null);
   const [hasFault, setHasFault] = useState(false);
   const store = usePageStore();
   const actions = useActions();
   useEffect(() => {
-    if (!box.current || !desk.current || !strokes.current || !overlay.current) return;
+    if (!box.current || !desk.current || !strokes.current || !pen.current || !overlay.current) return;
     const canvases = {
       box: box.current,
       desk: desk.current,
       strokes: strokes.current,
+      pen: pen.current,
       overlay: overlay.current,
     };
     const state = store.getState();
@@ -76,6 +78,7 @@ export const Sheet = ({ kind, label, pictureLabel, children, foot }: SheetProps)
           <canvas ref={desk} aria-hidden="true" />
           <canvas ref={strokes} role="img" aria-label={pictureLabel} />
           <canvas ref={overlay} aria-hidden="true" />
+          <canvas ref={pen} className="pen-canvas" aria-hidden="true" />
         </div>
         {hasFault && (
           <p className="paper-message paper-message-error" role="alert">

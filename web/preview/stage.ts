@@ -1,5 +1,5 @@
 /**
- * The preview's three stacked canvases (desk, strokes, rulers with the pen), and their view.
+ * The preview's four stacked canvases (desk, strokes, the moving pen, rulers), and their view.
  *
  * The strokes are drawn elsewhere. Until they are drawn for a new view, the last picture is moved and scaled, so that
  * the paper follows the finger even if the drawing is large.
@@ -7,7 +7,11 @@
 import { isSameJson, type Box } from "../../src/internal.js";
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
 import { markMoment } from "../worker/moments.js";
-import { drawMarker, drawRulers, RULER_PX, type Marker } from "./overlay.js";
+import { drawRulers, RULER_PX } from "./overlay.js";
+import type { PenPlace } from "./pen-glide.js";
+import { PenLayer, type FreshInk } from "./pen-layer.js";
+import { LAYER_SHORT, PIECE_SHORTS } from "../scene/pieces.js";
+import { piecesBefore } from "../scene/scene.js";
 import type { Frame, Picture } from "../scene/renderer.js";
 import { Strokes } from "./strokes.js";
 import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
@@ -16,11 +20,21 @@ interface StageCanvases {
   readonly box: HTMLElement;
   readonly desk: HTMLCanvasElement;
   readonly strokes: HTMLCanvasElement;
+  readonly pen: HTMLCanvasElement;
   readonly overlay: HTMLCanvasElement;
 }
 
 /** Paints over the strokes. */
 export type OverlayPainter = (context: CanvasRenderingContext2D, view: View) => void;
+
+/** The plotter's pen, or that of a simulated plot. */
+export interface ShownPen {
+  at(nowMs: number): PenPlace | null;
+  /** Colours of the layers' pens. */
+  readonly colors: readonly string[];
+  /** It plots these strokes: they appear under its nib. */
+  readonly isDrawing: boolean;
+}
 
 export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
 
@@ -28,20 +42,24 @@ const INSET_PX = 26;
 /** On a low screen, what lies under the paper may lie over it: the share of the height that is kept free for it. */
 const MOST_BELOW = 0.24;
 const MAX_RATIO = 2;
+/** The strokes are drawn again when the pen has drawn for so long, s of the plan: until then its ink is on the pen's canvas. */
+const FRESH_S = 1.5;
 
 export class Stage {
   private readonly observer: ResizeObserver;
   private readonly strokes: Strokes;
   private scene: Picture | null = null;
   private shownDesk: Desk;
-  private marker: Marker | null = null;
+  private readonly penLayer: PenLayer;
+  private pen: ShownPen | null = null;
+  private isPenStale = true;
   private paint: OverlayPainter | null = null;
   private rulerSpan: Box | null = null;
   private colors: DeskColors;
   private cssSize: Size = { width: 0, height: 0 };
   private currentView: View = { scale: 1, offsetX: 0, offsetY: 0 };
-  /** The view that the strokes canvas shows. */
-  private drawnView: View | null = null;
+  /** The frame that the strokes canvas shows. */
+  private drawn: Frame | null = null;
   /** Until the user pans or zooms, the whole paper stays visible. */
   private isFitted = true;
   private areStrokesStale = true;
@@ -62,6 +80,7 @@ export class Stage {
     onFault: () => void,
   ) {
     this.shownDesk = desk;
+    this.penLayer = new PenLayer(canvases.pen);
     this.colors = deskColors(canvases.box);
     const worker = new Worker(new URL("../worker/draw.worker.ts", import.meta.url), { type: "module" });
     const shown = canvases.strokes.getContext("bitmaprenderer");
@@ -111,7 +130,7 @@ export class Stage {
 
   setLook(look: FrameLook): void {
     // While another drawing is plotted, the state changes several times a second, and these strokes do not.
-    if (isSameJson(look, this.look)) return;
+    if (isSameJson(look, this.look) || this.isFresh(look)) return;
     this.look = look;
     this.refresh(true);
   }
@@ -124,9 +143,10 @@ export class Stage {
     else this.refresh(false);
   }
 
-  setMarker(marker: Marker | null): void {
-    this.marker = marker;
-    this.refresh(false);
+  setPen(pen: ShownPen | null): void {
+    this.pen = pen;
+    this.isPenStale = true;
+    this.schedule();
   }
 
   get desk(): Desk {
@@ -175,8 +195,16 @@ export class Stage {
   private refresh(areStrokesStale: boolean): void {
     this.areStrokesStale ||= areStrokesStale;
     if (areStrokesStale) this.canvases.strokes.ariaBusy = "true";
-    this.areSheetsStale = true;
+    this.areSheetsStale = this.isPenStale = true;
     this.schedule();
+  }
+
+  /** Only the time has changed, by so little that the pen's canvas shows what was drawn since. */
+  private isFresh(look: FrameLook): boolean {
+    const { untilS } = this.look;
+    if (this.pen?.isDrawing !== true || untilS === null || look.untilS === null) return false;
+    const freshS = look.untilS - untilS;
+    return freshS >= 0 && freshS < FRESH_S && isSameJson({ ...look, untilS }, this.look);
   }
 
   private schedule(): void {
@@ -189,7 +217,37 @@ export class Stage {
     const ratio = Math.min(MAX_RATIO, window.devicePixelRatio || 1);
     if (this.areSheetsStale) this.drawSheets(ratio);
     if (this.areStrokesStale) this.askForStrokes(ratio);
+    if (this.isPenStale) this.paintPen(ratio);
   };
+
+  private paintPen(ratio: number): void {
+    const { pen, currentView: view, cssSize } = this;
+    const nowMs = performance.now();
+    const place = pen?.at(nowMs) ?? null;
+    const shown = pen && place && { place, color: this.penColor(pen, place) };
+    const isLifting = this.penLayer.paint(shown, place && this.freshInk(place), view, cssSize, ratio, nowMs);
+    this.isPenStale = isLifting || place?.isMoving === true;
+    if (this.isPenStale) this.schedule();
+  }
+
+  /** The colour of the pen that draws, or that is on its way to what it draws next. */
+  private penColor({ colors }: ShownPen, { planS, penDown }: PenPlace): string {
+    const draw = this.scene?.draw;
+    if (planS === null || !draw || draw.count === 0) return this.colors.accent;
+    const next = piecesBefore(draw, planS) - (penDown ? 1 : 0);
+    const piece = Math.min(draw.count - 1, Math.max(0, next));
+    const layer = new Uint16Array(draw.bytes)[piece * PIECE_SHORTS + LAYER_SHORT];
+    return colors[layer] ?? this.colors.accent;
+  }
+
+  private freshInk({ planS }: PenPlace): FreshInk | null {
+    const { scene, drawn } = this;
+    if (this.pen?.isDrawing !== true || !scene || !drawn || drawn.untilS === null || planS === null)
+      return null;
+    if (this.scenes.get(drawn) !== scene || planS <= drawn.untilS) return null;
+    const frame = { ...drawn, view: this.currentView };
+    return { pieces: scene.draw, totalS: scene.totalS, fromS: drawn.untilS, toS: planS, frame };
+  }
 
   private drawSheets(ratio: number): void {
     const { desk, overlay } = this.canvases;
@@ -199,7 +257,6 @@ export class Stage {
     const overlayContext = beginCanvas(overlay, this.cssSize, ratio);
     if (overlayContext) {
       this.paint?.(overlayContext, this.currentView);
-      if (this.marker) drawMarker(overlayContext, this.currentView, this.marker, this.colors);
       drawRulers(
         overlayContext,
         this.currentView,
@@ -224,8 +281,10 @@ export class Stage {
     // The picture keeps the size that it was drawn for, because the box may have changed since.
     strokes.style.width = `${frame.width}px`;
     strokes.style.height = `${frame.height}px`;
-    this.drawnView = frame.view;
+    this.drawn = frame;
     this.moveStrokes();
+    this.isPenStale = true;
+    this.schedule();
     if (isDone && !this.areStrokesStale) strokes.ariaBusy = "false";
     if (!this.scene || this.scenes.get(frame) !== this.scene) return;
     if (this.isSceneNew) markMoment("plotwright-picture");
@@ -235,7 +294,7 @@ export class Stage {
 
   private moveStrokes(): void {
     const { style } = this.canvases.strokes;
-    const drawn = this.drawnView ?? this.currentView;
+    const drawn = this.drawn?.view ?? this.currentView;
     style.transform = drawn === this.currentView ? "" : transformBetween(drawn, this.currentView);
   }
 }

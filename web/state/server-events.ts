@@ -90,9 +90,10 @@ const ordered = ({ jobs }: PageState, ids: readonly string[]): PageState["jobs"]
 };
 
 const applyProgress = (state: PageState, event: Extract<ServerEvent, { type: "progress" }>): Change => {
-  const { jobId, plotterId, progress, elapsedS, remainingS, planS, xMm, yMm, penUp, penMoving } = event;
+  const { progress, elapsedS, remainingS, ...live } = event;
+  const { jobId, plotterId, xMm, yMm, penUp, penMoving } = live;
   return {
-    live: { jobId, plotterId, planS, xMm, yMm, penUp, penMoving },
+    live,
     jobs: state.jobs.map((job) => (job.id === jobId ? { ...job, progress, elapsedS, remainingS } : job)),
     plotters: state.plotters.map((plotter) =>
       plotter.id === plotterId ? { ...plotter, xMm, yMm, penUp, penMoving } : plotter,

@@ -1,11 +1,12 @@
 import type { Desk } from "../preview/backdrop.js";
 import { ZoomTools } from "../preview/preview-tools.js";
 import { Sheet, type SheetKind } from "../preview/sheet.js";
-import type { Stage } from "../preview/stage.js";
+import type { ShownPen, Stage } from "../preview/stage.js";
 import { previewText } from "../preview/text.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
-import { deskOf, plotterMarker } from "../preview/desk.js";
+import { deskOf, followPen } from "../preview/desk.js";
+import { PenGlide } from "../preview/pen-glide.js";
 import { lookOfJob } from "./watch-look.js";
 import { watchText as words } from "./text.js";
 import { useEffect } from "react";
@@ -34,6 +35,13 @@ const plannedOf = (state: PageState) => (watchedJob(state) ? (state.watchPlan?.p
 
 const lookOf = (state: PageState) => lookOfJob(watchedJob(state), plannedOf(state), state.live);
 
+const penOf = (state: PageState, glide: PenGlide): ShownPen | null => {
+  const job = watchedJob(state);
+  if (!job) return null;
+  const colors = lookOf(state).layerColors;
+  return { at: (nowMs) => glide.at(nowMs), colors, isDrawing: job.state === "plotting" };
+};
+
 /** Without the machine's reach, because a running plot is within it. */
 const watchedDesk = (state: PageState): Desk => ({
   ...deskOf(settingsOf(state), state.view.lengthUnit),
@@ -41,15 +49,17 @@ const watchedDesk = (state: PageState): Desk => ({
 });
 
 const showState = (stage: Stage, store: PageStore): (() => void) => {
+  const glide = new PenGlide();
   const show = (state: PageState, before: PageState | null): void => {
     const planned = plannedOf(state);
     stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
+    followPen(glide, state, before, performance.now());
+    stage.setPen(penOf(state, glide));
     if (!before || settingsOf(state) !== settingsOf(before)) stage.setDesk(watchedDesk(state));
     if (state.watchPlan !== before?.watchPlan || state.live !== before?.live || state.jobs !== before.jobs) {
       stage.setLook(lookOf(state));
     }
     if (state.view.theme !== before?.view.theme) stage.recolor();
-    stage.setMarker(watchedJob(state) && plotterMarker(state));
   };
   show(store.getState(), null);
   return store.subscribe(show);

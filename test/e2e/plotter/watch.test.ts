@@ -3,7 +3,6 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS, type Job } from "../../../src/schema/index.js";
 import { ruledSheet } from "../../support/drawings/drawings.js";
 import {
-  colorCounts,
   historyPanel,
   openView,
   plotBar,
@@ -17,8 +16,6 @@ const PATIENCE_MS = 120_000;
 const LINES = "lines";
 const OTHER = "other";
 const OTHER_SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100"><path d="M10 10h80v80" fill="none" stroke="#0a0"/></svg>`;
-/** Colour of the pen's mark (--desk-accent). */
-const PEN_COLOR = 0xd2452c;
 
 let test: PageTest;
 
@@ -32,11 +29,15 @@ const button = (name: string | RegExp) => statusCard(test.page).getByRole("butto
 const nameOnPaper = () => test.page.locator(".drawn-size").getByText(OTHER, { exact: true }).first();
 const theJob = async (): Promise<Job> => (await test.jobs()).find(({ name }) => name === LINES)!;
 
-/** Pixels of the pen's mark on the sheet that is shown. */
+const penCanvas = () => test.page.locator(".pen-canvas:visible");
+
+/** Pixels of the pen on the sheet that is shown. */
 async function penPixels(): Promise<number> {
   await waitForPicture(test.page);
-  const counts = await colorCounts(test.page.locator(".preview:visible"));
-  return counts.get(PEN_COLOR) ?? 0;
+  return penCanvas().evaluate((canvas: HTMLCanvasElement) => {
+    const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
+    return data.filter((alpha, i) => i % 4 === 3 && alpha > 128).length;
+  });
 }
 
 describe("a plot that starts", () => {
@@ -70,6 +71,26 @@ describe("a plot that starts", () => {
     await openView(page, "Prepare");
     await nameOnPaper().waitFor();
     await openView(page, "Watch");
+  });
+
+  it("shows the pen moving at every frame, and at rest while the plot is paused", async () => {
+    const placesIn = (frames: number): Promise<number> =>
+      penCanvas().evaluate(async (canvas: HTMLCanvasElement, count) => {
+        const places = new Set<string | undefined>();
+        for (let i = 0; i < count; i++) {
+          await new Promise(requestAnimationFrame);
+          places.add(canvas.dataset["mm"]);
+        }
+        return places.size;
+      }, frames);
+    // It rests while it lifts. A report comes every seventh frame or less often.
+    expect(await placesIn(150)).toBeGreaterThan(60);
+    await button("Pause").click();
+    await button("Resume").waitFor();
+    await expect.poll(() => placesIn(20)).toBe(1);
+    await button("Resume").click();
+    await button("Pause").waitFor();
+    await expect.poll(() => placesIn(20)).toBeGreaterThan(5);
   });
 
   it("is the first view of a new tab", async () => {

@@ -108,7 +108,8 @@ describe("the state", () => {
     const make = (): Snapshot => ({ ...snapshotSchema.parse(SMALL), version: String(++made) });
     expect(hub.snapshotText(make)).toBe(hub.snapshotText(make));
     const progress = { jobId: "a", plotterId: "virtual", progress: 0.1, elapsedS: 1, remainingS: 1 };
-    hub.announce({ type: "progress", ...progress, planS: 1, xMm: 1, yMm: 1, penUp: true, penMoving: false });
+    const moment = { planS: 1, xMm: 1, yMm: 1, penUp: true, penMoving: false };
+    hub.announce({ type: "progress", ...progress, ...moment, atMs: 0, heldBackMs: 0, ahead: [] });
     hub.snapshotText(make);
     expect(made).toBe(1);
     hub.announce({ type: "job", job: makeJob("a") });

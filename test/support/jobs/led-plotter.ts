@@ -6,6 +6,7 @@ import type {
   PlotChange,
   PlotOutcome,
   PlotProgress,
+  ReportedProgress,
   PlotStart,
 } from "../../../host/plotter/plotter-port.js";
 import type { Planning } from "../../../host/planning/planning.js";
@@ -32,8 +33,8 @@ export class LedRun implements LivePlotRun {
     });
   }
 
-  onProgress(listener: (progress: PlotProgress) => void): void {
-    this.progress = listener;
+  onProgress(listener: (report: ReportedProgress) => void): void {
+    this.progress = (progress) => listener({ ...progress, atMs: 0, ahead: [] });
   }
 
   onHeld(listener: (held: boolean, wait?: PlotWait | null) => void): void {

@@ -18,7 +18,19 @@ const pageWith = (job: Job, more: Partial<PageState> = {}): PageState => ({
   jobs: [job],
   ...more,
 });
-const live = { jobId: "a", plotterId: "virtual", planS: 1.5, xMm: 0, yMm: 0, penUp: false, penMoving: false };
+const live = {
+  type: "progress" as const,
+  jobId: "a",
+  plotterId: "virtual",
+  planS: 1.5,
+  xMm: 0,
+  yMm: 0,
+  penUp: false,
+  penMoving: false,
+  atMs: 0,
+  heldBackMs: 0,
+  ahead: [],
+};
 
 describe("how much of the drawing on the paper is drawn", () => {
   it.each(["paused", "interrupted"] as const)("is the job's place while it is %s", (state) => {

@@ -39,6 +39,9 @@ const progress = (jobId: string, share: number): ServerEvent => ({
   yMm: 34,
   penUp: false,
   penMoving: false,
+  atMs: 0,
+  heldBackMs: 0,
+  ahead: [],
 });
 
 describe("server events", () => {

@@ -9,20 +9,13 @@ import type {
   Plotter,
   PlotterSettings,
   QueueSettings,
+  ServerEvent,
 } from "../../../src/schema/index.js";
 
 export type ServerLink = "connecting" | "connected" | "lost";
 
 /** The latest live report of a plot. */
-interface LivePlot {
-  readonly jobId: string;
-  readonly plotterId: string;
-  readonly planS: number;
-  readonly xMm: number;
-  readonly yMm: number;
-  readonly penUp: boolean;
-  readonly penMoving: boolean;
-}
+type LivePlot = Omit<Extract<ServerEvent, { type: "progress" }>, "progress" | "elapsedS" | "remainingS">;
 
 export interface ServerSlice {
   readonly link: ServerLink;

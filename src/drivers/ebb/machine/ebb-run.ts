@@ -18,7 +18,7 @@ import { passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition, stoppedPosition } from "../../../position/pen-position.js";
 import type { Playback, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
-import { RunProgress, type PlanPart, type PlotProgress } from "../../run-progress.js";
+import { RunProgress, type PenMoment, type PlanPart, type PlotProgress } from "../../run-progress.js";
 import { streamOf, type BoardState, type CommandStream } from "../compile/command-stream.js";
 import { compile } from "../compile/compile.js";
 import { penCommand } from "../protocol/commands.js";
@@ -88,6 +88,10 @@ export class EbbRun implements Playback {
 
   now(): PlotProgress | null {
     return this.streamer && this.progress.update(this.streamer.position());
+  }
+
+  ahead(stepS: number, count: number): readonly PenMoment[] {
+    return this.streamer ? this.progress.ahead(this.streamer.positionsAhead(stepS, count)) : [];
   }
 
   /** Switching to another plan; until that is done, no third plan is accepted. */

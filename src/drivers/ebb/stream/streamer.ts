@@ -158,6 +158,11 @@ export class Streamer {
     return entry ? positionIn(entry, boardS) : this.endOfWritten();
   }
 
+  /** Estimated positions every `stepS` from now, at most `count`, to the end of what is written. None after a stop at once. */
+  positionsAhead(stepS: number, count: number): StreamPosition[] {
+    return this.isStopped ? [] : this.timeline.positionsAhead(stepS, count);
+  }
+
   /** The end of what the board has acknowledged and plays unless it is stopped; null after a stop at once. */
   receivedPlace(): StreamPosition | null {
     if (this.isStopped) return null;

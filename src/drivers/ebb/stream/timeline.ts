@@ -130,6 +130,18 @@ export class BoardTimeline {
     return this.entry(this.ackedCount);
   }
 
+  /** Positions every `stepS` from now, at most `count`, to the end of what is written. */
+  positionsAhead(stepS: number, count: number): StreamPosition[] {
+    const positions: StreamPosition[] = [];
+    const fromS = this.boardS();
+    for (let k = 1; k <= count; k++) {
+      const entry = this.at(fromS + k * stepS);
+      if (!entry) break;
+      positions.push(positionIn(entry, fromS + k * stepS));
+    }
+    return positions;
+  }
+
   /** Max time that the board may take to reply: its queue frees a slot when a command ends. */
   longestS(): number {
     let longestS = 0;

@@ -13,7 +13,7 @@ import { passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition } from "../../../position/pen-position.js";
 import type { Machine, Playback, RunEvents, RunRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
-import { RunProgress, type PlotProgress } from "../../run-progress.js";
+import { RunProgress, type PenMoment, type PlotProgress } from "../../run-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
 import { boardRestartedError } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
@@ -71,6 +71,12 @@ export class GrblRun implements Playback {
     if (!this.current) return null;
     const { commands, stream } = this.current;
     return this.progress.update({ stream: commands, planS: stream.planS });
+  }
+
+  ahead(stepS: number, count: number): readonly PenMoment[] {
+    if (!this.current) return [];
+    const { commands, stream } = this.current;
+    return this.progress.ahead(stream.timesAhead(stepS, count).map((planS) => ({ stream: commands, planS })));
   }
 
   async play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void> {

@@ -81,6 +81,13 @@ export class LineStream {
     );
   }
 
+  /** Estimated positions every `stepS` from now, at most `count`, no further than the accepted lines. None once it stops. */
+  timesAhead(stepS: number, count: number): number[] {
+    const fromS = this.planS;
+    const steps = this.isOver ? 0 : Math.min(count, Math.floor((this.takenS - fromS) / stepS));
+    return Array.from({ length: steps }, (_, k) => fromS + (k + 1) * stepS);
+  }
+
   /** Bounds of the position, seconds along the plan. */
   get boundsS(): readonly [fromS: number, toS: number] {
     const { planS, count } = this.commands;

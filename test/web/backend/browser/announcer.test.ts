@@ -16,6 +16,9 @@ const progress = (planS: number, plotterId = "a"): ServerEvent => ({
   yMm: 0,
   penUp: true,
   penMoving: false,
+  atMs: 0,
+  heldBackMs: 0,
+  ahead: [],
 });
 const job: ServerEvent = { type: "job", job: makeJob("job") };
 const order: ServerEvent = { type: "order", ids: [] };
@@ -36,10 +39,14 @@ describe("the host's events", () => {
   it("contain the newest progress of each plotter, ten times a second", async () => {
     for (const event of [progress(1), progress(1, "b"), progress(2)]) announce(event);
     await vi.advanceTimersByTimeAsync(100);
-    expect(sent).toEqual([progress(2), progress(1, "b")]);
+    const held = { heldBackMs: 100 };
+    expect(sent).toEqual([
+      { ...progress(2), ...held },
+      { ...progress(1, "b"), ...held },
+    ]);
     announce(progress(3));
     await vi.advanceTimersByTimeAsync(100);
-    expect(sent.slice(2)).toEqual([progress(3)]);
+    expect(sent.slice(2)).toEqual([{ ...progress(3), ...held }]);
     await vi.advanceTimersByTimeAsync(1_000);
     expect(sent).toHaveLength(3);
   });
