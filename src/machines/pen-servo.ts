@@ -7,9 +7,9 @@
  * two counts, with a smooth change between them. The form, and the figures for AxiDraw and NextDraw, are those of their
  * maker's software.
  */
-import type { MachineProfile, PenServo } from "./profile.js";
+import type { Controller, MachineProfile, PenServo } from "./profile.js";
 
-/** AxiDraw: 131 ms up and 146 ms down for 30 %. */
+/** AxiDraw's servo, in percent of its maker's range: 131 ms up and 146 ms down for 30 %. */
 export const STANDARD_SERVO: PenServo = {
   minMs: 45,
   slopeMsPerPct: 2.69,
@@ -31,10 +31,26 @@ export const HOBBY_SERVO: PenServo = { ...STANDARD_SERVO, liftPctPerS: 122, drop
 /** The servo output of the brushless lift; all others are on output 4. */
 const BRUSHLESS_OUTPUT = 5;
 
-/** The servo of a machine. Profiles that do not describe it have one of AxiDraw's or NextDraw's, by its output. */
+/**
+ * The ranges whose percents the maker's software counts, units of 1/12 µs: 9 855 … 27 831 and 5 400 … 12 600. A servo turns
+ * by the same angle for the same units, so one percent of a wider range takes it longer.
+ */
+const MAKERS_RANGE = { standard: 17_976, brushless: 7_200 };
+/** Of a profile that states none. */
+const USUAL: Omit<Controller, "kind"> = { servoPosAt0Pct: 7_500, servoPosAt100Pct: 28_000 };
+
+/**
+ * The servo of a machine. Profiles that do not describe it have one of AxiDraw's or NextDraw's, by its output. The rates
+ * are those of the board's signal in the profile's own percent; only the servo's slope depends on the range.
+ */
 export function penServoOf(machine: MachineProfile | null | undefined): PenServo {
-  const isBrushless = machine?.controller.servoPin === BRUSHLESS_OUTPUT;
-  return machine?.penServo ?? (isBrushless ? BRUSHLESS_LIFT : STANDARD_SERVO);
+  if (machine?.penServo) return machine.penServo;
+  const { servoPin, servoPosAt0Pct, servoPosAt100Pct } = { ...USUAL, ...machine?.controller };
+  const isBrushless = servoPin === BRUSHLESS_OUTPUT;
+  const servo = isBrushless ? BRUSHLESS_LIFT : STANDARD_SERVO;
+  const makersRange = isBrushless ? MAKERS_RANGE.brushless : MAKERS_RANGE.standard;
+  const range = Math.abs(Number(servoPosAt100Pct) - Number(servoPosAt0Pct));
+  return { ...servo, slopeMsPerPct: (servo.slopeMsPerPct * range) / makersRange };
 }
 
 /** Time of a move, s. */

@@ -38,7 +38,7 @@ export const PEN_SERVO_TABLE = {
     kind: "number",
     label: "Pen time per percent",
     about: "additional time of a pen move for each percent of the servo's range",
-    default: 2.69,
+    default: 3.07,
     min: 0,
     max: 1_000,
     unit: "ms/%",

@@ -99,7 +99,8 @@ const liftTo = (pen: TimedPen, heightPct: number, waitS: number): Lift => ({
 /** How long the carriage waits at the stroke for a whole drop from `fromPct`. */
 export function dropWait(pen: TimedPen, fromPct: number): number {
   const wholeS = dropTime(pen, fromPct);
-  return dropsInFlight(pen) ? Math.max(wholeS, waitOf(touchTime(pen, fromPct), pen.extraDropMs)) : wholeS;
+  if (pen.overlap === "off") return wholeS;
+  return Math.max(wholeS, waitOf(touchTime(pen, fromPct), pen.extraDropMs));
 }
 
 /** How the pen comes down during a travel, after a lift to `heightPct` that began at `liftS`. */
@@ -121,8 +122,10 @@ export function lowerDuring(
     const fallPct = heightPct - hopPct;
     const fallS = Math.max(liftMoveTime(pen, fallPct), dropMoveTime(pen, fallPct));
     const hoverTimeS = frameS(pen) + fallS / SLOW;
+    // A servo that is still below the hop height would take a new move from there, and clear the paper later.
+    const earliestS = Math.max(startS, liftS + riseTime(pen, heightPct, hopPct));
     // If there is no time to lower it to the hop height first, it drops from where it is.
-    if (dropS - hoverTimeS > startS) hoverS = dropS - hoverTimeS;
+    if (dropS - hoverTimeS > earliestS) hoverS = dropS - hoverTimeS;
     else fromPct = heightPct;
   }
   const touchS = touchTime(pen, fromPct);
@@ -179,9 +182,12 @@ const nearTime = (accel: number): number => Math.sqrt((2 * NEAR_MM) / accel);
 const frameS = ({ servo }: TimedPen): number => servo.frameMs / 1_000;
 
 /** When the slowest servo has lifted the tip clear of the paper, s after the command of a lift to `heightPct`. */
-function clearTime(pen: TimedPen, heightPct: number): number {
+const clearTime = (pen: TimedPen, heightPct: number): number => riseTime(pen, heightPct, clearHeight(pen));
+
+/** When the slowest servo passes `passPct`, s after the command of a lift to `heightPct`. */
+function riseTime(pen: TimedPen, heightPct: number, passPct: number): number {
   const risePct = heightPct - pen.downPct;
-  const share = Math.min(1, (clearHeight(pen) - pen.downPct) / risePct);
+  const share = Math.min(1, (passPct - pen.downPct) / risePct);
   return frameS(pen) + (share * liftMoveTime(pen, risePct)) / SLOW;
 }
 

@@ -50,11 +50,11 @@ describe("codes in layer names, as settings", () => {
     const coded = plan(strokes, motion, { ...pen, overlap: "off" });
     const given = plan(strokes, DEFAULT_MOTION, { ...DEFAULT_PEN, overlap: "off" });
     expect(penMovesOf(coded).map(({ up, heightPct, waitS }) => [up, heightPct, waitS])).toEqual([
-      [false, 30, 0.147],
-      [true, 60, 0.131],
+      [false, 30, 0.154],
+      [true, 60, 0.141],
       [true, 60, 2],
-      [false, 15, 0.207],
-      [true, 60, 0.177],
+      [false, 15, 0.216],
+      [true, 60, 0.191],
     ]);
     // 100 mm at 20.1 mm/s instead of 50: nearly 3 s more, and 2 s of waiting.
     expect(coded.totalS - given.totalS).toBeCloseTo(2 + 100 / 20.1 - 100 / 50, 0);

@@ -185,11 +185,11 @@ describe("settings beyond speed and acceleration", () => {
     expect(topSpeed(t, 1)).toBeGreaterThan(20);
     expect(topSpeed(t, 3)).toBeCloseTo(5, 6);
     expect(penMovesOf(t).map((m) => [m.heightPct, m.waitS])).toEqual([
-      [30, 0.147],
-      [60, 0.131],
+      [30, 0.154],
+      [60, 0.141],
       // The servo's time for 50 %, and the layer's own 700 ms.
-      [10, 0.927],
-      [60, 0.192],
+      [10, 0.937],
+      [60, 0.208],
     ]);
   });
 
@@ -202,7 +202,7 @@ describe("settings beyond speed and acceleration", () => {
       dropPctPerS: 30,
     };
     const t = plan(strokeSetOf([square]), base, pen);
-    // The servo could lift it in 126 ms, so the rate takes nearly all of the time.
+    // The servo could lift it in 137 ms, so the rate takes nearly all of the time.
     expect(t.penMoves.waitS[0]).toBeCloseTo(0.05 + 1.001, 9);
     expect(t.penMoves.waitS[1]).toBeCloseTo(0.02 + 0.501, 9);
   });

@@ -37,10 +37,11 @@ const STRAY_MM = 0.15;
 /** No stroke begins visibly late: an old board's shortest command may delay a drop by some ms. */
 const LATE_MM = 0.02;
 
-/** An AxiDraw, a NextDraw (S2, 3 ms frames), and an AxiDraw with a slower servo. */
+/** An AxiDraw, with a slower servo, and with the brushless upgrade and a NextDraw (S2, 3 ms frames). */
 const MACHINES: readonly MachineProfile[] = [
   unmeasured,
   machineById("nextdraw-8511"),
+  machineById("axidraw-v3-brushless"),
   { ...unmeasured, penServo: HOBBY_SERVO },
 ];
 
@@ -141,6 +142,17 @@ const arbitraryJob = (overlap: PenOverlap): fc.Arbitrary<Job> =>
     machine: fc.constantFrom(...MACHINES),
   });
 
+/**
+ * Short travels with a pen that always goes to its full height: a slow servo may still be rising when it is lowered to the hop
+ * height.
+ */
+const lowHops: fc.Arbitrary<StrokeSet> = fc
+  .array(fc.double({ min: 0.2, max: 6, noNaN: true }), { minLength: 4, maxLength: 8 })
+  .map((gapsMm) => {
+    let x = 20;
+    return strokeSetOf(gapsMm.map((gapMm): Point[] => [[(x += gapMm), 50], [(x += 1), 50]])); // prettier-ignore
+  });
+
 /** The motion is shaped for a machine that swings. */
 const shaped = (jobs: fc.Arbitrary<Job>, shaper: "zv" | "ei"): fc.Arbitrary<Job> =>
   fc
@@ -189,6 +201,19 @@ describe("random drawings", () => {
         { numRuns: cases() },
       );
       longest.print();
+    },
+  );
+
+  it.each(["safe", "fast"] as const)(
+    "have no stray marks in mode %s where a servo is lowered to its hop height before it has reached the full one",
+    (overlap) => {
+      const jobs = fc
+        .tuple(arbitraryJob(overlap), lowHops)
+        .map(([job, strokes]): Job => ({ ...job, strokes, pen: { ...job.pen, fullHeightMm: 0 } }));
+      fc.assert(
+        fc.property(jobs, arbitraryServo, (job, servo) => expectClean(marksOf(job, servo))),
+        { numRuns: cases(3_000, 300) },
+      );
     },
   );
 
@@ -267,8 +292,8 @@ describe("the check itself", () => {
 it("the samples take the time that the servo of their machine needs", async () => {
   const secondsOf = async (name: string, machine: string): Promise<number> =>
     plan(await sampleStrokes(name), DEFAULT_MOTION, DEFAULT_PEN, { machine: machineById(machine) }).totalS;
-  expect(await secondsOf("moonrise", "axidraw-v3")).toBeLessThanOrEqual(3_660);
+  expect(await secondsOf("moonrise", "axidraw-v3")).toBeLessThanOrEqual(3_760);
   expect(await secondsOf("moonrise", "nextdraw-8511")).toBeLessThanOrEqual(2_530);
-  expect(await secondsOf("hello-paper", "axidraw-v3")).toBeLessThanOrEqual(445);
+  expect(await secondsOf("hello-paper", "axidraw-v3")).toBeLessThanOrEqual(455);
   expect(await secondsOf("hello-paper", "nextdraw-8511")).toBeLessThanOrEqual(342);
 });

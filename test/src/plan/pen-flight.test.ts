@@ -60,13 +60,13 @@ describe("a pen in flight", () => {
   });
 
   it("lets the carriage start when the slowest servo has lifted the tip clear of the paper", () => {
-    // The servo takes 99.4 ms to the hop height, 19.5 % up. The tip is clear at 16.5 %. A slow servo takes a quarter more,
+    // The servo takes 106.4 ms to the hop height, 19.5 % up. The tip is clear at 16.5 %. A slow servo takes a quarter more,
     // and a frame of 24 ms; and the carriage takes 14.1 ms for 0.1 mm.
-    const slowestMs = 24 + ((16.5 / 19.5) * 99.37) / 0.8 - 14.14;
+    const slowestMs = 24 + ((16.5 / 19.5) * 106.37) / 0.8 - 14.14;
     for (const pen of [SAFE, FAST]) {
       expect(penMovesOf(planned(pen)).find(({ up }) => up)!.waitS).toBe(Math.ceil(slowestMs) / 1_000);
     }
-    expect(penMovesOf(planned({ ...SAFE, extraLiftMs: 30 })).find(({ up }) => up)!.waitS).toBe(0.145);
+    expect(penMovesOf(planned({ ...SAFE, extraLiftMs: 30 })).find(({ up }) => up)!.waitS).toBe(0.153);
   });
 
   it("comes down within 0.1 mm of the next stroke at a height that is clear of the paper", () => {
@@ -111,12 +111,12 @@ describe("a pen in flight", () => {
     expect(dropsMm(t)[0]).toBeCloseTo(0.1, 6);
     // A slow servo that falls from the hop height touches at 4/13 of the way, a frame later; without the time to brake over
     // 0.1 mm.
-    expect(drop.waitS).toBe(Math.ceil(24 + ((6 / 19.5) * 106.2) / 0.8 - 14.14) / 1_000);
+    expect(drop.waitS).toBe(Math.ceil(24 + ((6 / 19.5) * 112.07) / 0.8 - 14.14) / 1_000);
   });
 
   it("waits for the whole first drop, because the height of the pen is not known", () => {
     const [drop] = penMovesOf(planned(FAST));
-    expect([drop.startS, drop.waitS]).toEqual([0, 0.147]);
+    expect([drop.startS, drop.waitS]).toEqual([0, 0.154]);
   });
 
   it("hovers at the lower height before it comes down from the full one", () => {
@@ -125,8 +125,8 @@ describe("a pen in flight", () => {
     expect(moves[hover].heightPct).toBe(30 + 0.65 * 30);
     expect(moves[hover + 1].up).toBe(false);
     expect(moves[hover + 1].startS - moves[hover].startS).toBeCloseTo(
-      // 75.1 ms from the full height, of a slow servo.
-      0.024 + 0.07515 / 0.8,
+      // 78.9 ms from the full height, of a slow servo.
+      0.024 + 0.07885 / 0.8,
       4,
     );
   });
@@ -171,7 +171,7 @@ describe("a pen in flight", () => {
     const moves = penMovesOf(plan(strokes, DEFAULT_MOTION, pen));
     expect(moves.map(({ up, waitS, heightPct }) => [up, waitS, heightPct]).slice(2, 4)).toEqual([
       [true, 3, 60],
-      [false, 0.147, 30],
+      [false, 0.154, 30],
     ]);
   });
 });

@@ -51,10 +51,10 @@ describe("the sequence of runs", () => {
     );
     expect(Array.from(t.runs.stroke)).toEqual([-1, 0, -1, 1, -1]);
     expect(penMovesOf(t).map((m) => [m.beforeRun, m.up, m.heightPct, m.waitS])).toEqual([
-      [1, false, 30, 0.147],
-      [2, true, 60, 0.131],
-      [3, false, 30, 0.147],
-      [4, true, 60, 0.131],
+      [1, false, 30, 0.154],
+      [2, true, 60, 0.141],
+      [3, false, 30, 0.154],
+      [4, true, 60, 0.141],
     ]);
     expect([t.endX, t.endY]).toEqual([0, 0]);
   });

@@ -80,7 +80,7 @@ describe("compile", () => {
   it("sets the servo's frame and the pen's heights first, and holds the queue for each of its moves", () => {
     const lines = linesOf(compiled([LINE], "2.8.1"));
     expect(lines.slice(0, 5)).toEqual(["SC,8,8", "SC,4,19800", "SC,5,13650", "SC,11,1845", "SC,12,1230"]);
-    expect(lines.filter((line) => line.startsWith("SP"))).toEqual(["SP,0,147", "SP,1,131"]);
+    expect(lines.filter((line) => line.startsWith("SP"))).toEqual(["SP,0,154", "SP,1,141"]);
   });
 
   it("moves a pen on the second servo output by S2", () => {

@@ -297,8 +297,8 @@ describe("the virtual board's pen", () => {
     ask("SP,1,300");
     await clock.advance(0.12);
     expect(board.state()).toMatchObject({ penUp: true, isBusy: true });
-    // The servo alone takes 176 ms for these 48.8 %, and its signal 240 ms: 255.8 ms together.
-    const pos = 10_000 + 10_000 * (0.12 / 0.25581);
+    // The servo alone takes 194.6 ms for these 48.8 %, and its signal 240 ms: 262.6 ms together.
+    const pos = 10_000 + 10_000 * (0.12 / 0.26257);
     expect(board.state().penPct).toBeCloseTo((100 * (pos - 7_500)) / 20_500, 2);
     await clock.advance(0.18);
     expect(board.state().isBusy).toBe(false);
