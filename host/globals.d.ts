@@ -10,3 +10,28 @@ declare class AbortController {
 declare const crypto: { randomUUID(): string };
 declare function setTimeout(callback: () => void, delayMs: number): number;
 declare function clearTimeout(timer: number): void;
+declare class URL {
+  constructor(path: string, base?: string);
+  static canParse(text: string): boolean;
+  readonly hostname: string;
+}
+declare class TextDecoder {
+  decode(bytes: Uint8Array | undefined, options: { stream: boolean }): string;
+}
+interface FetchResponse {
+  readonly ok: boolean;
+  readonly status: number;
+  readonly body: {
+    getReader(): { read(): Promise<{ readonly done: boolean; readonly value?: Uint8Array | undefined }> };
+  } | null;
+  json(): Promise<unknown>;
+}
+declare function fetch(
+  address: URL,
+  init: {
+    readonly method?: string;
+    readonly headers?: Readonly<Record<string, string>>;
+    readonly body?: string | ArrayBuffer;
+    readonly signal?: AbortSignal;
+  },
+): Promise<FetchResponse>;

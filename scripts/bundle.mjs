@@ -50,6 +50,8 @@ const { metafile } = await build({
     "src/internal": "src/internal.ts",
     "src/schema/index": "src/schema/index.ts",
     "web/serial/web-serial": "web/serial/web-serial.ts",
+    "web/serial/open-plotter": "web/serial/open-plotter.ts",
+    "server/plotter/open-plotter": "server/plotter/open-plotter.ts",
     "server/index": "server/index.ts",
     "server/main": "server/main.ts",
     // Beside the chunks that start them (server/planning/bounded-thread.ts).

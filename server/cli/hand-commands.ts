@@ -3,9 +3,10 @@ import { InvalidArgumentError, type Command } from "commander";
 import { PlotwrightError } from "../../src/index.js";
 import { firmwareAdvice, machineOf, printableJson } from "../../src/internal.js";
 import type { HandMove, PlotSettings } from "../../src/schema/index.js";
+import { connectPlotter, NOT_PLUGGED_IN } from "../../host/handle/own-plotter.js";
 import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import { drawingBoxMm } from "../planning/planner.js";
-import { openPlotter } from "../plotter/node-plotter.js";
+import { NODE_PARTS } from "../plotter/node-parts.js";
 import { mustBeDataFolder, withDrawingFile } from "./files.js";
 import { printed, type CliIo } from "./io.js";
 import {
@@ -219,13 +220,21 @@ async function usePlotter(
   }
 }
 
+function withVirtualHint(error: unknown): unknown {
+  if (!(error instanceof PlotwrightError) || error.message !== NOT_PLUGGED_IN) return error;
+  return new PlotwrightError(
+    error.code,
+    `${NOT_PLUGGED_IN} To try this without a plotter, add --device virtual.`,
+  );
+}
+
 export async function withPlotter<T>(
   options: DeviceOptions,
   settings: PlotSettings,
   use: (plotter: PlotterPort) => Promise<T> | T,
 ): Promise<T> {
-  const plotter = await openPlotter(options, settings).catch(async (error: unknown) => {
-    throw await serverHint(error);
+  const plotter = await connectPlotter(options, settings, NODE_PARTS).catch(async (error: unknown) => {
+    throw await serverHint(withVirtualHint(error));
   });
   try {
     return await use(plotter);

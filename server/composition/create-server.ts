@@ -23,7 +23,7 @@ import { Access } from "../security/access.js";
 import { OperatorLock } from "../security/operator-lock.js";
 import { lanAddresses, LOCAL_NAME, pairingLinks, type PairingPaths } from "../security/network.js";
 import { FIRST_PLOTTER, openNamedPlotter } from "../../host/plotter/named-plotter.js";
-import { NODE_PARTS } from "../plotter/node-plotter.js";
+import { NODE_PARTS } from "../plotter/node-parts.js";
 import { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import { findBoards } from "../serial/find-boards.js";
 import type { PluginHost, RunningPlugin } from "../plugins/server-plugin.js";

@@ -226,6 +226,16 @@ export const serverEventSchema = z.discriminatedUnion("type", [
 ]);
 export type ServerEvent = z.infer<typeof serverEventSchema>;
 
+/** The event in a line of the event stream; null for an unknown one, which a newer server may send. */
+export const parseServerEvent = (data: string): ServerEvent | null => {
+  try {
+    const parsed = serverEventSchema.safeParse(JSON.parse(data));
+    return parsed.success ? parsed.data : null;
+  } catch {
+    return null;
+  }
+};
+
 export const apiErrorSchema = z.object({
   error: z.object({ code: z.enum(ERROR_CODES), message: z.string() }),
 });

@@ -227,9 +227,10 @@ describe("the folders of web", () => {
     expect(cycleOfFiles("web", SOURCES)).toEqual([]);
   });
 
-  it("use host only in the backend without a server", () => {
+  it("use host only in the backend without a server, and in the entry for programs", () => {
     const wrong = importsIn("web").filter(
-      ({ from, to }) => to.startsWith("host/") && !from.startsWith("web/backend/browser/"),
+      ({ from, to }) =>
+        to.startsWith("host/") && !/^web\/(backend\/browser\/|serial\/open-plotter$)/.test(from),
     );
     expect(wrong.map(write)).toEqual([]);
   });

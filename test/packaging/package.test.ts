@@ -156,6 +156,7 @@ describe("the installed package", () => {
 
   it.each([
     ["plotwright", "plan, importSvg, prepare, compile, VirtualBoard"],
+    ["plotwright/plotter", "openPlotter"],
     ["plotwright/schema", "plotSettingsSchema, jobSchema"],
     ["plotwright/server", "createServer"],
     ["plotwright/web-serial", "requestBoard, openWebSerial, browserClock"],

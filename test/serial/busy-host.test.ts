@@ -3,7 +3,7 @@
  * read before the board counts as silent.
  */
 import { expect, it } from "vitest";
-import { NodePlotter } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../support/plots/node-plotter.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
 import { openSerial } from "../../server/serial/serial-transport.js";
 import { BoardSession } from "../../src/index.js";

@@ -6,7 +6,7 @@ import { fork } from "node:child_process";
 import { once } from "node:events";
 import { chmodSync } from "node:fs";
 import { describe, expect, it, type TestContext } from "vitest";
-import { NodePlotter, type PlotterState } from "../../server/plotter/node-plotter.js";
+import { NodePlotter, type PlotterState } from "../support/plots/node-plotter.js";
 import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";

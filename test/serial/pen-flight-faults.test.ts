@@ -5,7 +5,7 @@
 import { fork } from "node:child_process";
 import { once } from "node:events";
 import { describe, expect, it } from "vitest";
-import { NodePlotter } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../support/plots/node-plotter.js";
 import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import { machineById, planJob } from "../../src/index.js";
 import type { PenOverlap } from "../../src/internal.js";

@@ -4,7 +4,7 @@
  */
 import { readFileSync } from "node:fs";
 import { afterEach, describe, expect, it } from "vitest";
-import { NodePlotter } from "../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../support/plots/node-plotter.js";
 import { importSvg, prepare, type Prepared } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import { LocalPlanner } from "../support/plots/local-planner.js";

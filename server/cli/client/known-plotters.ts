@@ -24,7 +24,8 @@ import {
   NOTHING_STORED,
   type KnownPlotter,
 } from "../stored-plotter.js";
-import { serverClient, serverState, type ServerAccess } from "./server-client.js";
+import { serverState } from "./server-client.js";
+import { serverClient, type ServerAccess } from "../../../host/handle/server-client.js";
 import { keyInEnvironment, machinesOf, plotterNamed, storedOf } from "./served-plotter.js";
 
 export interface KnownPlotters {

@@ -8,16 +8,8 @@ import { readBytes } from "../../planning/read-drawing.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "../files.js";
 import { minutes, printed, type CliIo } from "../io.js";
 import { addJson, addLayerOptions, copies, type Declare } from "../options.js";
-import {
-  accessOf,
-  addJob,
-  addServer,
-  serverClient,
-  serverState,
-  type ServerAccess,
-  type ServerClient,
-  type ServerState,
-} from "./server-client.js";
+import { accessOf, addJob, addServer, serverState, type ServerState } from "./server-client.js";
+import { serverClient, type ServerAccess, type ServerClient } from "../../../host/handle/server-client.js";
 import { machinesOf, plotterOf, storedOf } from "./served-plotter.js";
 import { addSettingOptions, settingsOver, type OptionValues } from "../settings-options.js";
 

@@ -9,14 +9,8 @@ import type { PlotterPort } from "../../../host/plotter/plotter-port.js";
 import type { StoredOfPlotter, WithMachine } from "../../../host/plotter/settings-of-plotter.js";
 import { defaultDataDir } from "../../storage/data-dir.js";
 import { addressOfServer } from "../../storage/data-lock.js";
-import {
-  serverClient,
-  serverState,
-  type ServerAccess,
-  type ServerClient,
-  type ServerPlotter,
-  type ServerState,
-} from "./server-client.js";
+import { serverState, type ServerPlotter, type ServerState } from "./server-client.js";
+import { serverClient, type ServerAccess, type ServerClient } from "../../../host/handle/server-client.js";
 import { NOTHING_STORED } from "../stored-plotter.js";
 import { settingsOver, type FoundSettings, type OptionValues } from "../settings-options.js";
 

@@ -7,13 +7,8 @@ import { JobRun } from "./job-run.js";
 import { addJson, type Declare } from "../options.js";
 import { plotReport } from "./plot-report.js";
 import { cancelled } from "./plot-watch.js";
-import {
-  accessOf,
-  addServer,
-  serverClient,
-  serverState,
-  type ServerClient,
-} from "../client/server-client.js";
+import { accessOf, addServer, serverState } from "../client/server-client.js";
+import { serverClient, type ServerClient } from "../../../host/handle/server-client.js";
 
 type JobCommandOptions = Parameters<typeof accessOf>[0] & { readonly json?: boolean };
 

@@ -5,7 +5,7 @@ import { PlotwrightError } from "../../../src/index.js";
 import type { Job, PlotWait } from "../../../src/schema/index.js";
 import type { PlotAmounts } from "./plot-report.js";
 import type { WatchedRun } from "./plot-watch.js";
-import type { ServerClient } from "../client/server-client.js";
+import type { ServerClient } from "../../../host/handle/server-client.js";
 
 const POLL_MS = 300;
 /** A server that restarts answers again after some seconds. */

@@ -5,7 +5,7 @@
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { PlotPlanner } from "../../../host/planning/planning.js";
-import { NodePlotter } from "../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../support/plots/node-plotter.js";
 import { prepareDataDir } from "../../../server/storage/data-dir.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
 import { Store } from "../../../server/storage/store.js";

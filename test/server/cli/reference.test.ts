@@ -10,7 +10,7 @@ import { usualConfigPath } from "../../../server/cli/config-file.js";
 import { buildProgram } from "../../../server/cli/program.js";
 import { SETTING_OPTIONS } from "../../../server/cli/setting-table.js";
 import { addSettingOptions, settingsFromOptions } from "../../../server/cli/settings-options.js";
-import { serverClient } from "../../../server/cli/client/server-client.js";
+import { serverClient } from "../../../host/handle/server-client.js";
 import { PlotRecord } from "../../../server/cli/plot/plot-record.js";
 import type { PlanOutput } from "../../../server/cli/plan/plan.js";
 import type { PlanThreadInput } from "../../../server/cli/plan/plan-thread.js";

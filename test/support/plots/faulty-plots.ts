@@ -3,7 +3,7 @@
  * resumed after each interruption, as a user would do by Recover and Resume. Then what the board drew is
  * compared with the drawing.
  */
-import { NodePlotter } from "../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "./node-plotter.js";
 import type { JournalEntry, LivePlotRun } from "../../../host/plotter/plotter-port.js";
 import type { PlotwrightError, StrokeSet } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";

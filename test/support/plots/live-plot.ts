@@ -1,7 +1,7 @@
 /** A plot on the virtual board with a manual clock, and checks of the line that it drew. */
 import { simplifyLines } from "../../../src/prepare/steps/points.js";
 import { expect } from "vitest";
-import { NodePlotter } from "../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "./node-plotter.js";
 import type { LivePlotRun } from "../../../host/plotter/plotter-port.js";
 import type { StrokeSet, VirtualBoard } from "../../../src/index.js";
 import type { MotionMode } from "../../../src/internal.js";

@@ -1,5 +1,5 @@
 /** A plotter on a virtual EiBotBoard, whose time passes only when the test lets it. */
-import { NodePlotter, type NodePlotterOptions } from "../../../server/plotter/node-plotter.js";
+import { NodePlotter, type NodePlotterOptions } from "./node-plotter.js";
 import { PlotwrightError, VirtualBoard } from "../../../src/index.js";
 import { ManualClock } from "../clocks/manual-clock.js";
 

@@ -1,5 +1,5 @@
 /** Connects to a port under the account that runs it, and sends the result to its parent. */
-import { NodePlotter } from "../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../plots/node-plotter.js";
 
 const driver = new NodePlotter({ device: process.argv[2] });
 await driver.start();

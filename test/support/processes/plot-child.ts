@@ -1,5 +1,5 @@
 /** Plots a drawing on a port and sends its parent each journal entry, until it is killed. */
-import { NodePlotter } from "../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../plots/node-plotter.js";
 import type { PenSettings } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { LocalPlanner, strokesOf } from "../plots/local-planner.js";

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { machineById } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type ServerEvent } from "../../../src/schema/index.js";
-import { parseServerEvent } from "../../../web/backend/server/server-backend.js";
+import { parseServerEvent } from "../../../src/schema/index.js";
 import { DEFAULT_VIEW } from "../../../web/state/persist.js";
 import { applyServerEvent } from "../../../web/state/server-events.js";
 import { activeJob, createPageStore, currentPlotter, type PageState } from "../../../web/state/store.js";

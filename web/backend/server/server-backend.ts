@@ -7,8 +7,7 @@ import {
   apiErrorSchema,
   type Operation,
   type OperationInput,
-  serverEventSchema,
-  type ServerEvent,
+  parseServerEvent,
 } from "../../../src/schema/index.js";
 import { BackendFault, type Backend, type BackendListener } from "../backend.js";
 import { contentOf } from "../drawing-text.js";
@@ -120,14 +119,4 @@ const openEvents = (path: string, listener: BackendListener): void => {
     else if (hiddenAtMs !== null && Date.now() - hiddenAtMs > ASLEEP_MS) open();
   });
   open();
-};
-
-/** Null for an unknown event, which a newer server may send. */
-export const parseServerEvent = (data: string): ServerEvent | null => {
-  try {
-    const parsed = serverEventSchema.safeParse(JSON.parse(data));
-    return parsed.success ? parsed.data : null;
-  } catch {
-    return null;
-  }
 };

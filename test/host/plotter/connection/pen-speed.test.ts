@@ -3,7 +3,7 @@
  * starts.
  */
 import { describe, expect, it } from "vitest";
-import { NodePlotter } from "../../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../../support/plots/node-plotter.js";
 import { DEFAULT_MOTION, DEFAULT_PEN, machineById, plan, type PenSettings } from "../../../../src/index.js";
 import { penCommand, penMoveOf } from "../../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../../src/schema/index.js";

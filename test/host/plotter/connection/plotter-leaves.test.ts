@@ -1,6 +1,6 @@
 /** Closing a plotter: in the middle of an action, with its board lost, or with two requests at once. */
 import { describe, expect, it } from "vitest";
-import { NodePlotter } from "../../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../../support/plots/node-plotter.js";
 import type { JournalEntry } from "../../../../host/plotter/plotter-port.js";
 import { DRAWING, expectDrawn, plotting, settingsOf } from "../../../support/plots/live-plot.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";

@@ -1,6 +1,6 @@
 /** A plotter whose machine has a Grbl, virtual, on a manual clock. */
 import { describe, expect, it } from "vitest";
-import { NodePlotter } from "../../../../server/plotter/node-plotter.js";
+import { NodePlotter } from "../../../support/plots/node-plotter.js";
 import { planJob, type StrokeSet } from "../../../../src/index.js";
 import { driver as grblDriver } from "../../../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";

@@ -1,0 +1,174 @@
+/**
+ * One plotter, for programs that just want to draw: what `openPlotter` of the entry `plotwright/plotter` returns. It is
+ * the same for a plotter of this program (own-plotter.ts) and for one of a running server (served-plotter.ts).
+ */
+import { PAPER_SIZES, PlotwrightError, type Line } from "../../src/index.js";
+import { orientedPaper, withGiven, type PaperName, type PaperSize } from "../../src/internal.js";
+import {
+  givenSettingsSchema,
+  type GivenSettings,
+  type Plotter,
+  type PlotSettings,
+  type PlotWait,
+} from "../../src/schema/index.js";
+import { parseWith } from "../parse-with.js";
+
+/** How far a plot is. */
+export interface PlotAmount {
+  /** Share of the plot's time, 0 … 1. */
+  readonly progress: number;
+  readonly elapsedS: number;
+  readonly remainingS: number;
+}
+
+/** The state of a plotter: as the page shows it, and the plot that this program started. */
+export interface HandleState extends Pick<
+  Plotter,
+  "kind" | "connection" | "activity" | "firmware" | "message" | "penUp" | "xMm" | "yMm"
+> {
+  /** Null: this program has started no plot, or it has ended. */
+  readonly plot: PlotAmount | null;
+  /** The pen that the plot waits for; null: it does not wait for one. */
+  readonly wait: PlotWait | null;
+}
+
+/** Settings of a plot, all optional: those that are left out are the plotter's. */
+export interface PlotOptions extends GivenSettings {
+  /** "A4", or a size in mm in portrait. `prepare.landscape` turns it. */
+  readonly paper?: PaperName | PaperSize;
+  /** How fast the pen draws, mm/s. */
+  readonly speed?: number;
+  /** The name of a job on a server. Default "drawing". */
+  readonly name?: string;
+  /** Called several times a second. */
+  readonly onProgress?: (amount: PlotAmount) => void;
+  /**
+   * Called when the plot waits for another pen, with the pen up at home. The plot resumes when the returned promise
+   * resolves, and ends if it rejects. Default: it waits for `resume`.
+   */
+  readonly onPenChange?: (wait: PlotWait) => void | Promise<void>;
+  /** Stops the plot when aborted: the pen lifts, and the carriage goes home. */
+  readonly signal?: AbortSignal;
+}
+
+/** A plot that has ended. */
+export interface PlotResult {
+  /** Without the time in which it was paused. */
+  readonly plottedS: number;
+  /** Parts of the file that are not drawn, and settings that the machine does not use. Plain text. */
+  readonly warnings: readonly string[];
+}
+
+/** A plotter that this program has opened. All methods reject with a PlotwrightError. */
+export interface PlotterHandle {
+  readonly state: HandleState;
+  /** Calls `listener` after each change of `state`. The returned function ends that. */
+  onChange(listener: (state: HandleState) => void): () => void;
+  /**
+   * Plots a drawing: the text of an SVG, DXF, HPGL or JSON file, or lines of points in mm on the paper. Resolves when
+   * the pen is up and the carriage is home again.
+   *
+   * @throws PlotwrightError "cancelled" after `stop` or the signal; "bad-file", "bad-setting" and "out-of-bounds" before
+   * anything moves; "no-board", "busy"; "board-error", "board-timeout" or "disconnected" if the plot fails
+   */
+  plot(drawing: string | readonly Line[], options?: PlotOptions): Promise<PlotResult>;
+  /** Slows down along the line and lifts the pen. Resolves when it is up. */
+  pause(): Promise<void>;
+  resume(): Promise<void>;
+  /** Ends the plot: the pen lifts, and the carriage goes home. */
+  stop(): Promise<void>;
+  /** Lifts or lowers the pen, or moves it to a height in percent of its range. */
+  pen(where: "up" | "down" | number): Promise<void>;
+  /** Moves to a position in mm from home, with the pen up. */
+  moveTo(xMm: number, yMm: number): Promise<void>;
+  /** Moves home with the pen up; a machine with limit switches finds home with them. */
+  home(): Promise<void>;
+  /** Closes the connection. A plot of this program is stopped at once, with the pen up; one of a server continues. */
+  close(): Promise<void>;
+}
+
+/** Which plotter to open: exactly one of the first four. */
+export interface PlotterChoice {
+  /** The path of a serial port, or "auto": the first EiBotBoard. Only outside browsers. */
+  readonly device?: string;
+  /** A port of `navigator.serial`, or true: the user chooses one, which needs a click. Only in browsers. */
+  readonly webSerial?: unknown;
+  /** The built-in virtual plotter; `speed`: how many times faster than real time it is. */
+  readonly virtual?: boolean | { readonly speed?: number };
+  /** The address of a running server, such as http://127.0.0.1:9080. */
+  readonly url?: string;
+  /** With `url`: an access key. Needed from another computer. */
+  readonly key?: string;
+  /** With `url`: id or name of one of its plotters. Default: the first. */
+  readonly plotter?: string;
+  /** Model, pen heights, speeds and so on, from which every plot and move starts. A server has its own. */
+  readonly settings?: GivenSettings;
+}
+
+/** The settings that a plot's options give, checked. */
+export function givenOf({
+  paper,
+  speed,
+  name: _name,
+  onProgress: _onProgress,
+  onPenChange: _onPenChange,
+  signal: _signal,
+  ...given
+}: PlotOptions): GivenSettings {
+  const short: GivenSettings = {
+    ...(paper === undefined ? {} : { prepare: { paper: sizeOf(paper) } }),
+    ...(speed === undefined ? {} : { motion: { draw: { speedMmPerS: speed } } }),
+  };
+  return parseWith(givenSettingsSchema, withGiven(short, given));
+}
+
+function sizeOf(paper: PaperName | PaperSize): PaperSize {
+  if (typeof paper !== "string") return paper;
+  if (Object.hasOwn(PAPER_SIZES, paper)) return PAPER_SIZES[paper];
+  const names = Object.keys(PAPER_SIZES).join(", ");
+  throw new PlotwrightError(
+    "bad-setting",
+    `paper: there is no ${String(paper)}. There is ${names}, or a size in mm.`,
+  );
+}
+
+/** The file of a drawing: its own text, or lines as JSON, on a page as large as the paper, so that they stay where they are. */
+export function fileOf(
+  drawing: string | readonly Line[],
+  { prepare }: Pick<PlotSettings, "prepare">,
+): string {
+  if (typeof drawing === "string") return drawing;
+  if (!Array.isArray(drawing)) {
+    throw new PlotwrightError(
+      "bad-file",
+      "plot takes the text of a drawing, or lines: [[[x, y], [x, y], …], …].",
+    );
+  }
+  const { widthMm, heightMm } = orientedPaper(prepare.paper, prepare.landscape);
+  return JSON.stringify({ widthMm, heightMm, layers: [{ name: "Lines", strokes: drawing }] });
+}
+
+/** A height in percent counts as down: the next move lifts the pen first. */
+export const penTarget = (where: "up" | "down" | number): { up: boolean; heightPct?: number } =>
+  typeof where === "number" ? { up: false, heightPct: where } : { up: where === "up" };
+
+export const stopped = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was stopped.");
+
+export const notPlotting = (): PlotwrightError =>
+  new PlotwrightError("conflict", "This program is not plotting: start a plot first.");
+
+/** Keeps the listeners of a handle's state. */
+export class HandleListeners {
+  private readonly all = new Set<(state: HandleState) => void>();
+
+  add(listener: (state: HandleState) => void): () => void {
+    // Each call is ended by its own function, also if the same listener is added twice.
+    const own = (state: HandleState): void => listener(state);
+    this.all.add(own);
+    return () => void this.all.delete(own);
+  }
+
+  announce(state: HandleState): void {
+    for (const listener of this.all) listener(state);
+  }
+}
