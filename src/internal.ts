@@ -95,6 +95,7 @@ export {
   onFilesPage,
   quarterTurned,
   quarterTurnedBox,
+  turnedOntoPaper,
 } from "./prepare/files-page.js";
 export { meanScaleOf, sizeInWords, type DrawnSize, type OutsidePaper } from "./prepare/on-paper.js";
 export { orientedPaper, layOutDrawing, type Layout } from "./prepare/layout.js";

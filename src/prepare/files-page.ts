@@ -1,8 +1,10 @@
-/** Paper of the size of the file's page, and turning paper and drawing together. */
+/** Paper of the size of the file's page, and turning the paper, the drawing, or both. */
+import type { Drawing } from "../drawing/drawing.js";
 import { PAPER_SIZES, type PaperSize } from "../drawing/paper.js";
-import type { Box } from "../geometry/box.js";
+import { boxContains, isEmptyBox, type Box } from "../geometry/box.js";
 import { PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
-import { orientedPaper, type LayoutChoice, type Layout } from "./layout.js";
+import { layOutDrawing, orientedPaper, withTolerance, type LayoutChoice, type Layout } from "./layout.js";
+import { isReached } from "./on-paper.js";
 
 /** Width along x and height along y, unlike `PaperSize`, which is portrait. */
 type Size = PaperSize;
@@ -99,3 +101,35 @@ export const quarterTurnedBox = ({ x0, y0, x1, y1 }: Box, heightMm: number): Box
   x1: heightMm - y0,
   y1: x1,
 });
+
+/**
+ * What turns the drawing, or else the paper, by 90° so that the whole drawing lies on the paper at its size; null if
+ * neither does. The drawing is moved as well if it lacks only that. `machine`: what it reaches.
+ */
+export function turnedOntoPaper(
+  drawing: Drawing,
+  settings: PrepareSettings,
+  machine: Size,
+): Partial<PrepareSettings> | null {
+  const { choice } = layOutDrawing(drawing, { ...settings, outside: "refuse" });
+  const { layout, landscape } = settings;
+  // It is on the paper, or has no size.
+  if (choice.how === "fit") return null;
+  const turnedDrawing: Partial<PrepareSettings> = layout
+    ? { layout: { ...layout, turnDeg: ((layout.turnDeg ?? 0) + 90) % 360 } }
+    : { rotateDeg: (choice.rotateDeg + 90) % 360 };
+  for (const turn of [turnedDrawing, { landscape: !landscape }]) {
+    for (const outside of ["refuse", "move"] as const) {
+      const wanted = { ...settings, ...turn, outside };
+      const { content, frame, paper, choice: now } = layOutDrawing(drawing, wanted);
+      const isOn = !isEmptyBox(content) && boxContains(withTolerance(paper), content);
+      // Another way to lay it out would also change its size.
+      if (!isOn || now.how !== choice.how || !isReached(content, machine)) continue;
+      if (outside === "refuse") return turn;
+      if (!wanted.layout) return { ...turn, outside };
+      // The place itself changes, so that the drawing's frame is where it is drawn.
+      return { ...turn, layout: { ...wanted.layout, xMm: frame.x0, yMm: frame.y0 } };
+    }
+  }
+  return null;
+}

@@ -4,6 +4,7 @@ import { wholeTurn } from "../scene/placing.js";
 import type { PageState } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
+import { Icon } from "../ui/icon.js";
 import { formatCount, formatInUnit } from "../ui/format.js";
 import { usePrepareChange } from "../ui/use-change.js";
 import type { Planned } from "../worker/protocol.js";
@@ -22,22 +23,32 @@ export const OutsidePaper = () => {
   const unit = usePageState((state) => state.view.lengthUnit);
   const change = usePrepareChange();
   if (!planned?.outside) return null;
-  const { outside } = planned;
+  const { outside, turnOntoPaper } = planned;
   const edges = EDGES.filter((edge) => outside[edge] > 0).map((edge) =>
     words.edges[edge](`${formatInUnit(outside[edge], unit, 1)}\u202f${unit}`),
   );
   const leaves = words.leaves(outside.strokeCount, formatCount(outside.strokeCount), edges.join(words.and));
   if (!isUnanswered) return <p className="note cut-off-note">{`${leaves} ${words.isAllowed}`}</p>;
   return (
-    <div className="out-of-reach" role="group" aria-label={words.choices}>
-      <p className="note note-error">{`${leaves} ${words.question}`}</p>
+    <div className="outside-strip" role="group" aria-label={words.choices}>
+      <p>
+        <Icon name="warning" />
+        {leaves}
+      </p>
       <div className="outside-choices">
-        <Button onClick={() => change("outside", { outside: "cut" })}>{words.cut}</Button>
+        {turnOntoPaper && <Button onClick={() => change("outside", turnOntoPaper)}>{words.turn}</Button>}
+        <Button title={words.cutHint} onClick={() => change("outside", { outside: "cut" })}>
+          {words.cut}
+        </Button>
         {outside.canMove && (
           <Button onClick={() => change("outside", movedOnto(planned, outside))}>{words.move}</Button>
         )}
-        <Button onClick={() => change("outside", fittedTo(planned))}>{words.fit}</Button>
-        <Button onClick={() => change("outside", { outside: "allow" })}>{words.allow}</Button>
+        <Button title={words.fitHint} onClick={() => change("outside", fittedTo(planned))}>
+          {words.fit}
+        </Button>
+        <Button kind="link" onClick={() => change("outside", { outside: "allow" })}>
+          {words.allow}
+        </Button>
       </div>
     </div>
   );

@@ -28,7 +28,7 @@ export const reachText = {
 
 export const outsideText = {
   leaves: (count: number, number: string, edges: string) =>
-    `${count === 1 ? "1 line leaves" : `${number} lines leave`} the paper: up to ${edges}.`,
+    `${count === 1 ? "1 line is" : `${number} lines are`} off the paper: up to ${edges}.`,
   edges: {
     leftMm: (size: string) => `${size} over the left edge`,
     topMm: (size: string) => `${size} over the upper edge`,
@@ -36,12 +36,15 @@ export const outsideText = {
     bottomMm: (size: string) => `${size} over the lower edge`,
   },
   and: " and ",
-  question: "Choose what happens to it before you plot.",
+  question: "A part of the drawing is off the paper. Choose what happens to it before you plot.",
   isAllowed: "It will be drawn there.",
-  choices: "Drawing outside the paper",
-  cut: "Cut off at the edge",
-  move: "Move onto the paper",
-  fit: "Fit to the paper",
+  choices: "Drawing off the paper",
+  turn: "Turn",
+  cut: "Cut",
+  cutHint: "Cuts it off at the paper’s edge",
+  move: "Move back",
+  fit: "Fit",
+  fitHint: "Fits the whole drawing to the paper, inside the margins",
   allow: "Draw it there",
 };
 

@@ -97,25 +97,30 @@ const drawTicks = (
   }
 };
 
-/** Visible on the paper and beside it, in both themes. */
-const CUT_COLOR = "rgb(150 140 130 / 55%)";
-const BESIDE_COLOR = "rgb(210 69 44 / 85%)";
-const LINE_PX = 1;
+/** Visible on the paper and beside it, in both themes. From the outside inwards. */
+const CUT: readonly GlowPass[] = [["rgb(150 140 130 / 55%)", 1]];
+/** A glow, so that it is seen at any zoom and beside any ink. */
+const BESIDE: readonly GlowPass[] = [
+  ["rgb(232 52 32 / 16%)", 13],
+  ["rgb(232 52 32 / 38%)", 6],
+  ["rgb(226 38 20)", 2],
+];
+type GlowPass = readonly [color: string, widthPx: number];
 
 export const paintCutOff = (context: CanvasRenderingContext2D, view: View, cutOff: CutOffPicture): void =>
-  paintOutside(context, view, cutOff, CUT_COLOR);
+  paintOutside(context, view, cutOff, CUT);
 
 export const paintBesidePaper = (
   context: CanvasRenderingContext2D,
   view: View,
   beside: CutOffPicture,
-): void => paintOutside(context, view, beside, BESIDE_COLOR);
+): void => paintOutside(context, view, beside, BESIDE);
 
 const paintOutside = (
   context: CanvasRenderingContext2D,
   view: View,
   { limit, points, offsets }: CutOffPicture,
-  color: string,
+  passes: readonly GlowPass[],
 ): void => {
   const x = (mm: number): number => view.offsetX + mm * view.scale;
   const y = (mm: number): number => view.offsetY + mm * view.scale;
@@ -135,8 +140,11 @@ const paintOutside = (
     context.moveTo(x(points[offsets[i]]), y(points[offsets[i] + 1]));
     for (let k = offsets[i] + 2; k < offsets[i + 1]; k += 2) context.lineTo(x(points[k]), y(points[k + 1]));
   }
-  context.strokeStyle = color;
-  context.lineWidth = LINE_PX;
-  context.stroke();
+  context.lineCap = context.lineJoin = "round";
+  for (const [color, widthPx] of passes) {
+    context.strokeStyle = color;
+    context.lineWidth = widthPx;
+    context.stroke();
+  }
   context.restore();
 };

@@ -22,6 +22,7 @@ import {
   layOutDrawing,
   prepareSettingsOf,
   strokeCount,
+  turnedOntoPaper,
   unusedSettings,
   withPxPerInch,
   type Layout,
@@ -114,6 +115,8 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
       choice: placement.choice,
       size: ready.size,
       outside: ready.outside,
+      turnOntoPaper:
+        ready.outside && turnedOntoPaper(drawing, prepareSettingsOf(settings), machineOf(settings)),
       hasFills: drawing.paths.fill.some((color) => color >= 0),
       drawnBox: boxOfPoints(ready.strokes.xy),
       frameMm: frameOf(placement, settings.prepare),

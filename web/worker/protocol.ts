@@ -70,6 +70,8 @@ export interface Planned {
   readonly size: DrawnSize;
   /** Strokes that leave the paper. */
   readonly outside: OutsidePaper | null;
+  /** The settings that turn them onto the paper; null if nothing is outside, or a turn does not help. */
+  readonly turnOntoPaper: Partial<PlotSettings["prepare"]> | null;
   /** The box of all lines that the pen draws, without lines that are cut off or hidden; empty if there are none. */
   readonly drawnBox: Box;
   /** Whether the file has filled shapes. */

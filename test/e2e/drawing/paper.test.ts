@@ -76,7 +76,7 @@ describe("a portrait file", () => {
     expect(await drawn()).toBe("Drawn 30 × 270 mm, 100 %");
     expect(
       await plotBar(test.page)
-        .getByText(/leaves? the paper/)
+        .getByText(/off the paper/)
         .count(),
     ).toBe(0);
   });
@@ -104,7 +104,7 @@ describe("a portrait file", () => {
     await choose("Portrait");
     expect(await plot().isDisabled()).toBe(true);
     await plotBar(test.page)
-      .getByText(/1 line leaves the paper/)
+      .getByText(/1 line is off the paper/)
       .waitFor();
     await choose("Auto");
     expect(await drawn()).toBe("Drawn 30 × 270 mm, 100 %");
@@ -124,21 +124,31 @@ describe("a portrait file", () => {
   });
 });
 
+/** How many pixels over the strokes are the red of what is off the paper. */
+const redBeside = (): Promise<number> =>
+  test.page.evaluate(() => {
+    const overlay = document.querySelector<HTMLCanvasElement>(".preview .stage canvas:last-child");
+    const data = overlay?.getContext("2d")?.getImageData(0, 0, overlay.width, overlay.height).data ?? [];
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] === 255 && data[i] > 200 && data[i + 1] < 60 && data[i + 2] < 60) count++;
+    }
+    return count;
+  });
+
 describe("what leaves the paper", () => {
   /** A line of 320 mm on a page of A4, and one that is on the paper. */
   const WIDE = svgOf(297, 210, "M10 20H330M50 50H100");
-  const note = () => plotBar(test.page).getByText(/leaves? the paper/);
+  const note = () => plotBar(test.page).getByText(/off the paper/);
   const words = async (): Promise<string> => (await note().innerText()).replace(/\u202f/g, " ");
 
   it("is named with its figures, and nothing is plotted until a choice is made", async () => {
     await test.drop("wide", WIDE);
-    expect(await words()).toBe(
-      "1 line leaves the paper: up to 33 mm over the right edge. Choose what happens to it before you plot.",
-    );
+    expect(await words()).toBe("1 line is off the paper: up to 33 mm over the right edge.");
     expect(await plot().isDisabled()).toBe(true);
     await test.page.keyboard.press("q");
     expect((await test.jobs()).filter(({ name }) => name === "wide")).toEqual([]);
-    await press("Cut off at the edge");
+    await press("Cut");
     expect(await drawn()).toBe("Drawn 287.5 × 30 mm, 100 %");
     await plotBar(test.page).getByText("1 line is cut off at the paper.").waitFor();
     expect(await plot().isEnabled()).toBe(true);
@@ -148,8 +158,8 @@ describe("what leaves the paper", () => {
   it("can be fitted, and another drawing is asked about again", async () => {
     await test.drop("wider", WIDE);
     expect(await plot().isDisabled()).toBe(true);
-    expect(await plotBar(test.page).getByRole("button", { name: "Move onto the paper" }).count()).toBe(0);
-    await press("Fit to the paper");
+    expect(await plotBar(test.page).getByRole("button", { name: "Move back" }).count()).toBe(0);
+    await press("Fit");
     expect(await drawn()).toBe("Drawn 267 × 25 mm, 83 %");
     expect(await plot().isEnabled()).toBe(true);
     await choose("Auto");
@@ -169,7 +179,7 @@ describe("what leaves the paper", () => {
     await test.field("From the left").fill("170");
     await test.field("From the left").press("Enter");
     await test.planned();
-    expect(await words()).toMatch(/^2 lines leave the paper: up to 20 mm over the right edge\. Choose/);
+    expect(await words()).toBe("2 lines are off the paper: up to 20 mm over the right edge.");
     await press("Draw it there");
     expect(await plot().isEnabled()).toBe(true);
     expect(Math.round((await test.queuedBox()).x1)).toBe(230);
@@ -177,13 +187,40 @@ describe("what leaves the paper", () => {
 
   it("is moved by the distance that it lacks, if it was placed by hand", async () => {
     await press("Undo");
-    await press("Move onto the paper");
+    await press("Move back");
     expect(await test.field("From the left").inputValue()).toBe("150");
     expect(await note().count()).toBe(0);
     expect(await plot().isEnabled()).toBe(true);
     await choose("Auto");
     await test.page.getByLabel("Paper", { exact: true }).selectOption("A4");
     await test.planned();
+  });
+
+  it("glows red beside the paper, and nothing else does", async () => {
+    await test.drop("wide again", WIDE);
+    await expect.poll(redBeside).toBeGreaterThan(50);
+    await press("Cut");
+    await expect.poll(redBeside).toBe(0);
+  });
+
+  it("is turned onto the paper, if that is all it lacks", async () => {
+    await test.drop("tall", svgOf(60, 250, "M30 5V245M20 5H40"));
+    await choose("Portrait");
+    await choose("True size");
+    expect(await note().count()).toBe(0);
+    await choose("Landscape");
+    await choose("Custom");
+    await test.field("Rotate").fill("0");
+    await test.field("Rotate").press("Enter");
+    await test.planned();
+    expect(await note().count()).toBe(1);
+    await press("Turn");
+    expect(await note().count()).toBe(0);
+    expect(await drawn()).toMatch(/^Drawn 240 × 20 mm, 100 %/);
+    expect(await plot().isEnabled()).toBe(true);
+    await press("Undo");
+    expect(await note().count()).toBe(1);
+    await choose("Auto");
   });
 });
 

@@ -143,10 +143,10 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
       const wide = `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"><path stroke="black" d="M10 20H330"/></svg>`;
       await dropFile(page, "wide.svg", wide);
       await plotBar(page)
-        .getByText(/leaves the paper/)
+        .getByText(/off the paper/)
         .waitFor();
       expect(await plot.isDisabled()).toBe(true);
-      await page.getByRole("button", { name: "Cut off at the edge", exact: true }).click();
+      await page.getByRole("button", { name: "Cut", exact: true }).click();
       await size().toBe("Drawn 287.5 × 0 mm, 100 %");
       await expect.poll(() => plot.isEnabled()).toBe(true);
     },

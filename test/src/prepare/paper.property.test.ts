@@ -4,6 +4,9 @@ import { describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/errors.js";
 import { prepareJob } from "../../../src/job/prepare-job.js";
 import { machineById } from "../../../src/machines/profiles.js";
+import { turnedOntoPaper } from "../../../src/prepare/files-page.js";
+import { layOutDrawing } from "../../../src/prepare/layout.js";
+import { isReached } from "../../../src/prepare/on-paper.js";
 import { NO_PENS } from "../../../src/prepare/layers/pens.js";
 import { prepare, type Prepared } from "../../../src/prepare/prepare.js";
 import { DEFAULT_MOTION } from "../../../src/settings/motion.js";
@@ -136,6 +139,29 @@ describe("any drawing, placed in any way on any paper", () => {
       }),
       { numRuns: cases(400) },
     );
+  });
+
+  it("is turned onto the paper at its size, within the machine's reach, wherever a turn is offered", () => {
+    let offered = 0;
+    fc.assert(
+      fc.property(drawing, settings, (from, some) => {
+        const plain = { ...DEFAULT_PREPARE, ...some, outside: "refuse" as const };
+        const reach = { widthMm: 300, heightMm: 260 };
+        const turn = turnedOntoPaper(from, plain, reach);
+        if (turn === null) return;
+        offered++;
+        const before = prepare(from, plain).size;
+        const after = prepare(from, { ...plain, ...turn });
+        expect(mostOutside(after)).toBeLessThan(ROUNDING_MM);
+        expect([after.size.scaleX, after.size.scaleY].map((scale) => scale.toFixed(6))).toEqual(
+          [before.scaleX, before.scaleY].map((scale) => scale.toFixed(6)),
+        );
+        const { content } = layOutDrawing(from, { ...plain, ...turn });
+        expect(isReached(content, reach)).toBe(true);
+      }),
+      { numRuns: cases(400) },
+    );
+    expect(offered).toBeGreaterThan(0);
   });
 
   it("is drawn as it lies if that is allowed, and moved without any other change", () => {
