@@ -60,6 +60,7 @@ export function queuedJob(
     plottedS: null,
     expectedS: null,
     wait: null,
+    stopped: false,
     createdAt: nowIso,
     startedAt: null,
     endedAt: null,
@@ -78,7 +79,7 @@ export function applyJobEvent(job: Job, event: JobEvent, nowIso: string): Job {
   if (!from.includes(job.state) || isUndrawn) {
     throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}, so it can't be ${verb} now.`);
   }
-  const next: Job = { ...job, state: to, message: null };
+  const next: Job = { ...job, state: to, message: null, stopped: false };
   switch (event.type) {
     case "start":
       return { ...next, startedAt: nowIso };

@@ -12,8 +12,7 @@ import {
   type MovePlace,
   type PlotWait,
 } from "../../src/schema/index.js";
-import { findsHome, homeAgain, machineOf } from "../../src/internal.js";
-import { isOtherBoard, OTHER_BOARD } from "../plotter/board-id.js";
+import { isOtherBoard } from "../plotter/board-id.js";
 import { journalSchema } from "../plotter/resume-position.js";
 import type {
   JournalEntry,
@@ -30,9 +29,7 @@ import { applyJobEvent, canContinue, isOnPlotter } from "./job-states.js";
 import { findPlotter, mustBeIdle } from "./find-plotter.js";
 import type { QueueParts } from "./queue-parts.js";
 import { MotionTimer } from "./expected-time.js";
-
-export const SERVER_STOPPED =
-  "The server stopped while this was plotting. Check pen and paper, then resume where it stopped.";
+import { penWords, recoveredWords, SERVER_STOPPED, stoppedWords } from "./job-words.js";
 
 interface Running {
   readonly job: Job;
@@ -44,6 +41,7 @@ interface Running {
   readonly abort: AbortController;
   /** Ended because the program stops. */
   isLeft: boolean;
+  isStopped: boolean;
   /** Null while the plot is still being planned. */
   run: LivePlotRun | null;
   /** Whether the run begins held. Once it exists, it knows itself what the user wants. */
@@ -116,12 +114,8 @@ export class RunningPlots {
     this.keepPlace({ id, place: from });
     this.begin(plotter, job).timer.hold(this.parts.nowIso());
     const isOther = board !== undefined && isOtherBoard(board, found);
-    const isLost = isOther || found.xMm === null;
-    const again = homeAgain(findsHome(machineOf(job.settings)));
-    const place = isLost
-      ? `${isOther ? OTHER_BOARD : "The board has lost its position"}: ${again}. The line may overlap a little where it continues.`
-      : "The board still knows its position. Check it with the pen up, then resume.";
-    return this.jobs.note(id, job.wait === null ? place : `${penWords(job.wait)} ${place}`);
+    const position = isOther ? "other" : found.xMm === null ? "lost" : "known";
+    return this.jobs.note(id, recoveredWords(job, position));
   }
 
   /** Changes pen heights and speeds of a job that is plotting or held. */
@@ -139,9 +133,15 @@ export class RunningPlots {
   /** Stops without slowing down; afterwards the job is held. While it is still being planned nothing moves. */
   async emergencyStop(id: string): Promise<Job> {
     const running = this.runningOf(id, ["plotting", "paused"], "stopped");
-    if (running.run === null) running.beginsHeld = true;
-    else await running.run.emergencyStop();
-    return this.jobs.get(id);
+    if (running.run === null) {
+      running.beginsHeld = true;
+      return this.jobs.get(id);
+    }
+    running.isStopped = true;
+    await running.run.emergencyStop();
+    const job = this.jobs.get(id);
+    // A paused plot was held already.
+    return job.state === "paused" && !job.stopped ? this.jobs.save({ ...job, ...stopOf(running) }) : job;
   }
 
   /** Moves the place from which a held job will resume. */
@@ -198,6 +198,7 @@ export class RunningPlots {
       notes: [],
       abort: new AbortController(),
       isLeft: false,
+      isStopped: false,
       run: null,
       beginsHeld: job.place !== null,
       finished: Promise.resolve(),
@@ -326,7 +327,8 @@ export class RunningPlots {
       running?.timer.hold(this.parts.nowIso());
       const waitsFor = wait ?? job.wait;
       const message = waitsFor === null ? null : penWords(waitsFor);
-      this.jobs.apply(id, { type: "hold" }, { place: this.holdPlace(running), wait: waitsFor, message });
+      const why = running?.isStopped === true ? stopOf(running) : { message };
+      this.jobs.apply(id, { type: "hold" }, { place: this.holdPlace(running), wait: waitsFor, ...why });
     } else if (held && job.state === "paused") {
       // A recovered job: only now has the board reported where it stopped.
       const place = this.holdPlace(running);
@@ -334,6 +336,7 @@ export class RunningPlots {
       this.jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.parts.nowIso());
+      if (running) running.isStopped = false;
       this.keepPlace(job);
       this.jobs.apply(id, { type: "release" }, { place: null });
     }
@@ -432,9 +435,11 @@ export class RunningPlots {
   }
 }
 
-function penWords({ penName, layerName }: PlotWait): string {
-  return penName === null ? `Put in the pen for "${layerName}".` : `Put in "${penName}" for "${layerName}".`;
-}
+/** What a job has after an emergency stop. */
+const stopOf = ({ plotter }: Running): Pick<Job, "stopped" | "message"> => ({
+  stopped: true,
+  message: stoppedWords(plotter.snapshot().xMm !== null),
+});
 
 const jobPlace = ({ stroke, alongMm }: StrokePosition): JobPlace => ({ strokeIndex: stroke, alongMm });
 

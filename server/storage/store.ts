@@ -15,7 +15,7 @@ type Row = Record<string, number | bigint | string | Uint8Array | null>;
 type Value = number | string | null;
 
 const COLUMNS =
-  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, plotted_s, expected_s, wait, submitted_by, created_at, started_at, ended_at";
+  "id, plotter_id, state, name, settings, stats, warnings, progress, elapsed_s, remaining_s, message, place, speed_pct, plotted_s, expected_s, wait, stopped, submitted_by, created_at, started_at, ended_at";
 const PLACES = COLUMNS.split(", ")
   .map(() => "?")
   .join(", ");
@@ -317,6 +317,7 @@ function rowFromJob(job: Job): Value[] {
     job.plottedS,
     job.expectedS,
     job.wait === null ? null : JSON.stringify(job.wait),
+    job.stopped ? 1 : 0,
     job.submittedBy === undefined ? null : JSON.stringify(job.submittedBy),
     job.createdAt,
     job.startedAt,
@@ -343,6 +344,7 @@ function jobFromRow(row: Row): Job {
     plottedS: row["plotted_s"],
     expectedS: row["expected_s"],
     wait: row["wait"] === null ? null : (JSON.parse(String(row["wait"])) as unknown),
+    stopped: row["stopped"] === 1,
     ...(row["submitted_by"] === null
       ? {}
       : { submittedBy: JSON.parse(String(row["submitted_by"])) as unknown }),

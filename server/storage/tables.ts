@@ -2,7 +2,7 @@
 import type { Database } from "node-sqlite3-wasm";
 import { PlotwrightError } from "../../src/index.js";
 
-const VERSION = 10;
+const VERSION = 11;
 
 const TABLES = `
   CREATE TABLE drawings (
@@ -28,6 +28,7 @@ const TABLES = `
     plotted_s  REAL,
     expected_s REAL,
     wait       TEXT,                 -- JSON
+    stopped    INTEGER NOT NULL DEFAULT 0, -- 1: held by an emergency stop
     submitted_by TEXT,               -- JSON; null: an operator added it
     created_at TEXT NOT NULL,
     started_at TEXT,

@@ -106,6 +106,8 @@ export const jobSchema = z.object({
   expectedS: z.number().nullable().default(null),
   /** What a job that is not moving waits for; null if for nothing. A cancelled job waits for it again once it is recovered. */
   wait: plotWaitSchema.nullable().default(null),
+  /** Held by an emergency stop, until it is resumed. */
+  stopped: z.boolean().default(false),
   /** Left out: an operator added it. */
   submittedBy: submitterSchema.optional(),
   createdAt: z.string(),

@@ -11,6 +11,7 @@ type Lamp = Plotter["connection"] | "held" | "waiting";
 /** "Waits for the pen …", "Paused", "Plotting" …, or the state of the connection. */
 export const plotterWords = ({ connection }: Plotter, job: Job | null): string => {
   if (connection === "fault" || connection === "absent") return words.connection[connection];
+  if (job?.stopped) return words.stopped;
   const wait = job && penWait(job);
   if (wait) return waitWords(wait);
   if (job?.state === "paused") return words.held;
@@ -31,6 +32,7 @@ export const waitWords = ({ penName, layerName }: NonNullable<Job["wait"]>): str
 
 export const lampOf = ({ connection }: Plotter, job: Job | null): Lamp => {
   if (connection === "fault" || connection === "absent") return connection;
+  if (job?.stopped) return "fault";
   if (job?.state === "interrupted") return "held";
   if (job?.state !== "paused") return job?.state === "plotting" ? "busy" : connection;
   return job.wait === null ? "held" : "waiting";

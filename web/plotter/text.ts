@@ -31,6 +31,7 @@ export const plotterText = {
   connectHint: "Plots run on a virtual plotter, not on paper, until you connect a plotter by USB.",
   log: "Save the connection log",
   held: "Paused",
+  stopped: "Stopped",
   interrupted: "Interrupted",
   notHeard: "No connection",
   moving: "Moving",

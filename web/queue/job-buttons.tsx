@@ -2,7 +2,7 @@ import { useState } from "react";
 import type { Job } from "../../src/schema/index.js";
 import { penWait } from "../state/store.js";
 import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
-import { isMainActionOff, mainActionOf } from "./plot-actions.js";
+import { isLocked, isMainActionOff, mainActionOf } from "./plot-actions.js";
 import { jobText as words, queueText } from "./text.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
@@ -32,9 +32,11 @@ const MainButton = ({ job }: { job: Job }) => {
   const { actOnJob } = useActions();
   const action = usePageState((state) => mainActionOf(state, job));
   const isOff = usePageState((state) => action !== null && isMainActionOff(state, job, action));
+  const isWaitingForTick = usePageState((state) => action !== null && isLocked(state, job, action));
   if (action === null) return null;
   return (
     <Button
+      title={isWaitingForTick ? words.cornerFirst : undefined}
       kind={job.state === "plotting" ? "plain" : "primary"}
       disabled={isOff}
       onClick={() => void actOnJob(job.id, action)}

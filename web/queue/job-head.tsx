@@ -25,9 +25,12 @@ export const JobName = ({ job }: { job: Job }) => {
   );
 };
 
+/** As the style sheets name it: an emergency stop does not look like a pause. */
+export const stateOf = ({ state, stopped }: Job): string => (stopped ? "stopped" : state);
+
 export const StateBadge = ({ job }: { job: Job }) => (
-  <span className="badge" data-state={job.state}>
-    {penWait(job) !== null ? words.waitsForPen : words.states[job.state]}
+  <span className="badge" data-state={stateOf(job)}>
+    {job.stopped ? words.stopped : penWait(job) !== null ? words.waitsForPen : words.states[job.state]}
   </span>
 );
 

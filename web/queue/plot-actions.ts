@@ -5,7 +5,14 @@ import { outsideText } from "../drawing/text.js";
 import { plotterText } from "../plotter/text.js";
 import { previewText } from "../preview/text.js";
 import { isForOperator, isForSubmitter, type PageAction } from "../state/page-action.js";
-import { activeJob, currentPlotter, mayOperate, maySubmit, type PageState } from "../state/store.js";
+import {
+  activeJob,
+  currentPlotter,
+  mayOperate,
+  maySubmit,
+  needsCorner,
+  type PageState,
+} from "../state/store.js";
 import { stateText } from "../state/text.js";
 import { jobText, plotText } from "./text.js";
 import type { Job } from "../../src/schema/index.js";
@@ -69,7 +76,8 @@ const PAUSE: PageAction = {
     const main = mainAction(state);
     if (main === null) return activeJob(state) === null ? plotText.noPlot : plotText.stopsOnly;
     if (!isMainActionOff(state, main.job, main.action)) return null;
-    return state.link === "connected" ? jobText.asked : stateText.notConnected;
+    if (state.link !== "connected") return stateText.notConnected;
+    return isLocked(state, main.job, main.action) ? jobText.cornerFirst : jobText.asked;
   },
   perform: ({ store, actions }) => {
     const main = mainAction(store.getState());
@@ -108,6 +116,10 @@ const ACTIONS: Readonly<Partial<Record<Job["state"], MainAction>>> = {
 export const mainActionOf = (state: PageState, job: Job): MainAction | null =>
   mayOperate(state) || job.state === "plotting" ? (ACTIONS[job.state] ?? null) : null;
 
+/** Resuming would move the carriage from where it is not. */
+export const isLocked = (state: PageState, job: Job, action: MainAction): boolean =>
+  action === "resume" && needsCorner(state, job);
+
 /** Without a connection the server would not receive the request. */
-export const isMainActionOff = ({ link, busyAction }: PageState, job: Job, action: MainAction): boolean =>
-  link !== "connected" || busyAction === `${action} ${job.id}`;
+export const isMainActionOff = (state: PageState, job: Job, action: MainAction): boolean =>
+  state.link !== "connected" || state.busyAction === `${action} ${job.id}` || isLocked(state, job, action);

@@ -15,6 +15,7 @@ import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/
 import { lazyPart } from "../ui/lazy-part.js";
 import { NumberField } from "../ui/fields/number-field.js";
 
+const HoldCard = lazyPart(async () => (await import("./hold-card.js")).HoldCard);
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
 const MAX_COPIES = 100;
 
@@ -169,6 +170,7 @@ const RunningJob = () => {
       <p>
         <strong>{job.name}</strong> {formatPercent(job.progress)}
       </p>
+      <HoldCard job={job} />
       <JobButtons job={job} />
     </div>
   );

@@ -5,8 +5,9 @@ import { jobText, queueText } from "./text.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
 import { Thumb } from "../drawing/thumb.js";
+import { HoldCard } from "./hold-card.js";
 import { JobButtons } from "./job-buttons.js";
-import { JobName, Progress, StateBadge } from "./job-head.js";
+import { JobName, Progress, StateBadge, stateOf } from "./job-head.js";
 import { PenWait } from "./pen-wait.js";
 
 /** The job that has the plotter, first in the queue. In Watch its buttons are on the status card. */
@@ -14,7 +15,7 @@ export const RunningJob = ({ job }: { job: Job }) => {
   const isWatched = usePageState((state) => shownView(state) === "watch");
   const wait = penWait(job);
   return (
-    <article className="job job-active" data-state={job.state}>
+    <article className="job job-active" data-state={stateOf(job)}>
       <div className="job-row">
         <Thumb of="job" id={job.id} />
         <JobName job={job} />
@@ -22,6 +23,7 @@ export const RunningJob = ({ job }: { job: Job }) => {
       </div>
       <Progress job={job} />
       <TimeLeft job={job} />
+      {!isWatched && <HoldCard job={job} />}
       {!isWatched && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}
     </article>
   );

@@ -54,6 +54,7 @@ export const queueText = {
   total: (count: number, duration: string) => `${count === 1 ? "1 plot" : `${count} plots`}, ${duration}`,
   totalDoneAt: (total: string, clock: string) => `${total}: done ${clock}`,
   waitsForPen: "Pen change",
+  stopped: "Stopped",
   states: {
     queued: "Waiting",
     plotting: "Plotting",
@@ -108,7 +109,14 @@ export const jobText = {
   continue: "Continue",
   recover: "Go on from there",
   recoverHint:
-    "The plot comes back paused: nothing is drawn until you press Resume. If the carriage was moved, set home first.",
+    "“Go on from there” moves nothing yet: the plot comes back paused. If the carriage was moved, set home first.",
+  lost: "The plotter does not know where its carriage is",
+  lostHint:
+    "Push the carriage into its corner by hand. Otherwise the rest is drawn beside what is on the paper.",
+  lostHomes: "It finds its corner by itself when you resume. Keep the way there free.",
+  corner: "The carriage is in its corner",
+  cornerFirst: "First push the carriage into its corner, and tick that it is there.",
+  stopped: "Emergency stop",
   confirmCancel: (name: string) => `Stop “${name}”? The pen lifts and goes home. What is drawn stays drawn.`,
   cancelPlot: "Cancel the plot",
   keepPlotting: "Keep plotting",

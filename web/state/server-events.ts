@@ -1,10 +1,18 @@
 /** Applies the server's events to the page's state. Pure functions. */
 import { ENDED_STATES, type ServerEvent, type Snapshot } from "../../src/schema/index.js";
-import type { PageState } from "./store.js";
+import { isPositionLost, type PageState } from "./store.js";
 
 type Change = Partial<PageState>;
 
 export const applyServerEvent = (state: PageState, event: ServerEvent): Change => {
+  const change = changeBy(state, event);
+  const after = { ...state, ...change };
+  const job = after.jobs.find(({ id }) => id === state.cornerJobId);
+  // If the position is lost once more, the user is asked again.
+  return job && isPositionLost(after, job) ? change : { ...change, cornerJobId: null };
+};
+
+const changeBy = (state: PageState, event: ServerEvent): Change => {
   switch (event.type) {
     case "snapshot":
       return applySnapshot(state, event.snapshot);

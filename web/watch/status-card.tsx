@@ -1,5 +1,6 @@
 import type { Job } from "../../src/schema/index.js";
 import { EndedButtons } from "../queue/ended-buttons.js";
+import { hasHoldCard, HoldCard } from "../queue/hold-card.js";
 import { JobButtons } from "../queue/job-buttons.js";
 import { Progress, StateBadge } from "../queue/job-head.js";
 import { PenWait } from "../queue/pen-wait.js";
@@ -32,6 +33,7 @@ export const StatusCard = ({ job }: { job: Job }) => {
       </div>
       <div className="status-below">
         {job.state !== "queued" && <Progress job={job} />}
+        <HoldCard job={job} />
         <Message job={job} isWaiting={wait !== null} />
       </div>
     </>
@@ -99,7 +101,8 @@ const LayerLine = ({ job }: { job: Job }) => {
 
 const Message = ({ job, isWaiting }: { job: Job; isWaiting: boolean }) => {
   const isBroken = job.state === "interrupted";
-  if (isWaiting || (job.message === null && !isBroken)) return null;
+  const isInCard = usePageState((state) => hasHoldCard(state, job));
+  if (isInCard || isWaiting || (job.message === null && !isBroken)) return null;
   return (
     <p className={job.state === "failed" ? "note note-error" : "note"}>
       {job.message} {isBroken && jobText.recoverHint}

@@ -3,6 +3,7 @@ import { watchedJob, boardFirmware, type PageState, type PageStore, type WatchPl
 import { useActions, useBackend, useIsConnected, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Notices } from "../ui/notices.js";
+import { stateOf } from "../queue/job-head.js";
 import { StatusCard } from "./status-card.js";
 import { watchText as words } from "./text.js";
 import { WatchSheet } from "./watch-sheet.js";
@@ -17,7 +18,7 @@ export const Watch = () => {
   const job = usePageState(watchedJob);
   usePlan();
   return (
-    <section className="watch" aria-label={words.status} data-state={job?.state}>
+    <section className="watch" aria-label={words.status} data-state={job && stateOf(job)}>
       {job ? <StatusCard job={job} /> : <NothingCard />}
       <div className="watch-area">
         <WatchSheet />

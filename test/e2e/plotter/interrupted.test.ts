@@ -5,7 +5,14 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { snapshotSchema, type Job } from "../../../src/schema/index.js";
 import { launchBrowser } from "../../support/browser/browser.js";
 import { combOf, expectPartlyDrawn, SHARP } from "../../support/browser/half-drawn.js";
-import { dropFile, openPanel, plotBar, queuePanel, waitForPlan } from "../../support/browser/page-actions.js";
+import {
+  dropFile,
+  openPanel,
+  plotBar,
+  queuePanel,
+  statusCard,
+  waitForPlan,
+} from "../../support/browser/page-actions.js";
 import { temporaryFolder } from "../../support/processes/folders.js";
 import { startServerProcess, type ServerProcess } from "../../support/processes/server-process.js";
 
@@ -73,5 +80,56 @@ describe("a plot whose server was killed", () => {
     await expectAt("Paused");
     await page.reload();
     await expectAt("Paused");
+  });
+
+  it("moves only after the user has said that the carriage is in its corner", async () => {
+    const card = statusCard(page).getByRole("group", {
+      name: "The plotter does not know where its carriage is",
+    });
+    await card.getByText(/lost its position: push the carriage to home/).waitFor();
+    const resume = statusCard(page).getByRole("button", { name: "Resume" });
+    expect(await resume.isDisabled()).toBe(true);
+    await page.keyboard.press("p");
+    expect((await theJob()).state).toBe("paused");
+    const tick = card.getByRole("checkbox", { name: "The carriage is in its corner" });
+    await tick.check();
+    expect(await resume.isEnabled()).toBe(true);
+    await tick.uncheck();
+    expect(await resume.isDisabled()).toBe(true);
+    await tick.check();
+    await resume.click();
+    await expect.poll(async () => (await theJob()).state).toBe("plotting");
+    await card.waitFor({ state: "detached" });
+  });
+
+  it("is asked about again after it is lost once more", async () => {
+    const resume = statusCard(page).getByRole("button", { name: "Resume" });
+    await server.stop();
+    const args = ["--port", new URL(server.url).port];
+    server = await startServerProcess({ dataDir: data.path, virtualSpeed: 8, args });
+    await statusCard(page).getByRole("button", { name: "Go on from there" }).click();
+    await resume.waitFor();
+    expect(await resume.isDisabled()).toBe(true);
+    await statusCard(page).getByRole("checkbox", { name: "The carriage is in its corner" }).check();
+    await resume.click();
+    await expect.poll(async () => (await theJob()).state).toBe("plotting");
+  });
+});
+
+describe("an emergency stop", () => {
+  it("does not look like a pause, and says what happened and whether the position holds", async () => {
+    await statusCard(page).getByRole("button", { name: "Emergency stop" }).click();
+    const card = statusCard(page).getByRole("group", { name: "Emergency stop" });
+    await card.getByText(/^Stopped at once.* still knows its position/).waitFor();
+    await statusCard(page).getByText("Stopped", { exact: true }).waitFor();
+    expect(await statusCard(page).getByText("Paused").count()).toBe(0);
+    await expect
+      .poll(() => page.getByRole("banner").getByRole("status").innerText())
+      .toMatch(/^Stopped: comb/);
+    await statusCard(page).getByRole("button", { name: "Resume" }).click();
+    await card.waitFor({ state: "detached" });
+    await statusCard(page).getByRole("button", { name: "Pause" }).click();
+    await statusCard(page).getByText("Paused", { exact: true }).waitFor();
+    expect(await card.count()).toBe(0);
   });
 });

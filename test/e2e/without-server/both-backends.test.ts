@@ -233,6 +233,7 @@ describe.each(CHECKED)("the page's backend %s", (backend) => {
     expect(Number(await bar.getAttribute("aria-valuenow"))).toBeGreaterThanOrEqual(5);
     await statusCard(page).getByRole("button", { name: "Go on from there" }).click();
     await expectState(page, /^Paused: comb/);
+    await statusCard(page).getByRole("checkbox", { name: "The carriage is in its corner" }).check();
     await statusCard(page).getByRole("button", { name: "Resume" }).click();
     await historyPanel(page).getByText("Done", { exact: true }).waitFor({ timeout: 120_000 });
   });

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
-import { SERVER_STOPPED } from "../../../host/queue/running-plots.js";
+import { SERVER_STOPPED } from "../../../host/queue/job-words.js";
 import { PlotwrightError } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { folderOfTest } from "../../support/processes/folders.js";
@@ -325,6 +325,23 @@ describe("the queue", () => {
     expect(store.jobs()[0]).toMatchObject({ speedPct: 60, settings: { pen } });
     await queue.plots.emergencyStop(id);
     expect(queue.get(id).state).toBe("paused");
+  });
+
+  it("tells an emergency stop from a pause until it is resumed, and whether the position holds", async () => {
+    const { id } = await plotting();
+    await queue.plots.emergencyStop(id);
+    expect(queue.get(id)).toMatchObject({ state: "paused", stopped: true });
+    expect(queue.get(id).message).toMatch(/^Stopped at once.* still knows its position/);
+    queue.plots.resume(id);
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "plotting", stopped: false });
+    queue.plots.pause(id);
+    await settled();
+    expect(queue.get(id)).toMatchObject({ state: "paused", stopped: false });
+    plotter.xMm = null;
+    await queue.plots.emergencyStop(id);
+    expect(queue.get(id)).toMatchObject({ state: "paused", stopped: true });
+    expect(queue.get(id).message).toMatch(/^Stopped at once.* does not know where/);
   });
 
   it("holds a plot that is stopped while it is still being planned", async () => {

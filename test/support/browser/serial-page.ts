@@ -97,6 +97,8 @@ export class SerialPages {
       await this.untilConnected(page);
       await statusCard(page).getByRole("button", { name: "Go on from there" }).click();
       await expectState(page, /^Paused/);
+      const corner = statusCard(page).getByRole("checkbox", { name: "The carriage is in its corner" });
+      if ((await corner.count()) > 0) await corner.check();
       await statusCard(page).getByRole("button", { name: "Resume" }).click();
       if ((await endOf(page)) !== "interrupted") break;
     }

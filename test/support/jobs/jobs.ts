@@ -30,6 +30,7 @@ export function makeJob(id: string, overrides: Partial<Job> = {}): Job {
     plottedS: null,
     expectedS: null,
     wait: null,
+    stopped: false,
     createdAt: "2026-01-01T00:00:00.000Z",
     startedAt: null,
     endedAt: null,

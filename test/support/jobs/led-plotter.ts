@@ -109,6 +109,7 @@ export class LedPlotter implements ManagedPlotter {
   readonly runs: LedRun[] = [];
   connection: Plotter["connection"] = "idle";
   firmware: string | null = "2.8.1";
+  xMm: number | null = 0;
   readonly asked: string[] = [];
   private onRun: (() => void)[] = [];
 
@@ -120,8 +121,8 @@ export class LedPlotter implements ManagedPlotter {
   }
 
   snapshot(): Plotter {
-    const { connection, firmware } = this;
-    return makePlotter(this.id, { name: this.name, connection, firmware });
+    const { connection, firmware, xMm } = this;
+    return makePlotter(this.id, { name: this.name, connection, firmware, xMm });
   }
 
   settled(): Promise<void> {

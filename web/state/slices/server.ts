@@ -1,4 +1,5 @@
 /** What the server has: plotters, jobs, and who operates. Its actions: ../server-actions.ts. */
+import { findsHome, machineOf } from "../../../src/internal.js";
 import type {
   Job,
   ListedMachine,
@@ -49,6 +50,8 @@ export interface ServerSlice {
   readonly live: LivePlot | null;
   /** The newest pen settings sent for a running plot, until the server has answered: it plans the rest first. */
   readonly wantedPen: { readonly jobId: string; readonly pen: PlotSettings["pen"] } | null;
+  /** The job with a lost position for which the user has said that the carriage is in its corner. */
+  readonly cornerJobId: string | null;
   /** The name of the request that is running: its button is disabled meanwhile. */
   readonly busyAction: string | null;
   /** Small jobs besides the drawing, such as alignment marks. Watch does not open for them. */
@@ -75,6 +78,7 @@ export const SERVER_AT_FIRST = {
   localName: null,
   live: null,
   wantedPen: null,
+  cornerJobId: null,
   busyAction: null,
   utilityJobIds: [],
 } as const satisfies Partial<ServerSlice>;
@@ -109,6 +113,21 @@ export const unfinishedJob = (state: ServerSlice): Job | null => {
   const isBroken = (job: Job): boolean => job.state === "interrupted" && job.plotterId === plotterId;
   return activeJob(state) ?? state.jobs.find(isBroken) ?? null;
 };
+
+/**
+ * A part of the job is drawn, and its plotter does not know where the carriage is: the rest would be drawn elsewhere. While
+ * the plotter is not connected, nobody knows yet whether it is lost.
+ */
+export const isPositionLost = ({ plotters }: ServerSlice, job: Job): boolean => {
+  const plotter = plotters.find(({ id }) => id === job.plotterId);
+  const isHeld = job.state === "paused" || job.state === "interrupted";
+  const isThere = plotter?.connection === "idle" || plotter?.connection === "busy";
+  return isHeld && job.progress > 0 && isThere && plotter.xMm === null;
+};
+
+/** The job must not move before the user has pushed the carriage into its corner, and has said so. */
+export const needsCorner = (state: ServerSlice, job: Job): boolean =>
+  isPositionLost(state, job) && !findsHome(machineOf(job.settings)) && state.cornerJobId !== job.id;
 
 /** A job's pen settings, with changes that the server has not answered yet. */
 export const penOf = ({ wantedPen }: ServerSlice, { id, settings }: Job): PlotSettings["pen"] =>

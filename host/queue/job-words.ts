@@ -1,0 +1,29 @@
+/** What a job's message says about a plot that was held or interrupted. */
+import { findsHome, homeAgain, machineOf } from "../../src/internal.js";
+import type { Job, PlotWait } from "../../src/schema/index.js";
+import { OTHER_BOARD } from "../plotter/board-id.js";
+
+export const SERVER_STOPPED =
+  "The server stopped while this was plotting. Check pen and paper, then resume where it stopped.";
+
+export const penWords = ({ penName, layerName }: PlotWait): string =>
+  penName === null ? `Put in the pen for "${layerName}".` : `Put in "${penName}" for "${layerName}".`;
+
+/** After an emergency stop. */
+export const stoppedWords = (isPositionKnown: boolean): string =>
+  isPositionKnown
+    ? "Stopped at once, and the pen was lifted. The board still knows its position, so the plot can be resumed. The line may have a small mark there."
+    : "Stopped at once, and the pen was lifted. The board does not know where it stopped.";
+
+/** For a job that is continued: whether its board knows its position, or is another one. */
+export function recoveredWords(
+  { settings, wait }: Pick<Job, "settings" | "wait">,
+  position: "known" | "lost" | "other",
+): string {
+  const again = homeAgain(findsHome(machineOf(settings)));
+  const words =
+    position === "known"
+      ? "The board still knows its position. Check it with the pen up, then resume."
+      : `${position === "other" ? OTHER_BOARD : "The board has lost its position"}: ${again}. The line may overlap a little where it continues.`;
+  return wait === null ? words : `${penWords(wait)} ${words}`;
+}
