@@ -14,7 +14,7 @@ export { ERROR_TABLE } from "./errors.js";
 export { printable, printableJson } from "./plain-text.js";
 
 // drawing
-export type { DrawingWarning } from "./drawing/drawing.js";
+export { hasFill, type DrawingWarning } from "./drawing/drawing.js";
 export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
 export { meanScale } from "./geometry/affine.js";
 export { nearestShare } from "./geometry/polyline.js";

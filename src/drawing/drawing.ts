@@ -63,6 +63,17 @@ export const MIN_SPEED_FACTOR = 0.01;
 export const isSpeedFactor = (value: unknown): value is number =>
   typeof value === "number" && value >= MIN_SPEED_FACTOR && value <= 1;
 
+/** Whether a shape is filled and can enclose an area: a straight line can't, where a file forgets to give it no fill. */
+export function hasFill(paths: DrawingPaths, shape: number): boolean {
+  if (paths.fill[shape] < 0 || isBackground(paths, shape)) return false;
+  let points = 0;
+  for (const verb of curvesOf(paths, shape).verbs) {
+    points = (verb === VERB_MOVE ? 0 : points) + PAIRS_OF_VERB[verb];
+    if (points > 2) return true;
+  }
+  return false;
+}
+
 /** The curves of one shape or clip. */
 export type Curves = Pick<DrawingPaths, "verbs" | "coords">;
 

@@ -2,6 +2,7 @@ import { DRAWING_EXTENSIONS, PX_NOTE } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import type { Planned } from "../worker/protocol.js";
 import { useFilesPage } from "./drawn-size.js";
+import { FillChoice } from "./fill-choice.js";
 import { paperLabel } from "./paper.js";
 import { drawingText as words, reportText, saveText } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -29,6 +30,7 @@ export const DrawingPanel = () => {
         <ChooseDrawing label={words.choose} />
         <Samples />
       </div>
+      <FillChoice />
       <Report />
       <ExportPanel />
     </Panel>

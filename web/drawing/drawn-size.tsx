@@ -8,9 +8,9 @@ import {
 } from "../../src/internal.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
-import { formatNumber, formatSize } from "../ui/format.js";
+import { formatCount, formatNumber, formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
-import { drawnSizeText as words, reportText } from "./text.js";
+import { drawnSizeText as words, fillChoiceText, reportText } from "./text.js";
 import type { Planned } from "../worker/protocol.js";
 
 /** Over the sheet: the drawing's name, its size on the paper, and whether something of it is not drawn. */
@@ -41,15 +41,30 @@ const Size = ({ planned }: { planned: Planned }) => {
   );
 };
 
-/** The panel of the drawing lists them. */
-const Warnings = ({ planned: { fileWarnings, layoutWarnings } }: { planned: Planned }) => {
+/** The panel of the drawing lists them, and has choices for filled shapes. */
+const Warnings = ({
+  planned: { fileWarnings, layoutWarnings, fillCount, settings },
+}: {
+  planned: Planned;
+}) => {
   const { showPanel } = useActions();
-  if (fileWarnings.length + layoutWarnings.length === 0) return null;
+  const { hatch, hideCovered, outlineFills } = settings.prepare;
+  const areOutlines = fillCount > 0 && outlineFills && hatch.spacingMm === 0 && !hideCovered;
+  const hasWarnings = fileWarnings.length + layoutWarnings.length > 0;
   return (
-    <Button kind="link" className="drawn-warnings" onClick={() => showPanel("drawing")}>
-      <Icon name="warning" />
-      {reportText.title}
-    </Button>
+    <>
+      {hasWarnings && (
+        <Button kind="link" className="drawn-warnings" onClick={() => showPanel("drawing")}>
+          <Icon name="warning" />
+          {reportText.title}
+        </Button>
+      )}
+      {areOutlines && (
+        <Button kind="link" onClick={() => showPanel("drawing")}>
+          {fillChoiceText.become(fillCount, formatCount(fillCount))}
+        </Button>
+      )}
+    </>
   );
 };
 

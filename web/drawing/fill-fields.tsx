@@ -6,7 +6,7 @@ import { Switch } from "../ui/fields/choice.js";
 import { SettingField } from "../ui/fields/setting-field.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
-const FIRST_SPACING_MM = 0.6;
+export const FIRST_SPACING_MM = 0.6;
 
 /** Filled shapes: hatch them, outline them, hide what they cover. */
 export const FillFields = () => {
@@ -62,7 +62,7 @@ export const FillFields = () => {
 
 /** Shown for a drawing that has only lines. */
 const NothingToFill = () => {
-  const isEmpty = usePageState((state) => state.planned?.hasFills === false);
+  const isEmpty = usePageState((state) => state.planned?.fillCount === 0);
   const change = usePrepareChange();
   if (!isEmpty) return null;
   return (

@@ -112,6 +112,17 @@ export const fillText = {
   spacingHint: "Distance between the lines. The width of the pen’s line fills areas without gaps.",
 };
 
+export const fillChoiceText = {
+  label: "Filled shapes",
+  count: (count: number, number: string) =>
+    count === 1
+      ? "1 filled shape. A pen draws lines, so choose:"
+      : `${number} filled shapes. A pen draws lines, so choose:`,
+  become: (count: number, number: string) =>
+    count === 1 ? "1 filled shape becomes an outline" : `${number} filled shapes become outlines`,
+  ways: { outline: "Outline", hatch: "Hatch", hide: "Hide what is under them" },
+};
+
 export const linesText = {
   title: "Lines",
   spreads: { none: "Off", interleave: "Alternate", shuffle: "Shuffle" },

@@ -24,7 +24,7 @@ export type Actions = ReturnType<typeof createActions>;
 interface ActionDeps {
   readonly store: PageStore;
   readonly backend: Backend;
-  readonly planner: Pick<Planner, "request" | "export" | "strokes">;
+  readonly planner: Pick<Planner, "request" | "export" | "strokes" | "sketches">;
   nowMs(): number;
   after(delayMs: number, callback: () => void): void;
 }

@@ -156,20 +156,28 @@ export const createDocumentActions = (parts: DocumentParts) => {
 /** Layers identified by a colour mean the same in every drawing. */
 const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
 
-/**
- * The settings for another drawing: without those of single layers, except layers identified by a colour, and without
- * the answer to what happens outside the paper, and without the resolution of the file.
- */
+/** What was chosen for one drawing: its place by hand, its filled shapes, what happens outside the paper, its px per inch. */
+const OF_ONE_DRAWING = [
+  "layout",
+  "hatch",
+  "hatchOutlines",
+  "outlineFills",
+  "hideCovered",
+  "outside",
+  "pxPerInch",
+] as const satisfies readonly (keyof PlotSettings["prepare"])[];
+
+/** The settings for another drawing: without those of single layers, except layers identified by a colour. */
 export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
   const kept = <T>(byLayer: Readonly<Record<string, T>> | undefined): Record<string, T> =>
     Object.fromEntries(Object.entries(byLayer ?? {}).filter(([id]) => isColorId(id)));
   const { motion, pen, prepare } = settings;
+  const usual = DEFAULT_PLOT_SETTINGS.prepare;
   return {
     ...settings,
     prepare: {
       ...prepare,
-      outside: DEFAULT_PLOT_SETTINGS.prepare.outside,
-      pxPerInch: DEFAULT_PLOT_SETTINGS.prepare.pxPerInch,
+      ...Object.fromEntries(OF_ONE_DRAWING.map((name) => [name, usual[name]])),
       hiddenLayers: [],
       shownLayers: [],
       layerOrder: prepare.layerOrder.filter(isColorId),

@@ -9,7 +9,7 @@ const NOTHING_SELECTED = { momentS: null, isPlaying: false, hover: null, noteBox
 
 export const createPlanActions = (
   store: PageStore,
-  planner: Pick<Planner, "request" | "export" | "strokes">,
+  planner: Pick<Planner, "request" | "export" | "strokes" | "sketches">,
 ) => ({
   replan: (): void => {
     const state = store.getState();
@@ -24,5 +24,7 @@ export const createPlanActions = (
     store.setState({ fault, isPlanning: false, planned: null, ...NOTHING_SELECTED }),
   /** Gets the strokes of the current plan, to simulate the pen on them. Not answered while another plan is made. */
   askStrokes: (take: (strokes: StrokeSet) => void): void => planner.strokes(take),
+  /** Gets small pictures of the current plan's drawing with other settings. Not answered while another plan is made. */
+  askSketches: (...asked: Parameters<Planner["sketches"]>): void => planner.sketches(...asked),
   exportAs: (format: ExportFormat, firmware: string): void => planner.export(format, firmware),
 });

@@ -15,6 +15,7 @@ import {
 } from "../../src/index.js";
 import {
   boxOfPoints,
+  hasFill,
   unreachedCount,
   machineOf,
   otherPapers,
@@ -33,6 +34,7 @@ import { lineGapMm } from "../scene/pick.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
+import { sketchesOf } from "./sketches.js";
 import { textOf, type DrawingText } from "../backend/drawing-text.js";
 import type {
   ExportRequest,
@@ -40,6 +42,7 @@ import type {
   PlannedReply,
   PlanFault,
   WorkerPlanRequest,
+  SketchRequest,
   StrokesRequest,
   WorkerReply,
   WorkerRequest,
@@ -71,6 +74,7 @@ let answered: { id: number; strokes: StrokeSet } | null = null;
 scope.onmessage = (event) => {
   if (event.data.type === "export") return void exportAs(event.data);
   if (event.data.type === "strokes") return sendStrokes(event.data);
+  if (event.data.type === "sketches") return sendSketches(event.data);
   newest = event.data;
   if (newest.text !== null) received = { key: newest.drawingKey, text: newest.text };
   if (!isRunning) void run();
@@ -117,7 +121,7 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
       outside: ready.outside,
       turnOntoPaper:
         ready.outside && turnedOntoPaper(drawing, prepareSettingsOf(settings), machineOf(settings)),
-      hasFills: drawing.paths.fill.some((color) => color >= 0),
+      fillCount: drawing.paths.fill.reduce((sum, _, shape) => sum + Number(hasFill(drawing.paths, shape)), 0),
       drawnBox: boxOfPoints(ready.strokes.xy),
       frameMm: frameOf(placement, settings.prepare),
       layers: ready.layers,
@@ -206,6 +210,17 @@ function sendStrokes({ id }: StrokesRequest): void {
     strokes.offsets.buffer,
     strokes.layer.buffer,
   ]);
+}
+
+function sendSketches({ id, changes }: SketchRequest): void {
+  if (answered?.id !== id || !prepared || !imported) return;
+  const { prepare: wanted } = prepared.settings;
+  const drawing = withPxPerInch(imported.drawing, wanted.pxPerInch);
+  const sketches = sketchesOf(drawing, prepareSettingsOf(prepared.settings), changes);
+  scope.postMessage(
+    { type: "sketches", id, sketches },
+    sketches.flatMap(({ xy, offsets }) => [xy.buffer, offsets.buffer]) as Transferable[],
+  );
 }
 
 async function exportAs({ format, firmware }: ExportRequest): Promise<void> {

@@ -9,7 +9,15 @@
 import type { StrokeSet } from "../../src/index.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingText } from "../backend/drawing-text.js";
-import type { ExportFormat, PlanFault, Planned, WorkerReply, WorkerRequest } from "./protocol.js";
+import type {
+  ExportFormat,
+  PlanFault,
+  Planned,
+  Sketch,
+  SketchRequest,
+  WorkerReply,
+  WorkerRequest,
+} from "./protocol.js";
 import { markMoment } from "./moments.js";
 
 const PATIENCE_MS = 1_500;
@@ -70,6 +78,7 @@ export class Planner {
   private latest: PlannerTask | null = null;
   private isBusy = false;
   private takeStrokes: ((strokes: StrokeSet) => void) | null = null;
+  private takeSketches: ((sketches: readonly Sketch[]) => void) | null = null;
   private stopWaiting: (() => void) | null = null;
   /** Set while the worker reads the file. */
   private stopReading: (() => void) | null = null;
@@ -97,6 +106,12 @@ export class Planner {
   strokes(take: (strokes: StrokeSet) => void): void {
     this.takeStrokes = take;
     if (!this.isBusy) this.worker?.postMessage({ type: "strokes", id: this.newestId });
+  }
+
+  /** Requests small pictures of the last plan's drawing. Not answered while a newer plan is being made. */
+  sketches(changes: SketchRequest["changes"], take: (sketches: readonly Sketch[]) => void): void {
+    this.takeSketches = take;
+    if (!this.isBusy) this.worker?.postMessage({ type: "sketches", id: this.newestId, changes });
   }
 
   private close(): void {
@@ -137,6 +152,7 @@ export class Planner {
     if (reply.type === "export-failed") return this.listener.onExportFailed(reply.message);
     if (reply.id !== this.newestId) return;
     if (reply.type === "strokes") return this.takeStrokes?.(reply.strokes);
+    if (reply.type === "sketches") return this.takeSketches?.(reply.sketches);
     this.stopWaiting?.();
     this.stopWaiting = null;
     this.stopReading?.();

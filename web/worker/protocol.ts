@@ -50,7 +50,23 @@ export interface StrokesRequest {
   readonly id: number;
 }
 
-export type WorkerRequest = WorkerPlanRequest | ExportRequest | StrokesRequest;
+/** Requests small pictures of the last plan's drawing, each with other settings. */
+export interface SketchRequest {
+  readonly type: "sketches";
+  /** The plan's id. */
+  readonly id: number;
+  readonly changes: readonly Partial<PlotSettings["prepare"]>[];
+}
+
+export type WorkerRequest = WorkerPlanRequest | ExportRequest | StrokesRequest | SketchRequest;
+
+/** A small picture of a drawing: polylines in mm. */
+export interface Sketch {
+  readonly box: Box;
+  /** mm x, y, x, y … of line i from point `offsets[i]` to point `offsets[i + 1]`. */
+  readonly xy: StrokeSet["xy"];
+  readonly offsets: StrokeSet["offsets"];
+}
 
 /** The data that the page shows for one drawing with one set of settings. */
 export interface Planned {
@@ -74,8 +90,8 @@ export interface Planned {
   readonly turnOntoPaper: Partial<PlotSettings["prepare"]> | null;
   /** The box of all lines that the pen draws, without lines that are cut off or hidden; empty if there are none. */
   readonly drawnBox: Box;
-  /** Whether the file has filled shapes. */
-  readonly hasFills: boolean;
+  /** How many shapes of the file are filled, without its background. */
+  readonly fillCount: number;
   /** All layers of the file, including those that are switched off. */
   readonly layers: readonly PreparedLayer[];
   /** Where the plot stops for a pen change. */
@@ -128,6 +144,7 @@ export type WorkerReply =
   | { readonly type: "exported"; readonly format: ExportFormat; readonly text: string }
   | { readonly type: "export-failed"; readonly message: string }
   | { readonly type: "strokes"; readonly id: number; readonly strokes: StrokeSet }
+  | { readonly type: "sketches"; readonly id: number; readonly sketches: readonly Sketch[] }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };
 
 /** To the drawing worker. */

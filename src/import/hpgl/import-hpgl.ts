@@ -69,6 +69,8 @@ class HpglImport {
   /** The label of BL. */
   private buffered = "";
   private isGuessReported = false;
+  /** Commands for styles of text that are not drawn, since the last label. */
+  private textStyles: string[] = [];
   /** Where PM0 was. */
   private polygonStart = { x: 0, y: 0 };
 
@@ -104,7 +106,10 @@ class HpglImport {
     else if (numbers.length < group.least)
       this.warnings.add("attribute-fault", undefined, `${name}: too few numbers`);
     else if (group.outcome === "reported") {
-      if (numbers.some((number) => number !== 0)) this.warnings.add(group.warning, undefined, name);
+      if (numbers.every((number) => number === 0)) return;
+      // In a file without labels they change nothing.
+      if (group.warning === "text-style-ignored") this.textStyles.push(name);
+      else this.warnings.add(group.warning, undefined, name);
     } else if (group.outcome !== "setting") this.draw(command);
   }
 
@@ -247,6 +252,7 @@ class HpglImport {
     canvas.setWindow(null);
     this.state = new Defaults(frame);
     frame.setScaling([]);
+    this.textStyles = [];
     if (name === "DF") return;
     canvas.lift();
     frame.reset();
@@ -421,6 +427,7 @@ class HpglImport {
   private label(text: string): void {
     const { canvas, font, state, warnings } = this;
     canvas.flush();
+    for (const name of this.textStyles.splice(0)) warnings.add("text-style-ignored", undefined, name);
     if (font === null) {
       warnings.add("text-not-drawn");
       return;

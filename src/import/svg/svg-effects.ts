@@ -71,3 +71,7 @@ export function isErased(tree: SvgTree, style: Style, declared: Declared): boole
 export function warnOf(effects: Effects, box: Box, warnings: Warnings): void {
   for (const [code, detail] of effects) warnings.add(code, box, detail);
 }
+
+/** For what has no letters: browsers show nothing of such a style there. */
+export const withoutTextStyles = (effects: Effects): Effects =>
+  effects.filter(([code]) => code !== "text-style-ignored");

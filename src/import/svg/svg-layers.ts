@@ -4,13 +4,17 @@
  * Layers are the top-level groups. A single wrapper around them (group, switch, link or nested svg) is
  * skipped, since many programs and scripts wrap everything once.
  */
-import { attribute, tagOf, TEXT_NODE, type SvgTree, childrenOf } from "./svg-tree.js";
+import { attribute, isOtherProgramsData, tagOf, TEXT_NODE, type SvgTree, childrenOf } from "./svg-tree.js";
 import type { DrawingBuilder } from "../drawing-builder.js";
 import type { Warnings } from "../warnings.js";
 import type { Context } from "./svg-context.js";
 
-/** More top-level groups than this are data, not layers: some charts have one per point. */
+/**
+ * More top-level groups than this are data, not layers: some charts have one per point. Groups that the file itself calls
+ * layers may be more.
+ */
 const MAX_LAYERS = 200;
+const MAX_MARKED_LAYERS = 2_000;
 
 /** Max depth of wrappers, more than any program writes. */
 const MAX_WRAPPERS = 32;
@@ -33,11 +37,6 @@ const NOT_CONTENT = new Set([
   "filter",
   "view",
   "script",
-  "WCB",
-  "plotdata",
-  "eggbot",
-  "MergeData",
-  "namedview",
 ]);
 const WRAPPERS = new Set(["g", "switch", "a", "svg"]);
 
@@ -67,7 +66,7 @@ export function planLayers(tree: SvgTree): LayerPlan {
   const layers = marked.length > 0 ? marked : groups;
   return {
     parent,
-    isSplit: layers.length <= MAX_LAYERS,
+    isSplit: layers.length <= (marked.length > 0 ? MAX_MARKED_LAYERS : MAX_LAYERS),
     onlyMarked: marked.length > 0,
     groupCount: layers.length,
   };
@@ -85,7 +84,10 @@ function leadsToGroups(tree: SvgTree, element: number): boolean {
 
 /** The only child with content, if it may be a wrapper; otherwise −1. */
 function wrapperIn(tree: SvgTree, parent: number): number {
-  const content = [...childrenOf(tree, parent)].filter((child) => !NOT_CONTENT.has(tagOf(tree, child)));
+  const content = [...childrenOf(tree, parent)].filter((child) => {
+    const tag = tagOf(tree, child);
+    return !NOT_CONTENT.has(tag) && !isOtherProgramsData(tag);
+  });
   return content.length === 1 && WRAPPERS.has(tagOf(tree, content[0])) ? content[0] : -1;
 }
 
@@ -121,6 +123,8 @@ const decodeId = (id: string): string =>
 export class LayerGroups {
   /** The group for shapes outside every layer; −1 until needed. */
   private looseGroup = -1;
+  /** Of the top-level groups. */
+  private count = 0;
   private readonly unseen: number[] = [];
 
   constructor(
@@ -141,12 +145,13 @@ export class LayerGroups {
       return builder.addGroup(id, layerName(tree, element) ?? id, false, outer.group);
     }
     const isLayer = tag === "g" && layers.isSplit && (!layers.onlyMarked || isMarkedLayer(tree, element));
-    const number = builder.groups.filter(({ parent }) => parent === undefined).length + 1;
+    if (!isLayer && this.looseGroup >= 0) return this.looseGroup;
+    const number = ++this.count;
     if (isLayer) {
       const name = layerName(tree, element) ?? `Layer ${number}`;
       return builder.addGroup(attribute(tree, element, "id") ?? `layer-${number}`, name, false);
     }
-    if (this.looseGroup < 0) this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
+    this.looseGroup = builder.addGroup(`layer-${number}`, `Layer ${number}`, false);
     return this.looseGroup;
   }
 

@@ -306,3 +306,9 @@ class TreeBuilder {
     return getOrAdd(this.nameIds, name, () => this.names.push(name) - 1);
   }
 }
+
+/** Settings of AxiDraw's, EggBot's, RoboPaint's and Inkscape's software, which some files have without a prefix. */
+const OTHER_PROGRAMS = new Set(["wcb", "plotdata", "eggbot", "mergedata", "namedview"]);
+
+/** Whether an element holds only the settings of another program. Such data is not a part of the drawing. */
+export const isOtherProgramsData = (tag: string): boolean => OTHER_PROGRAMS.has(tag.toLowerCase());

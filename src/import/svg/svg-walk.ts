@@ -21,14 +21,22 @@ import {
   isMarked,
   contextPaints,
 } from "./svg-context.js";
-import { effectsOf, isErased, warnOf, type Effects, backgroundOf } from "./svg-effects.js";
+import { effectsOf, isErased, warnOf, withoutTextStyles, type Effects, backgroundOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
 import type { SvgClips } from "./masks/clips.js";
 import { markerPlaces, insideMarker } from "./shapes/markers.js";
 import { SvgMasks, type DrawApart } from "./masks/masks.js";
 import { LayerGroups } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
-import { attribute, HREF, tagOf, TEXT_NODE, type SvgTree, childrenOf } from "./svg-tree.js";
+import {
+  attribute,
+  HREF,
+  isOtherProgramsData,
+  tagOf,
+  TEXT_NODE,
+  type SvgTree,
+  childrenOf,
+} from "./svg-tree.js";
 import { declaredValue, parseOpacity, type Style } from "./css/style.js";
 import { withoutAlignment, withoutShift } from "./css/text-style.js";
 import { viewportInside } from "./svg-viewport.js";
@@ -47,13 +55,14 @@ const SPEED_ATTRIBUTE = "data-plotwright-speed";
 
 const CONTAINERS = new Set(["g", "a", "svg", "switch", "use", "symbol"]);
 /**
- * Elements that draw nothing at their place in the file. All others that are not drawn are reported. The last five are
- * data of AxiDraw's, EggBot's and Inkscape's software, which some files have without a prefix.
+ * Elements that draw nothing at their place in the file. All others that are not drawn are reported, except other
+ * programs' data.
  */
 const INVISIBLE = new Set(
   `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
-   meshgradient metadata mpath pattern radialGradient script solidcolor solidColor stop style symbol title view
-   WCB plotdata eggbot MergeData namedview`.split(/\s+/),
+   meshgradient metadata mpath pattern radialGradient script solidcolor solidColor stop style symbol title view`.split(
+    /\s+/,
+  ),
 );
 /** Not drawn either, but a `switch` may choose them. */
 const EMBEDDED = new Set(["image", "video", "audio", "canvas", "iframe"]);
@@ -67,6 +76,7 @@ interface Frame {
   /** Effects that are missing from everything drawn inside: reported when the frame ends. */
   readonly effects: Effects;
   readonly firstShape: number;
+  readonly firstText: number;
 }
 
 export class SvgWalk {
@@ -76,6 +86,8 @@ export class SvgWalk {
   private readonly stack: Frame[] = [];
   private copiedElements = 0;
   private copiedCoords = 0;
+  /** The texts drawn so far. */
+  private textCount = 0;
   private readonly masks: SvgMasks;
   private readonly layerGroups: LayerGroups;
   private subtreeEnds: Uint32Array | null = null;
@@ -148,7 +160,8 @@ export class SvgWalk {
   }
 
   private push(context: Context, next: number, isSingle: boolean, effects: Effects): void {
-    this.stack.push({ context, next, isSingle, effects, firstShape: this.builder.shapeCount });
+    const firstShape = this.builder.shapeCount;
+    this.stack.push({ context, next, isSingle, effects, firstShape, firstText: this.textCount });
   }
 
   private leave(frame: Frame): void {
@@ -159,7 +172,8 @@ export class SvgWalk {
       if (frame.effects.some(([code]) => code === "filter-ignored")) this.warnings.add("filter-ignored");
       return;
     }
-    warnOf(frame.effects, builder.boxOfShapes(frame.firstShape, builder.shapeCount), this.warnings);
+    const effects = this.textCount > frame.firstText ? frame.effects : withoutTextStyles(frame.effects);
+    warnOf(effects, builder.boxOfShapes(frame.firstShape, builder.shapeCount), this.warnings);
   }
 
   private visit(element: number, outer: Context): void {
@@ -224,14 +238,20 @@ export class SvgWalk {
   ): void {
     const before = this.builder.shapeCount;
     const coordsBefore = this.builder.coordCount;
-    if (tag === "text") this.painter.drawText(element, context);
-    else {
+    if (tag === "text") {
+      this.painter.drawText(element, context);
+      if (this.builder.shapeCount > before) this.textCount++;
+    } else {
       this.painter.drawShape(element, tag, declared, context);
       if (isMarked(tag, context)) this.pushMarkers(context);
     }
     if (context.uses !== null) this.copiedCoords += this.builder.coordCount - coordsBefore;
     if (effects.length > 0 && this.builder.shapeCount > before) {
-      warnOf(effects, this.builder.boxOfShapes(before, this.builder.shapeCount), this.warnings);
+      warnOf(
+        tag === "text" ? effects : withoutTextStyles(effects),
+        this.builder.boxOfShapes(before, this.builder.shapeCount),
+        this.warnings,
+      );
     }
   }
 
@@ -318,7 +338,7 @@ export class SvgWalk {
       this.warnings.add("animation-ignored");
       return;
     }
-    if (INVISIBLE.has(tag) || !this.file.meetsConditions(element)) return;
+    if (INVISIBLE.has(tag) || isOtherProgramsData(tag) || !this.file.meetsConditions(element)) return;
     const declared = this.file.cascade.declaredOf(element);
     const style = this.file.computeStyle(outer.style, declared, outer.basis);
     if (!style.isVisible || declaredValue(style, declared, "display") === "none") return;

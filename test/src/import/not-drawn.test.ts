@@ -7,13 +7,14 @@ import { NOT_DRAWN_PROPERTIES, PRESENTATION } from "../../../src/import/svg/css/
 import { importSvg } from "../../../src/import/svg/import-svg.js";
 import { codes, draw, page } from "../../support/import/shapes.js";
 
+const TEXT = '<text x="9" y="9">a</text>';
 const LINE = '<path d="M10 10H50" stroke="red"/>';
 
 const DRAWN = "a circle ellipse g line path polygon polyline rect svg switch symbol text use";
 /** Elements that browsers do not draw in place. Elements that refer to them are reported or drawn. */
 const INVISIBLE = `clipPath color-profile cursor defs desc discard filter font font-face hatch linearGradient marker mask
   meshgradient metadata mpath pattern radialGradient script solidcolor stop style symbol title view
-  WCB plotdata eggbot MergeData namedview`;
+  WCB wcb plotdata eggbot EggBot MergeData namedview`;
 const REPORTED: Record<string, string> = {
   "image-not-drawn": "image",
   "foreign-object": "foreignObject",
@@ -89,7 +90,12 @@ describe("properties", () => {
   });
 
   it.each([...NOT_DRAWN_PROPERTIES])("%s is reported as %s", async (property, code) => {
-    const styled = async (style: string): Promise<string[]> => codes(await draw(`<g ${style}>${LINE}</g>`));
+    const isOfText = code === "text-style-ignored";
+    const styledOn = async (style: string, body: string): Promise<string[]> =>
+      codes(await draw(`<g ${style}>${body}</g>`)).filter((other) => other !== "text-substituted");
+    const styled = (style: string): Promise<string[]> => styledOn(style, isOfText ? TEXT : LINE);
+    // Nothing is missing where there is no text.
+    if (isOfText) expect(await styledOn(`style="${property}:some 3px value"`, LINE)).toEqual([]);
     expect(await styled(`style="${property}:some 3px value"`)).toEqual([code]);
     expect(await styled(`${property}="some"`)).toEqual([code]);
     expect(await styled(`style="${property}:none"`)).toEqual([]);
@@ -107,14 +113,24 @@ describe("properties", () => {
     ['clip-path="rect(1px 2px 3px 4px)"', "clip-ignored"],
     ['stroke="color-mix(in srgb, red, blue)"', "color-unknown"],
     ['fill="blu"', "color-unknown"],
-    ['font-weight="300"', "text-style-ignored"],
-    ['style="font-weight:lighter"', "text-style-ignored"],
     ['font-size="2ex"', "length-approximate"],
     ['stroke="url(#none)"', "paint-missing"],
     ['transform="rotate3d(1 1 1 45deg)"', "attribute-fault"],
   ])("%s is reported as %s", async (attributes, code) => {
     expect(codes(await draw(`<path d="M10 10H50" ${attributes}/>`))).toContain(code);
   });
+
+  it.each(['font-weight="300"', 'style="font-weight:lighter"'])(
+    "%s is reported for text, and nowhere else",
+    async (attributes) => {
+      const reported = async (body: string): Promise<boolean> =>
+        codes(await draw(body)).includes("text-style-ignored");
+      expect(await reported(`<text x="9" y="9" ${attributes}>a</text>`)).toBe(true);
+      expect(await reported(`<g ${attributes}><g>${LINE}${TEXT}</g></g>`)).toBe(true);
+      expect(await reported(`${TEXT}<g ${attributes}>${LINE}</g>`)).toBe(false);
+      expect(await reported(`<path d="M10 10H50" stroke="red" ${attributes}/>${TEXT}`)).toBe(false);
+    },
+  );
 
   it.each([
     ["background-color:red", ["effect-ignored"]],

@@ -33,7 +33,12 @@ function makePage(more: Calls = {}) {
     jobs: { ...fromServer.jobs, ...jobs },
     samples: { ...fromServer.samples, ...samples },
   };
-  const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
+  const planner = {
+    request: () => undefined,
+    export: () => undefined,
+    strokes: () => undefined,
+    sketches: () => undefined,
+  };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
   return { store, actions, errorCount, sent, startServer: () => (isServerUp = true) };

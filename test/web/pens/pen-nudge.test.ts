@@ -27,7 +27,12 @@ const openPage = () => {
         new Promise<Job>((resolve, reject) => requests.push({ change, resolve, reject })),
     },
   } as unknown as Backend;
-  const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
+  const planner = {
+    request: () => undefined,
+    export: () => undefined,
+    strokes: () => undefined,
+    sketches: () => undefined,
+  };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const withPen = (pen: Pen): Job =>
     makeJob("a", { state: "plotting", settings: { ...DEFAULT_PLOT_SETTINGS, pen } });

@@ -66,7 +66,12 @@ class Plotters {
     const actions = createActions({
       store,
       backend: this.backend,
-      planner: { request: () => undefined, export: () => undefined, strokes: () => undefined },
+      planner: {
+        request: () => undefined,
+        export: () => undefined,
+        strokes: () => undefined,
+        sketches: () => undefined,
+      },
       nowMs: () => (nowMs += 10_000),
       after: (_delayMs, callback) => void setTimeout(callback, 0),
     });

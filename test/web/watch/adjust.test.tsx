@@ -28,7 +28,12 @@ const openPage = (settings = DEFAULT_PLOT_SETTINGS) => {
       drawing: () => Promise.resolve("<svg/>"),
     },
   } as unknown as Backend;
-  const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
+  const planner = {
+    request: () => undefined,
+    export: () => undefined,
+    strokes: () => undefined,
+    sketches: () => undefined,
+  };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const seeJob = (job: Job = sent): void => store.setState({ jobs: [job] });
   /** What the section "While it plots" shows. */

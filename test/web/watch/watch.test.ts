@@ -134,7 +134,12 @@ describe("an action that only the operator may do", () => {
       jobs: { ...server.jobs, duplicate },
       operator: { ...server.operator, take },
     };
-    const planner = { request: () => undefined, export: () => undefined, strokes: () => undefined };
+    const planner = {
+      request: () => undefined,
+      export: () => undefined,
+      strokes: () => undefined,
+      sketches: () => undefined,
+    };
     const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
     return { store, actions, duplicate };
   };

@@ -117,7 +117,12 @@ describe("the table of HPGL commands", () => {
     "tells the truth about %s",
     async (name, { outcome, warning, reads }) => {
       const parameters = reads === "numbers" || reads === "encoded" ? "1,1,1,1,1,1" : `A${ETX}`;
-      const warnings = codes(await hpgl(`IN;${LINE}${name}${parameters};IN;SP1;PU0,0;PD90,90;`));
+      const reported = async (after: string): Promise<readonly string[]> =>
+        codes(await hpgl(`IN;${LINE}${name}${parameters};${after}IN;SP1;PU0,0;PD90,90;LBb${ETX}`));
+      const isOfText = warning === "text-style-ignored";
+      // In a drawing without such letters, nothing is missing.
+      if (isOfText) expect(await reported("")).toEqual([]);
+      const warnings = await reported(isOfText ? `LBa${ETX}` : "");
       if (outcome === "reported") expect(warnings).toEqual([warning]);
       else expect(warnings).not.toContain("not-supported");
       if (outcome === "setting") expect(warnings).toEqual([]);

@@ -178,6 +178,17 @@ describe("layers", () => {
     expect(strokeCount(prepare(drawing, { joinMm: 0 }).strokes)).toBe(3);
   });
 
+  it("are layers if the file says so, however many", async () => {
+    const names = Array.from({ length: 300 }, (_, i) => `ink ${i}`);
+    const layers = names.map(
+      (name) =>
+        `<g inkscape:groupmode="layer" inkscape:label="${name}" xmlns:inkscape="x"><path ${PATH}/></g>`,
+    );
+    const drawing = await draw(layers.join(""));
+    expect(drawing.groups.map(({ name }) => name)).toEqual(names);
+    expect(codes(drawing)).toEqual([]);
+  });
+
   it("treats hundreds of groups as data, not layers", async () => {
     const drawing = await draw(g("").repeat(500));
     expect(drawing.groups.length).toBe(1);
