@@ -138,7 +138,7 @@ describe.each(WAYS)("a plotter %s", (_, way) => {
     ["lines beyond the paper", [circle(600, 40)], {}, "out-of-bounds"],
     ["something else", 12, {}, "bad-file"],
   ] as const)("refuses %s before anything moves", async (_what, drawing, options, code) => {
-    expect(await codeOf(plotter.plot(drawing as unknown as string, options as object))).toBe(code);
+    expect(await codeOf(plotter.plot(drawing as never, options as never))).toBe(code);
     expect(plotter.state).toMatchObject({ activity: "none", connection: "idle", plot: null });
   });
 

@@ -6,7 +6,7 @@ import { printed, type CliIo } from "../io.js";
 import { JobRun } from "./job-run.js";
 import { plotReport } from "./plot-report.js";
 import { CANCELLED, cancelled, watch } from "./plot-watch.js";
-import type { ServerClient } from "../client/server-client.js";
+import type { ServerClient } from "../../../host/handle/server-client.js";
 import { addDrawing } from "../client/queue-commands.js";
 import type { ServedPlotter } from "../client/served-plotter.js";
 
