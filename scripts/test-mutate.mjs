@@ -1,8 +1,8 @@
 /**
- * `npm run test:mutate -- AREA`: changes the area's code in many small ways, and runs its tests on each change. A change
- * that no test notices is a survivor: read the list, and write a test for those that could reach the paper or let
- * somebody in. Takes minutes to an hour for an area, so it is not part of `npm test`. Stryker is installed on first use,
- * outside package.json: its 140 packages would slow down every other installation.
+ * `npm run test:mutate -- AREA [FILE...]`: changes the area's code in many small ways, and runs its tests on each change.
+ * A change that no test notices is a survivor. It is printed at once, since an area takes minutes to hours: read the list,
+ * and write a test for those that could reach the paper, lose a job or let somebody in. Texts are not changed. Stryker is
+ * installed on first use, outside package.json: its 140 packages would slow down every other installation.
  */
 import { spawnSync } from "node:child_process";
 import { existsSync, writeFileSync, mkdirSync } from "node:fs";
@@ -16,6 +16,15 @@ const AREAS = {
 };
 const PACKAGES = ["@stryker-mutator/core@9.6.1", "@stryker-mutator/vitest-runner@9.6.1"];
 const FOLDER = "node_modules/.cache/mutate";
+
+/** A reporter of Stryker: its own print the survivors only at the end. */
+const SURVIVORS = `
+export const strykerPlugins = [{ kind: "Reporter", name: "survivors", factory: () => ({
+  onMutantTested({ status, fileName, location: { start }, replacement }) {
+    if (!["Killed", "Ignored"].includes(status)) console.log(\`\${status}: \${fileName}:\${start.line}:\${start.column} \${replacement}\`);
+  },
+}) }];
+`;
 
 const area = AREAS[process.argv[2]];
 if (area === undefined) {
@@ -41,13 +50,19 @@ const vitestConfig = {
   },
 };
 writeFileSync(`${FOLDER}/vitest.config.mjs`, `export default ${JSON.stringify(vitestConfig)};\n`);
+writeFileSync(`${FOLDER}/survivors.mjs`, SURVIVORS);
 const strykerConfig = {
   testRunner: "vitest",
-  plugins: ["@stryker-mutator/vitest-runner"],
+  plugins: ["@stryker-mutator/vitest-runner", `./${FOLDER}/survivors.mjs`],
   vitest: { configFile: `${FOLDER}/vitest.config.mjs`, related: false },
   mutate: files.length > 0 ? files : area.code.map((folder) => `${folder}/**/*.ts`),
-  reporters: ["clear-text", "progress-append-only"],
+  mutator: { excludedMutations: ["StringLiteral"] },
+  reporters: ["clear-text", "progress-append-only", "survivors"],
   dryRunTimeoutMinutes: 30,
+  // A computer with other work is slow: a test counts as hanging only long after that.
+  timeoutMS: 30_000,
+  timeoutFactor: 3,
+  concurrency: 1,
   clearTextReporter: { allowColor: false, reportTests: false, allowEmojis: false },
   tempDirName: `${FOLDER}/sandbox`,
   // Stryker rewrites the paths in tsconfig.json, which it cannot do with TypeScript 7. The tests do not need that.

@@ -1,7 +1,7 @@
 /** The page on a device that may only add drawings to the queue, as a student's in a classroom. */
 import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
-import { launchBrowser, PLAIN } from "../../support/browser/browser.js";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { launchBrowser } from "../../support/browser/browser.js";
 import { ruledSheet } from "../../support/drawings/drawings.js";
 import {
   chooseSample,
@@ -13,10 +13,12 @@ import {
   queuePanel,
   waitForPlan,
 } from "../../support/browser/page-actions.js";
+import { pairedPage } from "../../support/browser/paired-page.js";
 import { temporaryFolder } from "../../support/processes/folders.js";
 import { startServerProcess, type ServerProcess } from "../../support/processes/server-process.js";
 
 const data = temporaryFolder("submit");
+const VIEWPORT = { width: 1100, height: 700 };
 let browser: Browser;
 let server: ServerProcess;
 let teacher: Page;
@@ -26,18 +28,10 @@ let ben: Page;
 beforeAll(async () => {
   browser = await launchBrowser();
   server = await startServerProcess({ dataDir: data.path, virtualSpeed: 20, args: ["--pair-always"] });
-  const linkTo = (what: string): Promise<string> =>
-    vi.waitFor(
-      () => {
-        const found = new RegExp(`to ${what} +http\\S+(/pair\\?token=[\\w-]+)`).exec(server.output())?.[1];
-        if (found === undefined) throw new Error(`no link to ${what}: ${server.output()}`);
-        return found;
-      },
-      { timeout: 60_000 },
-    );
-  teacher = await pairedPage(await linkTo("operate"));
-  anna = await pairedPage(await linkTo("submit"));
-  ben = await pairedPage(await linkTo("submit"));
+  teacher = await pairedPage(browser, server, "operate", VIEWPORT);
+  anna = await pairedPage(browser, server, "submit", VIEWPORT);
+  ben = await pairedPage(browser, server, "submit", VIEWPORT);
+  for (const page of [teacher, anna, ben]) await chooseSample(page);
 });
 
 afterAll(async () => {
@@ -45,15 +39,6 @@ afterAll(async () => {
   await server.stop();
   data.remove();
 });
-
-async function pairedPage(link: string): Promise<Page> {
-  const context = await browser.newContext({ ...PLAIN, viewport: { width: 1100, height: 700 } });
-  const page = await context.newPage();
-  await page.goto(`${server.url}${link}`);
-  await page.waitForURL(`${server.url}/`);
-  await chooseSample(page);
-  return page;
-}
 
 async function submit(page: Page, name: string): Promise<void> {
   await dropFile(page, `${name}.svg`, ruledSheet());

@@ -2,8 +2,8 @@
  * Several browsers on one server: the same view, one operator, watchers, and a browser that loses its
  * network.
  */
-import type { Browser, BrowserContext, Locator, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
+import type { Browser, Locator, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { launchBrowser, PLAIN } from "../../support/browser/browser.js";
 import { ruledSheet } from "../../support/drawings/drawings.js";
 import {
@@ -17,6 +17,7 @@ import {
   statusCard,
   waitForPlan,
 } from "../../support/browser/page-actions.js";
+import { pairedPage } from "../../support/browser/paired-page.js";
 import { temporaryFolder } from "../../support/processes/folders.js";
 import { startServerProcess, type ServerProcess } from "../../support/processes/server-process.js";
 
@@ -32,15 +33,12 @@ let watcher: Page;
 beforeAll(async () => {
   browser = await launchBrowser();
   server = await startServerProcess({ dataDir: data.path, virtualSpeed: 4, args: ["--pair-always"] });
-  const linksSaid = (): readonly string[] => {
-    const links = server.output().match(/\/pair\?token=[\w-]+/g) ?? [];
-    if (links.length < 2) throw new Error(`no links to pair with: ${server.output()}`);
-    return links;
-  };
-  const [operatePath, watchPath] = await vi.waitFor(linksSaid, { timeout: 60_000 });
-  anna = await pairedPage(operatePath);
-  ben = await pairedPage(operatePath);
-  watcher = await pairedPage(watchPath, false);
+  anna = await pairedPage(browser, server, "operate", VIEWPORT);
+  ben = await pairedPage(browser, server, "operate", VIEWPORT);
+  watcher = await pairedPage(browser, server, "watch", VIEWPORT);
+  for (const page of [anna, ben]) await chooseSample(page);
+  // A watcher has nothing to lay out.
+  await statusCard(watcher).getByText("Nothing is being plotted").first().waitFor();
 });
 
 afterAll(async () => {
@@ -48,17 +46,6 @@ afterAll(async () => {
   await server.stop();
   data.remove();
 });
-
-/** A watcher has nothing to lay out. */
-async function pairedPage(path: string, laysOut = true): Promise<Page> {
-  const context: BrowserContext = await browser.newContext({ ...PLAIN, viewport: VIEWPORT });
-  const page = await context.newPage();
-  await page.goto(`${server.url}${path}`);
-  await page.waitForURL(`${server.url}/`);
-  if (laysOut) await chooseSample(page);
-  else await statusCard(page).getByText("Nothing is being plotted").waitFor();
-  return page;
-}
 
 const pages = (): readonly Page[] => [anna, ben, watcher];
 const plotButton = (page: Page): Locator =>
