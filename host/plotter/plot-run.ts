@@ -14,36 +14,25 @@ import { PlotwrightError, type StrokePosition, type StrokeSet } from "../../src/
 import {
   movedPosition,
   pointAt,
-  AHEAD_STEP_MS,
   type Machine,
   type Playback,
-  type PlotProgress,
   type MachineState,
   machineOf,
   PositionTimes,
   strokeCount,
 } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
-import { JOURNAL_S, resumePosition, PROGRESS_S } from "./resume-position.js";
+import { resumePosition, PROGRESS_S } from "./resume-position.js";
 import { PenStops } from "./pen-stops.js";
-import { BLOT_S, restedWhileStalled } from "./plotter-state.js";
+import { PlotReports } from "./plot-reports.js";
 import { RunSettings } from "./run-settings.js";
 import type { PlannedPlot, PlotPlanner } from "../planning/planning.js";
-import type {
-  JournalEntry,
-  LivePlotRun,
-  PlotChange,
-  PlotOutcome,
-  ReportedProgress,
-  PlotStart,
-} from "./plotter-port.js";
+import type { LivePlotRun, PlotChange, PlotOutcome, PlotStart, ReportedProgress } from "./plotter-port.js";
 import { Waiters } from "./waiters.js";
 
 /** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */
 const CHANGE_LEAD_S = 0.15;
 const CHANGE_TRIES = 4;
-/** Moments in a report of progress: enough until the next one arrives. */
-const AHEAD_COUNT = 20;
 
 /** The state that the user asked for. */
 type RequestedState = "run" | "hold" | "cancel";
@@ -60,6 +49,7 @@ export class MachinePlot implements LivePlotRun {
   private wait: PlotWait | null = null;
   private readonly stream: Playback;
   private readonly settings: RunSettings;
+  private readonly reports: PlotReports;
   private readonly stops: PenStops;
   private readonly strokes: StrokeSet;
   private failure: PlotwrightError | null = null;
@@ -71,14 +61,11 @@ export class MachinePlot implements LivePlotRun {
   private changing: Promise<void> | null = null;
   /** Moves to the hold place; nothing else may move until they have finished. */
   private checking: Promise<void> = Promise.resolve();
-  private journalDueS = -Infinity;
-  private stopTicking: () => void = () => undefined;
   private wakeHold: (() => void) | null = null;
   private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
   /** The carriage stays where it is until the next request: after an emergency stop, or when a held plot is left. */
   private holdsPosition = false;
   private readonly heldListeners: HeldListener[] = [];
-  private readonly progressListeners: ((report: ReportedProgress) => void)[] = [];
   private readonly waiters = new Waiters();
   private readonly start: PlotStart;
 
@@ -96,10 +83,11 @@ export class MachinePlot implements LivePlotRun {
       strokes: this.strokes,
       settings: () => this.settings.current,
       events: {
-        progressed: (progress) => this.report(progress),
-        ended: (place) => this.streamEnded(place),
+        progressed: (progress) => this.reports.progressed(progress),
+        ended: (place) => this.reports.streamEnded(place),
       },
     });
+    this.reports = new PlotReports(machine, this.stream, this.settings, start);
     const { from = null, received } = start;
     this.holdPlace =
       from && resumePosition(machine, this.strokes, settings, this.stops.strokes, { from, received });
@@ -117,8 +105,7 @@ export class MachinePlot implements LivePlotRun {
   }
 
   onProgress(listener: (report: ReportedProgress) => void): void {
-    this.progressListeners.push(listener);
-    if (this.stream.progress.latest) listener(this.reportOf(this.stream.progress.latest));
+    this.reports.onProgress(listener);
   }
 
   /** If the plot is held already, the listener learns it now. */
@@ -163,7 +150,7 @@ export class MachinePlot implements LivePlotRun {
     if (this.stream.playing) {
       this.stream.stopAtOnce();
       // The board no longer draws everything that it had received.
-      this.writeJournal(this.stream.progress.place);
+      this.reports.writeJournal(this.stream.progress.place);
     } else this.machine.stopAtOnce();
     return this.waiters.until(() => this.held || this.requested === "cancel");
   }
@@ -190,10 +177,10 @@ export class MachinePlot implements LivePlotRun {
     this.holdPlace = movedPosition(this.strokes, this.heldPlace(), by);
     this.stops.moved(this.holdPlace);
     const wait = this.stops.due(this.holdPlace);
-    const moved = this.stream.progress.movedTo(this.holdPlace, this.initialProgress());
-    if (moved) this.report(moved);
+    const moved = this.stream.progress.movedTo(this.holdPlace, this.reports.initialProgress());
+    if (moved) this.reports.progressed(moved);
     if (wait?.layerName !== this.wait?.layerName) this.setHeld(true, wait);
-    this.writeJournal(this.holdPlace);
+    this.reports.writeJournal(this.holdPlace);
     return this.holdPlace;
   }
 
@@ -345,7 +332,7 @@ export class MachinePlot implements LivePlotRun {
 
   private async hold(): Promise<void> {
     this.setHeld(true, this.stops.due(this.holdPlace));
-    if (this.holdPlace) this.writeJournal(this.holdPlace);
+    if (this.holdPlace) this.reports.writeJournal(this.holdPlace);
     this.holdPlace ??= { stroke: 0, alongMm: 0 };
     while (this.requested === "hold" && !this.failure) {
       await new Promise<void>((resolve) => {
@@ -397,68 +384,7 @@ export class MachinePlot implements LivePlotRun {
   private streamBegun(): void {
     // A request that came before the stream existed.
     if (this.requested !== "run") this.stream.slowToRest();
-    // From now on the plot no longer rests at the journal's place.
-    this.journalDueS = -Infinity;
-    this.stopTicking = this.tick();
-  }
-
-  private streamEnded(place: StrokePosition | null): void {
-    this.stopTicking();
-    const left = place ?? this.stream.progress.place;
-    // A board that still knows its position is at rest there.
-    this.writeJournal(left, this.machine.state ? undefined : this.stream.receivedPlace);
-  }
-
-  private tick(): () => void {
-    const { clock, speed } = this.machine;
-    let cancel = (): void => undefined;
-    let lastS = clock.nowS();
-    const next = (): void => {
-      const now = this.stream.now();
-      const stalledS = (clock.nowS() - lastS) / speed;
-      lastS = clock.nowS();
-      if (now) {
-        // The replies that came meanwhile are read first: they tell how far the board has drawn.
-        if (!now.penUp && stalledS >= BLOT_S) clock.after(0, () => this.noteStall(stalledS));
-        this.report(now, this.stream.ahead((AHEAD_STEP_MS / 1_000) * speed, AHEAD_COUNT));
-        if (clock.nowS() >= this.journalDueS) {
-          this.writeJournal(this.stream.progress.place, this.stream.receivedPlace);
-        }
-      }
-      cancel = clock.after(PROGRESS_S * speed, next);
-    };
-    next();
-    return () => cancel();
-  }
-
-  private noteStall(stalledS: number): void {
-    const now = this.stream.now();
-    if (now && !now.penUp) this.start.noted?.(restedWhileStalled(now, stalledS));
-  }
-
-  private report(progress: PlotProgress, ahead?: ReportedProgress["ahead"]): void {
-    const report = this.reportOf(progress, ahead);
-    for (const listener of this.progressListeners) listener(report);
-  }
-
-  private reportOf(progress: PlotProgress, ahead: ReportedProgress["ahead"] = []): ReportedProgress {
-    const { clock, speed } = this.machine;
-    return { ...progress, atMs: (1_000 * clock.nowS()) / speed, ahead };
-  }
-
-  private writeJournal(left: StrokePosition | null, received?: StrokePosition): void {
-    const { latest } = this.stream.progress;
-    const { clock, speed } = this.machine;
-    this.journalDueS = clock.nowS() + JOURNAL_S * speed;
-    if (!left) return;
-    const { xMm, yMm, penUp, elapsedS } = latest ?? this.initialProgress();
-    this.start.journal?.record({ place: left, received, xMm, yMm, penUp, elapsedS });
-  }
-
-  /** The progress before anything has been streamed. */
-  private initialProgress(): Omit<JournalEntry, "place"> {
-    const { x, y } = this.machine.positionMm(machineOf(this.settings.current)) ?? { x: 0, y: 0 };
-    return { xMm: x, yMm: y, penUp: this.machine.penUp ?? true, elapsedS: 0 };
+    this.reports.streamBegun();
   }
 }
 

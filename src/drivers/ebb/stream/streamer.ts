@@ -1,18 +1,9 @@
 /**
- * Sends command streams by a window of board time instead of waiting for each acknowledgement.
+ * Sends command streams ahead of the board's time (see send-window.ts) instead of waiting for each acknowledgement.
  *
- * About `windowS` of motion is always sent ahead (0.8 to 1.3 times as much with commands of 150 ms), so that the board
- * keeps moving while the host is stalled. The drawback: on firmware with a queue of one command, the commands sent ahead
- * block the board's parser, and an emergency stop has to wait for them. So the window is 0.3 s, not 3 s. If the board's
- * own queue is deeper, no more is sent than fits into it, and a stop is read at once.
- *
- *      executed        executing     waiting in the board      not yet written
- *   ───────────────|───────^──────|────────────────────────|- - - - - - - - - -
- *                  board time now  <------- windowS ------->
- *
- * Times are board times on the injected clock: with a virtual board that runs 20 times faster, that clock runs 20 times
- * faster too. A stream can be cut at any unsent command and replaced by another while the board plays what it has
- * received, so a hold, a change of speed or a resume causes no gap.
+ * A stream can be cut at any unsent command and replaced by another while the board plays what it has received, so a hold,
+ * a change of speed or a resume causes no gap. Times are board times on the injected clock: with a virtual board that runs
+ * 20 times faster, that clock runs 20 times faster too.
  */
 import { commandLine } from "../compile/compile.js";
 import type { CommandStream } from "../compile/command-stream.js";
@@ -22,6 +13,7 @@ import { PlotwrightError } from "../../../errors.js";
 import { stuck } from "../../faults.js";
 import { delay } from "../../transport.js";
 import { endOfLowering } from "./cut-streams.js";
+import { MIN_WAKE_S, SendWindow, type CommandTime, type SendOptions } from "./send-window.js";
 import type { BoardSession, Outgoing } from "./session.js";
 import type { PollTime, StreamOptions, StreamReport } from "./stream-types.js";
 import {
@@ -33,21 +25,10 @@ import {
   type StreamSpan,
 } from "./timeline.js";
 
-/** Min time between wake-ups. */
-const MIN_WAKE_S = 0.004;
 const STOP_TRIES = 3;
 /** Shorter underruns cannot be distinguished from the connection's latency. */
 const DRY_S = 0.002;
 const IDLE_POLL_S = 0.02;
-/** Share of the window that is always filled, even if the next command is longer than the rest. */
-const RESERVE_SHARE = 0.8;
-
-/**
- * Max seconds of motion sent ahead of the pen, with commands of up to `commandS`: the largest of the window, its reserve
- * plus one command, and one running plus one waiting command.
- */
-export const maxAheadS = (windowS: number, commandS: number): number =>
-  Math.max(windowS, RESERVE_SHARE * windowS + commandS, 2 * commandS);
 
 export class Streamer {
   /** Number of times that the board ran out of commands during a run. */
@@ -56,9 +37,9 @@ export class Streamer {
   readonly refused: RefusedCommand[] = [];
 
   private readonly session: BoardSession;
-  private readonly options: Required<Pick<StreamOptions, "clock" | "windowS" | "queueDepth" | "stuckS">> &
-    StreamOptions;
+  private readonly options: SendOptions & StreamOptions;
   private readonly timeline: BoardTimeline;
+  private readonly window: SendWindow;
 
   private stream: CommandStream | null = null;
   private next = 0;
@@ -83,6 +64,7 @@ export class Streamer {
     this.options = { windowS: 0.3, queueDepth: 1, stuckS: 2, ...options };
     const { clock, queueDepth, stuckS } = this.options;
     this.timeline = new BoardTimeline(clock, queueDepth, stuckS);
+    this.window = new SendWindow(this.options, this.timeline);
   }
 
   /**
@@ -251,13 +233,14 @@ export class Streamer {
     const endIndex = this.limit?.atIndex ?? stream.count;
     while (this.next < endIndex) {
       const end = Math.min(endIndex, endOfLowering(stream, this.next));
-      if (!this.mayWrite(stream, boardS, end - this.next)) break;
+      const time = this.timeOf(stream, this.next);
+      if (!this.window.mayWrite(time, end - this.next, boardS, this.unanswered)) break;
       for (; this.next < end; this.next++) {
         batch.push(...this.queriesBefore(stream.boardS[this.next]), this.outgoing(stream, this.next));
       }
     }
     if (batch.length > 0) this.session.write(batch);
-    if (this.next < endIndex) this.sleep(this.wakeInS(stream, boardS));
+    if (this.next < endIndex) this.sleep(this.window.wakeInS(this.timeOf(stream, this.next), boardS));
     else if (this.limit && this.limit.then.length > 0) this.take(this.limit.then);
     else this.awaitEnd(boardS);
   }
@@ -270,40 +253,12 @@ export class Streamer {
     return this.queries(between.lines);
   }
 
-  /** @param count of commands that belong together */
-  private mayWrite(stream: CommandStream, boardS: number, count: number): boolean {
-    if (this.options.pacing === "acks") return this.unanswered === 0;
-    const waiting = this.timeline.count;
-    // Always keep one whole command waiting after the executing one, even if they are longer than the window.
-    if (waiting < 2) return true;
-    if (this.options.queueDepth > 1 && waiting + count > this.options.queueDepth) return false;
-    return this.dueS(stream) <= boardS;
-  }
-
-  /**
-   * Board time at which to write the next command: when its end enters the window, or, for a long command, when the
-   * motion sent ahead falls to the window's reserve.
-   */
-  private dueS(stream: CommandStream): number {
-    const { clock } = this.options;
-    const windowS = this.options.windowS + (clock.latenessS?.() ?? 0);
-    const startS = this.offsetS + stream.boardS[this.next];
-    const endS = this.offsetS + stream.boardS[this.next + 1];
-    return Math.min(endS - windowS, startS - RESERVE_SHARE * windowS);
-  }
-
-  /** Seconds until the next command is due, or the executing one ends. */
-  private wakeInS(stream: CommandStream, boardS: number): number {
-    if (this.options.pacing === "acks") return this.options.stuckS;
-    const dueInS = this.dueS(stream) - boardS;
-    const executing = this.timeline.first;
-    const endsInS = executing ? executing.endS - boardS : 0;
-    return Math.max(MIN_WAKE_S, Math.min(dueInS > 0 ? dueInS : endsInS, Math.max(endsInS, 0)));
+  private timeOf(stream: CommandStream, index: number): CommandTime {
+    return { startS: this.offsetS + stream.boardS[index], endS: this.offsetS + stream.boardS[index + 1] };
   }
 
   private outgoing(stream: CommandStream, index: number): Outgoing {
-    const startS = this.offsetS + stream.boardS[index];
-    const endS = this.offsetS + stream.boardS[index + 1];
+    const { startS, endS } = this.timeOf(stream, index);
     const takesTime = endS !== startS;
     const place = { stream, commandIndex: index, planS: stream.planS[index] };
     const waitS = this.timeline.longestS();
