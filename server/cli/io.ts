@@ -35,6 +35,10 @@ export interface CliIo {
 export const printed = (parts: TemplateStringsArray, ...values: readonly unknown[]): string =>
   String.raw({ raw: parts }, ...values.map((value) => printable(String(value))));
 
+/** One line of a table: what `cut` and other programs can read too. */
+export const row = (...cells: readonly unknown[]): string =>
+  `${cells.map((cell) => printed`${cell}`).join("\t")}\n`;
+
 /** A time as hours, minutes and seconds: "00:01:30". */
 export function minutes(seconds: number): string {
   const whole = Math.round(seconds);

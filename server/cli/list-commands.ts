@@ -4,7 +4,7 @@ import { printableJson } from "../../src/internal.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { mustBeDataFolder } from "./files.js";
-import { printed, type CliIo } from "./io.js";
+import { printed, row, type CliIo } from "./io.js";
 import { addData, addJson, type Declare } from "./options.js";
 
 interface ListOptions {
@@ -34,7 +34,7 @@ async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
     return;
   }
   for (const { path, description, serialNumber } of boards) {
-    io.out(printed`${path}\t${description}${serialNumber === null ? "" : ` (${serialNumber})`}\n`);
+    io.out(row(path, `${description}${serialNumber === null ? "" : ` (${serialNumber})`}`));
   }
 }
 
@@ -44,7 +44,7 @@ function runMachines({ data, json }: ListOptions, io: CliIo): void {
   if (json === true) io.out(`${printableJson(files.list())}\n`);
   else {
     for (const { id, name, widthMm, heightMm, builtIn } of files.list()) {
-      io.out(printed`${id}\t${name}\t${widthMm} × ${heightMm} mm` + (builtIn ? "\n" : "\tyour own\n"));
+      io.out(row(id, name, `${widthMm} × ${heightMm} mm`, ...(builtIn ? [] : ["your own"])));
     }
   }
   files.warnings.forEach((warning) => io.err(printed`${warning}\n`));

@@ -46,13 +46,37 @@ export const addHandOptions = (command: Command): Command =>
     .option("--machine <id>", "plotter model (default: the one that the server's plotter has)")
     .option("--machine-file <file>", "JSON file with the profile of your own plotter, or -");
 
+/** For a command about one of the plotters that the server has, or the data folder. */
+export const addPlotter = (command: Command): Command =>
+  command.option("--plotter <name>", "which plotter, by name or id (default: the first one)");
+
 export const addJson = (command: Command): Command => command.option("--json", "print JSON");
 
-export function port(text: string): number {
-  const value = Number(text);
-  if (!/^\d+$/.test(text) || value > 65_535) throw new InvalidArgumentError("It must be 0 to 65535.");
-  return value;
-}
+/** A parser of numbers. `words`: what is allowed. `pattern`: how the number is written. */
+const numberThat =
+  (isAllowed: (value: number) => boolean, words: string, pattern = /\S/) =>
+  (text: string): number => {
+    const value = pattern.test(text) ? Number(text) : NaN;
+    if (!isAllowed(value)) throw new InvalidArgumentError(`It must be ${words}.`);
+    return value;
+  };
+const isIn =
+  (from: number, to: number) =>
+  (value: number): boolean =>
+    value >= from && value <= to;
+const WHOLE = /^\d+$/;
+
+export const number = numberThat(Number.isFinite, "a number");
+export const positive = numberThat((value) => value > 0 && Number.isFinite(value), "a number above 0");
+export const percent = numberThat(isIn(0, 100), "0 to 100");
+export const seconds = numberThat(isIn(0, 86_400), "0 to 86400 seconds");
+export const port = numberThat(isIn(0, 65_535), "0 to 65535", WHOLE);
+export const copies = numberThat(
+  isIn(1, 100),
+  "1 to 100. For endless copies: plotwright plot --copies 0",
+  WHOLE,
+);
+export const copiesOrEndless = numberThat(isIn(0, 100), "1 to 100, or 0 for endless copies", WHOLE);
 
 /** Collects the values of an option that takes several names. */
 export function hostNames(text: string, before: readonly string[] = []): string[] {
@@ -71,12 +95,6 @@ export function origins(text: string, before: readonly string[] = []): string[] 
   }
 }
 
-export function positive(text: string): number {
-  const value = Number(text);
-  if (!(value > 0 && Number.isFinite(value))) throw new InvalidArgumentError("It must be a number above 0.");
-  return value;
-}
-
 /** "15,25" or "15,25,0.05": frequencies of x and y in Hz, and the damping ratio. */
 export function springs(text: string): Springs {
   const [xHz = NaN, yHz = NaN, damping = SPRINGS_TABLE.damping.default, ...rest] = text
@@ -89,12 +107,6 @@ export function springs(text: string): Springs {
     );
   }
   return { xHz, yHz, damping };
-}
-
-export function percent(text: string): number {
-  const value = text.trim() === "" ? NaN : Number(text);
-  if (!(value >= 0 && value <= 100)) throw new InvalidArgumentError("It must be 0 to 100.");
-  return value;
 }
 
 /** Collects the values of --pen LAYER=NAME. */
@@ -120,31 +132,6 @@ export const addLayerOptions = (command: Command): Command =>
         penChoice,
       ),
     );
-
-const MAX_COPIES = 100;
-
-export function copies(text: string): number {
-  const value = Number(text);
-  if (/^0+$/.test(text)) {
-    throw new InvalidArgumentError("It must be 1 to 100. For endless copies: plotwright plot --copies 0.");
-  }
-  if (!/^\d+$/.test(text) || value > MAX_COPIES) throw new InvalidArgumentError("It must be 1 to 100.");
-  return value;
-}
-
-export function copiesOrEndless(text: string): number {
-  const value = Number(text);
-  if (!/^\d+$/.test(text) || value > MAX_COPIES) {
-    throw new InvalidArgumentError("It must be 1 to 100, or 0 for endless copies.");
-  }
-  return value;
-}
-
-export function seconds(text: string): number {
-  const value = text.trim() === "" ? NaN : Number(text);
-  if (!(value >= 0 && value <= 86_400)) throw new InvalidArgumentError("It must be 0 to 86400 seconds.");
-  return value;
-}
 
 export function length(text: string): number {
   const mm = parseLength(text);

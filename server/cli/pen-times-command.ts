@@ -10,17 +10,15 @@ import {
   rangeInWords,
 } from "../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, plotterPartOf, type GivenSettings } from "../../src/schema/index.js";
-import { withKnownPlotters } from "./client/known-plotters.js";
+import { withChosenPlotter } from "./client/known-plotters.js";
 import { addServer } from "./client/server-client.js";
-import { plotterNamed } from "./client/served-plotter.js";
 import { writeOut } from "./files.js";
-import { printed, type CliIo } from "./io.js";
-import type { Declare } from "./options.js";
-import { number } from "./setting-table.js";
+import { printed, row, type CliIo } from "./io.js";
+import { addPlotter, number, type Declare } from "./options.js";
 import type { OptionValues } from "./settings-options.js";
 
 export const declarePenTimes: Declare = (command, { io }) => {
-  addServer(command)
+  addPlotter(addServer(command))
     .argument("[out]", "SVG file to write the sheet to; its settings are written beside it", "pen-times.svg")
     .option("--right <ms>", "store this extra wait, the number of the lowest line that is right", number)
     .option(
@@ -29,7 +27,6 @@ export const declarePenTimes: Declare = (command, { io }) => {
       number,
     )
     .option("--drop <ms>", "store this one only for lowering, where they lack beginnings and dots", number)
-    .option("--plotter <name>", "the plotter that it is stored for, by name or id (default: the first one)")
     .action(async (out: string, options: OptionValues) => {
       const { right, lift = right, drop = right } = options;
       if (lift === undefined && drop === undefined) writeSheet(out, io);
@@ -75,15 +72,12 @@ async function store(
     if (!isAllowed(row, Number(ms)))
       throw new PlotwrightError("bad-setting", `${String(ms)} ms: it must be ${rangeInWords(row)}.`);
   }
-  await withKnownPlotters(options, async ({ plotters, saveSettings }) => {
-    const { plotter: name } = options;
-    const plotter = typeof name === "string" ? plotterNamed(plotters, name) : plotters[0];
-    if (plotter === undefined) return;
+  await withChosenPlotter(options, async (plotter, { saveSettings }) => {
     const own = plotter.stored.own ?? { ...plotterPartOf(DEFAULT_PLOT_SETTINGS), presets: [] };
     await saveSettings(plotter.id, { ...own, pen: { ...own.pen, ...Object.fromEntries(chosen) } });
     for (const [key, ms] of chosen) {
       const { label } = PEN_TABLE[key as keyof typeof waits];
-      io.out(printed`${label}\t${String(ms)} ms\tplotter ${plotter.name}` + "\n");
+      io.out(row(label, `${String(ms)} ms`, `plotter ${plotter.name}`));
     }
   });
 }

@@ -12,7 +12,7 @@ import {
   type PaperSize,
   type PlacedBox,
 } from "../../src/internal.js";
-import { length } from "./options.js";
+import { length, number } from "./options.js";
 
 export interface SettingOption {
   readonly flags: string;
@@ -96,12 +96,6 @@ const NAMED_SIZES: readonly unknown[] = Object.values(PAPER_SIZES);
 /** A size in numbers: its own orientation applies. */
 export const isOwnSize = (size: unknown): size is PaperSize =>
   size !== undefined && !NAMED_SIZES.includes(size);
-
-export function number(text: string): number {
-  const value = text.trim() === "" ? NaN : Number(text);
-  if (!Number.isFinite(value)) throw new InvalidArgumentError("It must be a number.");
-  return value;
-}
 
 function numbers(text: string, counts: readonly number[]): number[] {
   const parts = text.split(",");

@@ -24,12 +24,12 @@ import {
   type PlotSettings,
   type PlotterSettings,
 } from "../../src/schema/index.js";
-import { knownPlotters, withKnownPlotters, type KnownPlotters } from "./client/known-plotters.js";
+import { knownPlotters, withChosenPlotter, type KnownPlotters } from "./client/known-plotters.js";
 import { addServer } from "./client/server-client.js";
-import { plotterNamed } from "./client/served-plotter.js";
+import { plotterOf } from "./client/served-plotter.js";
 import { changeUsualConfig, readUsualConfig, usualConfigPath } from "./config-file.js";
-import { printed, type CliIo } from "./io.js";
-import { addJson, type Declare } from "./options.js";
+import { printed, row, type CliIo } from "./io.js";
+import { addJson, addPlotter, type Declare } from "./options.js";
 import { isOwnSize, optionAt, optionOf, SETTING_OPTIONS } from "./setting-table.js";
 import {
   addSettingOptions,
@@ -47,7 +47,9 @@ import { NOTHING_STORED, type KnownPlotter } from "./stored-plotter.js";
 
 export const declareSettings: Declare = (settings, { io }) => {
   const sub = (name: string, about: string, isDefault = false): Command =>
-    addPlotter(settings.command(name, { isDefault }).description(about).copyInheritedSettings(settings));
+    addPlotter(
+      addServer(settings.command(name, { isDefault }).description(about).copyInheritedSettings(settings)),
+    );
 
   addJson(addSettingOptions(sub("show", "show all settings or some, and where each is from", true)))
     .argument("[keys...]", "only these: an option's name, or a path such as pen (default: all)")
@@ -70,12 +72,6 @@ export const declareSettings: Declare = (settings, { io }) => {
     .action((name: string, options: OptionValues) => remove(name, options, io));
 };
 
-const addPlotter = (command: Command): Command =>
-  addServer(command).option("--plotter <name>", "which plotter, by name or id (default: the first one)");
-
-const chosenOf = (plotters: readonly KnownPlotter[], { plotter }: OptionValues): KnownPlotter | undefined =>
-  typeof plotter === "string" ? plotterNamed(plotters, plotter) : plotters[0];
-
 /** A setting that is not split further. */
 interface Leaf {
   readonly path: string;
@@ -85,7 +81,7 @@ interface Leaf {
 async function show(keys: readonly string[], options: OptionValues, io: CliIo): Promise<void> {
   const paths = keys.map(shownPath);
   const { plotters, withMachine } = await knownPlotters(options);
-  const plotter = chosenOf(plotters, options);
+  const plotter = plotterOf(plotters, options["plotter"]);
   const layered = settingsInLayers(options, plotter?.stored ?? NOTHING_STORED, withMachine);
   const settings = layered.layers[layered.layers.length - 1].settings;
   const plotterSource = `plotter ${plotter?.id ?? ""}`;
@@ -103,7 +99,7 @@ async function show(keys: readonly string[], options: OptionValues, io: CliIo): 
     return;
   }
   if (rows.length === 0) io.err("Not set.\n");
-  for (const { path, value, source } of rows) io.out(printed`${path}\t${inWords(value)}\t${source}` + "\n");
+  for (const { path, value, source } of rows) io.out(row(path, inWords(value), source));
 }
 
 /** The path of a setting, or the beginning of several. Throws `bad-setting` if there is none. */
@@ -203,7 +199,7 @@ async function set(key: string, text: string, options: OptionValues, io: CliIo):
     if (path === "prepare.paper" && isOwnSize(value))
       setPath(all, ["prepare", "landscape"], value.widthMm > value.heightMm);
   });
-  io.out(printed`${path}\t${inWords(read(config, path))}\t${usualConfigPath()}` + "\n");
+  io.out(row(path, inWords(read(config, path)), usualConfigPath()));
   if (isMachine) await passToPlotter(text, before, options, io);
 }
 
@@ -247,7 +243,7 @@ function unset(key: string, io: CliIo): void {
   let isFound = false;
   changeUsualConfig((all) => (isFound = drop(all, path.split("."))));
   if (!isFound) throw new PlotwrightError("bad-setting", `${usualConfigPath()} does not have ${path}.`);
-  io.out(printed`${path}\tremoved\t${usualConfigPath()}` + "\n");
+  io.out(row(path, "removed", usualConfigPath()));
 }
 
 /** Objects that are empty then are removed too. */
@@ -264,11 +260,9 @@ function drop(target: Record<string, unknown>, [key = "", ...rest]: readonly str
 }
 
 async function setPlottersMachine(machine: string, options: OptionValues, io: CliIo): Promise<void> {
-  await withKnownPlotters(options, async (known) => {
-    const plotter = chosenOf(known.plotters, options);
-    if (plotter === undefined) return;
+  await withChosenPlotter(options, async (plotter, known) => {
     await known.saveMachine(plotter.id, machine);
-    io.out(printed`machine\t${machine}\tplotter ${plotter.name}` + "\n");
+    io.out(row("machine", machine, `plotter ${plotter.name}`));
   });
 }
 
@@ -282,13 +276,12 @@ async function passToPlotter(
   options: OptionValues,
   io: CliIo,
 ): Promise<void> {
-  await withKnownPlotters(options, async (known) => {
-    const plotter = chosenOf(known.plotters, options);
-    const its = plotter?.stored.machine ?? null;
-    if (plotter === undefined || its === machine) return;
+  await withChosenPlotter(options, async (plotter, known) => {
+    const its = plotter.stored.machine;
+    if (its === machine) return;
     if (its === null || its === before) {
       await known.saveMachine(plotter.id, machine);
-      io.out(printed`machine\t${machine}\tplotter ${plotter.name}\n`);
+      io.out(row("machine", machine, `plotter ${plotter.name}`));
       return;
     }
     io.err(
@@ -311,9 +304,7 @@ async function save(name: string, options: OptionValues, io: CliIo): Promise<voi
   if (!checked.success) {
     throw new PlotwrightError("bad-setting", `The name of the preset: ${firstFault(checked.error).words}.`);
   }
-  await withKnownPlotters(options, async (known) => {
-    const plotter = chosenOf(known.plotters, options);
-    if (plotter === undefined) return;
+  await withChosenPlotter(options, async (plotter, known) => {
     const { layers } = settingsInLayers(options, plotter.stored, known.withMachine);
     const settings: PlotSettings = layers[layers.length - 1].settings;
     await changePresets(
@@ -321,13 +312,13 @@ async function save(name: string, options: OptionValues, io: CliIo): Promise<voi
       plotter,
       withPreset(plotter.stored.own?.presets ?? [], checked.data, settings),
     );
-    io.out(printed`preset\t${checked.data}\tplotter ${plotter.name}` + "\n");
+    io.out(row("preset", checked.data, `plotter ${plotter.name}`));
   });
 }
 
 async function listPresets(options: OptionValues, io: CliIo): Promise<void> {
   const { plotters } = await knownPlotters(options);
-  const presets = chosenOf(plotters, options)?.stored.own?.presets ?? [];
+  const presets = plotterOf(plotters, options["plotter"])?.stored.own?.presets ?? [];
   if (options["json"] === true) io.out(`${printableJson(presets)}\n`);
   else if (presets.length === 0)
     io.err("The plotter has no presets. To make one: plotwright settings save NAME\n");
@@ -335,12 +326,10 @@ async function listPresets(options: OptionValues, io: CliIo): Promise<void> {
 }
 
 async function remove(name: string, options: OptionValues, io: CliIo): Promise<void> {
-  await withKnownPlotters(options, async (known) => {
-    const plotter = chosenOf(known.plotters, options);
-    if (plotter === undefined) return;
+  await withChosenPlotter(options, async (plotter, known) => {
     const presets = plotter.stored.own?.presets ?? [];
     const preset = presetNamed(presets, name);
     await changePresets(known, plotter, withoutPreset(presets, preset.name));
-    io.out(printed`preset\t${preset.name}\tremoved\n`);
+    io.out(row("preset", preset.name, "removed"));
   });
 }

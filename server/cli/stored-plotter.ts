@@ -2,7 +2,7 @@
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import { plotterSettingsSchema } from "../../src/schema/index.js";
+import { plotterSettingsSchema, type Job } from "../../src/schema/index.js";
 import { FIRST_PLOTTER } from "../../host/plotter/named-plotter.js";
 import type { StoredOfPlotter } from "../../host/plotter/settings-of-plotter.js";
 import { prepareDataDir } from "../storage/data-dir.js";
@@ -66,12 +66,15 @@ export async function withStore<T>(dataDir: string, use: (store: Store) => T | P
   }
 }
 
+/** The plotter's job that was begun last. */
+export const lastBegun = (jobs: readonly Job[], plotterId: string): Job | undefined =>
+  jobs
+    .filter((job) => job.plotterId === plotterId && job.startedAt !== null)
+    .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""))[0];
+
 export function plottersIn(store: Store): KnownPlotter[] {
   const settings = store.plotterSettings();
-  const begun = store
-    .jobs()
-    .filter(({ startedAt }) => startedAt !== null)
-    .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""));
+  const jobs = store.jobs();
   return store.plotters().map(({ id, name, device, machine }) => ({
     id,
     name: name ?? id,
@@ -79,7 +82,7 @@ export function plottersIn(store: Store): KnownPlotter[] {
     stored: {
       machine,
       own: plotterSettingsSchema.safeParse(settings[id]).data,
-      last: begun.find(({ plotterId }) => plotterId === id)?.settings,
+      last: lastBegun(jobs, id)?.settings,
     },
   }));
 }

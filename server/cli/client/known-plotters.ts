@@ -26,7 +26,7 @@ import {
 } from "../stored-plotter.js";
 import { serverState } from "./server-client.js";
 import { serverClient, type ServerAccess } from "../../../host/handle/server-client.js";
-import { keyInEnvironment, machinesOf, plotterNamed, storedOf } from "./served-plotter.js";
+import { keyInEnvironment, machinesOf, plotterOf, storedOf } from "./served-plotter.js";
 
 export interface KnownPlotters {
   readonly plotters: readonly KnownPlotter[];
@@ -73,6 +73,16 @@ export async function withKnownPlotters<T>(
   });
 }
 
+/** With the plotter that --plotter names, or the first one. Nothing happens if there is none. */
+export const withChosenPlotter = (
+  options: OptionValues,
+  use: (plotter: KnownPlotter, known: KnownPlotters) => Promise<void>,
+): Promise<void> =>
+  withKnownPlotters(options, async (known) => {
+    const plotter = plotterOf(known.plotters, options["plotter"]);
+    if (plotter !== undefined) await use(plotter, known);
+  });
+
 /** Without a server and a database there are none. */
 export async function knownPlotters(
   options: OptionValues,
@@ -93,7 +103,7 @@ export async function settingsByPlotter(options: OptionValues): Promise<FoundSet
   const { plotters, withMachine } = await knownPlotters(options);
   const chosen =
     typeof plotter === "string"
-      ? plotterNamed(plotters, plotter)
+      ? plotterOf(plotters, plotter)
       : (plotters.find((one) => hasPreset(one, String(preset))) ?? plotters[0]);
   return settingsOver(options, chosen?.stored ?? NOTHING_STORED, withMachine);
 }

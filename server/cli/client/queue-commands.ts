@@ -6,7 +6,7 @@ import { ENDED_STATES, type Job, type PlotSettings } from "../../../src/schema/i
 import { withLayerPens, withOnlyLayers, type PenChoice } from "../../planning/layers-by-name.js";
 import { readBytes } from "../../planning/read-drawing.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "../files.js";
-import { minutes, printed, type CliIo } from "../io.js";
+import { minutes, printed, row, type CliIo } from "../io.js";
 import { addJson, addLayerOptions, copies, type Declare } from "../options.js";
 import { accessOf, addJob, addServer, serverState, type ServerState } from "./server-client.js";
 import { serverClient, type ServerAccess, type ServerClient } from "../../../host/handle/server-client.js";
@@ -34,7 +34,7 @@ export const declareAdd: Declare = (command, { io }) => {
     .action(async (files: string[], options: AddOptions & OptionValues) => {
       const access = accessOf(options);
       const state = await serverState(access);
-      const plotter = plotterOf(state, options.plotter);
+      const plotter = plotterOf(state.plotters, options.plotter);
       const base = settingsOver(options, storedOf(state, plotter), machinesOf(state)).settings;
       mustBeReadable(files);
       for (const [index, file] of files.entries()) {
@@ -47,7 +47,7 @@ export const declareAdd: Declare = (command, { io }) => {
         if (options.json === true || options.quiet === true) continue;
         // The server says first that it plots on the plotter's machine, not on the one that was named.
         if (job.settings.machine !== base.machine) io.err(printed`note: ${job.warnings[0] ?? ""}\n`);
-        io.out(row([job.id, job.name, timeOf(job), ...plotterNameOf(job, state)]));
+        io.out(row(job.id, job.name, timeOf(job), ...plotterNameOf(job, state)));
         if (job.stats) io.err(printed`${job.name}: ${sizeInWords(job.stats.size)}\n`);
       }
     });
@@ -100,14 +100,11 @@ export const declareQueue: Declare = (command, { io }) => {
   });
 };
 
-const row = (columns: readonly string[]): string =>
-  `${columns.map((column) => printed`${column}`).join("\t")}\n`;
-
 const line = (job: Job, state: ServerState): string =>
-  row([
+  row(
     ...[job.id, job.state, `${Math.round(100 * job.progress)} %`, timeOf(job), job.name],
     ...plotterNameOf(job, state),
-  ]);
+  );
 
 /** One more column, if the server has several plotters. */
 const plotterNameOf = ({ plotterId }: Job, { plotters }: ServerState): string[] =>

@@ -11,7 +11,7 @@ import { defaultDataDir } from "../../storage/data-dir.js";
 import { addressOfServer } from "../../storage/data-lock.js";
 import { serverState, type ServerPlotter, type ServerState } from "./server-client.js";
 import { serverClient, type ServerAccess, type ServerClient } from "../../../host/handle/server-client.js";
-import { NOTHING_STORED } from "../stored-plotter.js";
+import { lastBegun, NOTHING_STORED } from "../stored-plotter.js";
 import { settingsOver, type FoundSettings, type OptionValues } from "../settings-options.js";
 
 export interface ServedPlotter {
@@ -60,17 +60,17 @@ function realPath(path: string): string {
   }
 }
 
-/** The server's first plotter, or the one with that id or name. */
-export const plotterOf = (
-  { plotters }: ServerState,
-  wanted: string | undefined,
-): ServerPlotter | undefined => (wanted === undefined ? plotters[0] : plotterNamed(plotters, wanted));
+interface Named {
+  readonly id: string;
+  readonly name: string;
+}
+
+/** The plotter that --plotter names, or the first one. */
+export const plotterOf = <T extends Named>(plotters: readonly T[], wanted: unknown): T | undefined =>
+  typeof wanted === "string" ? plotterNamed(plotters, wanted) : plotters[0];
 
 /** The plotter with that id or name. Throws `bad-setting` with the names that there are. */
-export function plotterNamed<T extends { readonly id: string; readonly name: string }>(
-  plotters: readonly T[],
-  wanted: string,
-): T {
+function plotterNamed<T extends Named>(plotters: readonly T[], wanted: string): T {
   const found =
     plotters.find(({ id }) => id === wanted) ??
     plotters.find(({ name }) => name === wanted) ??
@@ -87,10 +87,11 @@ export function storedOf(
   plotter: ServerPlotter | undefined,
 ): StoredOfPlotter {
   if (plotter === undefined) return NOTHING_STORED;
-  const [last] = jobs
-    .filter((job) => job.plotterId === plotter.id && job.startedAt !== null)
-    .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""));
-  return { machine: plotter.machine, own: plotterSettings[plotter.id], last: last?.settings };
+  return {
+    machine: plotter.machine,
+    own: plotterSettings[plotter.id],
+    last: lastBegun(jobs, plotter.id)?.settings,
+  };
 }
 
 /** Adds the profiles of the server's custom machines. */

@@ -2,7 +2,7 @@
 import { PlotwrightError } from "../../../src/index.js";
 import { printableJson } from "../../../src/internal.js";
 import type { Job, JobState } from "../../../src/schema/index.js";
-import { printed, type CliIo } from "../io.js";
+import { printed, row, type CliIo } from "../io.js";
 import { JobRun } from "./job-run.js";
 import { addJson, type Declare } from "../options.js";
 import { plotReport } from "./plot-report.js";
@@ -107,6 +107,6 @@ function fault(what: string, jobs: readonly Job[]): PlotwrightError {
 }
 
 function printJob(job: Job, { json }: JobCommandOptions, io: CliIo): void {
-  io.out(json === true ? `${printableJson(job)}\n` : printed`${job.id}\t${job.state}\t${job.name}` + "\n");
+  io.out(json === true ? `${printableJson(job)}\n` : row(job.id, job.state, job.name));
   if (json !== true && job.message !== null) io.err(printed`${job.message}\n`);
 }
