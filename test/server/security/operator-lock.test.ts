@@ -1,5 +1,5 @@
 /** One operator at a time: several browsers, each with its own cookie. */
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { OperatorLock } from "../../../server/security/operator-lock.js";
 import {
   apiErrorSchema,
@@ -18,10 +18,6 @@ const PHONE =
   "Mozilla/5.0 (iPhone; CPU iPhone OS 18_0 like Mac OS X) AppleWebKit/605.1.15 Version/18.0 Safari/604.1";
 
 let app: TestApp;
-beforeEach(async () => {
-  app = await startApp();
-});
-afterEach(() => app.close());
 
 interface Browser {
   readonly headers: Record<string, string>;
@@ -50,6 +46,11 @@ const operator = async (): Promise<Operator | null> =>
   snapshotSchema.parse(await (await fetch(`${app.url}/api/v1/state`)).json()).operator;
 
 describe("the operator lock", () => {
+  beforeEach(async () => {
+    app = await startApp();
+  });
+  afterEach(() => app.close());
+
   it("distinguishes two browsers of the same kind by name", async () => {
     const [first, second] = [await openBrowser(DESKTOP), await openBrowser(DESKTOP)];
     const nameOf = async (browser: Browser): Promise<string | null> =>
@@ -159,20 +160,84 @@ describe("the operator lock", () => {
     expect(await codeOf(response)).toBe("409 not-operator");
     stream.close();
   });
+});
 
-  it("survives a restart of the server with its holder", () => {
-    const kept: { value?: unknown } = {};
-    const store = {
-      setting: () => kept.value,
-      saveSetting: (_key: string, value: unknown) => void (kept.value = value),
-    };
-    const parts = { store, announce: () => undefined, log: () => undefined };
-    const first = new OperatorLock(parts);
-    first.act({ id: "a", name: "A" });
-    first.close();
-    const second = new OperatorLock(parts);
-    expect(second.operator).toEqual({ id: "a", name: "A" });
-    expect(() => second.act({ id: "b", name: "B" })).toThrow("A is operating");
-    second.close();
+describe("the operator lock of a browser", () => {
+  const [ANNA, BEN] = [
+    { id: "a", name: "Anna" },
+    { id: "b", name: "Ben" },
+  ];
+  const LAPSE_MS = 30_000;
+  const kept: { value?: unknown } = {};
+  const newLock = (): OperatorLock =>
+    new OperatorLock({
+      store: { setting: () => kept.value, saveSetting: (_key, value) => void (kept.value = value) },
+      announce: () => undefined,
+      log: () => undefined,
+    });
+  let lock: OperatorLock;
+  beforeEach(() => {
+    vi.useFakeTimers();
+    kept.value = undefined;
+    lock = newLock();
+  });
+  afterEach(() => {
+    lock.close();
+    vi.useRealTimers();
+  });
+
+  it("survives a restart of the server with its holder, who may then return within 30 s", () => {
+    const stream = lock.streamOpened("a");
+    lock.act(ANNA);
+    lock.close();
+    stream();
+    vi.advanceTimersByTime(10 * LAPSE_MS);
+    lock = newLock();
+    expect(lock.operator).toEqual(ANNA);
+    expect(() => lock.act(BEN)).toThrow("Anna is operating");
+    vi.advanceTimersByTime(LAPSE_MS - 1);
+    expect(() => lock.act(BEN)).toThrow("Anna is operating");
+    vi.advanceTimersByTime(1);
+    expect(lock.operator).toBeNull();
+  });
+
+  it("stays with it while one of its tabs is open", () => {
+    const [first, second] = [lock.streamOpened("a"), lock.streamOpened("a")];
+    lock.act(ANNA);
+    first();
+    vi.advanceTimersByTime(10 * LAPSE_MS);
+    expect(lock.operator).toEqual(ANNA);
+    second();
+    vi.advanceTimersByTime(LAPSE_MS);
+    expect(lock.operator).toBeNull();
+  });
+
+  it("stays with it if it is back in time, as after a reload", () => {
+    const first = lock.streamOpened("a");
+    lock.act(ANNA);
+    first();
+    vi.advanceTimersByTime(LAPSE_MS - 1);
+    lock.streamOpened("a");
+    vi.advanceTimersByTime(10 * LAPSE_MS);
+    expect(lock.operator).toEqual(ANNA);
+  });
+
+  it("is not lost by the timer of the one who had it before", () => {
+    lock.act(ANNA);
+    vi.advanceTimersByTime(LAPSE_MS - 1);
+    lock.streamOpened("b");
+    lock.take(BEN);
+    vi.advanceTimersByTime(10 * LAPSE_MS);
+    expect(lock.operator).toEqual(BEN);
+  });
+
+  it("lasts 30 s from the last action of one without an event stream", () => {
+    lock.act(ANNA);
+    vi.advanceTimersByTime(LAPSE_MS - 1);
+    lock.act(ANNA);
+    vi.advanceTimersByTime(LAPSE_MS - 1);
+    expect(lock.operator).toEqual(ANNA);
+    vi.advanceTimersByTime(1);
+    expect(lock.operator).toBeNull();
   });
 });
