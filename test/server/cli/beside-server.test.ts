@@ -4,6 +4,7 @@ import { join } from "node:path";
 import { beforeEach, describe, expect, it, onTestFinished } from "vitest";
 import { createServer, type PlotwrightServer } from "../../../server/index.js";
 import type { Job, Plotter } from "../../../src/schema/index.js";
+import { send, stateOf as stateOfServer } from "../../support/servers/shared-servers.js";
 import { CaughtIo, cli, cliWith, type CliRun } from "../../support/processes/command-line.js";
 import { folderOfTest } from "../../support/processes/folders.js";
 
@@ -258,5 +259,27 @@ describe("a job of a running server", () => {
     expect((await at("pause")).err).toMatch(/No job is plotting\. Jobs: /);
     expect((await at("remove", "a.svg")).err).toMatch(/Several jobs are called a\.svg: name one by its id/);
     expect((await at("remove")).err).toMatch(/missing required argument 'job'/);
+  });
+});
+
+describe("--url", () => {
+  it("selects the server, whose plotters are named if it has several", async () => {
+    const other = await createServer({ port: 0, device: "virtual", dataDir: join(data, "other") });
+    onTestFinished(() => other.close());
+    const at = ["--url", other.url];
+    const body = { name: "Second", device: "virtual", machine: "axidraw-v3" };
+    expect((await send(other.url, "POST", "/plotters", body)).status).toBe(201);
+    const [first, second] = (await stateOfServer(other)).plotters;
+    const b = join(data, "b.svg");
+    writeFileSync(b, square(1));
+    const added = await cli("add", file, "--plotter", second.id, ...at);
+    expect([added.code, added.out]).toEqual([0, expect.stringMatching(/\ta\.svg\t[\d:]+\tSecond\n$/)]);
+    await cli("add", b, ...at);
+    const lines = (await cli("queue", ...at)).out.trimEnd().split("\n");
+    expect(lines.map((line) => line.split("\t").slice(-2))).toEqual([
+      ["a.svg", "Second"],
+      ["b.svg", first.name],
+    ]);
+    expect(await jobs()).toEqual([]);
   });
 });

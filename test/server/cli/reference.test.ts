@@ -15,10 +15,9 @@ import { PlotRecord } from "../../../server/cli/plot/plot-record.js";
 import type { PlanOutput } from "../../../server/cli/plan/plan.js";
 import type { PlanThreadInput } from "../../../server/cli/plan/plan-thread.js";
 import { createServer, type PlotwrightServer } from "../../../server/index.js";
-import { MACHINES, machineById } from "../../../src/index.js";
+import { machineById } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type JobState } from "../../../src/schema/index.js";
 import { cliReference } from "../../../scripts/cli-reference.js";
-import { send, stateOf } from "../../support/servers/shared-servers.js";
 import { CaughtIo, cliWith, type CliRun } from "../../support/processes/command-line.js";
 
 const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`;
@@ -373,38 +372,6 @@ describe("serve --shared-queue", () => {
   );
 });
 
-describe("--url", () => {
-  it(
-    "selects the server, whose plotters are named if it has several",
-    async () => {
-      const options = { port: 0, dataDir: join(folder, "other"), device: "virtual", log: () => undefined };
-      const other = await createServer({ ...options, maxUploadBytes: 1e6 });
-      try {
-        const at = ["--url", other.url];
-        const body = { name: "Second", device: "virtual", machine: "axidraw-v3" };
-        expect((await send(other.url, "POST", "/plotters", body)).status).toBe(201);
-        const [first, second] = (await stateOf(other)).plotters;
-        const added = await cliWith(new CaughtIo(), "add", "wide.svg", "--plotter", second.id, ...at);
-        expect([added.code, added.out]).toEqual([0, expect.stringMatching(/\twide\.svg\t[\d:]+\tSecond\n$/)]);
-        await cliWith(new CaughtIo(), "add", "other.svg", ...at);
-        const { out } = await cliWith(new CaughtIo(), "queue", ...at);
-        const columns = out
-          .trimEnd()
-          .split("\n")
-          .map((line) => line.split("\t").slice(-2));
-        expect(columns).toEqual([
-          ["wide.svg", "Second"],
-          ["other.svg", first.name],
-        ]);
-        expect((await cliWith(new CaughtIo(), "queue", "--url", server.url)).out).not.toContain("wide.svg");
-      } finally {
-        await other.close();
-      }
-    },
-    LIMIT_MS,
-  );
-});
-
 describe("docs/cli.md", () => {
   it("has the commands that `npm run docs` writes", async () => {
     const text = readFileSync(new URL("../../../docs/cli.md", import.meta.url), "utf8");
@@ -473,43 +440,3 @@ function leaveInterruptedPlot(): void {
   const place = { stroke: 0, alongMm: 2 };
   record.save({ place, xMm: 0, yMm: 0, penUp: false, elapsedS: 1 }, 0.4);
 }
-
-/** The cells of the column "plotwright" in the tables that translate another program's options. */
-function translationsIn(markdown: string): string[] {
-  let isInTable = false;
-  return markdown.split("\n").flatMap((line) => {
-    const cell = line.startsWith("|") ? (line.split(/(?<!\\)\|/)[2]?.trim() ?? "") : "";
-    if (cell === "plotwright") isInTable = true;
-    if (cell === "") isInTable = false;
-    return isInTable ? [cell] : [];
-  });
-}
-
-describe("the pages for users of other programs", () => {
-  const read = (name: string): string => readFileSync(join(startedIn, "docs", name), "utf8");
-
-  it.each(["from-axidraw.md", "from-saxi.md"])("translate to options that exist in %s", async (name) => {
-    const io = new CaughtIo();
-    const names = COMMANDS.map((one) => one.name);
-    const program = await buildProgram(names, { io, version: "1", setExitCode: () => undefined });
-    const known = new Set(
-      [program, ...program.commands].flatMap(({ options }) => options.map(({ long }) => long)),
-    );
-    const cells = translationsIn(read(name));
-    const named = cells.flatMap((cell) => cell.match(/--[a-z][a-z-]*/g) ?? []);
-    expect(named.length).toBeGreaterThan(20);
-    expect(named.filter((flag) => !known.has(flag))).toEqual([]);
-    const commands = cells.flatMap((cell) =>
-      [...cell.matchAll(/`plotwright ([a-z][\w-]*)/g)].map((one) => one[1]),
-    );
-    expect(commands.filter((command) => command === undefined || !names.includes(command))).toEqual([]);
-  });
-
-  it.each(["from-axidraw.md", "from-saxi.md", "brushless-servo.md"])("name known models in %s", (name) => {
-    const ids = [...read(name).matchAll(/`(?:--machine )?((?:axidraw|nextdraw)-[\w-]+)`/g)].map(
-      (one) => one[1],
-    );
-    expect(ids.length).toBeGreaterThan(0);
-    expect(ids.filter((id) => !MACHINES.some((machine) => machine.id === id))).toEqual([]);
-  });
-});
