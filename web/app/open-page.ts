@@ -41,7 +41,10 @@ export function openPage(): Page {
   }
   const planner = openPlanner({
     onImported: (drawingKey) => actions.noteRead(drawingKey),
-    onPlanned: (planned) => actions.showPlan(planned),
+    onPlanned: (planned) => {
+      actions.showPlan(planned);
+      opening.planned(planned.drawingKey);
+    },
     onExported: (format, exported) => {
       const name = store.getState().drawing?.name ?? appName;
       saveFile(`${name}.${EXPORTED[format].ending}`, exported, EXPORTED[format].type);
@@ -60,6 +63,7 @@ export function openPage(): Page {
     after: (delayMs, callback) => void setTimeout(callback, delayMs),
   });
   const page = { store, backend, actions };
+  const opening = drawItselfOnOpening(page);
 
   const drawings = browserDrawings();
   keepRemembered(page, storage);
@@ -82,7 +86,7 @@ export function openPage(): Page {
   replanForBoard(store, actions.replan);
   openWatch(store);
   followPlotter(page);
-  void restoreSession(page, drawings);
+  void restoreSession(page, drawings, opening);
   return page;
 }
 
@@ -108,6 +112,29 @@ function keepRemembered({ store }: Page, storage: TextStore | null): void {
   });
 }
 
+interface Opening {
+  /** The drawing has been planned. */
+  planned(drawingKey: string): void;
+  /** The drawing was on the paper before. */
+  seen(drawingKey: string | undefined): void;
+}
+
+/** A drawing that is opened draws itself once, until the first click or key. Those of jobs may be half plotted. */
+function drawItselfOnOpening({ store, actions }: Page): Opening {
+  let seenKey: string | undefined;
+  for (const type of ["pointerdown", "keydown", "wheel"]) {
+    document.addEventListener(type, () => actions.restAtEnd(), { capture: true, passive: true });
+  }
+  return {
+    seen: (key) => (seenKey = key),
+    planned: (key) => {
+      const isOpened = key !== seenKey && store.getState().drawing?.jobId === null;
+      seenKey = key;
+      if (isOpened && !matchMedia("(prefers-reduced-motion: reduce)").matches) actions.drawItself();
+    },
+  };
+}
+
 /** Model, heights, pens and presets belong to the plotter. */
 function followPlotter({ store, actions }: Page): void {
   store.subscribe((state, before) => {
@@ -125,9 +152,11 @@ function followPlotter({ store, actions }: Page): void {
 async function restoreSession(
   { store, actions }: Page,
   drawings: ReturnType<typeof browserDrawings>,
+  opening: Opening,
 ): Promise<void> {
   const kept = await readKeptDrawing(drawings);
   if (kept && store.getState().drawing === null) actions.restoreDrawing(kept);
+  opening.seen(store.getState().drawing?.key);
   store.setState({ isStarting: false });
   await connected(store);
   await actions.loadSamples();

@@ -1,6 +1,7 @@
 /** Actions on the preview and the place of the drawing. */
-import { layoutOfFrame } from "../scene/placing.js";
+import { boxAround, layoutOfFrame } from "../scene/placing.js";
 import { isForSubmitter, type PageAction } from "../state/page-action.js";
+import { currentPlotter } from "../state/store.js";
 import { previewText, timeLineText } from "./text.js";
 
 const needsPlan: PageAction["whyOff"] = ({ planned }) => (planned ? null : previewText.needsDrawing);
@@ -47,6 +48,33 @@ export const PLACE: PageAction = {
   },
 };
 
+/** Moves the drawing: the upper left corner of its box is then where the carriage is. */
+export const START_HERE: PageAction = {
+  id: "start-here",
+  label: previewText.startHere,
+  words: "origin, corner, place at the carriage, position of the pen",
+  isForDrawing: true,
+  isOffered: isForSubmitter,
+  whyOff: (state) => {
+    if (!state.planned?.frameMm) return previewText.needsDrawing;
+    const plotter = state.link === "connected" ? currentPlotter(state) : null;
+    return plotter && plotter.xMm !== null && plotter.yMm !== null ? null : previewText.needsPosition;
+  },
+  perform: ({ store, actions }) => {
+    const state = store.getState();
+    const frame = state.planned?.frameMm;
+    const { xMm, yMm } = currentPlotter(state) ?? { xMm: null, yMm: null };
+    if (!frame || xMm === null || yMm === null) return;
+    const box = boxAround(frame);
+    const layout = layoutOfFrame({
+      ...frame,
+      xMm: frame.xMm + xMm - box.x0,
+      yMm: frame.yMm + yMm - box.y0,
+    });
+    actions.changeSettings("start here", (now) => ({ ...now, prepare: { ...now.prepare, layout } }));
+  },
+};
+
 const TURN_PAPER: PageAction = {
   id: "turn-paper",
   label: previewText.turnPaper,
@@ -60,4 +88,4 @@ const TURN_PAPER: PageAction = {
     })),
 };
 
-export const PREVIEW_ACTIONS: readonly PageAction[] = [PLAY, TRAVEL, GRAPH, PLACE, TURN_PAPER];
+export const PREVIEW_ACTIONS: readonly PageAction[] = [PLAY, TRAVEL, GRAPH, PLACE, START_HERE, TURN_PAPER];

@@ -100,7 +100,7 @@ const lookOf = (state: PageState): FrameLook => {
   const looks = planned ? mode.layerLooks({ planned, settings }) : [];
   return {
     colorBy: mode.picture?.(state) === null ? "layer" : mode.colorBy,
-    showTravel,
+    showTravel: showTravel || mode.showsTravel === true,
     layerColors: looks.map(({ color }) => color),
     layerWidthsMm: looks.map(({ widthMm }) => widthMm),
     lineGapMm: planned && !mode.isTrueToWidth ? planned.lineGapMm : undefined,
@@ -110,7 +110,8 @@ const lookOf = (state: PageState): FrameLook => {
 };
 
 const penOf = (state: PageState, glide: PenGlide): ShownPen | null => {
-  const { momentS, planned, settings } = state;
+  const { momentS, planned, settings, isDrawingItself } = state;
+  if (isDrawingItself) return null;
   const colors = planned ? penLooks({ planned, settings }).map(({ color }) => color) : [];
   if (momentS !== null && planned) {
     const { x, y, penUp, penMoving } = stateAt(planned.trajectory, momentS);

@@ -20,6 +20,10 @@ export const previewText = {
   turnPaper: "Turn the paper",
   needsDrawing: "There is no drawing on the paper.",
   place: "Place the drawing by hand",
+  startHere: "Start here",
+  startHereHint:
+    "Moves the drawing so that the upper left corner of its box is where the carriage is now. Undo moves it back.",
+  needsPosition: "The position of the carriage is not known: press Home first.",
   colorBy: "Colour by",
   moreEntries: (count: number) => `and ${count} more`,
   hint: "Arrow keys move the paper, or a drawing placed by hand; plus and minus zoom, 0 shows the whole paper.",

@@ -13,6 +13,7 @@ import {
   type StrokeLayer,
 } from "../../src/internal.js";
 import { ASKED_COLOR, INK_COLOR, type Frame, type Picture } from "../scene/renderer.js";
+import { withTimes, type Scene } from "../scene/scene.js";
 import type { PageState } from "../state/store.js";
 import { formatDuration, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -25,6 +26,8 @@ export interface ViewMode {
   readonly label: string;
   /** What gives a piece its colour: its two values or its time, both on the colour ramp, or its layer. */
   readonly colorBy: Frame["colorBy"];
+  /** Moves with the pen up are always shown. */
+  readonly showsTravel?: boolean;
   /** Lines are as wide as on paper. Otherwise the mode shows structure, and lines are thinner when zoomed out. */
   readonly isTrueToWidth: boolean;
   /** Colours and line widths of the layers, by index in `drawnLayers`. */
@@ -120,6 +123,25 @@ const SpeedLegend = ({ topMmPerS }: { topMmPerS: number }) => {
   );
 };
 
+const timePictures = new WeakMap<Scene, Picture>();
+
+/** Where the minutes go, and what would save some of them. */
+const TIME: ViewMode = {
+  id: "time",
+  label: "Time",
+  colorBy: "value",
+  showsTravel: true,
+  isTrueToWidth: false,
+  layerLooks: structureLooks,
+  picture: ({ planned }) => {
+    if (!planned) return null;
+    const picture = timePictures.get(planned.scene) ?? withTimes(planned.scene);
+    timePictures.set(planned.scene, picture);
+    return picture;
+  },
+  Legend: lazyPart<ModeInput>(async () => (await import("./time-legend.js")).TimeLegend),
+};
+
 const fileLooks = (shown: ModeInput): LineLook[] =>
   looksOf(shown, (layer, _index, _pen, penMm) => ({
     color: layer.color ?? INK_COLOR,
@@ -199,7 +221,7 @@ const SWING: ViewMode = {
 const ofWidth = (name: string, mm: string): string => `${name}, ${mm} mm`;
 
 /** In the order of their buttons. The first is shown on a first visit. */
-export const VIEW_MODES: readonly ViewMode[] = [INK, SPEED, LAYER, ORDER, PEN, SWING];
+export const VIEW_MODES: readonly ViewMode[] = [INK, SPEED, TIME, ORDER, LAYER, PEN, SWING];
 
 /** A browser may remember a mode that this version does not have. */
 export const viewModeOf = ({ view }: PageState): ViewMode =>

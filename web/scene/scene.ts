@@ -198,3 +198,19 @@ class PieceWriter {
     }
   }
 }
+
+/** From the top of the scale of time to its beginning: a mm takes so many times as long. */
+export const SLOWEST_TIMES = 10;
+
+/** The same pieces with other values: how long a mm takes, from the least (0) to `SLOWEST_TIMES` as long (1), by ratio. */
+export const withTimes = ({ draw, travel, totalS }: Scene): Pick<Scene, "draw" | "travel" | "totalS"> => {
+  const bytes = draw.bytes.slice(0);
+  const shorts = new Uint16Array(bytes);
+  for (let k = VALUE_SHORT; k < shorts.length; k += PIECE_SHORTS) {
+    for (const at of [k, k + 1]) {
+      const times = 65_535 / Math.max(1, shorts[at]);
+      shorts[at] = Math.round(65_535 * Math.min(1, Math.log(times) / Math.log(SLOWEST_TIMES)));
+    }
+  }
+  return { draw: { count: draw.count, bytes }, travel, totalS };
+};

@@ -5,7 +5,13 @@ import type { ExportFormat, PlanFault, Planned } from "../worker/protocol.js";
 import { boardFirmware, type PageStore } from "./store.js";
 
 /** Reset with each new plan, because its times and positions differ. */
-const NOTHING_SELECTED = { momentS: null, isPlaying: false, hover: null, noteBoxes: [] };
+const NOTHING_SELECTED = {
+  momentS: null,
+  isPlaying: false,
+  isDrawingItself: false,
+  hover: null,
+  noteBoxes: [],
+};
 
 export const createPlanActions = (
   store: PageStore,

@@ -114,7 +114,8 @@ export class Planner {
     if (!this.isBusy) this.worker?.postMessage({ type: "sketches", id: this.newestId, changes });
   }
 
-  private close(): void {
+  /** Ends the worker. A later request starts another one. */
+  close(): void {
     this.stopWaiting?.();
     this.stopWaiting = null;
     this.stopReading?.();

@@ -106,7 +106,7 @@ export class PageTest {
   }
 
   /** Selects a view of the drawing. */
-  async look(name: "Speed" | "Ink" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
+  async look(name: "Speed" | "Ink" | "Time" | "Layer" | "Order" | "Pen" | "Pen (simulated)"): Promise<void> {
     const looks = this.page.getByRole("group", { name: "Colour by" });
     await looks.getByRole("radio", { name, exact: true }).check();
   }

@@ -17,7 +17,7 @@ import {
   VALUE_SHORT,
   type Pieces,
 } from "../../../web/scene/pieces.js";
-import { buildScene, piecesBefore } from "../../../web/scene/scene.js";
+import { buildScene, piecesBefore, SLOWEST_TIMES, withTimes } from "../../../web/scene/scene.js";
 import { penMoveColumns } from "../../../src/plan/pen/pen-moves.js";
 
 const strokeSet = (...strokes: (readonly number[])[]): StrokeSet => ({
@@ -198,5 +198,23 @@ describe("one stroke of a plan", () => {
   it("is a point for a dot, and nothing beyond the last", () => {
     expect([...strokeFigures({ scene, trajectory }, 2)!.points]).toEqual([80, 80, 80, 80]);
     expect(strokeFigures({ scene, trajectory }, 3)).toBeNull();
+  });
+});
+
+describe("the scene of the view of time", () => {
+  it("has the same pieces, with the time that a mm takes by ratio, from the fastest to ten times as slow", () => {
+    const times = withTimes(scene);
+    expect(times).toMatchObject({ travel: scene.travel, totalS: scene.totalS });
+    expect(times.draw.count).toBe(scene.draw.count);
+    const [speeds, values] = [new Uint16Array(scene.draw.bytes), new Uint16Array(times.draw.bytes)];
+    for (let i = 0; i < speeds.length; i++) {
+      const part = i % PIECE_SHORTS;
+      if (part !== VALUE_SHORT && part !== VALUE_SHORT + 1) {
+        expect(values[i]).toBe(speeds[i]);
+        continue;
+      }
+      const slower = SLOWEST_TIMES ** (values[i] / 65_535);
+      expect(slower).toBeCloseTo(Math.min(SLOWEST_TIMES, 65_535 / Math.max(1, speeds[i])), 2);
+    }
   });
 });

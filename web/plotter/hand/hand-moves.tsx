@@ -7,6 +7,8 @@ import { Button } from "../../ui/button.js";
 import { MmPair } from "../../ui/fields/number-field.js";
 import { NudgeSettings } from "./pen-nudge.js";
 import { JogPad } from "./jog-pad.js";
+import { START_HERE } from "../../preview/preview-actions.js";
+import { previewText } from "../../preview/text.js";
 import { areMovesOff, CYCLE_PEN, SET_HOME, TEST_PATCH } from "../plotter-actions.js";
 import "./hand-moves.css";
 
@@ -54,6 +56,7 @@ const MoveTo = ({ isOff }: { isOff: boolean }) => {
 const Moves = () => (
   <div className="button-grid">
     <ActionButton action={SET_HOME} hint={words.setHomeHint} />
+    <ActionButton action={START_HERE} hint={previewText.startHereHint} />
     <ActionButton action={CYCLE_PEN} hint={words.cyclePenHint} />
     <ActionButton action={TEST_PATCH} hint={words.testPatchHint} />
   </div>
