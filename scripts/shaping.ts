@@ -1,5 +1,5 @@
 /**
- * npm run compare:shaping [rules|shapers|steps]: compares corner rules, shapers and quality settings on a machine that
+ * npm run compare:shaping [rules|shapers|steps|assumed]: compares corner rules, shapers and quality settings on a machine that
  * swings. Prints the tables of docs/motion.md, and that of the corner rules in docs/comparison.md.
  *
  * Figures: medians over all samples of the time without pen waits and of the simulated pen's distance from the drawing,
@@ -149,6 +149,51 @@ for (const [name, { title, rows }] of Object.entries(TABLES)) {
   console.log(
     `${markdownTable([HEAD, ...rows.map(([machineSprings, variant]) => rowOf(machineSprings, variant))])}\n`,
   );
+}
+
+/**
+ * Before a machine is measured: shaped for assumed springs, with the true ones up to 25 % beside them in each axis. The worst
+ * of all these cases and samples, as shares of the unshaped default on the same true springs.
+ */
+const ASSUMED: readonly Springs[] = [
+  { xHz: 15, yHz: 25, damping: 0.05 },
+  { xHz: 20, yHz: 30, damping: 0.05 },
+];
+const TRUE_FACTORS = [
+  [1, 1],
+  [0.75, 0.75],
+  [1.25, 1.25],
+  [0.75, 1.25],
+  [1.25, 0.75],
+];
+const TRUE_DAMPINGS = [0.02, 0.12];
+
+function assumedRow(assumed: Springs, name: string, motion: MotionSettings): string[] {
+  const machine = { ...machineById("axidraw-v3"), springs: assumed };
+  const worst = { max: 0, rms: 0 };
+  for (const strokes of drawings) {
+    const before = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN, { machine });
+    const after = plan(strokes, motion, DEFAULT_PEN, { machine });
+    for (const [factorX, factorY] of TRUE_FACTORS) {
+      for (const damping of TRUE_DAMPINGS) {
+        const springs = { xHz: factorX * assumed.xHz, yHz: factorY * assumed.yHz, damping };
+        const [was, is] = [before, after].map((trajectory) => penError(strokes, trajectory, springs));
+        worst.max = Math.max(worst.max, is.maxMm / was.maxMm);
+        worst.rms = Math.max(worst.rms, is.rmsMm / was.rmsMm);
+      }
+    }
+  }
+  return [`${assumed.xHz} / ${assumed.yHz}`, name, `${worst.max.toFixed(2)} / ${worst.rms.toFixed(2)}`];
+}
+
+if ([undefined, "assumed"].includes(process.argv[2])) {
+  const rows = ASSUMED.flatMap((one) => [
+    assumedRow(one, "zv at the default's limits", { ...DEFAULT_MOTION, shaper: "zv" }),
+    ...(["fine", "normal"] as const).map((quality) =>
+      assumedRow(one, quality, { ...DEFAULT_MOTION, ...motionOfQuality(quality, one) }),
+    ),
+  ]);
+  console.log(`Shaped for assumed springs:\n\n${markdownTable([["Hz x / y", "", "worst"], ...rows])}\n`);
 }
 
 function motionS({ durationS, blockCount }: Trajectory): number {

@@ -134,7 +134,8 @@ export { maxOffDrawingMm, reportedPosition } from "./position/reported.js";
 
 // machines
 export type { Springs } from "./machines/profile.js";
-export { findMachine, machineOf } from "./machines/profiles.js";
+export { findMachine, machineOf, type MachineId } from "./machines/profiles.js";
+export { freeId, measuredMachine } from "./machines/own-machines.js";
 export {
   DIRECTIONS,
   machineNamed,
@@ -196,15 +197,27 @@ export {
 
 // ringing sheet
 export {
-  frequencyOfRipples,
+  CHECK_ACCEL,
   NEXT_STAIRS_MM,
   ringingChecks,
-  RINGING_MOTION,
-  RINGING_SPEEDS,
-  ringingSheet,
   STAIRS_MM,
   stairsPath,
   type RingingCheck,
+} from "./job/ringing-checks.js";
+export {
+  crestsOf,
+  DAMPINGS,
+  frequenciesOf,
+  RINGING_MOTION,
+  RINGING_SHEET_MM,
+  ringingLine,
+  ringingPath,
+  ringingSheet,
+  STRAIGHT_MM,
+  type Axis,
+  type Frequencies,
+  type RippleReading,
+  type RippleReadings,
 } from "./job/ringing-sheet.js";
 
 // export

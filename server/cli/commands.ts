@@ -170,7 +170,7 @@ export const COMMANDS: readonly CliCommand[] = [
     about: "write the ringing sheet, which shows how the machine swings, or evaluate it",
     examples: [
       "plotwright ringing ringing.svg",
-      "plotwright ringing --ripples 5 --at 30.1",
+      "plotwright ringing --ripples-x 2,19.5 --ripples-y 3,18",
       "plotwright ringing check.svg --check --spring-x 15 --spring-y 25",
     ],
     load: async () => (await import("./ringing-command.js")).declareRinging,

@@ -1,95 +1,161 @@
 /**
- * The ringing sheet: square corners, drawn with such a high acceleration that the machine swings visibly after each of
- * them. The axis that has just stopped swings, which makes ripples on the next line. That line is drawn at a known speed:
+ * The ringing sheet: a strip of lines with two bends. At the first one the carriage's speed across the line ends at once,
+ * so the pen swings. The straight part, which is drawn at a known speed, then has ripples:
  *
- *        ┌~~~~~──────   after a corner from up to right, y swings: ripples of length λ on the horizontal line
- *        │              f = v / λ
- *        │              on vertical lines, x swings
+ *     /~~~~----\      horizontal lines show the swing of y, vertical ones that of x
+ *
+ * The second bend is there so that the pen does not brake on the straight part.
  */
 import { PlotwrightError } from "../errors.js";
 import type { Springs } from "../machines/profile.js";
-import { codeOfSpeed, speedOfCode } from "../plan/coded-layers.js";
-import { type MotionSettings, DEFAULT_MOTION } from "../settings/motion.js";
+import { SpringAxis } from "../plan/simulate/spring-pen.js";
+import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { SPRINGS_TABLE } from "../settings/machine.js";
 import { isAllowed, rangeInWords } from "../settings/setting.js";
 
-/** The speeds of the three figures, mm/s. A ripple of 15 Hz is 2 to 5 mm long. */
-export const RINGING_SPEEDS: readonly number[] = [30, 50, 75].map((speed) => speedOfCode(codeOfSpeed(speed)));
+export const RINGING_SHEET_MM = { width: 60, height: 40 } as const;
 
-/** Side of a step, mm. */
-const STEP_MM = 25;
-const STEPS = 3;
-/** Width and height of a figure, mm. */
-export const STAIRS_MM = STEPS * STEP_MM;
-/** Each figure is this far to the right of and above the one before, mm, so that no lines touch. */
-export const NEXT_STAIRS_MM = 12;
-/** The page: wider than high, so that it is not turned on the paper, with room for margins. */
-const PAGE_MM = { width: 150, height: 148 };
-const FROM_MM = 22;
+/** Ripples of 12 to 45 Hz are 12 to 3 mm long, and the first one is 1.3 to 0.3 mm high. */
+const SPEED = 150;
+const ACCEL = 3_000;
 
-/** The settings for plotting it: corners without rounding, high acceleration, no shaper. */
+/** The settings for plotting it: through the bends at full speed, not shaped. */
 export const RINGING_MOTION: MotionSettings = {
   ...DEFAULT_MOTION,
   mode: "junction",
   shaper: "none",
-  draw: { ...DEFAULT_MOTION.draw, accelMmPerS2: 3_000, cornerMm: 1 },
+  draw: { ...DEFAULT_MOTION.draw, speedMmPerS: SPEED, accelMmPerS2: ACCEL, cornerMm: 1 },
 };
 
-/** The sheet as an SVG drawing. Its layers' names carry their speeds as codes. */
+/** At a bend, a motor's speed jumps by at most 0.88 of the pen's speed: less than at a right angle drawn at 75 mm/s. */
+const TURN = (40 * Math.PI) / 180;
+const [ALONG, ACROSS] = [Math.cos(TURN), Math.sin(TURN)];
+/** Length of the parts before the first bend and after the second one, mm. */
+const RUN_UP_MM = 5;
+export const STRAIGHT_MM = RINGING_SHEET_MM.height - 2 * RUN_UP_MM * ALONG;
+
+/** Distances of the lines for x, and of those for y, which have more room, mm. The person reads the clearest line. */
+const NEXT_MM = { x: 6, y: 12 };
+const LINES = 3;
+
+export type Axis = "x" | "y";
+
+/** Path data of the sheet's lines for an axis. */
+export function ringingPath(axis: Axis): string {
+  const [runMm, bendMm] = [RUN_UP_MM * ALONG, RUN_UP_MM * ACROSS];
+  const first = axis === "x" ? RINGING_SHEET_MM.width - bendMm - (LINES - 1) * NEXT_MM.x : 6;
+  return Array.from({ length: LINES }, (_, i) => {
+    const at = first + i * NEXT_MM[axis];
+    return axis === "x"
+      ? `M${at} 0l${bendMm} ${runMm}v${STRAIGHT_MM}l${-bendMm} ${runMm}`
+      : `M0 ${at + bendMm}l${runMm} ${-bendMm}h${STRAIGHT_MM}l${runMm} ${bendMm}`;
+  }).join("");
+}
+
+/** The sheet as an SVG drawing. */
 export function ringingSheet(): string {
-  const layers = RINGING_SPEEDS.map((speed, i) => {
-    const label = `${i + 1}+s${codeOfSpeed(speed)} ${speed} mm/s`;
-    return `<g inkscape:groupmode="layer" id="v${i + 1}" inkscape:label="${label}">${stairs(i)}</g>`;
+  const { width, height } = RINGING_SHEET_MM;
+  return (
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${width}mm" height="${height}mm" viewBox="0 0 ${width} ${height}">\n` +
+    `<path d="${ringingPath("y")}${ringingPath("x")}" fill="none" stroke="#000"/>\n</svg>\n`
+  );
+}
+
+/** A point of the straight part as the pen draws it, mm: from the bend along the line, and beside it on the outer side. */
+export interface RingingPoint {
+  readonly alongMm: number;
+  readonly besideMm: number;
+}
+
+const STEP_S = 0.000_5;
+
+/** The straight part of a line for an axis, drawn by a pen on these springs. */
+export function ringingLine({ xHz, yHz, damping }: Springs, axis: Axis): RingingPoint[] {
+  const [hz, otherHz] = axis === "x" ? [xHz, yHz] : [yHz, xHz];
+  const across = new SpringAxis(hz, damping);
+  const along = new SpringAxis(otherHz, damping);
+  across.advance(SPEED / ACCEL, ACCEL * ACROSS);
+  along.advance(SPEED / ACCEL, ACCEL * ALONG);
+  const atSpeedS = (RUN_UP_MM - SPEED ** 2 / (2 * ACCEL)) / SPEED;
+  across.advance(atSpeedS, 0);
+  along.advance(atSpeedS, 0);
+  across.rate += SPEED * ACROSS;
+  along.rate -= SPEED * (1 - ALONG);
+  const points: RingingPoint[] = [];
+  for (let tS = 0; tS * SPEED <= STRAIGHT_MM; tS += STEP_S) {
+    points.push({ alongMm: tS * SPEED + along.d, besideMm: across.d });
+    across.advance(STEP_S, 0);
+    along.advance(STEP_S, 0);
+  }
+  return points;
+}
+
+/** The crests of a line on its outer side, which the person counts. */
+export const crestsOf = (line: readonly RingingPoint[]): RingingPoint[] =>
+  line.filter(({ besideMm }, i) => {
+    if (i === 0 || i === line.length - 1) return false;
+    return besideMm > 0 && besideMm > line[i - 1].besideMm && besideMm >= line[i + 1].besideMm;
   });
-  return svg(layers.join("\n"));
+
+/** What a person reads from the lines of an axis: a number of ripples, and how long they are together. */
+export interface RippleReading {
+  readonly ripples: number;
+  readonly lengthMm: number;
 }
 
-export interface RingingCheck {
-  /** Multiplies both frequencies; null: not shaped. */
-  readonly factor: number | null;
-  readonly springs: Springs | null;
-  readonly svg: string;
-}
+export type RippleReadings = Readonly<Record<Axis, RippleReading | null>>;
 
-/** One figure without shaping, and one for each factor. The user plots them separately and chooses the best by eye. */
-export function ringingChecks(springs: Springs): RingingCheck[] {
-  const sheet = svg(stairs(0));
-  return [null, 0.8, 0.9, 1, 1.1, 1.25].map((factor) => ({
-    factor,
-    springs: factor === null ? null : { ...springs, xHz: factor * springs.xHz, yHz: factor * springs.yHz },
-    svg: sheet,
-  }));
-}
+/** Hz; null: not read. */
+export type Frequencies = Readonly<Record<Axis, number | null>>;
+
+/** The swing of the other axis moves the crests along the line, so both are found together, in a few rounds. */
+const ROUNDS = 6;
 
 /**
- * The frequency of a swing, Hz, from the ripples counted over a length of line.
+ * The frequencies of the swing from what was read.
  *
- * @throws PlotwrightError "bad-setting" for a frequency that no machine has
+ * @throws PlotwrightError "bad-setting" for a reading that no machine can draw
  */
-export function frequencyOfRipples(speedMmPerS: number, ripples: number, overMm: number): number {
-  const hz = (speedMmPerS * ripples) / overMm;
+export function frequenciesOf(readings: RippleReadings, damping: number): Frequencies {
+  const { x, y } = readings;
+  const hz = { x: x && plainHz("x", x), y: y && plainHz("y", y) };
+  for (let round = 0; round < ROUNDS; round++) {
+    const springs: Springs = {
+      xHz: hz.x ?? SPRINGS_TABLE.xHz.default,
+      yHz: hz.y ?? SPRINGS_TABLE.yHz.default,
+      damping,
+    };
+    if (x && hz.x !== null) hz.x *= lengthOf(springs, "x", x.ripples, hz.x) / x.lengthMm;
+    if (y && hz.y !== null) hz.y *= lengthOf(springs, "y", y.ripples, hz.y) / y.lengthMm;
+  }
+  return hz;
+}
+
+/** As if the pen moved evenly along the line. */
+function plainHz(axis: Axis, { ripples, lengthMm }: RippleReading): number {
+  const hz = (SPEED * ripples) / lengthMm;
+  if (lengthMm > STRAIGHT_MM) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `${axis}: ${lengthMm} mm is longer than the straight part, ${Math.round(STRAIGHT_MM)} mm: measure again.`,
+    );
+  }
   if (!isAllowed(SPRINGS_TABLE.xHz, hz)) {
     throw new PlotwrightError(
       "bad-setting",
-      `${ripples} ripples over ${overMm} mm at ${speedMmPerS} mm/s would be ${Math.round(hz * 10) / 10} Hz; ` +
-        `a machine swings at ${rangeInWords(SPRINGS_TABLE.xHz)}: count again, near the corner.`,
+      `${axis}: ${ripples} ripples in ${lengthMm} mm would be ${Math.round(hz * 10) / 10} Hz; ` +
+        `a machine swings at ${rangeInWords(SPRINGS_TABLE.xHz)}: count again, near the bend.`,
     );
   }
   return hz;
 }
 
-/** Path data of a figure: a staircase, down and to the right. */
-export const stairsPath = (xMm: number, yMm: number): string =>
-  `M${xMm} ${yMm}${`v${STEP_MM}h${STEP_MM}`.repeat(STEPS)}`;
-
-/** The sheet's figure for the i-th speed; the first is at the bottom left. */
-function stairs(i: number): string {
-  const xMm = FROM_MM + i * NEXT_STAIRS_MM;
-  const yMm = FROM_MM + (RINGING_SPEEDS.length - 1 - i) * NEXT_STAIRS_MM;
-  return `<path d="${stairsPath(xMm, yMm)}" fill="none" stroke="#000"/>`;
+/** Length of that many ripples on these springs, mm. */
+function lengthOf(springs: Springs, axis: Axis, ripples: number, hz: number): number {
+  const crests = crestsOf(ringingLine(springs, axis));
+  if (ripples >= crests.length) return (SPEED * ripples) / hz;
+  return crests[ripples].alongMm - crests[0].alongMm;
 }
 
-const svg = (content: string): string =>
-  `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" ` +
-  `width="${PAGE_MM.width}mm" height="${PAGE_MM.height}mm" ` +
-  `viewBox="0 0 ${PAGE_MM.width} ${PAGE_MM.height}">\n${content}\n</svg>\n`;
+/** Dampings to choose from by pictures: a ripple's height is 0.88, 0.76, 0.61 or 0.46 of the one before. */
+export const DAMPINGS: readonly number[] = [0.02, 0.045, 0.08, 0.125];

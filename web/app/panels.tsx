@@ -2,6 +2,7 @@
 import { LayersPanel } from "../layers/layers.js";
 import { MotionPanel } from "../motion/motion.js";
 import { PenPanel, PensPanel } from "../pens/pens.js";
+import { Tuning } from "../pens/tuning.js";
 import { MachinePanel, MachineSetUp, PresetsPanel } from "../plotter/machine.js";
 import { HistoryPanel, QueuePanel } from "../queue/queue.js";
 import { shownView } from "../state/store.js";
@@ -29,7 +30,9 @@ export const PlotterAndSetUp = () => {
   return (
     <>
       {hasCamera && <Camera />}
-      <MachinePanel />
+      <MachinePanel>
+        <Tuning />
+      </MachinePanel>
       <MachineSetUp>
         <PenPanel />
       </MachineSetUp>

@@ -1,6 +1,4 @@
 import {
-  findMachine,
-  orientedPaper,
   PEN_SHEET_HEIGHT_MM,
   PEN_SHEET_MOTION,
   PEN_SHEET_WAITS_MS,
@@ -9,7 +7,7 @@ import {
   penSheet,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import { sheetSettings, type SheetJob } from "../ringing/ringing-job.js";
+import { middlePlace, sheetSettings, type SheetJob } from "../ringing/ringing-job.js";
 import { activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
@@ -19,14 +17,11 @@ import { heightsText } from "./text.js";
 
 const words = heightsText.sheet;
 
-/** The job that plots the pen sheet, in the middle of the paper that the machine reaches. Null: not enough room. */
+/** The job that plots the pen sheet. Null: not enough room. */
 export const penSheetJob = (settings: PlotSettings, name: string): SheetJob | null => {
-  const paper = orientedPaper(settings.prepare.paper, settings.prepare.landscape);
-  const machine = findMachine(settings) ?? paper;
-  const xMm = (Math.min(paper.widthMm, machine.widthMm) - PEN_SHEET_WIDTH_MM) / 2;
-  const yMm = (Math.min(paper.heightMm, machine.heightMm) - PEN_SHEET_HEIGHT_MM) / 2;
-  if (xMm < 0 || yMm < 0) return null;
-  const sheet = sheetSettings(settings, xMm, yMm);
+  const place = middlePlace(settings, PEN_SHEET_WIDTH_MM, PEN_SHEET_HEIGHT_MM);
+  if (place === null) return null;
+  const sheet = sheetSettings(settings, place.xMm, place.yMm);
   return {
     name,
     drawing: penSheet(),

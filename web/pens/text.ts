@@ -65,3 +65,14 @@ export const heightsText = {
   },
   whereTouches: "Set the height at which the tip touches in the plotter’s panel: “Tip touches at”.",
 };
+
+/** Texts of what is offered after the first plot. */
+export const tuningText = {
+  title: "Next: faster plots, in about five minutes",
+  pen: "How long the pen takes",
+  ringing: "How the plotter swings",
+  ringingHint:
+    "With this the plotter draws faster and more exactly: a strip of 60 × 40 mm, on which you count ripples.",
+  hide: "Hide",
+  hideHint: "Hide these measurements",
+};

@@ -16,8 +16,8 @@ import { SettingsGroup } from "../ui/fields/settings-group.js";
 
 const HandMoves = lazyPart(async () => (await import("./hand/hand-moves.js")).HandMoves);
 
-/** The plotter's state, and the controls that every plot needs. */
-export const MachinePanel = () => {
+/** The plotter's state, and the controls that every plot needs. `children`: what follows them, from other features. */
+export const MachinePanel = ({ children }: { children?: ReactNode }) => {
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
   return (
@@ -26,6 +26,7 @@ export const MachinePanel = () => {
       {plotter && <PlotterName plotter={plotter} />}
       <ActionButton action={CONNECT} />
       {isMine ? <PenAtHand /> : <StopMove />}
+      {isMine && children}
     </section>
   );
 };

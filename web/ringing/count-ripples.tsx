@@ -1,56 +1,69 @@
-import { useEffect, useState } from "react";
+import { useEffect, useId, useState } from "react";
 import type { MachineProfile } from "../../src/index.js";
 import {
+  DAMPINGS,
   findMachine,
-  NEXT_STAIRS_MM,
-  RINGING_SPEEDS,
+  frequenciesOf,
+  RINGING_SHEET_MM,
   SPRINGS_TABLE,
-  STAIRS_MM,
+  type Axis,
+  type Frequencies,
+  type RippleReadings,
   type Springs,
 } from "../../src/internal.js";
 import { activeJob } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ringingText as words } from "./ringing-text.js";
 import { Button } from "../ui/button.js";
-import { Segments } from "../ui/fields/choice.js";
 import { formatNumber } from "../ui/format.js";
-import { CountAxis, frequencyOf, NO_READING, type Reading } from "./count-axis.js";
+import { CountAxis, NO_READING, readingOf, type Reading } from "./count-axis.js";
 import type { Gain, GainRequest } from "./ringing-gain.js";
 import { sheetJob } from "./ringing-job.js";
-import { SheetPicture } from "./sheet-picture.js";
+import { FadingPicture } from "./ripple-picture.js";
+import { StripPicture } from "./strip-picture.js";
 import { isStored, useStoreSprings } from "./use-store-springs.js";
 import { useSprings } from "../motion/use-springs.js";
 
-const SHEET_MM = STAIRS_MM + (RINGING_SPEEDS.length - 1) * NEXT_STAIRS_MM;
-const LABELS = RINGING_SPEEDS.map((speed) => words.speedLabel(formatNumber(speed, 0)));
+/** Shown until the lines are read. */
+const EXAMPLE = { x: 15, y: 25 };
+const NEITHER: Frequencies = { x: null, y: null };
 
 /** The first sheet: plot it, count the ripples, store the result. */
 export const CountRipples = () => {
-  const [line, setLine] = useState(1);
-  const [x, setX] = useState<Reading>(NO_READING);
-  const [y, setY] = useState<Reading>(NO_READING);
   const known = useSprings();
-  const springs = springsOf(x, y, RINGING_SPEEDS[line], known?.damping ?? SPRINGS_TABLE.damping.default);
+  const [readings, setReadings] = useState<Record<Axis, Reading>>({ x: NO_READING, y: NO_READING });
+  const [damping, setDamping] = useState(known?.damping ?? SPRINGS_TABLE.damping.default);
+  const read = { x: readingOf(readings.x), y: readingOf(readings.y) };
+  const x = frequenciesOrFault({ x: read.x, y: null }, damping);
+  const y = frequenciesOrFault({ x: null, y: read.y }, damping);
+  const isFaulty = x.fault !== null || y.fault !== null;
+  const { hz } = isFaulty ? { hz: { x: x.hz.x, y: y.hz.y } } : frequenciesOrFault(read, damping);
+  const shown: Springs = { xHz: hz.x ?? EXAMPLE.x, yHz: hz.y ?? EXAMPLE.y, damping };
+  const springs = hz.x === null || hz.y === null ? null : shown;
   return (
     <>
       <div className="ringing-sheet">
-        <SheetPicture labels={LABELS} nextMm={NEXT_STAIRS_MM} chosen={line} onChoose={setLine} />
+        <StripPicture />
         <PlotSheet />
       </div>
       <section className="ringing-count">
         <h3>{words.countTitle}</h3>
         <p className="note">{words.countHint}</p>
-        <Segments
-          label={words.line}
-          value={String(line)}
-          options={LABELS.map((label, i) => ({ value: String(i), label }))}
-          onChange={(index) => setLine(Number(index))}
-        />
         <div className="count-axes">
-          <CountAxis axis="x" reading={x} line={line} onChange={setX} />
-          <CountAxis axis="y" reading={y} line={line} onChange={setY} />
+          {(["y", "x"] as const).map((axis) => (
+            <CountAxis
+              key={axis}
+              axis={axis}
+              reading={readings[axis]}
+              springs={shown}
+              hz={hz[axis]}
+              fault={(axis === "x" ? x : y).fault}
+              onChange={(reading) => setReadings({ ...readings, [axis]: reading })}
+            />
+          ))}
         </div>
       </section>
+      <DampingChoice springs={shown} onChange={setDamping} />
       {springs && <Gains springs={springs} />}
       <StoreButton springs={springs} />
     </>
@@ -62,15 +75,48 @@ const PlotSheet = () => {
   const isPlotting = usePageState((state) => activeJob(state)?.name === words.jobName);
   const { plotJob } = useActions();
   const job = sheetJob(settings, words.jobName);
+  const { width, height } = RINGING_SHEET_MM;
   return (
     <section>
       <h3>{words.plotTitle}</h3>
-      <p className="note">{words.plotHint(SHEET_MM)}</p>
+      <p className="note">{words.plotHint(width, height)}</p>
       <Button kind="primary" disabled={job === null || isPlotting} onClick={() => job && void plotJob(job)}>
         {isPlotting ? words.plotting : words.plot}
       </Button>
-      {job === null && <p className="note note-error">{words.noRoom(SHEET_MM)}</p>}
+      {job === null && <p className="note note-error">{words.noRoom(width, height)}</p>}
     </section>
+  );
+};
+
+interface DampingChoiceProps {
+  readonly springs: Springs;
+  onChange(damping: number): void;
+}
+
+/** Pictures of the line for y with its measured frequency, fading more and less quickly. */
+const DampingChoice = ({ springs, onChange }: DampingChoiceProps) => {
+  const name = useId();
+  return (
+    <fieldset className="damping">
+      <legend>{words.dampingTitle}</legend>
+      <p className="note">{words.dampingHint}</p>
+      <div className="damping-pictures">
+        {DAMPINGS.map((damping, i) => (
+          <label key={damping} className="damping-picture">
+            <FadingPicture axis="y" springs={{ ...springs, damping }} />
+            <span>
+              <input
+                type="radio"
+                name={name}
+                checked={damping === springs.damping}
+                onChange={() => onChange(damping)}
+              />
+              {words.dampings[i]}
+            </span>
+          </label>
+        ))}
+      </div>
+    </fieldset>
   );
 };
 
@@ -149,14 +195,13 @@ const changeOf = (share: number): string => {
   return percent === 0 ? "" : `${percent < 0 ? "−" : "+"}${Math.abs(percent)} %`;
 };
 
-/** Null until both axes are read and have possible frequencies. */
-const springsOf = (x: Reading, y: Reading, speedMmPerS: number, damping: number): Springs | null => {
-  const [xHz, yHz] = [x, y].map((reading) => {
-    try {
-      return frequencyOf(reading, speedMmPerS);
-    } catch {
-      return null;
-    }
-  });
-  return xHz === null || yHz === null ? null : { xHz, yHz, damping };
+const frequenciesOrFault = (
+  readings: RippleReadings,
+  damping: number,
+): { hz: Frequencies; fault: string | null } => {
+  try {
+    return { hz: frequenciesOf(readings, damping), fault: null };
+  } catch (error) {
+    return { hz: NEITHER, fault: error instanceof Error ? error.message : String(error) };
+  }
 };

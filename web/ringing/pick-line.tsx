@@ -6,7 +6,7 @@ import type { PageStore } from "../state/store.js";
 import { ringingText as words } from "./ringing-text.js";
 import { Button } from "../ui/button.js";
 import { formatNumber } from "../ui/format.js";
-import { checkJobs, sheetPlace, type SheetJob } from "./ringing-job.js";
+import { checkJobs, checksPlace, type SheetJob } from "./ringing-job.js";
 import { SheetPicture } from "./sheet-picture.js";
 import { useSprings } from "../motion/use-springs.js";
 import { isStored, useStoreSprings } from "./use-store-springs.js";
@@ -34,7 +34,7 @@ const Lines = ({ springs, onPlot }: { springs: Springs; onPlot(): void }) => {
       ? words.unshaped
       : words.shapedFor(formatNumber(check.springs.xHz, 1), formatNumber(check.springs.yHz, 1)),
   );
-  const place = sheetPlace(settings, checks.length);
+  const place = checksPlace(settings, checks.length);
   const chosen = picked ?? checks.findIndex((check) => isStored(check.springs, known));
   const isUnshapedPicked = chosen === 0;
   const pick = async (index: number): Promise<void> => {

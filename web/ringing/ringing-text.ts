@@ -8,31 +8,26 @@ export const ringingText = {
   parts: "Sheets",
   partNames: { count: "Count ripples", pick: "Pick by eye" },
   jobName: "Ringing sheet",
-  plotTitle: "Plot the sheet",
-  plotHint: (mm: number) =>
-    `Put in a fine pen, and paper with at least ${mm} × ${mm} mm free in the middle. The plotter draws three staircases with fast, sharp corners. This takes less than a minute. Your open drawing stays as it is.`,
+  plotTitle: "1. Plot the strip",
+  plotHint: (width: number, height: number) =>
+    `Put in a fine pen, and paper with ${width} × ${height} mm free in the middle. The plotter draws six fast lines with sharp bends, in a few seconds. Your open drawing stays as it is.`,
   plot: "Plot the ringing sheet",
-  noRoom: (mm: number) => `The sheet needs ${mm} × ${mm} mm. Choose a larger paper first.`,
+  noRoom: (width: number, height: number) =>
+    `The sheet needs ${width} × ${height} mm. Choose a larger paper first.`,
   plotting: "Plotting…",
-  speedLabel: (speed: string) => `${speed} mm/s`,
-  countTitle: "Count the ripples",
+  countTitle: "2. Count the ripples",
   countHint:
-    "Choose the line with the clearest ripples. Look at its straight parts just after a corner, where the ripples are strongest.",
-  line: "Line drawn at",
+    "Take the clearest of the three lines. Look at its straight part, which begins at the bend, in good light or on a photo. Count ripples from crest to crest on the outer side, and measure from the first crest to the last one. The pictures show what to count.",
   axes: {
-    x: { legend: "Side-to-side ringing (x)", hint: "On the vertical parts, after the corner at their top." },
-    y: {
-      legend: "Front-to-back ringing (y)",
-      hint: "On the horizontal parts, after the corner at their left.",
-    },
+    x: { legend: "Side-to-side ringing (x)", hint: "On a vertical line." },
+    y: { legend: "Front-to-back ringing (y)", hint: "On a horizontal line." },
   },
-  measure: "Measure",
-  measures: { count: "Ripples in 10 mm", length: "Length of a ripple" },
-  ripples: "Ripples in 10 mm",
-  length: "Length of one ripple",
-  fieldFor: (label: string, axis: string) => `${label}, ${axis}`,
+  fields: { ripples: "Ripples", lengthMm: "Their length" },
   result: (hz: string) => `${hz} Hz`,
   noResult: "not counted yet",
+  dampingTitle: "3. How quickly do they fade?",
+  dampingHint: "Compare a horizontal line with these. If you can’t decide, leave it.",
+  dampings: ["Very slowly", "Slowly", "Quickly", "At once"],
   gainTitle: "What you gain",
   gainHint: "A star, two circles and a zigzag, calculated for your plotter with a pen that swings like this:",
   gainNames: {
@@ -45,7 +40,6 @@ export const ringingText = {
   seconds: (s: string, change: string) => (change === "" ? `${s} s` : `${s} s (${change})`),
   save: "Save for this plotter",
   saved: (x: string, y: string) => `Saved: ${x} Hz along x, ${y} Hz along y.`,
-  machineName: (name: string) => `${name}, measured`,
   pickTitle: "Plot the second sheet",
   pickHint:
     "One line is drawn without shaping, and five are shaped for slightly different frequencies. Click the line that is straightest after its corners.",

@@ -1,75 +1,92 @@
-import { useId } from "react";
+import { crestsOf, ringingLine, STRAIGHT_MM, type Axis, type Springs } from "../../src/internal.js";
 
-export type Axis = "x" | "y";
+/** Before the bend this much of the line is shown, mm. */
+const BEFORE_MM = 4;
+const BESIDE_MM = { out: 2.6, in: 2.2 };
+const RULER_MM = 3.4;
+/** A person sees ripples down to this height, mm. */
+const SEEN_MM = 0.06;
 
-/** Units of the picture per mm. The line is drawn at 50 mm/s by a machine that swings at 15 Hz. */
-const MM = 6.6;
-const RIPPLE_MM = 50 / 15;
-const RIPPLES = 3;
-const CORNER = { along: 16, across: 34 };
-const SWING = 11;
-const DECAY_MM = 14;
-const LENGTH_MM = 15;
+interface PictureProps {
+  readonly axis: Axis;
+  readonly springs: Springs;
+}
 
-/** Shows what to count: the ripples after a corner, over 10 mm. On a horizontal line for y, on a vertical one for x. */
-export const RipplePicture = ({ axis }: { readonly axis: Axis }) => {
-  const id = useId();
-  const at = (along: number, across: number): string =>
-    axis === "y" ? `${along.toFixed(1)} ${across.toFixed(1)}` : `${across.toFixed(1)} ${along.toFixed(1)}`;
-  const ripple = Array.from({ length: 120 }, (_, i) => {
-    const mm = (LENGTH_MM * i) / 119;
-    return at(CORNER.along + mm * MM, CORNER.across + swingAt(mm));
-  });
-  const crests = Array.from({ length: RIPPLES + 1 }, (_, i) => (i + 0.25) * RIPPLE_MM);
-  const ruler = CORNER.across + 30;
-  const [first, last] = [crests[0], crests[RIPPLES]].map((mm) => CORNER.along + mm * MM);
-  const text = (along: number, across: number): { x: number; y: number } =>
-    axis === "y" ? { x: along, y: across } : { x: across, y: along };
+interface CountedPictureProps extends PictureProps {
+  /** How many ripples to number; null: all that are visible. */
+  readonly ripples: number | null;
+}
+
+/**
+ * The line of one axis as a pen on these springs draws it, with the ripples numbered and their length. Its proportions are
+ * those on paper. For y it is horizontal, for x vertical.
+ */
+export const RipplePicture = ({ axis, springs, ripples }: CountedPictureProps) => {
+  const place = placeOn(axis);
+  const visible = crestsOf(ringingLine(springs, axis)).filter(({ besideMm }) => besideMm > SEEN_MM);
+  const crests = visible.slice(0, ripples === null ? undefined : ripples + 1).map(({ alongMm }) => alongMm);
+  const ruler = -RULER_MM;
   return (
-    <svg
-      className="ripple-picture"
-      viewBox={axis === "y" ? "0 0 124 84" : "0 0 124 124"}
-      aria-hidden="true"
-      data-axis={axis}
-    >
-      <defs>
-        <marker id={id} viewBox="0 0 6 6" refX="5" refY="3" markerWidth="5" markerHeight="5" orient="auto">
-          <path d="M0 0L6 3L0 6z" className="ripple-arrow" />
-        </marker>
-      </defs>
-      <path className="ripple-asked" d={`M${at(CORNER.along, CORNER.across)}L${at(120, CORNER.across)}`} />
-      <path
-        className="ripple-line"
-        d={`M${at(CORNER.along, 4)}L${at(CORNER.along, CORNER.across)}L${ripple.join("L")}`}
-      />
-      <path
-        className="ripple-direction"
-        d={`M${at(CORNER.along - 8, 6)}L${at(CORNER.along - 8, 22)}`}
-        markerEnd={`url(#${id})`}
-      />
-      {crests.map((mm) => {
-        const along = CORNER.along + mm * MM;
+    <svg className="ripple-picture" viewBox={viewBoxOf(axis)} aria-hidden="true" data-axis={axis}>
+      <RippleLine axis={axis} springs={springs} />
+      {crests.map((alongMm) => (
+        <path key={alongMm} className="ripple-tick" d={`M${place(alongMm, -1.6)}L${place(alongMm, ruler)}`} />
+      ))}
+      {crests.length > 1 && (
+        <path
+          className="ripple-ruler"
+          d={`M${place(crests[0], ruler)}L${place(crests[crests.length - 1], ruler)}`}
+        />
+      )}
+      {crests.slice(1).map((alongMm, i) => {
+        const [x, y] = place((alongMm + crests[i]) / 2, -2.4).split(" ");
         return (
-          <path
-            key={mm}
-            className="ripple-tick"
-            d={`M${at(along, CORNER.across + 16)}L${at(along, ruler)}`}
-          />
+          <text key={alongMm} x={x} y={y}>
+            {i + 1}
+          </text>
         );
       })}
-      <path className="ripple-ruler" d={`M${at(first, ruler)}L${at(last, ruler)}`} />
-      {crests.slice(1).map((mm, i) => (
-        <text key={mm} {...text(CORNER.along + (mm - RIPPLE_MM / 2) * MM, ruler - 5)}>
-          {i + 1}
-        </text>
-      ))}
-      <text {...text((first + last) / 2, ruler + 13)} className="ripple-mm">
-        10 mm
-      </text>
     </svg>
   );
 };
 
-/** The pen's distance from the line, in units of the picture. It starts at the corner with an overshoot. */
-const swingAt = (mm: number): number =>
-  SWING * Math.exp(-mm / DECAY_MM) * Math.sin((2 * Math.PI * mm) / RIPPLE_MM);
+/** The same line alone, to compare how quickly the ripples fade. */
+export const FadingPicture = ({ springs, axis }: PictureProps) => (
+  <svg className="ripple-picture" viewBox={`0 ${-BESIDE_MM.out} 38 4.6`} aria-hidden="true">
+    <RippleLine axis={axis} springs={springs} isTurned={axis === "x"} />
+  </svg>
+);
+
+/** `isTurned`: horizontal also for x. */
+const RippleLine = ({ axis, springs, isTurned }: PictureProps & { readonly isTurned?: boolean }) => {
+  const place = placeOn(isTurned ? "y" : axis);
+  const line = ringingLine(springs, axis).filter((_, i) => i % 2 === 0);
+  const before = place(-BEFORE_MM, -BEFORE_MM * 0.8);
+  return (
+    <>
+      <path className="ripple-asked" d={`M${place(0, 0)}L${place(STRAIGHT_MM, 0)}`} />
+      <path
+        className="ripple-line"
+        d={`M${before}L${line.map(({ alongMm, besideMm }) => place(alongMm, besideMm)).join("L")}`}
+      />
+    </>
+  );
+};
+
+/** A point along the line and beside it, on its outer side, as path data. */
+const placeOn =
+  (axis: Axis) =>
+  (alongMm: number, besideMm: number): string => {
+    const [along, beside] = [BEFORE_MM + alongMm, besideMm];
+    return axis === "y"
+      ? `${along.toFixed(2)} ${(-beside).toFixed(2)}`
+      : `${beside.toFixed(2)} ${along.toFixed(2)}`;
+  };
+
+const viewBoxOf = (axis: Axis): string => {
+  const length = BEFORE_MM + STRAIGHT_MM + 1;
+  const inner = RULER_MM + 0.8;
+  return axis === "y"
+    ? `0 ${-BESIDE_MM.out} ${length} ${BESIDE_MM.out + inner}`
+    : `${-inner} 0 ${BESIDE_MM.out + inner} ${length}`;
+};

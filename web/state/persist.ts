@@ -32,6 +32,8 @@ const viewSchema = z.object({
   cameraEveryS: z.number().min(0).max(3_600),
   /** The user has closed the first-plot guide. */
   hidesFirstPlot: z.boolean(),
+  /** The user does not want to measure pen and ringing. */
+  hidesTuning: z.boolean(),
 });
 export type ViewSettings = Readonly<z.infer<typeof viewSchema>>;
 
@@ -46,6 +48,7 @@ export const DEFAULT_VIEW: ViewSettings = {
   cameraUrl: "",
   cameraEveryS: 0,
   hidesFirstPlot: false,
+  hidesTuning: false,
 };
 
 export interface Remembered {

@@ -3,10 +3,11 @@
  * read from its database. So a name means the same with and without a server.
  */
 import { existsSync } from "node:fs";
-import { PlotwrightError } from "../../../src/index.js";
-import type { PlotterSettings } from "../../../src/schema/index.js";
+import { PlotwrightError, type MachineProfile } from "../../../src/index.js";
+import { machineProfileSchema, type PlotterSettings } from "../../../src/schema/index.js";
 import type { WithMachine } from "../../../host/plotter/settings-of-plotter.js";
 import { addressOfServer } from "../../storage/data-lock.js";
+import { MachineFiles } from "../../storage/machine-files.js";
 import { findBoards } from "../../serial/find-boards.js";
 import {
   dataDirOf,
@@ -34,6 +35,9 @@ export interface KnownPlotters {
   readonly withMachine: WithMachine;
   saveSettings(id: string, settings: PlotterSettings): Promise<void>;
   saveMachine(id: string, machine: string): Promise<void>;
+  /** The user's own machines. */
+  readonly ownMachines: readonly MachineProfile[];
+  storeMachine(machine: MachineProfile): Promise<void>;
 }
 
 /** The server of --url, or the one that uses the data folder; null: none runs. */
@@ -50,6 +54,7 @@ export async function withKnownPlotters<T>(
 ): Promise<T> {
   const access = accessFor(options);
   if (access === null) {
+    const files = new MachineFiles(dataDirOf(options));
     return withStore(dataDirOf(options), (store) =>
       use({
         plotters: plottersIn(store),
@@ -60,16 +65,21 @@ export async function withKnownPlotters<T>(
           if (row !== undefined) store.savePlotter({ ...row, machine });
           return Promise.resolve();
         },
+        ownMachines: files.list().filter(({ builtIn }) => !builtIn),
+        storeMachine: (machine) => Promise.resolve(void files.save(machine)),
       }),
     );
   }
   const state = await serverState(access);
-  const client = serverClient(access).plotters;
+  const { plotters: client, machines } = serverClient(access);
   return use({
     plotters: state.plotters.map((plotter) => ({ ...plotter, stored: storedOf(state, plotter) })),
     withMachine: machinesOf(state),
     saveSettings: async (id, settings) => void (await client.saveSettings(id, settings)),
     saveMachine: async (id, machine) => void (await client.patch(id, { machine })),
+    ownMachines: state.machines.filter(({ builtIn }) => !builtIn),
+    storeMachine: async (machine) =>
+      void (await machines.save(machine.id, machineProfileSchema.parse(machine))),
   });
 }
 

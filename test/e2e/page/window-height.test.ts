@@ -35,13 +35,16 @@ describe("before the first plot", () => {
     };
     await inSight();
     // With its model known, and the longer help of a plotter that finds home.
-    for (const label of ["NextDraw 8511", "AxiDraw V3"]) {
-      await guide.getByLabel("Which plotter is this?").selectOption({ label });
+    for (const name of ["NextDraw 8511", "AxiDraw V3"]) {
+      await guide.getByRole("button", { name, exact: true }).click();
       await guide.getByText("Press Plot.").waitFor();
       await inSight();
-      if (label === "NextDraw 8511") await guide.getByRole("button", { name: "Another model…" }).click();
+      if (name === "NextDraw 8511") {
+        await guide.getByRole("button", { name: "Another model…" }).click();
+        await inSight();
+      }
     }
-    await guide.getByRole("button", { name: "Home", exact: true }).click();
+    await guide.getByRole("button", { name: "The carriage is in its corner" }).click();
     // Done: one line, from which it can be opened again.
     await guide.getByText("The carriage is home.").waitFor();
     await inSight();

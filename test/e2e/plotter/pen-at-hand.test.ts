@@ -70,7 +70,9 @@ describe("a first plot", () => {
     await waitForPlan(page);
     const press = (name: string) =>
       panel(page).getByRole("button", { name, exact: true }).and(page.locator(":enabled")).click();
-    await press("Home");
+    await press("The carriage is in its corner");
+    // The step folds, and the heights move up.
+    await panel(page).getByText("The carriage is home.").waitFor();
     // The pen follows the slider: no other click is needed to see it there.
     const slider = panel(page).locator(".pen-heights input[type=range]").nth(1);
     const box = (await slider.boundingBox())!;

@@ -47,23 +47,36 @@ describe("the ringing sheet", () => {
     const [job] = await named(/^Ringing sheet$/);
     expect(job.settings.motion).toMatchObject({ mode: "junction", shaper: "none" });
     const { strokes } = { strokes: await test.strokesOf(job) };
-    expect(strokes.offsets.length - 1).toBe(3);
+    expect(strokes.offsets.length - 1).toBe(6);
+    const { xy } = strokes;
+    const width = (k: 0 | 1): number => {
+      const places = [...xy].filter((_, i) => i % 2 === k);
+      return Math.max(...places) - Math.min(...places);
+    };
+    expect([width(0), width(1)]).toEqual([expect.closeTo(60, 6), expect.closeTo(40, 6)]);
     await dialog().getByRole("button", { name: "Plot the ringing sheet" }).waitFor();
     expect(await page.getByText("mine", { exact: true }).first().isVisible()).toBe(true);
   });
 
   it("turns ripples into a frequency, and shows the benefit", async () => {
-    await dialog().getByRole("radio", { name: "30 mm/s" }).check();
-    await dialog().getByLabel("Ripples in 10 mm, x").fill("99");
-    await dialog().getByText("count again, near the corner", { exact: false }).waitFor();
-    await dialog().getByLabel("Ripples in 10 mm, x").fill("5");
-    await dialog().getByText("15.1 Hz", { exact: true }).waitFor();
+    await dialog().getByLabel("Ripples, x").fill("30");
+    await dialog().getByLabel("Their length, x").fill("10");
+    await dialog().getByText("count again, near the bend", { exact: false }).waitFor();
+    await dialog().getByLabel("Ripples, x").fill("2");
+    await dialog().getByLabel("Their length, x").fill("20");
+    await dialog().getByText("15.2 Hz", { exact: true }).waitFor();
     const store = dialog().getByRole("button", { name: "Save for this plotter" });
     expect(await store.isDisabled()).toBe(true);
-    const ringingOfY = dialog().getByRole("group", { name: "Front-to-back ringing (y)" });
-    await ringingOfY.getByRole("radio", { name: "Length of a ripple" }).check();
-    await dialog().getByLabel("Length of one ripple, y").fill("1.2");
+    await dialog().getByLabel("Ripples, y").fill("3");
+    // The picture numbers as many ripples as were counted.
+    const ofY = dialog().getByRole("group", { name: "Front-to-back ringing (y)" });
+    await expect.poll(() => ofY.locator(".ripple-picture text").allTextContents()).toEqual(["1", "2", "3"]);
+    await dialog().getByLabel("Their length, y").fill("18");
     await dialog().getByText("25.1 Hz", { exact: true }).waitFor();
+    // The swing of y moves the crests of x a little.
+    await dialog().getByText("15 Hz", { exact: true }).waitFor();
+    await dialog().getByRole("radio", { name: "Quickly" }).check();
+    await dialog().getByText("25.3 Hz", { exact: true }).waitFor();
     const row = dialog().getByRole("row", { name: /^Fast/ });
     expect(await row.innerText()).toMatch(/s \(−[234]\d %\)\s+0\.\d\d? mm/);
     for (const colorScheme of ["light", "dark"] as const) {
@@ -75,12 +88,12 @@ describe("the ringing sheet", () => {
 
   it("stores it with the plotter's machine on the server", async () => {
     await dialog().getByRole("button", { name: "Save for this plotter" }).click();
-    await dialog().getByText("Saved: 15.1 Hz along x, 25.1 Hz along y.").waitFor();
+    await dialog().getByText("Saved: 15.1 Hz along x, 25.3 Hz along y.").waitFor();
     const { machines } = machineListSchema.parse(await api("/machines"));
     const mine = machines.find(({ builtIn }) => !builtIn);
     expect(mine).toMatchObject({
       name: "AxiDraw V3, measured",
-      springs: { xHz: 15.1, yHz: 25.1, damping: 0.05 },
+      springs: { xHz: 15.1, yHz: 25.3, damping: 0.08 },
     });
     await expect
       .poll(async () => snapshotSchema.parse(await api("/state")).plotters[0].machine)
@@ -108,17 +121,22 @@ describe("the second sheet", () => {
   });
 
   it("takes the line that is clicked", async () => {
-    await dialog().getByRole("radio", { name: "16.6 / 27.6 Hz" }).check();
-    await dialog().getByText("Saved: 16.6 Hz along x, 27.6 Hz along y.").waitFor();
-    expect(await dialog().getByRole("radio", { name: "16.6 / 27.6 Hz" }).isChecked()).toBe(true);
+    await dialog().getByRole("radio", { name: "16.6 / 27.8 Hz" }).check();
+    await dialog().getByText("Saved: 16.6 Hz along x, 27.8 Hz along y.").waitFor();
+    expect(await dialog().getByRole("radio", { name: "16.6 / 27.8 Hz" }).isChecked()).toBe(true);
     // The lines stay those that were plotted.
-    await dialog().getByRole("radio", { name: "15.1 / 25.1 Hz" }).waitFor();
+    await dialog().getByRole("radio", { name: "15.1 / 25.3 Hz" }).waitFor();
     await test.page.setViewportSize({ width: 390, height: 844 });
     expect(await test.page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
     await test.page.setViewportSize({ width: 1440, height: 900 });
     await test.page.keyboard.press("Escape");
     await test.panel("Speed");
     await test.page.locator("#group-motion").getByText("16.6 Hz along x", { exact: false }).waitFor();
+    // The quality stays Normal, and uses what was measured.
+    expect(await test.page.getByRole("radio", { name: "Normal" }).isChecked()).toBe(true);
+    const { settings } = await test.queue();
+    expect(settings.motion.shaper).toBe("zv");
+    expect(settings.customMachine?.springs).toEqual({ xHz: 16.6, yHz: 27.8, damping: 0.08 });
     expect(test.complaints).toEqual([]);
   });
 });

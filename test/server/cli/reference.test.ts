@@ -79,7 +79,6 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
   const data = ["--data", join(folder, "data")];
   const board = ["--device", "virtual", "--virtual-speed", "100", ...data];
   switch (command) {
-    case "ringing":
     case "completion":
     case "devices":
     case "service":
@@ -88,6 +87,7 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
     case "machines":
     case "settings":
     case "pen-times":
+    case "ringing":
     case "logs":
       return data;
     case "serve":
@@ -138,6 +138,7 @@ const NOT_RUN: Readonly<Record<string, string>> = {
   "add --url": "every line of add has it, and it has a test below",
   "queue --url": "every line of queue has it, and it has a test below",
   "pen-times --url": "it has a test in test/server/cli/settings-command.test.ts",
+  "ringing --url": "it has a test in test/server/cli/settings-command.test.ts",
   "serve --shared-queue":
     "it needs a PostgreSQL database: it has a test in test/server/plugins/shared-queue/shared-begin.test.ts",
 };
@@ -161,8 +162,8 @@ const VALUES: Readonly<Record<string, string>> = {
   "logs --port": "1",
   "board --pty": "plotter",
   "board --firmware": "3.0.3",
-  "ringing --ripples": "5",
-  "ringing --at": "30.1",
+  "--ripples-x": "2,19.5",
+  "--ripples-y": "3,18",
   "--right": "20",
   "--lift": "20",
   "--drop": "-20",
@@ -199,8 +200,9 @@ const WITH: Readonly<Record<string, readonly string[]>> = {
   "serve --key": ["--cert", TLS.cert],
   "test-patch --shaper": ["--machine-file", "measured.json"],
   "plan --pen-error": ["--spring-x", "15", "--spring-y", "25"],
-  "ringing --ripples": ["--at", "30.1"],
-  "ringing --at": ["--ripples", "5"],
+  "ringing --damping": ["--ripples-x", "2,19.5"],
+  "ringing --store": ["--ripples-x", "2,19.5", "--ripples-y", "3,18"],
+  "ringing --plotter": ["--ripples-x", "2,19.5", "--ripples-y", "3,18", "--store"],
   "ringing --spring-x": ["--check", "--spring-y", "25"],
   "ringing --spring-y": ["--check", "--spring-x", "15"],
   "ringing --check": ["--spring-x", "15", "--spring-y", "25"],

@@ -424,6 +424,33 @@ describe("plotwright pen-times", () => {
   });
 });
 
+describe("plotwright ringing", () => {
+  const READ = ["--ripples-x", "2,20", "--ripples-y", "3,18", "--damping", "0.08"];
+  const SPRINGS = { xHz: 15.1, yHz: 25.3, damping: 0.08 };
+
+  it("stores the swing with the plotter, in a copy of its built-in model", async () => {
+    expect(await done("ringing", ...READ)).toBe("x\t15.1 Hz\ny\t25.3 Hz\n");
+    expect(await done("ringing", ...READ, "--store")).toContain(
+      `stored\tAxiDraw V3, measured\tplotter ${plotterName()}`,
+    );
+    const { settings } = await shown();
+    expect([settings.machine, settings.customMachine?.springs]).toEqual(["axidraw-v3-measured", SPRINGS]);
+    // Measured again, it is the same machine.
+    await done("ringing", "--ripples-x", "2,19", "--ripples-y", "3,18", "--store");
+    expect((await shown()).settings.machine).toBe("axidraw-v3-measured");
+  });
+
+  it("stores it with the plotter of a running server", async () => {
+    const server = await startServer();
+    try {
+      await done("ringing", ...READ, "--store", "--url", server.url);
+      expect((await shown()).settings.customMachine?.springs).toEqual(SPRINGS);
+    } finally {
+      await server.close();
+    }
+  });
+});
+
 const plotterName = (): string => {
   const store = Store.open(data);
   const [{ id, name }] = store.plotters();

@@ -7,19 +7,27 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { spawn, type IPty } from "@lydell/node-pty";
 import { VirtualBoard, type VirtualServo } from "../../../src/drivers/ebb/virtual/virtual-board.js";
+import { machineById } from "../../../src/index.js";
 import { nodeClock } from "../../../server/serial/node-clock.js";
 import { wakefulClock } from "../clocks/wakeful-clock.js";
 import type { FromBoard, ToBoard } from "./pty-board.js";
 
-const { firmware, speed, futureSyntax, wakeful, servo } = JSON.parse(process.argv[2]) as {
+const { firmware, speed, futureSyntax, wakeful, servo, machine } = JSON.parse(process.argv[2]) as {
   firmware: string;
   speed: number;
   futureSyntax: boolean;
   wakeful: boolean;
   servo: VirtualServo;
+  machine: string;
 };
 const ownClock = wakeful ? wakefulClock() : null;
-const board = new VirtualBoard({ clock: ownClock ?? nodeClock, firmware, speed, servo });
+const board = new VirtualBoard({
+  clock: ownClock ?? nodeClock,
+  firmware,
+  speed,
+  servo,
+  machine: machineById(machine),
+});
 const say = (message: FromBoard): void => void process.send!(message);
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-pty-"));

@@ -2,7 +2,7 @@
 import { fork, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
 import type { VirtualServo } from "../../../src/drivers/ebb/virtual/virtual-board.js";
-import type { BoardStatistics, VirtualBoardState } from "../../../src/internal.js";
+import type { BoardStatistics, MachineId, VirtualBoardState } from "../../../src/internal.js";
 import { childScript, hasEnded, nextMessage } from "./child-script.js";
 
 /** After this time a board's process that has not ended is killed. */
@@ -49,10 +49,12 @@ export class PtyBoard {
       futureSyntax?: boolean;
       wakeful?: boolean;
       servo?: VirtualServo;
+      machine?: MachineId;
     } = {},
   ): Promise<PtyBoard> {
     const { firmware = "2.8.1", speed = 1, futureSyntax = false, wakeful = false, servo = {} } = options;
-    const args = [JSON.stringify({ firmware, speed, futureSyntax, wakeful, servo })];
+    const { machine = "axidraw-v3" } = options;
+    const args = [JSON.stringify({ firmware, speed, futureSyntax, wakeful, servo, machine })];
     const child = fork(childScript("pty-board-child"), args, { execArgv: [] });
     try {
       const opened = await answer(child, "open");

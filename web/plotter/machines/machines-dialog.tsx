@@ -1,12 +1,13 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../../src/index.js";
+import { freeId } from "../../../src/internal.js";
 import { useActions, usePageState } from "../../state/use-store.js";
 import { Button } from "../../ui/button.js";
 import { ChooseFile } from "../../ui/files/choose-file.js";
 import { Sheet } from "../../ui/dialog.js";
 import { machinesText as words } from "./text.js";
 import { saveFile } from "../../ui/files/save-file.js";
-import { copyOf, fileOf, freeId, parseMachineFile, problemsOf } from "./profile.js";
+import { copyOf, fileOf, parseMachineFile, problemsOf } from "./profile.js";
 import { ProfileForm } from "./profile-form.js";
 import "./machines.css";
 

@@ -1,28 +1,7 @@
-/** Custom machines: new ones, their ids, and checking them by the schema. */
-import { MACHINES, type MachineProfile } from "../../../src/index.js";
-import type { EbbController } from "../../../src/internal.js";
+/** Custom machines: new ones, and checking them by the schema. */
+import type { MachineProfile } from "../../../src/index.js";
+import { freeId, type EbbController } from "../../../src/internal.js";
 import { faultInWords, machineProfileSchema } from "../../../src/schema/index.js";
-
-const MAX_ID = 60;
-
-/**
- * A free id that is valid as a file name: "My Plotter" -> "my-plotter", "my-plotter-2" … `made`: the custom machines,
- * whose ids are taken like those of the built-in ones.
- */
-export const freeId = (name: string, made: readonly MachineProfile[]): string => {
-  const plain = name
-    .normalize("NFD")
-    .replace(/[\u0300-\u036f]/g, "")
-    .toLowerCase()
-    .replace(/[^a-z0-9]+/g, "-")
-    .replace(/^-+|-+$/g, "")
-    .slice(0, MAX_ID - 3);
-  const base = plain === "" ? "plotter" : plain;
-  let id = base;
-  const isTaken = (wanted: string): boolean => [...MACHINES, ...made].some((one) => one.id === wanted);
-  for (let n = 2; isTaken(id); n++) id = `${base}-${n}`;
-  return id;
-};
 
 export const copyOf = (
   profile: MachineProfile,

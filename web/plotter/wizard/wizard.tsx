@@ -1,11 +1,11 @@
 import { useState } from "react";
 import { MACHINES, type MachineProfile } from "../../../src/index.js";
-import { findMachine } from "../../../src/internal.js";
+import { findMachine, freeId } from "../../../src/internal.js";
 import { Button } from "../../ui/button.js";
 import { Sheet } from "../../ui/dialog.js";
 import { useActions, usePageState, usePageStore } from "../../state/use-store.js";
 import { wizardText as words } from "./text.js";
-import { copyOf, fileOf, freeId, problemsOf } from "../machines/profile.js";
+import { copyOf, fileOf, problemsOf } from "../machines/profile.js";
 import { DirectionStep } from "./wizard-direction.js";
 import { ServoStep } from "./wizard-servo.js";
 import { SquareStep } from "./wizard-square.js";

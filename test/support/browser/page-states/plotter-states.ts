@@ -73,8 +73,13 @@ export const PLOTTER_STATES: readonly PageState[] = [
       await link.evaluate((element) => element.scrollIntoView({ block: "center" }));
       await link.click();
       const dialog = page.getByRole("dialog", { name: "Measure ringing" });
-      await dialog.getByLabel("Ripples in 10 mm, x").fill("5");
-      await dialog.getByLabel("Ripples in 10 mm, y").fill("8");
+      for (const [axis, ripples, lengthMm] of [
+        ["x", "2", "20"],
+        ["y", "3", "18"],
+      ]) {
+        await dialog.getByLabel(`Ripples, ${axis}`).fill(ripples);
+        await dialog.getByLabel(`Their length, ${axis}`).fill(lengthMm);
+      }
       await dialog.getByRole("row", { name: /^Fast/ }).waitFor();
     },
   },

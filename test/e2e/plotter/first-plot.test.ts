@@ -1,0 +1,117 @@
+/** The first minutes with a new plotter on a real port: which one it is, its corner, heights, a test mark, a plot. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { machineById } from "../../../src/index.js";
+import type { MachineId } from "../../../src/internal.js";
+import { snapshotSchema, type Plotter } from "../../../src/schema/index.js";
+import { openView, plotBar } from "../../support/browser/page-actions.js";
+import { PageTest } from "../../support/browser/page-test.js";
+import { PtyBoard } from "../../support/processes/pty-board.js";
+
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">
+  <path fill="none" stroke="#000" d="M5 5H55V35H5Z"/></svg>`;
+
+interface Counted {
+  clickCount: number;
+  scrollCount: number;
+}
+
+/** Clicks: model, home (AxiDraw: motors off and "in its corner"), height, test line, plot. */
+const NEW: readonly { machine: MachineId; firmware: string; homesItself: boolean; clicks: number }[] = [
+  { machine: "axidraw-v3", firmware: "2.8.1", homesItself: false, clicks: 6 },
+  { machine: "nextdraw-8511", firmware: "3.0.3", homesItself: true, clicks: 5 },
+];
+
+describe.each(NEW)("a new $machine", ({ machine, firmware, homesItself, clicks }) => {
+  const { name } = machineById(machine);
+  let board: PtyBoard;
+  let test: PageTest;
+
+  beforeAll(async () => {
+    board = await PtyBoard.open({ machine, firmware, speed: 10 });
+    test = await PageTest.firstVisit(`first-plot-${machine}`, {}, ["--device", board.path]);
+    await test.page.evaluate(() => {
+      const counted = window as unknown as Counted;
+      counted.clickCount = counted.scrollCount = 0;
+      addEventListener("pointerdown", () => counted.clickCount++, { capture: true });
+      addEventListener("scroll", () => counted.scrollCount++, { capture: true });
+    });
+    await test.drop("box", SVG);
+  });
+  afterAll(async () => {
+    await test.close();
+    await board.close();
+  });
+
+  const guide = () => test.page.getByRole("region", { name: "First plot with this plotter" });
+  const press = (label: string) =>
+    guide().getByRole("button", { name: label, exact: true }).and(test.page.locator(":enabled")).click();
+  const plotter = async (): Promise<Plotter> =>
+    snapshotSchema.parse(await (await fetch(`${test.server.url}/api/v1/state`)).json()).plotters[0];
+
+  it("is chosen by its picture, and a step is ticked only when it is done", async () => {
+    const question = guide().getByRole("group", { name: "Which plotter is this?" });
+    await question.waitFor();
+    const ticks = () => guide().locator("li[data-done]").count();
+    expect(await ticks()).toBe(0);
+    expect(await question.locator("svg.machine-picture").count()).toBe(6);
+    await press(name);
+    await expect.poll(async () => (await plotter()).machine).toBe(machine);
+    await guide().getByRole("button", { name: "Another model…" }).waitFor();
+    expect(await ticks()).toBe(1);
+    if (homesItself) {
+      await press("Home");
+      await guide().getByRole("button", { name: "Stop" }).waitFor();
+      expect(await ticks()).toBe(1);
+    } else {
+      // The buttons are in the order of the words.
+      const buttons = await guide().locator(".home-buttons button").allInnerTexts();
+      expect(buttons).toEqual(["Motors off", "The carriage is in its corner"]);
+      await press("Motors off");
+      expect(await ticks()).toBe(1);
+      await press("The carriage is in its corner");
+    }
+    await guide().getByText("The carriage is home.").waitFor();
+    expect(await ticks()).toBe(2);
+    await expect.poll(async () => [(await plotter()).xMm, (await plotter()).yMm]).toEqual([0, 0]);
+  });
+
+  it("draws its first plot after few clicks, without scrolling", async () => {
+    const { page } = test;
+    const slider = guide().locator(".pen-heights input[type=range]").nth(1);
+    const box = (await slider.boundingBox())!;
+    await page.mouse.move(box.x + box.width * 0.41, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width * 0.3, box.y + box.height / 2, { steps: 5 });
+    await page.mouse.up();
+    await press("Draw a test line");
+    await expect.poll(() => guide().locator("li[data-done]").count()).toBe(4);
+    await guide().getByText("Press Plot.").waitFor();
+    await plotBar(page)
+      .getByRole("button", { name: "Plot", exact: true })
+      .and(page.locator(":enabled"))
+      .click();
+    await expect.poll(async () => (await test.jobs())[0]?.state).toBe("done");
+    const { clickCount, scrollCount } = await page.evaluate(() => {
+      const { clickCount, scrollCount } = window as unknown as Counted;
+      return { clickCount, scrollCount };
+    });
+    expect([clickCount, scrollCount]).toEqual([clicks, 0]);
+    const { drawn } = await board.report();
+    // The test line, and the box.
+    expect(drawn.filter(({ penDown, xy }) => penDown && xy.length > 2).length).toBeGreaterThanOrEqual(2);
+  });
+
+  it("is offered the two sheets that make it faster, and no longer when it says no", async () => {
+    const { page } = test;
+    await openView(page, "Prepare");
+    const next = page.getByRole("region", { name: "Next: faster plots" });
+    await next.getByRole("button", { name: "Plot the pen sheet" }).waitFor();
+    await next.getByRole("button", { name: "Measure ringing…" }).click();
+    const dialog = page.getByRole("dialog", { name: "Measure ringing" });
+    await dialog.getByRole("button", { name: "Plot the ringing sheet" }).waitFor();
+    await page.keyboard.press("Escape");
+    await next.getByRole("button", { name: "Hide these measurements" }).click();
+    await next.waitFor({ state: "detached" });
+    expect(test.complaints).toEqual([]);
+  });
+});
