@@ -31,6 +31,13 @@ export const journalSchema = z.object({
   board: boardIdSchema.optional(),
 });
 
+/** How far the plot had come, which is stored with it. */
+export const journalProgressSchema = z.object({
+  progress: z.number().min(0).max(1),
+  elapsedS: z.number().min(0),
+  remainingS: z.number().min(0).nullable(),
+});
+
 /** `penStops`: the strokes before which the plot goes home and waits. */
 export function resumePosition(
   machine: Pick<Machine, "foundMidPlot" | "speed" | "positionMm">,

@@ -32,13 +32,17 @@ export function timeRatio(jobs: readonly Job[], plotterId: string): number {
 export const expectedS = (stats: Job["stats"], ratio: number): number | null =>
   stats === null ? null : stats.durationS * ratio;
 
-/** Measures how long a plot has moved, without the time in which it was held. Times are ISO 8601, as in the job. */
+/**
+ * Measures how long a plot has moved, without the time in which it was held. Times are ISO 8601, as in the job. `beforeS`:
+ * how long it had moved before it was interrupted or cancelled.
+ */
 export class MotionTimer {
   private since: number | null;
-  private movedMs = 0;
+  private movedMs: number;
 
-  constructor(nowIso: string) {
+  constructor(nowIso: string, beforeS: number) {
     this.since = Date.parse(nowIso);
+    this.movedMs = beforeS * 1_000;
   }
 
   hold(nowIso: string): void {

@@ -2,7 +2,7 @@
  * The plots that are running, at most one per plotter. Opens the job's planner, passes it to the plotter, applies the
  * reports of the run to the job, and passes requests for the job to the run.
  */
-import { z } from "zod";
+import type { z } from "zod";
 import { PlotwrightError, type StrokePosition } from "../../src/index.js";
 import {
   ENDED_STATES,
@@ -13,7 +13,7 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard } from "../plotter/board-id.js";
-import { journalSchema } from "../plotter/resume-position.js";
+import { journalProgressSchema, journalSchema } from "../plotter/resume-position.js";
 import type {
   JournalEntry,
   LivePlotRun,
@@ -194,7 +194,7 @@ export class RunningPlots {
     const running: Running = {
       job,
       plotter,
-      timer: new MotionTimer(this.parts.nowIso()),
+      timer: new MotionTimer(this.parts.nowIso(), job.plottedS ?? 0),
       notes: [],
       abort: new AbortController(),
       isLeft: false,
@@ -353,22 +353,21 @@ export class RunningPlots {
 
   private ended(running: Running, end: PlotEnd): void {
     this.running.delete(running.plotter.id);
-    const {
-      job: { id },
-      notes,
-    } = running;
+    const { notes } = running;
+    const { id } = running.job;
     const { store, nowIso } = this.parts;
+    const plottedS = running.timer.movedS(nowIso());
     // A plot that is partly on paper must stay recoverable, whatever the error.
     if (end.kind === "failed" && (canContinue(end.error) || store.journal(id) !== undefined)) {
-      this.interrupt(id, end.error.message);
+      this.interrupt(id, end.error.message, plottedS);
     } else if (end.kind === "failed") {
       this.jobs.apply(id, { type: "fail", message: end.error.message });
-    } else if (end.kind === "cancelled" && running.isLeft) this.interrupt(id, this.stopped);
-    else if (end.kind === "cancelled") this.cancelled(id);
+    } else if (end.kind === "cancelled" && running.isLeft) this.interrupt(id, this.stopped, plottedS);
+    else if (end.kind === "cancelled") this.cancelled(id, plottedS);
     else {
       // A job may end while paused; `finish` is only allowed from `plotting`, so release it first.
       if (this.jobs.get(id).state === "paused") this.jobs.apply(id, { type: "release" });
-      this.jobs.apply(id, { type: "finish" }, { plottedS: running.timer.movedS(nowIso()) });
+      this.jobs.apply(id, { type: "finish" }, { plottedS });
     }
     let job = this.jobs.get(id);
     if (notes.length > 0)
@@ -378,14 +377,19 @@ export class RunningPlots {
     if (job.state === "done") this.done(job);
   }
 
-  private interrupt(id: string, message: string): void {
-    const progress = journalProgressSchema.safeParse(this.parts.store.journal(id)).data ?? {};
-    this.jobs.apply(id, { type: "interrupt", message, place: this.reachedPlace(id) }, progress);
+  /** `plottedS`: how long it has plotted. After a crash nobody knows, and the planned time of what is drawn counts. */
+  private interrupt(id: string, message: string, plottedS?: number): void {
+    const progress = journalProgressSchema.safeParse(this.parts.store.journal(id)).data;
+    const place = this.reachedPlace(id);
+    const took = plottedS ?? progress?.elapsedS ?? this.jobs.get(id).plottedS;
+    const drawn = place === null ? progress : { ...progress, plottedS: took };
+    this.jobs.apply(id, { type: "interrupt", message, place }, drawn);
   }
 
   /** The place stays with the job, so that the user can continue it there. */
-  private cancelled(id: string): Job {
-    return this.jobs.apply(id, { type: "cancel", place: this.reachedPlace(id) });
+  private cancelled(id: string, plottedS = this.jobs.get(id).plottedS): Job {
+    const place = this.reachedPlace(id);
+    return this.jobs.apply(id, { type: "cancel", place }, place === null ? {} : { plottedS });
   }
 
   /** The place in the journal. Without a journal nothing has been drawn since the job's own place. */
@@ -442,9 +446,3 @@ const stopOf = ({ plotter }: Running): Pick<Job, "stopped" | "message"> => ({
 });
 
 const jobPlace = ({ stroke, alongMm }: StrokePosition): JobPlace => ({ strokeIndex: stroke, alongMm });
-
-const journalProgressSchema = z.object({
-  progress: z.number().min(0).max(1),
-  elapsedS: z.number().min(0),
-  remainingS: z.number().min(0).nullable(),
-});

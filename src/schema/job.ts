@@ -97,7 +97,7 @@ export const jobSchema = z.object({
   place: jobPlaceSchema.nullable().default(null),
   /** Percent of the set speeds, changed while plotting. */
   speedPct: z.number().default(100),
-  /** Actual duration in seconds, holds excluded; null until it is done. */
+  /** Actual duration in seconds of all its parts, holds excluded; null until it is done or has stopped in the middle. */
   plottedS: z.number().nullable().default(null),
   /**
    * Expected duration on its plotter: the plan's time, corrected by this plotter's earlier plots. Not updated

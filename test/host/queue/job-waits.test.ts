@@ -1,6 +1,7 @@
 /** Stops that a plot makes by itself, and the expected duration of plots. */
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { timeRatio } from "../../../host/queue/expected-time.js";
+import { PlotwrightError } from "../../../src/errors.js";
 import type { Job, PlotWait } from "../../../src/schema/index.js";
 import { folderOfTest } from "../../support/processes/folders.js";
 import { STATS, makeJob } from "../../support/jobs/jobs.js";
@@ -120,6 +121,42 @@ describe("a stop for a pen", () => {
     run.end({ kind: "done" });
     await settled();
     expect(queue.get(id).plottedS).toBe(12);
+  });
+});
+
+describe("a plot in two parts", () => {
+  it("took the time of both: one that was cancelled, and one that was interrupted, before it went on", async () => {
+    for (const end of [
+      { kind: "cancelled" } as const,
+      null, // The board's cable is pulled.
+    ]) {
+      const { id, run } = await plotting();
+      nowMs += 5_000;
+      run.record({ place: { stroke: 2, alongMm: 1 } });
+      if (end) queue.plots.cancel(id);
+      else run.fail(new PlotwrightError("disconnected", "gone"));
+      await settled();
+      expect(queue.get(id).plottedS).toBe(5);
+      nowMs += 3_600_000;
+      queue.plots.recover(id);
+      const rest = await nextRun();
+      nowMs += 60_000;
+      queue.plots.resume(id);
+      await settled();
+      nowMs += 7_000;
+      rest.end({ kind: "done" });
+      await settled();
+      expect(queue.get(id)).toMatchObject({ state: "done", plottedS: 12 });
+    }
+  });
+
+  it("begins at zero when it is plotted again", async () => {
+    const { id, run } = await plotting();
+    nowMs += 5_000;
+    run.record({ place: { stroke: 2, alongMm: 1 } });
+    queue.plots.cancel(id);
+    await settled();
+    expect(queue.requeue(id).plottedS).toBeNull();
   });
 });
 
