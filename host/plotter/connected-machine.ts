@@ -88,7 +88,7 @@ const notFound = ({ usbIds }: PlotterConnectOptions): PlotwrightError =>
   new PlotwrightError(
     "no-board",
     usbIds.length === 0
-      ? "This machine's controller can't be detected automatically: choose its port in Sharing, Plotters, or with --device on the command line."
+      ? "This machine's controller can't be detected automatically: choose its port: on the page in Sharing, Plotters."
       : "The plotter is no longer plugged in: check its USB cable and its power.",
   );
 

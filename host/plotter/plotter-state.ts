@@ -78,8 +78,8 @@ export const restedWhileStalled = ({ xMm, yMm }: PlotProgress, stalledS: number)
 export function welcome(kind: PlotterState["kind"], device: string): string | null {
   if (kind === "serial") return null;
   return device === "auto"
-    ? "No plotter is plugged in, so this is the virtual board: nothing is drawn on paper."
-    : "This is the virtual board: nothing is drawn on paper.";
+    ? "No plotter is plugged in, so this is the virtual plotter: nothing is drawn on paper."
+    : "This is the virtual plotter: nothing is drawn on paper.";
 }
 
 export const notStarted = (): PlotwrightError =>

@@ -48,10 +48,10 @@ export class Browsers {
     return secret === null ? null : createHash("sha256").update(secret).digest("hex").slice(0, 16);
   }
 
-  /** Two browsers of one kind have different names: "Chrome on Linux", "Chrome 2 on Linux". */
+  /** Two browsers of one kind have different names: "Chrome on Linux", "Chrome (2) on Linux": not as a version. */
   private nameOf(id: string, request: Request): string {
     const [what, where] = browserWords(request);
-    const named = (number: number): string => `${what}${number === 1 ? "" : ` ${number}`} on ${where}`;
+    const named = (number: number): string => `${what}${number === 1 ? "" : ` (${number})`} on ${where}`;
     const known = this.names.get(id);
     if (known?.endsWith(where) === true) return known;
     const taken = new Set(this.names.values());

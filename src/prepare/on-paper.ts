@@ -153,7 +153,7 @@ export function checkBounds(
   if (isReached(box, machine)) return;
   throw new PlotwrightError(
     "out-of-bounds",
-    `The drawing reaches from ${pointInWords(box.x0, box.y0)} to ${pointInWords(box.x1, box.y1)} mm, but the ${machine.name} ` +
+    `The drawing reaches from ${pointInWords(box.x0, box.y0)} to ${pointInWords(box.x1, box.y1)} mm, but ${machine.name} ` +
       `can only go from (0, 0) to ${pointInWords(machine.widthMm, machine.heightMm)} mm: choose a smaller paper, ` +
       `turn the paper, or fit the drawing to it. If your plotter is larger, name its model with --machine, or "machine" in the ` +
       `settings.`,

@@ -47,9 +47,9 @@ const OpenPanel = ({ name }: { name: PanelName }) => {
 const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
 const Camera = lazyPart(async () => (await import("../sharing/camera.js")).Camera);
 
-/** Targets of the skip link. */
-const PLOT_ID = "plot-bar";
-const WATCH_ID = "plot-status";
+/** Targets of the skip link: the button that starts or stops a plot, else the part of the page with it. */
+const PLOT = [".plot-buttons .button-primary:enabled", "#plot-bar"];
+const WATCH = [".status-actions button:enabled", "#plot-status"];
 
 /** Arranges the page: the sheet, the rail with one open panel beside it, and the bar with Plot under it. */
 export const App = () => {
@@ -108,14 +108,17 @@ export const App = () => {
 
 /** For keyboard users: jumps over the header and the settings to the buttons that start or stop a plot. */
 const SkipLink = ({ isWatching }: { isWatching: boolean }) => {
-  const target = isWatching ? WATCH_ID : PLOT_ID;
+  const targets = isWatching ? WATCH : PLOT;
   return (
     <a
       className="skip-link"
-      href={`#${target}`}
+      href={targets[1]}
       onClick={(event) => {
         event.preventDefault();
-        document.getElementById(target)?.focus();
+        targets
+          .map((target) => document.querySelector<HTMLElement>(target))
+          .find(Boolean)
+          ?.focus();
       }}
     >
       {isWatching ? skipText.toWatch : skipText.toPlot}

@@ -17,9 +17,9 @@ export const drawnSizeText = {
 
 export const reachText = {
   tooFar: (machine: string, reach: string, needed: string) =>
-    `The ${machine} reaches ${reach} from home; this drawing needs ${needed}.`,
+    `${machine} reaches ${reach} from home; this drawing needs ${needed}.`,
   beforeHome: (machine: string) =>
-    `This drawing goes over the paper’s left or upper edge, which the ${machine} can’t reach.`,
+    `This drawing goes over the paper’s left or upper edge, which ${machine} can’t reach.`,
   lines: (count: number, number: string) =>
     count === 1 ? "1 line is out of reach." : `${number} lines are out of reach.`,
   whatToDo: "Choose a smaller paper, or make the drawing smaller.",

@@ -63,13 +63,16 @@ export const MachineSetUp = ({ children }: { children: ReactNode }) => {
 const PlotterName = ({ plotter }: { plotter: Plotter }) => {
   const job = usePageState(activeJob);
   const isConnected = useIsConnected();
+  const model = usePageState(({ settings }) => findMachine(settings)?.name ?? null);
   const { boardName } = plotter;
+  // Under the title "Plotter", that name would say nothing.
+  const name = plotter.name === words.title ? (boardName ?? model) : plotter.name;
   return (
     <>
       <p className="plotter-name" data-lamp={isConnected ? lampOf(plotter, job) : "fault"}>
         <span className="lamp" aria-hidden="true" />
-        <strong>{plotter.name}</strong>
-        {boardName !== null && boardName !== plotter.name && <span className="note">({boardName})</span>}
+        <strong>{name}</strong>
+        {boardName !== null && boardName !== name && <span className="note">({boardName})</span>}
         <span className="plotter-doing">{isConnected ? plotterWords(plotter, job) : words.notHeard}</span>
       </p>
       <PlotterMessage plotter={plotter} />

@@ -31,7 +31,15 @@ export const Graph = ({ onSeek }: { onSeek(tS: number): void }) => {
       plot.destroy();
     };
   }, [store, trajectory, theme, onSeek]);
-  return <div className="graph" ref={box} role="img" aria-label={words.graph} />;
+  return (
+    <div className="graph">
+      <p className="graph-units" aria-hidden="true">
+        <span>{words.speed}</span>
+        <span>{words.accel}</span>
+      </p>
+      <div ref={box} role="img" aria-label={words.graph} />
+    </div>
+  );
 };
 
 const makePlot = (

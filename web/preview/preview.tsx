@@ -52,6 +52,8 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     const picture = viewModeOf(state).picture?.(state);
     if (picture) stage.setScene(picture, null);
     else stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
+    // Another file is seen whole. One that was edited and opened again keeps the view.
+    if (before && state.drawing?.name !== before.drawing?.name) stage.fit();
     followPen(glide, state, before, performance.now());
     stage.setPen(penOf(state, glide));
     if (hasChanged("settings", "view")) stage.setDesk(deskOfState(state));

@@ -16,14 +16,22 @@ export const JobButtons = ({ job }: { job: Job }) => {
   const [isAsking, setAsking] = useState(false);
   // Without a connection the server would not receive the request, so the buttons are disabled.
   const isOff = !useIsConnected();
-  if (isAsking && !isOff) return <AskToCancel job={job} onKeep={() => setAsking(false)} />;
-  return (
-    <div className="button-row job-buttons">
+  const isAsked = isAsking && !isOff;
+  const buttons = (
+    <div className="button-row job-buttons" inert={isAsked}>
       <MainButton job={job} />
       <Button disabled={isOff} onClick={() => setAsking(true)}>
         {queueText.cancel}
       </Button>
       {job.state === "plotting" && <StopButton job={job} isOff={isOff} />}
+    </div>
+  );
+  if (!isAsked) return buttons;
+  // The question lies over the buttons, so that nothing below them moves.
+  return (
+    <div className="job-asking">
+      {buttons}
+      <AskToCancel job={job} onKeep={() => setAsking(false)} />
     </div>
   );
 };

@@ -17,6 +17,15 @@ const headOf = (content: DrawingText): string => {
   return typeof head === "string" ? head : new TextDecoder().decode(head);
 };
 
+/** How PNG, JPEG, GIF, WebP, BMP, TIFF, HEIC and AVIF begin, read as text. */
+const PICTURE = /^(.PNG|\ufffd{2,3}|ÿØÿ|GIF8|RIFF.{4}WEBP|BM|II\*\0|MM\0\*|.{4}ftyp(heic|heix|mif1|avif))/s;
+const PICTURE_NAME = /\.(png|jpe?g|gif|webp|bmp|tiff?|heic|heif|avif)$/i;
+
+/** Pixels. Some systems do not tell a file's type. */
+const isPicture = ({ name, type }: File, head: string): boolean =>
+  (type.startsWith("image/") && !type.startsWith("image/svg")) ||
+  (head.includes("\0") && (PICTURE_NAME.test(name) || PICTURE.test(head)));
+
 /**
  * Whether the drawing is opened again, perhaps after it was edited. Files are known by their name. Pasted drawings all
  * have the same one, so only their text tells them apart.
@@ -127,7 +136,7 @@ export const createDocumentActions = (parts: DocumentParts) => {
       const text = await file.arrayBuffer().then(contentOf, () => null);
       if (!isLast()) return;
       if (text === null) ui.notify("error", stateText.unreadable(file.name));
-      else if (file.type.startsWith("image/") && !file.type.startsWith("image/svg")) {
+      else if (isPicture(file, headOf(text))) {
         ui.notify("error", stateText.isPicture(file.name));
       } else if (headOf(text).includes("\0")) ui.notify("error", stateText.notText(file.name));
       else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, text);

@@ -129,8 +129,10 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
     actOnJob: (id: string, action: JobAction) => attempt(`${action} ${id}`, () => backend.jobs[action](id)),
     changeJob,
     /** Changes a part of a running plot's pen settings. The rest is as last requested. */
-    changeJobPen: (job: Job, part: Partial<PlotSettings["pen"]>): Promise<void> =>
-      changeJob(job.id, { pen: { ...penOf(store.getState(), job), ...part } }),
+    changeJobPen: (job: Job, part: Partial<PlotSettings["pen"]>): Promise<void> => {
+      store.setState({ nudgedJobId: job.id });
+      return changeJob(job.id, { pen: { ...penOf(store.getState(), job), ...part } });
+    },
     movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.jobs.place(id, move)),
     moveJob: (id: string, beforeId: string | null) =>
       attempt(`move ${id}`, () => backend.jobs.move(id, { beforeId })),

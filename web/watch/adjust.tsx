@@ -1,5 +1,5 @@
 import { withOffs, type Job, type PlotSettings } from "../../src/schema/index.js";
-import { NudgeJob } from "../plotter/hand/pen-nudge.js";
+import { KeepHeights, NudgeJob } from "../plotter/hand/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
 import { activeJob, mayOperate, penOf, penWait } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
@@ -31,6 +31,7 @@ export const Adjust = () => {
     <section className="card adjust" aria-label={watchText.adjust}>
       <h2 className="card-title">{watchText.adjust}</h2>
       <NudgeJob job={job} />
+      <KeepHeights job={job} />
       {job.state === "paused" && !isWaiting && job.place && <PlaceControls job={job} place={job.place} />}
       {!isWaiting && <LiveChanges job={job} />}
     </section>

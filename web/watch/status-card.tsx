@@ -1,6 +1,7 @@
 import type { Job } from "../../src/schema/index.js";
 import { EndedButtons } from "../queue/ended-buttons.js";
 import { hasHoldCard, HoldCard } from "../queue/hold-card.js";
+import { KeepHeights } from "../plotter/hand/pen-nudge.js";
 import { JobButtons } from "../queue/job-buttons.js";
 import { Progress, StateBadge } from "../queue/job-head.js";
 import { PenWait } from "../queue/pen-wait.js";
@@ -34,6 +35,7 @@ export const StatusCard = ({ job }: { job: Job }) => {
       <div className="status-below">
         {job.state !== "queued" && <Progress job={job} />}
         <HoldCard job={job} />
+        {job.state === "done" && <KeepHeights job={job} />}
         <Message job={job} isWaiting={wait !== null} />
       </div>
     </>

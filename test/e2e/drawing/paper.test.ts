@@ -127,7 +127,7 @@ describe("a portrait file", () => {
 /** How many pixels over the strokes are the red of what is off the paper. */
 const redBeside = (): Promise<number> =>
   test.page.evaluate(() => {
-    const overlay = document.querySelector<HTMLCanvasElement>(".preview .stage canvas:last-child");
+    const overlay = document.querySelector<HTMLCanvasElement>(".preview .stage canvas:nth-child(3)");
     const data = overlay?.getContext("2d")?.getImageData(0, 0, overlay.width, overlay.height).data ?? [];
     let count = 0;
     for (let i = 0; i < data.length; i += 4) {

@@ -19,15 +19,19 @@ beforeAll(async () => {
 
 afterAll(async () => test.close());
 
+const focused = async (): Promise<string> =>
+  (
+    await test.page.evaluate(() => {
+      const element = document.activeElement;
+      return element?.getAttribute("aria-label") ?? element?.textContent ?? "";
+    })
+  ).trim();
+
 /** Presses Tab until a control of that name has the focus; returns how often. */
 async function stopsTo(name: string): Promise<number> {
   for (let stops = 1; stops <= 200; stops++) {
     await test.page.keyboard.press("Tab");
-    const focused = await test.page.evaluate(() => {
-      const element = document.activeElement;
-      return element?.getAttribute("aria-label") ?? element?.textContent ?? "";
-    });
-    if (focused.trim() === name) return stops;
+    if ((await focused()) === name) return stops;
   }
   throw new Error(`Tab never reached "${name}"`);
 }
@@ -42,7 +46,7 @@ describe("the keyboard", () => {
     await waitForPlotButton(page);
     let stops = await stopsTo("Skip to Plot");
     await page.keyboard.press("Enter");
-    stops += await stopsTo("Plot");
+    expect(await focused()).toBe("Plot");
     expect(stops).toBeLessThanOrEqual(MAX_STOPS);
     await page.keyboard.press("Enter");
     await statusCard(page).getByRole("button", { name: "Pause" }).waitFor();
@@ -50,8 +54,25 @@ describe("the keyboard", () => {
     await statusCard(page).getByRole("button", { name: "Pause" }).waitFor();
     stops = await stopsTo("Skip to the plot’s buttons");
     await page.keyboard.press("Enter");
-    stops += await stopsTo("Pause");
+    expect(await focused()).toBe("Pause");
     expect(stops).toBeLessThanOrEqual(MAX_STOPS);
+  });
+
+  it("goes on from the sheet after a sample was opened from it", async () => {
+    const { page } = test;
+    const context = await page
+      .context()
+      .browser()!
+      .newContext({ viewport: { width: 1440, height: 900 } });
+    const fresh = await context.newPage();
+    await fresh.goto(page.url());
+    await fresh.getByRole("group", { name: "View" }).getByRole("button", { name: "Prepare" }).click();
+    await fresh.getByRole("region", { name: "Or try a sample" }).getByRole("button").first().focus();
+    await fresh.keyboard.press("Enter");
+    await expect
+      .poll(() => fresh.evaluate(() => document.activeElement?.getAttribute("aria-label")))
+      .toMatch(/^Arrow keys move the paper/);
+    await context.close();
   });
 
   it("logs no error in the browser's console", () => {

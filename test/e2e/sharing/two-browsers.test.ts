@@ -139,7 +139,7 @@ describe("two browsers and a watcher", () => {
       .getByRole("radio", { name: "Start the next" })
       .and(ben.locator(":checked"))
       .waitFor();
-    await anna.getByText(/^\S+ \d on .* is operating\.$/).waitFor();
+    await anna.getByText(/^\S+ \(\d\) on .* is operating\.$/).waitFor();
     await queuePanel(ben).getByRole("radio", { name: "Wait for paper" }).click();
     await anna.getByRole("button", { name: "Take over" }).waitFor();
     await plotButton(ben).and(ben.locator(":enabled")).waitFor();

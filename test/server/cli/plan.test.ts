@@ -126,7 +126,7 @@ describe("plotwright plan", () => {
     const { code, err } = await cli("plan", file, "--paper", "A3");
     expect([code, err]).toEqual([
       3,
-      expect.stringMatching(/but the AxiDraw V3 can only go from \(0, 0\) to \(300, 218\) mm: .*--machine/),
+      expect.stringMatching(/but AxiDraw V3 can only go from \(0, 0\) to \(300, 218\) mm: .*--machine/),
     ]);
     expect((await cli("plan", file, "--paper", "A3", "--machine", "axidraw-v3-a3")).code).toBe(0);
   });

@@ -56,9 +56,9 @@ describe("the operator lock", () => {
     const nameOf = async (browser: Browser): Promise<string | null> =>
       meSchema.parse(await (await browser.call("GET", "/me")).json()).name;
     expect(await nameOf(first)).toBe("Firefox on Linux (this computer)");
-    expect(await nameOf(second)).toBe("Firefox 2 on Linux (this computer)");
+    expect(await nameOf(second)).toBe("Firefox (2) on Linux (this computer)");
     expect(await nameOf(first)).toBe("Firefox on Linux (this computer)");
-    expect(await nameOf(second)).toBe("Firefox 2 on Linux (this computer)");
+    expect(await nameOf(second)).toBe("Firefox (2) on Linux (this computer)");
   });
 
   it("goes to the browser that acts first; another one changes nothing until it takes over", async () => {

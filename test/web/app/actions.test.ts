@@ -69,7 +69,7 @@ describe("a file that is dropped", () => {
 
   it.each([
     ["is a folder, or gone", unreadable as unknown as File],
-    ["holds no text", new File(["\x89PNG\0\0"], "photo.png")],
+    ["holds no text", new File(["PK\x03\x04\0\0"], "photos.zip")],
     ["is a picture", new File(["\xff\xd8\xff"], "photo.jpg", { type: "image/jpeg" })],
   ])("a dropped file that %s is named, with advice; the drawing on the paper stays", async (_what, file) => {
     const { store, actions } = makePage();
@@ -80,6 +80,26 @@ describe("a file that is dropped", () => {
     const [notice] = store.getState().notices;
     expect(notice?.kind).toBe("error");
     expect(notice?.text).toContain(file.name);
+  });
+
+  it.each([
+    ["PNG", [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13]],
+    ["JPEG", [0xff, 0xd8, 0xff, 0xe0, 0, 0x10, 0x4a, 0x46, 0x49, 0x46]],
+    ["GIF", [...Buffer.from("GIF89a"), 10, 0, 10, 0]],
+    ["WebP", [...Buffer.from("RIFF"), 9, 0, 0, 0, ...Buffer.from("WEBPVP8 ")]],
+    ["BMP", [...Buffer.from("BM"), 70, 0, 0, 0, 0, 0]],
+    ["TIFF", [...Buffer.from("II*"), 0, 8, 0, 0, 0]],
+    ["HEIC", [0, 0, 0, 24, ...Buffer.from("ftypheic"), 0, 0]],
+  ])("is called a picture if it is one, also without a type and an ending: %s", async (_format, bytes) => {
+    const { store, actions } = makePage();
+    await actions.openFile(new File([Uint8Array.from(bytes)], "scan"));
+    expect(store.getState().notices[0]?.text).toMatch(/^scan is a picture: .*Trace it first/);
+  });
+
+  it("is not called a picture if it is something else", async () => {
+    const { store, actions } = makePage();
+    await actions.openFile(new File(["PK\x03\x04\0\0"], "scan"));
+    expect(store.getState().notices[0]?.text).toMatch(/^scan is not a text file/);
   });
 
   it("is put on the paper without its extension", async () => {

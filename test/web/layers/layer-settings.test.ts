@@ -138,6 +138,20 @@ describe("another drawing on the paper", () => {
 });
 
 describe("another file on the paper", () => {
+  it("has neither the place by hand nor the filling of the one before", () => {
+    const prepare: PlotSettings["prepare"] = {
+      ...DEFAULTS.prepare,
+      marginMm: 22,
+      layout: { xMm: 1, yMm: 2, widthMm: 30, heightMm: null },
+      hatch: { spacingMm: 0.4, angleDeg: 30, cross: true },
+      hatchOutlines: true,
+      outlineFills: false,
+      hideCovered: true,
+      outside: "allow",
+    };
+    expect(forOtherDrawing({ ...DEFAULTS, prepare }).prepare).toEqual({ ...DEFAULTS.prepare, marginMm: 22 });
+  });
+
   it("is not read with the last one's px per inch", () => {
     const read = { ...DEFAULTS, prepare: { ...DEFAULTS.prepare, pxPerInch: 300 } };
     expect(forOtherDrawing(read).prepare.pxPerInch).toBe("auto");

@@ -120,3 +120,20 @@ describe("the changed settings in words", () => {
     expect(changedSettings({ pen, motion }, now)).toEqual(["Other settings of the pen and the speed"]);
   });
 });
+
+describe("a height that was found while plotting", () => {
+  it("is offered to be kept, on the page that found it, until it is", () => {
+    const { store, actions, seeJob, shown } = openPage();
+    const { pen } = DEFAULT_PLOT_SETTINGS;
+    const job = makeJob("a", { state: "plotting" });
+    const lower = { ...job, settings: { ...job.settings, pen: { ...pen, downPct: pen.downPct - 1 } } };
+    seeJob(lower);
+    // Another page changed it, or the job came with it.
+    expect(shown()).not.toContain("from now on?");
+    store.setState({ nudgedJobId: "a" });
+    expect(shown()).toContain(`Height down: keep ${pen.downPct - 1}\u202f% from now on?`);
+    expect(shown()).not.toContain("Height up: keep");
+    actions.changeSettings("pen down", (settings) => ({ ...settings, pen: lower.settings.pen }));
+    expect(shown()).not.toContain("from now on?");
+  });
+});

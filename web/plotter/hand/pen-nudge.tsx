@@ -1,8 +1,8 @@
 import type { Job, PlotSettings } from "../../../src/schema/index.js";
-import { penOf } from "../../state/store.js";
+import { mayOperate, penOf } from "../../state/store.js";
 import { useActions, usePageState } from "../../state/use-store.js";
 import { nudgeText as words } from "./text.js";
-import { IconButton } from "../../ui/button.js";
+import { Button, IconButton } from "../../ui/button.js";
 import { formatNumber } from "../../ui/format.js";
 import { usePenChange } from "../../ui/use-change.js";
 import "./nudge.css";
@@ -46,6 +46,25 @@ export const NudgeJob = ({ job }: { job: Job }) => {
   const { changeJobPen } = useActions();
   const pen = usePageState((state) => penOf(state, job));
   return <Nudge heights={pen} onChange={(which, pct) => void changeJobPen(job, { [which]: pct })} />;
+};
+
+/** Offers to keep the heights that were found while this job plotted. */
+export const KeepHeights = ({ job }: { job: Job }) => {
+  const found = usePageState((state) => penOf(state, job));
+  const own = usePageState((state) => state.settings.pen);
+  const isOffered = usePageState((state) => state.nudgedJobId === job.id && mayOperate(state));
+  const change = usePenChange();
+  if (!isOffered) return null;
+  return (["upPct", "downPct"] as const)
+    .filter((which) => found[which] !== own[which])
+    .map((which) => (
+      <p key={which} className="keep-height">
+        {words.keep(which === "upPct" ? words.up : words.down, formatNumber(found[which], 1))}
+        <Button kind="small" onClick={() => change({ [which]: found[which] })}>
+          {words.keepIt}
+        </Button>
+      </p>
+    ));
 };
 
 /** Changes the heights in the settings and moves the pen there to show it. */

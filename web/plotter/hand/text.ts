@@ -39,4 +39,6 @@ export const nudgeText = {
   down: "Height down",
   less: (label: string) => `${label}: a little lower`,
   more: (label: string) => `${label}: a little higher`,
+  keep: (label: string, pct: string) => `${label}: keep ${pct}\u202f% from now on?`,
+  keepIt: "Keep",
 };

@@ -50,6 +50,8 @@ export interface ServerSlice {
   readonly live: LivePlot | null;
   /** The newest pen settings sent for a running plot, until the server has answered: it plans the rest first. */
   readonly wantedPen: { readonly jobId: string; readonly pen: PlotSettings["pen"] } | null;
+  /** The job whose pen heights were changed here while it plotted. */
+  readonly nudgedJobId: string | null;
   /** The job with a lost position for which the user has said that the carriage is in its corner. */
   readonly cornerJobId: string | null;
   /** The name of the request that is running: its button is disabled meanwhile. */
@@ -78,6 +80,7 @@ export const SERVER_AT_FIRST = {
   localName: null,
   live: null,
   wantedPen: null,
+  nudgedJobId: null,
   cornerJobId: null,
   busyAction: null,
   utilityJobIds: [],
