@@ -183,7 +183,7 @@ export type {
 } from "./drivers/driver.js";
 export { homeAgain, powerFailed, powerLost, powerLow } from "./drivers/faults.js";
 export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
-export { AHEAD_STEP_MS, type PenMoment, type PlotProgress } from "./drivers/run-progress.js";
+export { AHEAD_STEP_MS, type PenMoment, type PlotProgress } from "./drivers/playback-progress.js";
 
 // pen sheet
 export {

@@ -14,7 +14,7 @@ import type { PlotPlanner } from "../planning/planning.js";
 import { planAndCompile } from "../planning/stages.js";
 import type { Devices } from "../plotter/connected-machine.js";
 import { FIRST_PLOTTER, NamedPlotter } from "../plotter/named-plotter.js";
-import type { LivePlotRun, PlotProgress, PlotterPort } from "../plotter/plotter-port.js";
+import type { RunningPlot, PlotProgress, PlotterPort } from "../plotter/plotter-port.js";
 import {
   settingsOfPlotter,
   settingsWith,
@@ -91,7 +91,7 @@ export async function openOwnPlotter(
 
 class OwnHandle implements PlotterHandle {
   private readonly listeners = new HandleListeners();
-  private run: LivePlotRun | null = null;
+  private run: RunningPlot | null = null;
   private progress: PlotProgress | null = null;
   private wait: PlotWait | null = null;
 
@@ -184,7 +184,7 @@ class OwnHandle implements PlotterHandle {
     await this.plotter.close();
   }
 
-  private running(): LivePlotRun {
+  private running(): RunningPlot {
     if (this.run === null) throw notPlotting();
     return this.run;
   }
@@ -192,7 +192,7 @@ class OwnHandle implements PlotterHandle {
 
 /** Resumes when the pen is changed. */
 async function changePen(
-  run: LivePlotRun,
+  run: RunningPlot,
   wait: PlotWait,
   onPenChange: (wait: PlotWait) => void | Promise<void>,
 ): Promise<void> {

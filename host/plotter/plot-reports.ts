@@ -10,7 +10,7 @@ import {
 import { BLOT_S, restedWhileStalled } from "./plotter-state.js";
 import type { JournalEntry, PlotStart, ReportedProgress } from "./plotter-port.js";
 import { JOURNAL_S, PROGRESS_S } from "./resume-position.js";
-import type { RunSettings } from "./run-settings.js";
+import type { LiveSettings } from "./live-settings.js";
 
 /** Moments in a report of progress: enough until the next one arrives. */
 const AHEAD_COUNT = 20;
@@ -23,7 +23,7 @@ export class PlotReports {
   constructor(
     private readonly machine: Machine,
     private readonly stream: Playback,
-    private readonly settings: RunSettings,
+    private readonly settings: LiveSettings,
     private readonly start: Pick<PlotStart, "journal" | "noted">,
   ) {}
 

@@ -29,7 +29,7 @@ import type { PlotPlanner } from "../planning/planning.js";
 import { isOtherBoard, startOn } from "./board-id.js";
 import { connect, connectFailed, type ConnectedMachine } from "./connected-machine.js";
 import { moveByHand } from "./hand-moves.js";
-import { MachinePlot } from "./plot-run.js";
+import { MachinePlot } from "./machine-plot.js";
 import {
   closedError,
   initialState,
@@ -42,7 +42,7 @@ import {
   type PlotterState,
 } from "./plotter-state.js";
 import { SupplyWatch } from "./supply-watch.js";
-import type { LivePlotRun, PlotProgress, PlotStart } from "./plotter-port.js";
+import type { RunningPlot, PlotProgress, PlotStart } from "./plotter-port.js";
 
 const RECONNECT_S = 2;
 
@@ -123,7 +123,7 @@ export class PlotterConnection {
   }
 
   /** Starts a plot. Rejects with `busy`, or with the error that prevents a connection. */
-  async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<LivePlotRun> {
+  async plot(planner: PlotPlanner, settings: PlotSettings, start: PlotStart = {}): Promise<RunningPlot> {
     await this.connecting;
     if (!this.isConnectedFor(settings)) await this.connectFor(settings);
     if (start.board && isOtherBoard(start.board, this.current)) {

@@ -30,7 +30,7 @@ export interface PlotterPort {
   /** Called after each change of `snapshot`. */
   onChange(listener: () => void): void;
   /** Starts a plot; throws `no-board`, `busy` or `board-error` if it can't. */
-  plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<LivePlotRun> | LivePlotRun;
+  plot(planner: PlotPlanner, settings: PlotSettings, start?: PlotStart): Promise<RunningPlot> | RunningPlot;
   /** With the machine and heights of `settings`; default: those of the last job or move. */
   pen(request: PenTarget, settings?: PlotSettings): Promise<void>;
   motorsOff(): Promise<void>;
@@ -67,7 +67,7 @@ export interface ReportedProgress extends PlotProgress {
 export type PlotOutcome = { readonly kind: "done" } | { readonly kind: "cancelled" };
 
 /** A running plot. `finished` rejects with a PlotwrightError when the board fails. */
-export interface PlotRun {
+export interface PlotControl {
   readonly finished: Promise<PlotOutcome>;
   onProgress(listener: (report: ReportedProgress) => void): void;
   /** `wait`: what the plot waits for if it stopped by itself; none if the hold was requested. */
@@ -93,7 +93,7 @@ export interface PlotChange {
 }
 
 /** All operations on a running plot. */
-export interface LivePlotRun extends PlotRun {
+export interface RunningPlot extends PlotControl {
   /** Ends the plot because the server stops. Like `cancel`, but nothing moves if the plot is held or was stopped at once. */
   leave(): Promise<void>;
   /** Stops at once, without slowing down (ES), then reads back the motor positions; the plot is then held. */

@@ -16,7 +16,7 @@ import { isOtherBoard } from "../plotter/board-id.js";
 import { journalProgressSchema, journalSchema } from "../plotter/resume-position.js";
 import type {
   JournalEntry,
-  LivePlotRun,
+  RunningPlot,
   PlotOutcome,
   ReportedProgress,
   PlotStart,
@@ -43,7 +43,7 @@ interface Running {
   isLeft: boolean;
   isStopped: boolean;
   /** Null while the plot is still being planned. */
-  run: LivePlotRun | null;
+  run: RunningPlot | null;
   /** Whether the run begins held. Once it exists, it knows itself what the user wants. */
   beginsHeld: boolean;
   /** Settles after the end has been applied to the job; never rejects. */
@@ -264,7 +264,7 @@ export class RunningPlots {
   }
 
   /** A recovered job is paused before its run is held, and the run does not report that it was never held. */
-  private async resumeRun({ job, abort }: Running, run: LivePlotRun): Promise<void> {
+  private async resumeRun({ job, abort }: Running, run: RunningPlot): Promise<void> {
     await run.resume();
     if (!abort.signal.aborted) this.safely(job.id, () => this.held(job.id, false, null));
   }
@@ -408,7 +408,7 @@ export class RunningPlots {
   }
 
   /** The run of a job for requests that need one; throws `conflict` while it is still being planned. */
-  private liveRun(id: string, states: readonly Job["state"][], verb: string): LivePlotRun {
+  private liveRun(id: string, states: readonly Job["state"][], verb: string): RunningPlot {
     const { run } = this.runningOf(id, states, verb);
     if (run !== null) return run;
     throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");

@@ -16,7 +16,7 @@ import type { Controller, ControllerFields, MachineProfile, Springs } from "../m
 import type { StrokePosition } from "../plan/trajectory.js";
 import type { Cancellation } from "../prepare/work.js";
 import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
-import type { PenMoment, PlotProgress, RunProgress } from "./run-progress.js";
+import type { PenMoment, PlotProgress, PlaybackProgress } from "./playback-progress.js";
 import type { Clock, Transport } from "./transport.js";
 
 /** A kind of USB device, in hexadecimal, lower case. */
@@ -125,7 +125,7 @@ export interface Machine extends MachineParts {
   moveTo(xMm: number, yMm: number, settings: MachineSettings): Promise<void>;
   /** Plays a job that ends with the pen up, outside any run. */
   perform(plot: PlannedPlot, settings: MachineSettings): Promise<void>;
-  startRun(request: RunRequest): Playback;
+  startPlayback(request: PlaybackRequest): Playback;
   /** Makes the current position home. */
   setHome(settings: MachineSettings): Promise<void>;
   /** Switches the motors off, so that the carriage can be pushed by hand. Its position is then unknown. */
@@ -206,14 +206,14 @@ export interface ConsoleAnswer {
   readonly note: string | null;
 }
 
-export interface RunRequest {
+export interface PlaybackRequest {
   readonly strokes: StrokeSet;
   /** The current settings; they may change during the plot. */
   settings(): MachineSettings;
-  readonly events: RunEvents;
+  readonly events: PlaybackEvents;
 }
 
-export interface RunEvents {
+export interface PlaybackEvents {
   progressed(progress: PlotProgress): void;
   /** A play has ended, for any reason; `place`: the first place still to be drawn, null if unknown. */
   ended(place: StrokePosition | null): void;
@@ -221,7 +221,7 @@ export interface RunEvents {
 
 /** One plot on a machine. The caller decides what is drawn, and when. */
 export interface Playback {
-  readonly progress: RunProgress;
+  readonly progress: PlaybackProgress;
   /** Identifies the current play: a new object for each; null at rest. */
   readonly playing: object | null;
   /** Set when a play was stopped on purpose: the first place still to be drawn, null if everything is drawn. */

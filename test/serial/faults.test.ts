@@ -7,7 +7,7 @@ import { once } from "node:events";
 import { chmodSync } from "node:fs";
 import { describe, expect, it, type TestContext } from "vitest";
 import { NodePlotter, type PlotterState } from "../support/plots/node-plotter.js";
-import type { JournalEntry, LivePlotRun } from "../../host/plotter/plotter-port.js";
+import type { JournalEntry, RunningPlot } from "../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../src/schema/index.js";
 import { childScript, hasEnded, nextMessage } from "../support/processes/child-script.js";
@@ -32,7 +32,7 @@ function closeAfter<T extends { close(): Promise<void> }>({ onTestFinished }: Te
 interface Plot {
   readonly board: PtyBoard;
   readonly driver: NodePlotter;
-  readonly run: LivePlotRun;
+  readonly run: RunningPlot;
   readonly journal: JournalEntry[];
   /** How `finished` ended, and the seconds for which this process ran until then. */
   ended(): Promise<{ outcome: string; afterS: number }>;

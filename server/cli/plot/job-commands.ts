@@ -3,7 +3,7 @@ import { PlotwrightError } from "../../../src/index.js";
 import { printableJson } from "../../../src/internal.js";
 import type { Job, JobState } from "../../../src/schema/index.js";
 import { printed, row, type CliIo } from "../io.js";
-import { JobRun } from "./job-run.js";
+import { JobPlot } from "./job-plot.js";
 import { addJson, type Declare } from "../options.js";
 import { plotReport } from "./plot-report.js";
 import { cancelled } from "./plot-watch.js";
@@ -46,13 +46,18 @@ export const declareFollow: Declare = (command, { io, setExitCode }) => {
       const access = accessOf(options);
       const { jobs } = await serverState(access);
       const job = jobOf(jobs, wanted, RUNNING);
-      setExitCode(await followJob(new JobRun(serverClient(access), job.id), job, options, io));
+      setExitCode(await followJob(new JobPlot(serverClient(access), job.id), job, options, io));
     },
   );
 };
 
 /** Shows the progress until the job ends. Ctrl-C ends only this command. */
-async function followJob(run: JobRun, { name }: Job, options: JobCommandOptions, io: CliIo): Promise<number> {
+async function followJob(
+  run: JobPlot,
+  { name }: Job,
+  options: JobCommandOptions,
+  io: CliIo,
+): Promise<number> {
   const report = plotReport(name, options, io);
   let isLeft = false;
   const forget = io.onInterrupt(() => {

@@ -3,7 +3,7 @@ import { sizeInWords } from "../../../src/internal.js";
 import type { Job } from "../../../src/schema/index.js";
 import type { PenChoice } from "../../planning/layers-by-name.js";
 import { printed, type CliIo } from "../io.js";
-import { JobRun } from "./job-run.js";
+import { JobPlot } from "./job-plot.js";
 import { plotReport } from "./plot-report.js";
 import { CANCELLED, cancelled, watch } from "./plot-watch.js";
 import type { ServerClient } from "../../../host/handle/server-client.js";
@@ -49,7 +49,7 @@ export async function plotOnServer(
     await start(client, job);
     const report = plotReport(job.name, options, io);
     const endWords = `The plot continues on the server. To follow it: plotwright follow ${job.id}`;
-    const run = new JobRun(client, job.id);
+    const run = new JobPlot(client, job.id);
     forget();
     const ended = await watch(run, { report, resumed: null, isInterrupted, end, endWords }, io);
     if (ended === "interrupted") return CANCELLED;

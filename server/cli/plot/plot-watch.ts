@@ -1,13 +1,13 @@
 /** Progress of a running plot, and the keys that control it. */
 import { OTHER_BOARD } from "../../../host/plotter/board-id.js";
 import { homeAgain } from "../../../src/internal.js";
-import type { PlotRun } from "../../../host/plotter/plotter-port.js";
+import type { PlotControl } from "../../../host/plotter/plotter-port.js";
 import type { PlotWait } from "../../../src/schema/index.js";
 import { printed, type CliIo } from "../io.js";
 import type { PlotAmounts, PlotReport } from "./plot-report.js";
 
 /** A plot of this process, or a job of a server. */
-export interface WatchedRun extends Omit<PlotRun, "onProgress"> {
+export interface WatchedPlot extends Omit<PlotControl, "onProgress"> {
   onProgress(listener: (progress: PlotAmounts) => void): void;
 }
 
@@ -25,7 +25,7 @@ interface Watched {
 
 /** Runs until the plot ends. */
 export async function watch(
-  run: WatchedRun,
+  run: WatchedPlot,
   { report, resumed, isInterrupted, end, endWords }: Watched,
   io: CliIo,
 ): Promise<"done" | "cancelled" | "interrupted"> {
@@ -116,7 +116,7 @@ class Control {
   private fail: (error: unknown) => void = () => undefined;
 
   constructor(
-    private readonly run: WatchedRun,
+    private readonly run: WatchedPlot,
     private readonly io: CliIo,
     isHeld: boolean,
   ) {

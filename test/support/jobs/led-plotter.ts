@@ -2,7 +2,7 @@
 import type {
   ManagedPlotter,
   JournalEntry,
-  LivePlotRun,
+  RunningPlot,
   PlotChange,
   PlotOutcome,
   PlotProgress,
@@ -15,7 +15,7 @@ import type { StrokePosition } from "../../../src/index.js";
 import type { CommandAnswer, HandMove, Plotter, PlotSettings, PlotWait } from "../../../src/schema/index.js";
 import { makePlotter, STATS } from "./jobs.js";
 
-export class LedRun implements LivePlotRun {
+export class LedRun implements RunningPlot {
   readonly finished: Promise<PlotOutcome>;
   end!: (outcome: PlotOutcome) => void;
   fail!: (error: Error) => void;

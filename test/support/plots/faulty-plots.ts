@@ -4,7 +4,7 @@
  * compared with the drawing.
  */
 import { NodePlotter } from "./node-plotter.js";
-import type { JournalEntry, LivePlotRun } from "../../../host/plotter/plotter-port.js";
+import type { JournalEntry, RunningPlot } from "../../../host/plotter/plotter-port.js";
 import type { PlotwrightError, StrokeSet } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { compareDrawn, type DrawnTruth } from "../drawings/drawn-truth.js";
@@ -55,7 +55,7 @@ export async function plotWithFault(
   try {
     await driver.start();
     const journal: JournalEntry[] = [];
-    const start = (): Promise<LivePlotRun> =>
+    const start = (): Promise<RunningPlot> =>
       driver.plot(new LocalPlanner(FAULT_DRAWING), DEFAULT_PLOT_SETTINGS, {
         from: journal.at(-1)?.place,
         received: journal.at(-1)?.received,
@@ -86,10 +86,10 @@ export async function plotWithFault(
 }
 
 /** Until the plot reports progress. Rejects if it fails before: then it reports none. */
-export const untilUnderWay = (run: LivePlotRun): Promise<unknown> =>
+export const untilUnderWay = (run: RunningPlot): Promise<unknown> =>
   Promise.race([new Promise<void>((resolve) => run.onProgress(() => resolve())), run.finished]);
 
-const outcomeOf = (run: LivePlotRun): Promise<string> =>
+const outcomeOf = (run: RunningPlot): Promise<string> =>
   run.finished.then(
     ({ kind }) => kind,
     (error: PlotwrightError) => `${error.code}: ${error.message}`,

@@ -3,7 +3,7 @@
  * board can have received, where it would resume, and where the board would really have stopped.
  */
 import { resumePosition } from "../../../host/plotter/resume-position.js";
-import { MachinePlot } from "../../../host/plotter/plot-run.js";
+import { MachinePlot } from "../../../host/plotter/machine-plot.js";
 import type { JournalEntry } from "../../../host/plotter/plotter-port.js";
 import { streamOf } from "../../../src/drivers/ebb/compile/command-stream.js";
 import { driver as ebbDriver } from "../../../src/drivers/ebb/controller.js";
@@ -116,8 +116,8 @@ export class InterruptiblePlot {
       }),
     );
     await world.run(machine.readKeptState(this.settings, null));
-    const startRun = machine.startRun.bind(machine);
-    machine.startRun = (request) => (this.run = startRun(request));
+    const startRun = machine.startPlayback.bind(machine);
+    machine.startPlayback = (request) => (this.run = startRun(request));
     const record = (entry: JournalEntry): void => void this.journal.push(entry);
     const plot = new MachinePlot(machine, this.planner, this.settings, { journal: { record } });
     plot.finished.then(

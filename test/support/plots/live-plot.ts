@@ -2,7 +2,7 @@
 import { simplifyLines } from "../../../src/prepare/steps/points.js";
 import { expect } from "vitest";
 import { NodePlotter } from "./node-plotter.js";
-import type { LivePlotRun } from "../../../host/plotter/plotter-port.js";
+import type { RunningPlot } from "../../../host/plotter/plotter-port.js";
 import type { StrokeSet, VirtualBoard } from "../../../src/index.js";
 import type { MotionMode } from "../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../src/schema/index.js";
@@ -26,7 +26,7 @@ export interface LivePlot {
   readonly world: ManualClock;
   readonly driver: NodePlotter;
   readonly board: VirtualBoard;
-  readonly run: LivePlotRun;
+  readonly run: RunningPlot;
 }
 
 export const settingsOf = (mode: MotionMode): PlotSettings => ({

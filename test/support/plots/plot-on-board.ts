@@ -1,6 +1,6 @@
 /** A plot on a virtual board that a test has made, without a plotter driver around it. */
-import { MachinePlot } from "../../../host/plotter/plot-run.js";
-import type { LivePlotRun, PlotProgress } from "../../../host/plotter/plotter-port.js";
+import { MachinePlot } from "../../../host/plotter/machine-plot.js";
+import type { RunningPlot, PlotProgress } from "../../../host/plotter/plotter-port.js";
 import { driver as ebbDriver } from "../../../src/drivers/ebb/controller.js";
 import type { StrokeSet, Trajectory, VirtualBoard } from "../../../src/index.js";
 import type { Machine } from "../../../src/internal.js";
@@ -10,7 +10,7 @@ import type { ManualClock } from "../clocks/manual-clock.js";
 import { KeepingPlanner } from "../drawings/stop-truth.js";
 
 export interface PlotOnBoard {
-  readonly run: LivePlotRun;
+  readonly run: RunningPlot;
   readonly machine: Machine;
   readonly trajectory: Trajectory;
   /** All that was reported. */

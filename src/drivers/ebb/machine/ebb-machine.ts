@@ -2,7 +2,7 @@
 import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { ConsoleAnswer, Machine, Playback, RunRequest } from "../../driver.js";
+import type { ConsoleAnswer, Machine, Playback, PlaybackRequest } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
 import { moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
@@ -12,7 +12,7 @@ import { ebbOf, findsHome } from "../protocol/ebb-controller.js";
 import { Carriage } from "./carriage.js";
 import { sendLine } from "./console.js";
 import { homeInCorner } from "./corner-homing.js";
-import { EbbRun } from "./ebb-run.js";
+import { EbbPlayback } from "./ebb-playback.js";
 import { seekHome } from "./homing.js";
 
 export class EbbMachine extends Carriage implements Machine {
@@ -99,8 +99,8 @@ export class EbbMachine extends Carriage implements Machine {
     return this.upkeep.emergencyStopMs(settings);
   }
 
-  startRun(request: RunRequest): Playback {
-    return new EbbRun(this, request);
+  startPlayback(request: PlaybackRequest): Playback {
+    return new EbbPlayback(this, request);
   }
 
   log(): string {

@@ -12,7 +12,7 @@ import type {
   Machine,
   Playback,
   PenBefore,
-  RunRequest,
+  PlaybackRequest,
 } from "../../driver.js";
 import { moveStopped } from "../../faults.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
@@ -23,7 +23,7 @@ import { grblOf } from "../model/grbl-controller.js";
 import type { Axes } from "../model/planner.js";
 import { isLocked, locked, NOT_LIFTED, type Status } from "../protocol.js";
 import { whyRefused } from "./console-lines.js";
-import { GrblRun } from "./grbl-run.js";
+import { GrblPlayback } from "./grbl-playback.js";
 import { LineStream } from "./line-stream.js";
 import type { GrblSession } from "./session.js";
 
@@ -235,8 +235,8 @@ export class GrblMachine implements Machine {
     return this.session.log.text();
   }
 
-  startRun(request: RunRequest): Playback {
-    return new GrblRun(this, request);
+  startPlayback(request: PlaybackRequest): Playback {
+    return new GrblPlayback(this, request);
   }
 
   close(): Promise<void> {

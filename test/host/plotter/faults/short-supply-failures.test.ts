@@ -4,7 +4,7 @@
  * supply is measured between two commands, so a failure within one command, or while the pen is lifted, is not found.
  */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry, LivePlotRun, PlotStart } from "../../../../host/plotter/plotter-port.js";
+import type { JournalEntry, RunningPlot, PlotStart } from "../../../../host/plotter/plotter-port.js";
 import type { PlotwrightError } from "../../../../src/index.js";
 import { firmwareFeatures } from "../../../../src/drivers/ebb/protocol/firmware.js";
 import { SupplyPolls } from "../../../../src/drivers/ebb/machine/readings.js";
@@ -29,7 +29,7 @@ type End = "found" | "displaced" | "harmless";
 async function endOf(firmware: string, afterS: number, failureS: number): Promise<End> {
   const { world, driver } = await virtualPlotter({ firmware });
   const journal: JournalEntry[] = [];
-  const plot = (start: PlotStart = {}): Promise<LivePlotRun> =>
+  const plot = (start: PlotStart = {}): Promise<RunningPlot> =>
     world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), DEFAULT_PLOT_SETTINGS, start));
   const run = await plot({ journal: { record: (entry) => journal.push(entry) } });
   const board = virtualBoardOf(driver);

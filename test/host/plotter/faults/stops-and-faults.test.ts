@@ -1,6 +1,6 @@
 /** Emergency stops at awkward instants: pressed twice, together with a fault, before a move has begun, on old firmware. */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry, LivePlotRun, PlotStart } from "../../../../host/plotter/plotter-port.js";
+import type { JournalEntry, RunningPlot, PlotStart } from "../../../../host/plotter/plotter-port.js";
 import { moveByHand } from "../../../../host/plotter/hand-moves.js";
 import {
   machineById,
@@ -75,7 +75,7 @@ async function newPlot(firmware: string, strokes: StrokeSet) {
   const { world, driver, board } = await newPlotter(firmware);
   const journal: JournalEntry[] = [];
   const record = (entry: JournalEntry): void => void journal.push(entry);
-  const plot = (start: PlotStart): Promise<LivePlotRun> =>
+  const plot = (start: PlotStart): Promise<RunningPlot> =>
     world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, { ...start, journal: { record } }));
   const resumedGapMm = async (): Promise<number> => {
     const again = await plot({ from: journal.at(-1)?.place, received: journal.at(-1)?.received });
@@ -369,7 +369,7 @@ describe("a manual move that is stopped between two of its steps", () => {
 describe("firmware without step counters", () => {
   const newOldPlotter = async () => {
     const { world, driver, board } = await newPlotter("2.4.2");
-    const plot = (): Promise<LivePlotRun> => world.run(driver.plot(new LocalPlanner(DRAWING), SETTINGS));
+    const plot = (): Promise<RunningPlot> => world.run(driver.plot(new LocalPlanner(DRAWING), SETTINGS));
     return { world, driver, board, plot };
   };
 

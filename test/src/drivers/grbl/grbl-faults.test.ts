@@ -1,6 +1,6 @@
 /** A plotter with a Grbl that fails, or is stopped, at an awkward moment: nothing waits forever, and it works again. */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry, LivePlotRun } from "../../../../host/plotter/plotter-port.js";
+import type { JournalEntry, RunningPlot } from "../../../../host/plotter/plotter-port.js";
 import type { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { StrokePosition } from "../../../../src/index.js";
 import { pointAt } from "../../../../src/internal.js";
@@ -16,7 +16,7 @@ import { LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js
 
 const TWO_LINES = strokesOf([10, 10, 60, 10, 60, 40], [20, 50, 80, 50]);
 
-const STOPS: readonly [string, (run: LivePlotRun) => Promise<void>][] = [
+const STOPS: readonly [string, (run: RunningPlot) => Promise<void>][] = [
   ["pause", (run) => run.pause()],
   ["cancel", (run) => run.cancel()],
   ["emergency stop", (run) => run.emergencyStop()],
@@ -177,7 +177,7 @@ describe("a restart of a board whose boot loader waits before the Grbl starts", 
   const CIRCLE_MM = 30;
 
   /** Plots until the board restarts on the circle of the drawing. Its greeting comes after BOOT_S. */
-  async function restarted(meanwhile: (run: LivePlotRun) => Promise<void>) {
+  async function restarted(meanwhile: (run: RunningPlot) => Promise<void>) {
     const { world, board, driver, begin, within, line } = await newPlotter();
     const journal: JournalEntry[] = [];
     const record = (entry: JournalEntry): void => void journal.push(entry);
@@ -202,7 +202,7 @@ describe("a restart of a board whose boot loader waits before the Grbl starts", 
 
   it.each([
     ["without a stop", () => Promise.resolve()],
-    ["during an emergency stop", (run: LivePlotRun) => run.emergencyStop()],
+    ["during an emergency stop", (run: RunningPlot) => run.emergencyStop()],
   ])("leaves nothing out, %s", async (_, meanwhile) => {
     const { drawnMm, left } = await restarted(meanwhile);
     expect(left?.stroke).toBe(0);

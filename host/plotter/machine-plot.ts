@@ -25,9 +25,9 @@ import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { resumePosition, PROGRESS_S } from "./resume-position.js";
 import { PenStops } from "./pen-stops.js";
 import { PlotReports } from "./plot-reports.js";
-import { RunSettings } from "./run-settings.js";
+import { LiveSettings } from "./live-settings.js";
 import type { PlannedPlot, PlotPlanner } from "../planning/planning.js";
-import type { LivePlotRun, PlotChange, PlotOutcome, PlotStart, ReportedProgress } from "./plotter-port.js";
+import type { RunningPlot, PlotChange, PlotOutcome, PlotStart, ReportedProgress } from "./plotter-port.js";
 import { Waiters } from "./waiters.js";
 
 /** Min time to plan a change, after the commands already sent, in real seconds; more if planning took longer before. */
@@ -38,7 +38,7 @@ const CHANGE_TRIES = 4;
 type RequestedState = "run" | "hold" | "cancel";
 type HeldListener = (held: boolean, wait?: PlotWait | null) => void;
 
-export class MachinePlot implements LivePlotRun {
+export class MachinePlot implements RunningPlot {
   readonly finished: Promise<PlotOutcome>;
   /** While held, the place from which the plot resumes; before that, the place where it starts. */
   holdPlace: StrokePosition | null;
@@ -48,7 +48,7 @@ export class MachinePlot implements LivePlotRun {
   /** What the plot waits for, if it was not held by the user. */
   private wait: PlotWait | null = null;
   private readonly stream: Playback;
-  private readonly settings: RunSettings;
+  private readonly settings: LiveSettings;
   private readonly reports: PlotReports;
   private readonly stops: PenStops;
   private readonly strokes: StrokeSet;
@@ -77,9 +77,9 @@ export class MachinePlot implements LivePlotRun {
   ) {
     this.start = start;
     this.strokes = planner.strokes;
-    this.settings = new RunSettings(settings);
+    this.settings = new LiveSettings(settings);
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
-    this.stream = machine.startRun({
+    this.stream = machine.startPlayback({
       strokes: this.strokes,
       settings: () => this.settings.current,
       events: {

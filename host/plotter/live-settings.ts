@@ -2,7 +2,7 @@
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PlotChange } from "./plotter-port.js";
 
-export class RunSettings {
+export class LiveSettings {
   /** How many changes were made so far. */
   changeCount = 0;
   private speedPct = 100;

@@ -11,9 +11,9 @@ import { stateAt, type StrokePosition, type Trajectory } from "../../../plan/tra
 import { strokeLengthMm } from "../../../position/on-drawing.js";
 import { passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition } from "../../../position/pen-position.js";
-import type { Machine, Playback, RunEvents, RunRequest } from "../../driver.js";
+import type { Machine, Playback, PlaybackEvents, PlaybackRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
-import { RunProgress, type PenMoment, type PlotProgress } from "../../run-progress.js";
+import { PlaybackProgress, type PenMoment, type PlotProgress } from "../../playback-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
 import { boardRestartedError } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
@@ -39,8 +39,8 @@ interface Playing {
   readonly stream: LineStream;
 }
 
-export class GrblRun implements Playback {
-  readonly progress = new RunProgress();
+export class GrblPlayback implements Playback {
+  readonly progress = new PlaybackProgress();
   stopped: { readonly place: StrokePosition | null } | null = null;
   readonly isSwitching = false;
 
@@ -50,11 +50,11 @@ export class GrblRun implements Playback {
   private isEmergency = false;
   private failure: PlotwrightError | null = null;
   private readonly strokes: StrokeSet;
-  private readonly events: RunEvents;
+  private readonly events: PlaybackEvents;
 
   constructor(
     private readonly machine: GrblCarriage,
-    private readonly request: RunRequest,
+    private readonly request: PlaybackRequest,
   ) {
     this.strokes = request.strokes;
     this.events = request.events;

@@ -51,7 +51,7 @@ export interface PlanPart {
 const PAST_PARTS = 3;
 
 /** `P`: what a driver stores with each part. */
-export class RunProgress<P extends PlanPart = PlanPart> {
+export class PlaybackProgress<P extends PlanPart = PlanPart> {
   latest: PlotProgress | null = null;
   /** The first place that is still to be drawn. */
   place: StrokePosition | null = null;

@@ -4,14 +4,14 @@ import type { PlotOutcome } from "../../../host/plotter/plotter-port.js";
 import { PlotwrightError } from "../../../src/index.js";
 import type { Job, PlotWait } from "../../../src/schema/index.js";
 import type { PlotAmounts } from "./plot-report.js";
-import type { WatchedRun } from "./plot-watch.js";
+import type { WatchedPlot } from "./plot-watch.js";
 import type { ServerClient } from "../../../host/handle/server-client.js";
 
 const POLL_MS = 300;
 /** A server that restarts answers again after some seconds. */
 const MAX_SILENT_POLLS = 40;
 
-export class JobRun implements WatchedRun {
+export class JobPlot implements WatchedPlot {
   readonly finished: Promise<PlotOutcome>;
   private readonly progressListeners: ((progress: PlotAmounts) => void)[] = [];
   private readonly heldListeners: ((held: boolean, wait: PlotWait | null) => void)[] = [];

@@ -16,9 +16,14 @@ import type { StrokePosition, Trajectory } from "../../../plan/trajectory.js";
 import { strokeLengthMm } from "../../../position/on-drawing.js";
 import { passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition, stoppedPosition } from "../../../position/pen-position.js";
-import type { Playback, PlaceAhead, RunEvents, RunRequest } from "../../driver.js";
+import type { Playback, PlaceAhead, PlaybackEvents, PlaybackRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
-import { RunProgress, type PenMoment, type PlanPart, type PlotProgress } from "../../run-progress.js";
+import {
+  PlaybackProgress,
+  type PenMoment,
+  type PlanPart,
+  type PlotProgress,
+} from "../../playback-progress.js";
 import { streamOf, type BoardState, type CommandStream } from "../compile/command-stream.js";
 import { compile } from "../compile/compile.js";
 import { penCommand } from "../protocol/commands.js";
@@ -52,16 +57,16 @@ interface Rest {
   readonly state: BoardState;
 }
 
-export class EbbRun implements Playback {
+export class EbbPlayback implements Playback {
   /** Set when the stream was stopped on purpose: the first place still to be drawn. */
   stopped: { readonly place: StrokePosition | null } | null = null;
-  readonly progress = new RunProgress<EbbPart>();
+  readonly progress = new PlaybackProgress<EbbPart>();
 
   private streamer: Streamer | null = null;
   /** The part with which the current play began. */
   private firstPart: EbbPart | null = null;
   private readonly strokes: StrokeSet;
-  private readonly events: RunEvents;
+  private readonly events: PlaybackEvents;
   /** The error with which an emergency stop ends the current play. */
   private emergency: PlotwrightError | null = null;
   /** The last place that the board certainly reached with its motors powered. */
@@ -71,7 +76,7 @@ export class EbbRun implements Playback {
 
   constructor(
     private readonly carriage: Carriage,
-    private readonly request: RunRequest,
+    private readonly request: PlaybackRequest,
   ) {
     this.strokes = request.strokes;
     this.events = request.events;
