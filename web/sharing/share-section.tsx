@@ -1,14 +1,22 @@
-import { useActions, usePageState } from "../state/use-store.js";
+import { useCallback } from "react";
+import { BackendFault } from "../backend/backend.js";
+import { useActions, useBackend, usePageState } from "../state/use-store.js";
 import { sharingText as words } from "./text.js";
-import { useFetched, useSharing } from "./use-sharing.js";
+import { useFetched } from "./use-sharing.js";
 import { Button } from "../ui/button.js";
 
 /** Links and QR codes for pairing another device, one for each role. */
 export const ShareSection = () => {
-  const sharing = useSharing();
-  const [pairing] = useFetched(sharing.operator.pairing);
+  const backend = useBackend();
+  const { attempt } = useActions();
+  const ask = useCallback(
+    () => attempt("pairing", () => backend.operator.pairing().catch(refusal)),
+    [backend, attempt],
+  );
+  const [pairing] = useFetched(ask);
   const localName = usePageState((state) => state.localName);
-  if (!pairing) return <p className="note">{words.pairingWhere}</p>;
+  if (pairing === null) return null;
+  if (pairing === "refused") return <p className="note">{words.pairingWhere}</p>;
   return (
     <>
       {!pairing.isOnLan && <p className="note health">{words.notOnLan}</p>}
@@ -37,6 +45,12 @@ export const ShareSection = () => {
       </div>
     </>
   );
+};
+
+/** Only the server's own computer gets the links. On others that is no error. */
+const refusal = (error: unknown): "refused" => {
+  if (error instanceof BackendFault && error.code === "not-allowed") return "refused";
+  throw error;
 };
 
 /** The page's address with the server's name, and the port of `url`. */

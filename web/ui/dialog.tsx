@@ -51,7 +51,7 @@ export const Sheet = ({ title, children }: { title: string; children: ReactNode 
   const { closeDialog } = useActions();
   return (
     <Dialog title={title} onClose={closeDialog}>
-      <Notices />
+      <Notices isInDialog />
       {children}
     </Dialog>
   );

@@ -2,10 +2,17 @@ import { useActions, usePageState } from "../state/use-store.js";
 import { errorText } from "./text.js";
 import { Icon } from "./icon.js";
 
-/** Messages and errors. An error stays until it is closed or an action succeeds. */
-export const Notices = () => {
+interface NoticesProps {
+  /** In an open dialog, which covers the page's own. */
+  readonly isInDialog?: boolean;
+}
+
+/** Messages and errors, once at a time. An error stays until it is closed or an action succeeds. */
+export const Notices = ({ isInDialog = false }: NoticesProps) => {
   const notices = usePageState((state) => state.notices);
+  const isCovered = usePageState(({ openDialog }) => openDialog !== null && openDialog !== "search");
   const { dismiss } = useActions();
+  if (isCovered !== isInDialog) return null;
   return (
     <div className="notices" aria-live="polite">
       {notices.map(({ id, kind, text }) => (
