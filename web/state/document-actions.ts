@@ -2,7 +2,7 @@
 import { isDrawingName, isSameJson } from "../../src/internal.js";
 import { type Job, DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
-import { contentOf, type DrawingText } from "../backend/drawing-text.js";
+import type { DrawingText } from "../backend/drawing-text.js";
 import type { PlanFault } from "../worker/protocol.js";
 import type { createUiActions } from "./ui-actions.js";
 import { openedSettings } from "./plotter-sync.js";
@@ -11,6 +11,13 @@ import { stateText } from "./text.js";
 import type { createUndo } from "./undo.js";
 
 const HEAD_LENGTH = 4_096;
+
+/** The tables of encodings are loaded with the first file. */
+const contentOfFile = async (file: File): Promise<DrawingText> => {
+  const bytes = await file.arrayBuffer();
+  const { contentOf } = await import("../backend/drawing-text.js");
+  return contentOf(bytes);
+};
 
 const headOf = (content: DrawingText): string => {
   const head = content.slice(0, HEAD_LENGTH);
@@ -133,7 +140,7 @@ export const createDocumentActions = (parts: DocumentParts) => {
     },
     openFile: async (file: File): Promise<void> => {
       const isLast = startRequest();
-      const text = await file.arrayBuffer().then(contentOf, () => null);
+      const text = await contentOfFile(file).catch(() => null);
       if (!isLast()) return;
       if (text === null) ui.notify("error", stateText.unreadable(file.name));
       else if (isPicture(file, headOf(text))) {

@@ -35,7 +35,7 @@ import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
 import { sketchesOf } from "./sketches.js";
-import { textOf, type DrawingText } from "../backend/drawing-text.js";
+import type { DrawingText } from "../backend/drawing-text.js";
 import type {
   ExportRequest,
   Planned,
@@ -158,7 +158,7 @@ async function drawingOf({ drawingKey }: WorkerPlanRequest): Promise<Drawing> {
 
 /** The readers are loaded when the first file is opened. */
 async function drawingIn(content: DrawingText): Promise<Drawing> {
-  const { importDrawing } = await import("./formats.js");
+  const { importDrawing, textOf } = await import("./formats.js");
   return importDrawing("", textOf(content));
 }
 

@@ -1,5 +1,5 @@
 /** The page's backend without a server: a worker of the page, or of another tab, operates the plotter. */
-import { textOf, type DrawingText } from "../drawing-text.js";
+import type { DrawingText } from "../drawing-text.js";
 import { clientOf, OPERATIONS, type OperationGroup, type ServerEvent } from "../../../src/schema/index.js";
 import { BackendFault, type Backend } from "../backend.js";
 import { whyNoPort } from "./capabilities.js";
@@ -44,15 +44,17 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
     },
     svgOf: async ({ of, id }, maxBytes) => {
       const drawing = of === "job" ? await operations.jobs.drawing(id) : await sampleText(sampleFiles, id);
-      const text = textUpTo(drawing, maxBytes);
+      const text = await textUpTo(drawing, maxBytes);
       return text !== null && /<svg[\s>]/i.test(text.slice(0, 20_000)) ? text : null;
     },
   };
 };
 
-const textUpTo = (drawing: DrawingText, maxBytes: number): string | null => {
+const textUpTo = async (drawing: DrawingText, maxBytes: number): Promise<string | null> => {
   const size = typeof drawing === "string" ? drawing.length : drawing.byteLength;
-  return size > maxBytes ? null : textOf(drawing);
+  if (size > maxBytes) return null;
+  const { textOf } = await import("../drawing-text.js");
+  return textOf(drawing);
 };
 
 /** Opens the browser's own dialog, which works only in a click handler. */

@@ -10,7 +10,6 @@ import {
   parseServerEvent,
 } from "../../../src/schema/index.js";
 import { BackendFault, type Backend, type BackendListener } from "../backend.js";
-import { contentOf } from "../drawing-text.js";
 
 /** Texts of errors in requests to the server. */
 const serverText = {
@@ -51,7 +50,11 @@ const sendOperation = async (fetchPath: Fetch, one: Operation, input: OperationI
     throw new BackendFault("unreachable", serverText.unreachable);
   }
   if (!response.ok) throw await faultOf(response);
-  if (one.answer === "file") return contentOf(await response.arrayBuffer());
+  if (one.answer === "file") {
+    // The tables of encodings are not needed before.
+    const { contentOf } = await import("../drawing-text.js");
+    return contentOf(await response.arrayBuffer());
+  }
   if (one.answer === "text" || one.answer === "events") return response.text();
   return one.answer.parse(await response.json());
 };
