@@ -94,6 +94,53 @@ describe("compile", () => {
     ]);
   });
 
+  it.each(["2.4.4", "2.5.3", "2.8.1", "3.0.3"])(
+    "moves the pen when the plan says, and lets the carriage wait for the rest, on firmware %s",
+    (firmware) => {
+      const strokes = strokeSetOf([LINE, [...LINE].map(([x, y]): Point => [x + 52, y + 25])]);
+      const trajectory = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN, { machine });
+      const { penMoves } = trajectory;
+      const stream = compile(trajectory, { machine, firmware, pen: DEFAULT_PEN });
+      const lines = linesOf(stream);
+      const isAtRest = (k: number): boolean => stream.run[k] === -1;
+      const moves = lines.flatMap((line, k) => (line.startsWith("SP") ? [k] : []));
+      const waits = lines.flatMap((line, k) => (/^SM,\d+,0,0$/.test(line) && isAtRest(k) ? [k] : []));
+      expect(moves).toHaveLength(penMoves.count);
+      let inFlightCount = 0;
+      for (const [i, k] of moves.entries()) {
+        const [, up, waitMs] = lines[k].split(",").map(Number);
+        expect(up).toBe(penMoves.up[i]);
+        expect(Math.abs(stream.boardS[k] - penMoves.startS[i])).toBeLessThan(0.011);
+        const plannedMs = Math.round(penMoves.waitS[i] * 1_000);
+        if (isAtRest(k)) expect(waitMs).toBe(plannedMs);
+        else {
+          expect(waitMs).toBe(0);
+          expect(stream.run[k]).toBe(penMoves.beforeRun[i] - 1);
+          expect(lines[waits[inFlightCount]]).toBe(`SM,${plannedMs},0,0`);
+          expect(stream.run[waits[inFlightCount] - 1]).toBe(penMoves.beforeRun[i] - 1);
+          inFlightCount++;
+        }
+      }
+      expect(inFlightCount).toBe(1);
+      expect(waits).toHaveLength(1);
+      const endsLateS = stream.boardS[stream.count] - trajectory.totalS;
+      expect(Math.abs(endsLateS)).toBeLessThan(0.02);
+    },
+  );
+
+  it("waits no longer for a pen than a board can, and not at all for a pen that has arrived", () => {
+    const afterMove = LINE.map(([x, y]): Point => [x + 52, y + 25]);
+    const withWaits = (pen: PenSettings, waitS: number): string[] => {
+      const trajectory = plan(strokeSetOf([LINE, afterMove]), DEFAULT_MOTION, pen, { machine });
+      const penMoves = { ...trajectory.penMoves, waitS: trajectory.penMoves.waitS.map(() => waitS) };
+      const lines = linesOf(compile({ ...trajectory, penMoves }, { machine, firmware: "2.8.1", pen }));
+      return lines.filter((line) => line.startsWith("SP") || line.startsWith("SM"));
+    };
+    expect(withWaits(WAITING, 100)).toEqual(["SP,0,65535", "SP,1,65535", "SP,0,65535", "SP,1,65535"]);
+    // The third one moves in flight.
+    expect(withWaits(DEFAULT_PEN, 0)).toEqual(["SP,0,0", "SP,1,0", "SP,0,0", "SP,1,0"]);
+  });
+
   it("keeps its columns consistent: text, times, positions", () => {
     const stream = compiled([LINE, [[100, 100]]], "3.0.3");
     expect(stream.textOffsets[stream.count]).toBe(stream.text.length);
