@@ -79,8 +79,9 @@ describe("the looks on a phone", () => {
     expect(await list.locator("option").allInnerTexts()).toEqual([
       "Ink",
       "Speed",
-      "Layer",
+      "Time",
       "Order",
+      "Layer",
       "Pen",
       "Pen (simulated)",
     ]);

@@ -1,8 +1,8 @@
 /** The view that shows where the time goes, the drawing that draws itself, and the corner that is where the carriage is. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { dropFile, plotBar, waitForPlan } from "../support/browser/page-actions.js";
-import { snapshotSchema } from "../../src/schema/index.js";
-import { PageTest } from "../support/browser/page-test.js";
+import { dropFile, plotBar, waitForPlan } from "../../support/browser/page-actions.js";
+import { snapshotSchema } from "../../../src/schema/index.js";
+import { PageTest } from "../../support/browser/page-test.js";
 
 const PATIENCE_MS = 120_000;
 /** Rows of dashes whose gaps are 0.2 mm: most of the time goes into lifting the pen. */
