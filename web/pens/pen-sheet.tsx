@@ -33,24 +33,32 @@ const NOT_READ = "";
 /** The first line is only there to compare with. */
 const CHOICES = PEN_SHEET_WAITS_MS.slice(1);
 
-/** Plots the pen sheet, and stores the number of the lowest line that is right as both extra waits. */
-export const PenSheet = () => {
+export const PlotPenSheet = () => {
   const settings = usePageState((state) => state.settings);
   const isPlotting = usePageState((state) => activeJob(state)?.name === words.jobName);
   const { plotJob } = useActions();
-  const change = usePenChange();
   const job = penSheetJob(settings, words.jobName);
-  const { extraLiftMs, extraDropMs } = settings.pen;
-  const isRead = extraLiftMs === extraDropMs && CHOICES.includes(extraLiftMs);
   return (
     <>
-      <p className="note">{words.hint}</p>
       <Button disabled={job === null || isPlotting} onClick={() => job && void plotJob(job)}>
         {isPlotting ? words.plotting : words.plot}
       </Button>
       {job === null && (
         <p className="note note-error">{words.noRoom(PEN_SHEET_WIDTH_MM, PEN_SHEET_HEIGHT_MM)}</p>
       )}
+    </>
+  );
+};
+
+/** Plots the pen sheet, and stores the number of the lowest line that is right as both extra waits. */
+export const PenSheet = () => {
+  const { extraLiftMs, extraDropMs } = usePageState((state) => state.settings.pen);
+  const change = usePenChange();
+  const isRead = extraLiftMs === extraDropMs && CHOICES.includes(extraLiftMs);
+  return (
+    <>
+      <p className="note">{words.hint}</p>
+      <PlotPenSheet />
       <Select
         label={words.lowest}
         value={isRead ? String(extraLiftMs) : NOT_READ}

@@ -68,11 +68,9 @@ export const heightsText = {
 
 /** Texts of what is offered after the first plot. */
 export const tuningText = {
-  title: "Next: faster plots, in about five minutes",
-  pen: "How long the pen takes",
-  ringing: "How the plotter swings",
-  ringingHint:
-    "With this the plotter draws faster and more exactly: a strip of 60 × 40 mm, on which you count ripples.",
+  title: "Next: faster plots",
+  penHint: "In two minutes: how long your pen really takes to rise and fall.",
+  ringingHint: "In three minutes: how your plotter swings. It then draws faster and more exactly.",
   hide: "Hide",
   hideHint: "Hide these measurements",
 };

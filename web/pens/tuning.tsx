@@ -1,27 +1,27 @@
 import type { Job } from "../../src/schema/index.js";
 import { useSprings } from "../motion/use-springs.js";
-import { isFirstPlot } from "../plotter/guide/first-plot.js";
+import { isFirstPlot } from "../plotter/hand/pen-at-hand.js";
 import { RINGING } from "../plotter/plotter-actions.js";
 import { currentPlotter, type PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ActionButton } from "../ui/action-button.js";
 import { Button } from "../ui/button.js";
-import { PenSheet } from "./pen-sheet.js";
+import { PenSheet, PlotPenSheet } from "./pen-sheet.js";
 import { heightsText, tuningText as words } from "./text.js";
 import "./tuning.css";
 
-/** The first plot is done, but the plotter's swing is not measured. */
-const isUntuned = (state: PageState): boolean => {
-  const id = currentPlotter(state)?.id;
-  const isPlotted = state.jobs.some((job) => job.plotterId === id && job.state === "done");
-  return isPlotted && !isFirstPlot(state) && !state.view.hidesTuning;
+/** The first plot on a real plotter is done. */
+const isTuningOffered = (state: PageState): boolean => {
+  const plotter = currentPlotter(state);
+  const isPlotted = state.jobs.some((job) => job.plotterId === plotter?.id && job.state === "done");
+  return isPlotted && plotter?.kind === "serial" && !isFirstPlot(state) && !state.view.hidesTuning;
 };
 
 const isPenSheet = ({ name, state }: Job): boolean => name === heightsText.sheet.jobName && state === "done";
 
-/** After the first plot: the two sheets that make plots faster. */
+/** After the first plot, until the swing is measured: the two sheets that make plots faster. */
 export const Tuning = () => {
-  const isShown = usePageState(isUntuned);
+  const isShown = usePageState(isTuningOffered);
   const hasPenSheet = usePageState(({ jobs }) => jobs.some(isPenSheet));
   const isMeasured = useSprings() !== null;
   const { changeView } = useActions();
@@ -36,11 +36,16 @@ export const Tuning = () => {
       </header>
       <ol>
         <li data-done={hasPenSheet || undefined}>
-          <strong>{words.pen}</strong>
-          <PenSheet />
+          {hasPenSheet ? (
+            <PenSheet />
+          ) : (
+            <>
+              <p className="note">{words.penHint}</p>
+              <PlotPenSheet />
+            </>
+          )}
         </li>
         <li>
-          <strong>{words.ringing}</strong>
           <p className="note">{words.ringingHint}</p>
           <ActionButton action={RINGING} />
         </li>

@@ -16,7 +16,7 @@ import { SettingsGroup } from "../ui/fields/settings-group.js";
 
 const HandMoves = lazyPart(async () => (await import("./hand/hand-moves.js")).HandMoves);
 
-/** The plotter's state, and the controls that every plot needs. `children`: what follows them, from other features. */
+/** The plotter's state, and the controls that every plot needs. `children`: shown before them, from other features. */
 export const MachinePanel = ({ children }: { children?: ReactNode }) => {
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
@@ -25,8 +25,8 @@ export const MachinePanel = ({ children }: { children?: ReactNode }) => {
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
       <ActionButton action={CONNECT} />
-      {isMine ? <PenAtHand /> : <StopMove />}
       {isMine && children}
+      {isMine ? <PenAtHand /> : <StopMove />}
     </section>
   );
 };

@@ -26,7 +26,7 @@ import { detailsText } from "../motion/details-text.js";
 import { motionText } from "../motion/text.js";
 import { heightsText, pensText } from "../pens/text.js";
 import { plotterText, presetsText } from "../plotter/text.js";
-import { isFirstPlot } from "../plotter/guide/first-plot.js";
+import { isFirstPlot } from "../plotter/hand/pen-at-hand.js";
 import type { PanelName } from "../state/persist.js";
 import type { PageState } from "../state/store.js";
 import { searchText as words } from "./text.js";

@@ -1,7 +1,7 @@
+import { currentPlotter, type PageState } from "../../state/store.js";
 import { usePageState } from "../../state/use-store.js";
 import { ActionButton } from "../../ui/action-button.js";
 import { lazyPart } from "../../ui/lazy-part.js";
-import { isFirstPlot } from "../guide/first-plot.js";
 import { HOME, isMovingByHand, MOTORS_OFF, STOP_MOVE, TEST_LINE } from "../plotter-actions.js";
 import { penText as words } from "../text.js";
 import { Heights } from "./heights.js";
@@ -37,4 +37,11 @@ const HomeButtons = () => {
       <ActionButton action={HOME} />
     </div>
   );
+};
+
+/** This plotter has never plotted. */
+export const isFirstPlot = (state: PageState): boolean => {
+  const id = currentPlotter(state)?.id;
+  const hasPlotted = state.jobs.some((job) => job.plotterId === id && job.startedAt !== null);
+  return !state.view.hidesFirstPlot && state.link === "connected" && !hasPlotted;
 };
