@@ -35,7 +35,7 @@ const FAMILIES: readonly Family[] = [
 const SINGLES = [
   { id: "axidraw-minikit", label: "MiniKit", picture: "mini" },
   { id: "eggbot", label: "EggBot", picture: "egg" },
-  { id: "watercolorbot", label: "WaterColor", picture: "watercolor" },
+  { id: "watercolorbot", label: "WaterColorBot", picture: "watercolor" },
 ] as const;
 
 /** The plotters as drawings, each with a button for each of its sizes. One click chooses the model. */
