@@ -31,7 +31,7 @@ const words = {
     join: `Joining gaps below ${formatNumber(JOIN_MM, 1)} mm`,
     repeats: "Leaving out lines that are drawn twice",
     fast: "Quality “fast”",
-    order: "Searching longer for the best order",
+    order: "Order of strokes “Fastest”",
   },
 };
 
