@@ -165,3 +165,27 @@ describe("what the margins cut off", () => {
     expect(await ghostPixels()).toBeGreaterThan(before + 500);
   });
 });
+
+describe("the legend on a small screen", () => {
+  const COLORS = ["#112233", "#aa0000", "#00aa00", "#0000aa", "#aaaa00", "#00aaaa"];
+  const legend = () => test.page.locator(".legend");
+
+  it("is one line, and is left out where the sheet has no room for it", async () => {
+    const { page } = test;
+    const lines = COLORS.map((color, k) => `<path d="M10 ${10 + 10 * k}H280" stroke="${color}"/>`);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await test.drop(
+      "six colours",
+      `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210">${lines.join("")}</svg>`,
+    );
+    await page.getByRole("combobox", { name: "Colour by" }).selectOption("Ink");
+    await legend().getByText("#00aaaa").waitFor({ state: "attached" });
+    expect((await legend().boundingBox())!.height).toBeLessThan(30);
+    // As at 200 % zoom.
+    await page.setViewportSize({ width: 720, height: 450 });
+    await test.panel("Drawing");
+    await legend().waitFor({ state: "hidden" });
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await legend().waitFor();
+  });
+});
