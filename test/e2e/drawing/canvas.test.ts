@@ -172,7 +172,9 @@ describe("the legend on a small screen", () => {
 
   it("is one line, and is left out where the sheet has no room for it", async () => {
     const { page } = test;
-    const lines = COLORS.map((color, k) => `<path d="M10 ${10 + 10 * k}H280" stroke="${color}"/>`);
+    const lines = COLORS.map(
+      (color, k) => `<g id="ink-${k}"><path d="M10 ${10 + 10 * k}H280" stroke="${color}"/></g>`,
+    );
     await page.setViewportSize({ width: 390, height: 844 });
     await test.drop(
       "six colours",

@@ -120,3 +120,58 @@ describe("the report", () => {
     expect(test.complaints).toEqual([]);
   });
 });
+
+describe("filled shapes", () => {
+  const squares = (count: number): string =>
+    Array.from(
+      { length: count },
+      (_, k) => `<rect x="${10 + 12 * k}" y="${10 + 6 * k}" width="20" height="20" fill="#335577"/>`,
+    ).join("");
+  const svgOf = (body: string): string =>
+    `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210">${body}</svg>`;
+  const choice = () => test.page.getByRole("group", { name: "Filled shapes" });
+  const way = (name: string) => choice().getByRole("button", { name });
+  /** How many pixels of each small picture have ink. */
+  const inked = (): Promise<number[]> =>
+    choice()
+      .locator("canvas")
+      .evaluateAll((canvases) =>
+        canvases.map((canvas) => {
+          const { width, height } = canvas as HTMLCanvasElement;
+          const context = (canvas as HTMLCanvasElement).getContext("2d")!;
+          const { data } = context.getImageData(0, 0, width, height);
+          return data.filter((value, i) => i % 4 === 3 && value > 0).length;
+        }),
+      );
+  const pressed = async (): Promise<string[]> =>
+    (await choice().locator("[aria-pressed=true]").allInnerTexts()).map((text) => text.trim());
+
+  it("are counted, and each way to draw them is shown on this drawing", async () => {
+    await test.panel("Drawing");
+    await test.drop("squares", svgOf(squares(3)));
+    await choice()
+      .getByText(/^3 filled shapes/)
+      .waitFor();
+    await test.page.getByRole("button", { name: "3 filled shapes become outlines" }).waitFor();
+    await expect.poll(async () => (await inked()).length).toBe(3);
+    const [outline, hatch, hide] = await inked();
+    expect(hatch).toBeGreaterThan(1.5 * outline);
+    expect(hide).toBeLessThan(outline);
+    expect(hide).toBeGreaterThan(0);
+    expect(await pressed()).toEqual(["Outline"]);
+  });
+
+  it("are drawn as chosen, and the next file is asked about again", async () => {
+    await way("Hatch").click();
+    await test.planned();
+    expect(await pressed()).toEqual(["Hatch"]);
+    expect(await test.page.getByText("become outlines").count()).toBe(0);
+    await way("Hide what is under them").click();
+    await test.planned();
+    expect(await pressed()).toEqual(["Hide what is under them"]);
+    await test.drop("more squares", svgOf(squares(4)));
+    expect(await pressed()).toEqual(["Outline"]);
+    await test.drop("lines", svgOf('<path d="M10 10H90" stroke="#000"/>'));
+    expect(await choice().count()).toBe(0);
+  });
+});
