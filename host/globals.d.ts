@@ -2,6 +2,7 @@
 interface AbortSignal {
   readonly aborted: boolean;
   addEventListener(type: "abort", listener: () => void, options?: { once?: boolean }): void;
+  removeEventListener(type: "abort", listener: () => void): void;
 }
 declare class AbortController {
   readonly signal: AbortSignal;
@@ -10,6 +11,7 @@ declare class AbortController {
 declare const crypto: { randomUUID(): string };
 declare function setTimeout(callback: () => void, delayMs: number): number;
 declare function clearTimeout(timer: number): void;
+declare function queueMicrotask(callback: () => void): void;
 declare class URL {
   constructor(path: string, base?: string);
   static canParse(text: string): boolean;
@@ -22,7 +24,10 @@ interface FetchResponse {
   readonly ok: boolean;
   readonly status: number;
   readonly body: {
-    getReader(): { read(): Promise<{ readonly done: boolean; readonly value?: Uint8Array | undefined }> };
+    getReader(): {
+      read(): Promise<{ readonly done: boolean; readonly value?: Uint8Array | undefined }>;
+      cancel(): Promise<void>;
+    };
   } | null;
   json(): Promise<unknown>;
 }

@@ -68,6 +68,12 @@ function wayOf(choice: PlotterChoice): (typeof WAYS)[number] {
 }
 
 function addressOf(url: string): string {
+  if (/^https?:\/\/[^/@]+@/.test(url)) {
+    throw new PlotwrightError(
+      "bad-setting",
+      "url: leave out the user name and password. Give an access key in key.",
+    );
+  }
   if (/^https?:\/\//.test(url) && URL.canParse(url)) return url;
   throw new PlotwrightError("bad-setting", `url: ${url} is not an address such as http://127.0.0.1:9080.`);
 }

@@ -14,20 +14,19 @@ import type { PlotPlanner } from "../planning/planning.js";
 import { planAndCompile } from "../planning/stages.js";
 import type { Devices } from "../plotter/connected-machine.js";
 import { FIRST_PLOTTER, NamedPlotter } from "../plotter/named-plotter.js";
-import type { RunningPlot, PlotProgress, PlotterPort } from "../plotter/plotter-port.js";
+import type { PlotProgress, PlotterPort } from "../plotter/plotter-port.js";
 import {
   settingsOfPlotter,
   settingsWith,
   type SettingsOfPlotter,
   type WithMachine,
 } from "../plotter/settings-of-plotter.js";
+import { alreadyPlotting, CurrentPlot, HandleListeners, notPlotting, stopped } from "./current-plot.js";
 import {
   fileOf,
   givenOf,
-  HandleListeners,
-  notPlotting,
   penTarget,
-  stopped,
+  positionOf,
   type HandleState,
   type PlotOptions,
   type PlotResult,
@@ -91,7 +90,7 @@ export async function openOwnPlotter(
 
 class OwnHandle implements PlotterHandle {
   private readonly listeners = new HandleListeners();
-  private run: RunningPlot | null = null;
+  private current: CurrentPlot | null = null;
   private progress: PlotProgress | null = null;
   private wait: PlotWait | null = null;
 
@@ -100,7 +99,7 @@ class OwnHandle implements PlotterHandle {
     private readonly base: SettingsOfPlotter,
     private readonly withMachine: WithMachine,
   ) {
-    plotter.onChange(() => this.listeners.announce(this.state));
+    plotter.onChange(() => this.announce());
   }
 
   get state(): HandleState {
@@ -114,58 +113,62 @@ class OwnHandle implements PlotterHandle {
   }
 
   async plot(drawing: string | readonly Line[], options: PlotOptions = {}): Promise<PlotResult> {
-    const { name = "drawing", onProgress, onPenChange, signal } = options;
+    if (this.current) throw alreadyPlotting();
+    const current = (this.current = new CurrentPlot(options));
+    try {
+      return await current.follow(() => this.draw(drawing, options, current));
+    } finally {
+      this.current = this.progress = this.wait = null;
+      this.announce();
+    }
+  }
+
+  private async draw(
+    drawing: string | readonly Line[],
+    options: PlotOptions,
+    current: CurrentPlot,
+  ): Promise<PlotResult> {
+    const { name = "drawing" } = options;
     const { settings, note } = settingsWith(this.base, givenOf(options), this.withMachine);
     const machine = machineOf(settings);
     const imported = await importDrawing(name, fileOf(drawing, settings));
     const { prepared, warnings } = prepareJob(imported, settings, machine);
-    if (signal?.aborted === true) throw stopped();
+    current.throwIfStopped();
     const planner: PlotPlanner = {
       strokes: prepared.strokes,
       plan: (request) => Promise.resolve(planAndCompile(prepared, request, machine)),
       close: () => Promise.resolve(),
     };
     const run = await this.plotter.plot(planner, settings);
-    this.run = run;
     run.onProgress((progress) => {
       this.progress = progress;
-      onProgress?.(progress);
-      this.listeners.announce(this.state);
+      current.tellProgress(progress);
+      this.announce();
     });
-    let failure: unknown = null;
     run.onHeld((_isHeld, wait = null) => {
       this.wait = wait;
-      this.listeners.announce(this.state);
-      if (wait === null || onPenChange === undefined) return;
-      changePen(run, wait, onPenChange).catch((error: unknown) => {
-        failure ??= error;
-        void run.cancel().catch(() => undefined);
-      });
+      this.announce();
+      if (wait !== null) void current.changePen(wait);
     });
-    signal?.addEventListener("abort", () => void run.cancel().catch(() => undefined), { once: true });
-    try {
-      const { kind } = await run.finished;
-      if (kind === "cancelled") throw failure ?? stopped();
-      return {
-        plottedS: this.progress?.elapsedS ?? 0,
-        warnings: note === null ? warnings : [...warnings, note],
-      };
-    } finally {
-      this.run = this.progress = this.wait = null;
-      this.listeners.announce(this.state);
-    }
+    current.begin(run);
+    const { kind } = await run.finished;
+    if (kind === "cancelled") throw stopped();
+    return {
+      plottedS: this.progress?.elapsedS ?? 0,
+      warnings: note === null ? warnings : [...warnings, note],
+    };
   }
 
   async pause(): Promise<void> {
-    await this.running().pause();
+    await this.plotting().pause();
   }
 
   async resume(): Promise<void> {
-    await this.running().resume();
+    await this.plotting().resume();
   }
 
   async stop(): Promise<void> {
-    await this.running().cancel();
+    await this.plotting().stop();
   }
 
   async pen(where: "up" | "down" | number): Promise<void> {
@@ -173,7 +176,7 @@ class OwnHandle implements PlotterHandle {
   }
 
   async moveTo(xMm: number, yMm: number): Promise<void> {
-    await this.plotter.move({ kind: "move-to", xMm, yMm }, this.base.settings);
+    await this.plotter.move({ kind: "move-to", ...positionOf(xMm, yMm) }, this.base.settings);
   }
 
   async home(): Promise<void> {
@@ -184,18 +187,12 @@ class OwnHandle implements PlotterHandle {
     await this.plotter.close();
   }
 
-  private running(): RunningPlot {
-    if (this.run === null) throw notPlotting();
-    return this.run;
+  private plotting(): CurrentPlot {
+    if (this.current === null) throw notPlotting();
+    return this.current;
   }
-}
 
-/** Resumes when the pen is changed. */
-async function changePen(
-  run: RunningPlot,
-  wait: PlotWait,
-  onPenChange: (wait: PlotWait) => void | Promise<void>,
-): Promise<void> {
-  await onPenChange(wait);
-  await run.resume();
+  private announce(): void {
+    this.listeners.announce(this.state, this.current);
+  }
 }

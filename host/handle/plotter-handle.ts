@@ -40,14 +40,14 @@ export interface PlotOptions extends GivenSettings {
   readonly speed?: number;
   /** The name of a job on a server. Default "drawing". */
   readonly name?: string;
-  /** Called several times a second. */
+  /** Called several times a second. What it throws stops the plot, which then rejects with it; so does `onPenChange`. */
   readonly onProgress?: (amount: PlotAmount) => void;
   /**
    * Called when the plot waits for another pen, with the pen up at home. The plot resumes when the returned promise
    * resolves, and ends if it rejects. Default: it waits for `resume`.
    */
   readonly onPenChange?: (wait: PlotWait) => void | Promise<void>;
-  /** Stops the plot when aborted: the pen lifts, and the carriage goes home. */
+  /** Stops the plot when aborted, also before it moves: the pen lifts, and the carriage goes home. */
   readonly signal?: AbortSignal;
 }
 
@@ -62,7 +62,7 @@ export interface PlotResult {
 /** A plotter that this program has opened. All methods reject with a PlotwrightError. */
 export interface PlotterHandle {
   readonly state: HandleState;
-  /** Calls `listener` after each change of `state`. The returned function ends that. */
+  /** Calls `listener` after each change of `state`. The returned function ends that. What it throws stops the plot. */
   onChange(listener: (state: HandleState) => void): () => void;
   /**
    * Plots a drawing: the text of an SVG, DXF, HPGL or JSON file, or lines of points in mm on the paper. Resolves when
@@ -75,7 +75,7 @@ export interface PlotterHandle {
   /** Slows down along the line and lifts the pen. Resolves when it is up. */
   pause(): Promise<void>;
   resume(): Promise<void>;
-  /** Ends the plot: the pen lifts, and the carriage goes home. */
+  /** Ends the plot: the pen lifts, and the carriage goes home. Resolves when the plot has ended. */
   stop(): Promise<void>;
   /** Lifts or lowers the pen, or moves it to a height in percent of its range. */
   pen(where: "up" | "down" | number): Promise<void>;
@@ -144,31 +144,40 @@ export function fileOf(
       "plot takes the text of a drawing, or lines: [[[x, y], [x, y], …], …].",
     );
   }
+  const strokes = (drawing as readonly Line[]).map((line, i) => checkedLine(line, i + 1));
   const { widthMm, heightMm } = orientedPaper(prepare.paper, prepare.landscape);
-  return JSON.stringify({ widthMm, heightMm, layers: [{ name: "Lines", strokes: drawing }] });
+  return JSON.stringify({ widthMm, heightMm, layers: [{ name: "Lines", strokes }] });
+}
+
+/** The coordinates of a line, one after the other. */
+function checkedLine(line: unknown, number: number): number[] {
+  if (!Array.isArray(line)) {
+    throw new PlotwrightError("bad-file", `Line ${number} is not a list of points: [[x, y], [x, y], …].`);
+  }
+  return (line as readonly (ArrayLike<unknown> | null)[]).flatMap((point, i) => {
+    const [x, y] = [point?.[0], point?.[1]];
+    if (point?.length === 2 && Number.isFinite(x) && Number.isFinite(y)) return [x as number, y as number];
+    throw new PlotwrightError(
+      "bad-file",
+      `Point ${i + 1} of line ${number} is not [x, y] with two finite numbers, in mm. Lines are [[[x, y], [x, y], …], …].`,
+    );
+  });
 }
 
 /** A height in percent counts as down: the next move lifts the pen first. */
-export const penTarget = (where: "up" | "down" | number): { up: boolean; heightPct?: number } =>
-  typeof where === "number" ? { up: false, heightPct: where } : { up: where === "up" };
+export function penTarget(where: "up" | "down" | number): { up: boolean; heightPct?: number } {
+  if (where === "up" || where === "down") return { up: where === "up" };
+  if (where >= 0 && where <= 100) return { up: false, heightPct: where };
+  throw new PlotwrightError(
+    "bad-setting",
+    `pen takes "up", "down" or a height from 0 to 100 %: it got ${String(where)}.`,
+  );
+}
 
-export const stopped = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was stopped.");
-
-export const notPlotting = (): PlotwrightError =>
-  new PlotwrightError("conflict", "This program is not plotting: start a plot first.");
-
-/** Keeps the listeners of a handle's state. */
-export class HandleListeners {
-  private readonly all = new Set<(state: HandleState) => void>();
-
-  add(listener: (state: HandleState) => void): () => void {
-    // Each call is ended by its own function, also if the same listener is added twice.
-    const own = (state: HandleState): void => listener(state);
-    this.all.add(own);
-    return () => void this.all.delete(own);
-  }
-
-  announce(state: HandleState): void {
-    for (const listener of this.all) listener(state);
-  }
+export function positionOf(xMm: number, yMm: number): { xMm: number; yMm: number } {
+  if (Number.isFinite(xMm) && Number.isFinite(yMm)) return { xMm, yMm };
+  throw new PlotwrightError(
+    "bad-setting",
+    `moveTo takes two numbers, in mm from home: it got ${String(xMm)} and ${String(yMm)}.`,
+  );
 }

@@ -1,14 +1,27 @@
 /** A plotter of a running server, as a handle: each plot is a job there, which is started and followed. */
 import { PlotwrightError, type Line } from "../../src/index.js";
 import { isSameJson, withGiven } from "../../src/internal.js";
-import type { Job, Plotter, PlotSettings, PlotWait, ServerEvent } from "../../src/schema/index.js";
+import {
+  ENDED_STATES,
+  type Job,
+  type JobState,
+  type Plotter,
+  type PlotSettings,
+  type ServerEvent,
+} from "../../src/schema/index.js";
+import {
+  alreadyPlotting,
+  closed,
+  CurrentPlot,
+  HandleListeners,
+  notPlotting,
+  stopped,
+} from "./current-plot.js";
 import {
   fileOf,
   givenOf,
-  HandleListeners,
-  notPlotting,
   penTarget,
-  stopped,
+  positionOf,
   type HandleState,
   type PlotOptions,
   type PlotResult,
@@ -37,10 +50,13 @@ export async function openServedPlotter(
   return new ServerHandle(access, client, plotter);
 }
 
+/** A plot whose server does not answer for this time ends for the program. A server that is restarted is back before. */
+const LOST_MS = 60_000;
+
 /** The job of a plot that this program waits for. */
 interface Followed {
   readonly id: string;
-  readonly options: PlotOptions;
+  readonly plot: CurrentPlot;
   readonly resolve: (job: Job) => void;
   readonly reject: (error: Error) => void;
 }
@@ -48,14 +64,15 @@ interface Followed {
 class ServerHandle implements PlotterHandle {
   private readonly listeners = new HandleListeners();
   private readonly end = new AbortController();
+  private current: CurrentPlot | null = null;
   private followed: Followed | null = null;
   private job: Job | null = null;
-  /** Why the server's state is not known. */
-  private trouble: string | null = null;
+  /** Why the server's state is not known, and since when. */
+  private trouble: { readonly message: string; readonly sinceMs: number } | null = null;
 
   constructor(
     access: ServerAccess,
-    private readonly client: ServerClient,
+    private readonly requests: ServerClient,
     private plotter: Plotter,
   ) {
     void followEvents(
@@ -72,7 +89,7 @@ class ServerHandle implements PlotterHandle {
     return {
       ...{ kind, activity, firmware, penUp, xMm, yMm },
       connection: trouble === null ? connection : "absent",
-      message: trouble ?? message,
+      message: trouble?.message ?? message,
       plot: job && {
         progress: job.progress,
         elapsedS: job.elapsedS,
@@ -87,46 +104,54 @@ class ServerHandle implements PlotterHandle {
   }
 
   async plot(drawing: string | readonly Line[], options: PlotOptions = {}): Promise<PlotResult> {
-    if (this.followed)
-      throw new PlotwrightError("busy", "This program is plotting already: wait until it ends.");
-    const { name = "drawing", signal } = options;
+    if (this.current) throw alreadyPlotting();
+    const current = (this.current = new CurrentPlot(options));
+    try {
+      return await current.follow(() => this.draw(drawing, options, current));
+    } finally {
+      this.current = this.followed = this.job = null;
+      this.announce();
+    }
+  }
+
+  private async draw(
+    drawing: string | readonly Line[],
+    options: PlotOptions,
+    plot: CurrentPlot,
+  ): Promise<PlotResult> {
+    const { name = "drawing" } = options;
     const given = givenOf(options);
     const { id: plotterId } = this.plotter;
     const { settings } = await this.client.plotters.defaults(plotterId);
     const file = fileOf(drawing, withGiven<PlotSettings>(settings, given));
+    plot.throwIfStopped();
     const { id: drawingId } = await this.client.drawings.upload(file);
+    plot.throwIfStopped();
     const { id, warnings } = await this.client.jobs.add({ name, drawingId, plotterId, settings: given });
-    if (signal?.aborted === true) {
-      await this.client.jobs.remove(id);
-      throw stopped();
-    }
     const ended = new Promise<Job>((resolve, reject) => {
-      this.followed = { id, options, resolve, reject };
+      this.followed = { id, plot, resolve, reject };
     });
     ended.catch(() => undefined);
-    signal?.addEventListener("abort", () => void this.client.jobs.cancel(id).catch(() => undefined), {
-      once: true,
+    await this.start(id, plot);
+    plot.begin({
+      pause: () => this.ask(id, "pause", "paused"),
+      resume: () => this.ask(id, "resume", "plotting"),
+      cancel: () => this.ask(id, "cancel", "cancelled"),
     });
-    try {
-      await this.start(id);
-      const { plottedS, elapsedS } = await ended;
-      return { plottedS: plottedS ?? elapsedS, warnings };
-    } finally {
-      this.followed = this.job = null;
-      this.listeners.announce(this.state);
-    }
+    const { plottedS, elapsedS } = await ended;
+    return { plottedS: plottedS ?? elapsedS, warnings };
   }
 
   async pause(): Promise<void> {
-    await this.client.jobs.pause(this.running());
+    await this.plotting().pause();
   }
 
   async resume(): Promise<void> {
-    await this.client.jobs.resume(this.running());
+    await this.plotting().resume();
   }
 
   async stop(): Promise<void> {
-    await this.client.jobs.cancel(this.running());
+    await this.plotting().stop();
   }
 
   async pen(where: "up" | "down" | number): Promise<void> {
@@ -134,7 +159,7 @@ class ServerHandle implements PlotterHandle {
   }
 
   async moveTo(xMm: number, yMm: number): Promise<void> {
-    this.plotter = await this.client.moves["move-to"](this.plotter.id, { xMm, yMm });
+    this.plotter = await this.client.moves["move-to"](this.plotter.id, positionOf(xMm, yMm));
   }
 
   async home(): Promise<void> {
@@ -149,20 +174,44 @@ class ServerHandle implements PlotterHandle {
     return Promise.resolve();
   }
 
-  private running(): string {
-    if (this.followed === null) throw notPlotting();
-    return this.followed.id;
+  private get client(): ServerClient {
+    if (this.end.signal.aborted) throw closed();
+    return this.requests;
   }
 
-  private async start(id: string): Promise<void> {
+  private plotting(): CurrentPlot {
+    if (this.current === null) throw notPlotting();
+    return this.current;
+  }
+
+  private announce(): void {
+    this.listeners.announce(this.state, this.current);
+  }
+
+  private async start(id: string, plot: CurrentPlot): Promise<void> {
     try {
+      plot.throwIfStopped();
       await this.client.jobs.start(id);
     } catch (error) {
       // A queue that runs on by itself may have started it already.
-      if ((await this.client.jobs.get(id)).state === "queued") {
-        await this.client.jobs.remove(id);
+      const job = await this.requests.jobs.get(id);
+      if (job.state === "queued") {
+        await this.requests.jobs.remove(id);
         throw error;
       }
+      this.takeJob(job);
+    }
+  }
+
+  /** Asks nothing of a plot that is so already, or that has ended: as a plotter of this program. */
+  private async ask(id: string, action: "pause" | "resume" | "cancel", wanted: JobState): Promise<void> {
+    try {
+      await this.client.jobs[action](id);
+    } catch (error) {
+      if (!(error instanceof PlotwrightError && error.code === "conflict")) throw error;
+      const job = await this.client.jobs.get(id);
+      this.takeJob(job);
+      if (job.state !== wanted && !ENDED_STATES.includes(job.state)) throw error;
     }
   }
 
@@ -172,6 +221,7 @@ class ServerHandle implements PlotterHandle {
       event.snapshot.plotters.forEach((plotter) => this.takePlotter(plotter));
       const job = event.snapshot.jobs.find(({ id }) => id === this.followed?.id);
       if (job) this.takeJob(job);
+      else if (this.followed) void this.findJob(this.followed);
     } else if (event.type === "plotter") this.takePlotter(event.plotter);
     else if (event.type === "job") this.takeJob(event.job);
     else if (event.type === "progress" && this.job?.id === event.jobId) {
@@ -179,9 +229,18 @@ class ServerHandle implements PlotterHandle {
       this.plotter = { ...this.plotter, xMm, yMm, penUp };
       this.takeJob({ ...this.job, progress, elapsedS, remainingS });
     } else if (event.type === "job-removed" && event.id === this.followed?.id) {
-      this.followed.reject(new PlotwrightError("not-found", "The job was removed on the server."));
+      this.followed.reject(removed());
     }
-    this.listeners.announce(this.state);
+    this.announce();
+  }
+
+  /** A snapshot without the job may be older than the job. */
+  private async findJob({ id, reject }: Followed): Promise<void> {
+    try {
+      this.takeJob(await this.client.jobs.get(id));
+    } catch (error) {
+      if (error instanceof PlotwrightError && error.code === "not-found") reject(removed());
+    }
   }
 
   private takePlotter(plotter: Plotter): void {
@@ -193,30 +252,26 @@ class ServerHandle implements PlotterHandle {
     if (followed === null || followed.id !== job.id) return;
     this.job = job;
     const { progress, elapsedS, remainingS, state, wait } = job;
-    if (state !== "queued")
-      followed.options.onProgress?.({ progress, elapsedS, remainingS: remainingS ?? 0 });
-    if (wait !== null && !isSameJson(wait, before?.wait)) void this.changePen(followed, wait);
+    if (state !== "queued") followed.plot.tellProgress({ progress, elapsedS, remainingS: remainingS ?? 0 });
+    if (wait !== null && !isSameJson(wait, before?.wait)) void followed.plot.changePen(wait);
     if (state === "done") followed.resolve(job);
     if (state === "cancelled") followed.reject(stopped());
     if (state === "failed" || state === "interrupted") followed.reject(faultOf(job));
   }
 
-  private async changePen({ id, options, reject }: Followed, wait: PlotWait): Promise<void> {
-    if (options.onPenChange === undefined) return;
-    try {
-      await options.onPenChange(wait);
-      await this.client.jobs.resume(id);
-    } catch (error) {
-      reject(error instanceof Error ? error : new Error(String(error)));
-      await this.client.jobs.cancel(id).catch(() => undefined);
-    }
-  }
-
   private lost({ message }: Error): void {
-    this.trouble = message;
-    this.listeners.announce(this.state);
+    const sinceMs = this.trouble?.sinceMs ?? Date.now();
+    this.trouble = { message, sinceMs };
+    if (Date.now() - sinceMs >= LOST_MS) {
+      const where = "Whether the plot continues is to be seen at the plotter, or on the server's page.";
+      this.followed?.reject(new PlotwrightError("disconnected", `${message} ${where}`));
+    }
+    this.announce();
   }
 }
+
+const removed = (): PlotwrightError =>
+  new PlotwrightError("not-found", "The job of this plot was removed on the server.");
 
 function faultOf({ name, state, message }: Job): PlotwrightError {
   const why = message ?? `${name} has ${state === "failed" ? "failed" : "been interrupted"}.`;

@@ -60,11 +60,26 @@ export async function followEvents(
       if (signal.aborted) return;
       onLost(error instanceof Error ? error : new Error(String(error)));
     }
-    await new Promise<void>((resolve) => void setTimeout(resolve, RETRY_MS));
+    await pause(RETRY_MS, signal);
   }
 }
 
 const RETRY_MS = 1_000;
+/** The server sends something every 15 s: a longer silence means that it, or the network, is gone. */
+const SILENCE_MS = 45_000;
+
+/** Ends early when `signal` is aborted, so that the timer does not keep the process. */
+function pause(ms: number, signal: AbortSignal): Promise<void> {
+  return new Promise((resolve) => {
+    const done = (): void => {
+      clearTimeout(timer);
+      signal.removeEventListener("abort", done);
+      resolve();
+    };
+    const timer = setTimeout(done, ms);
+    signal.addEventListener("abort", done);
+  });
+}
 
 async function readEvents(
   access: ServerAccess,
@@ -85,7 +100,15 @@ async function readEvents(
   const decoder = new TextDecoder();
   let rest = "";
   for (;;) {
-    const { value, done } = await reader.read();
+    const silence = setTimeout(() => void reader.cancel(), SILENCE_MS);
+    const { value, done } = await reader
+      .read()
+      .catch((cause: unknown) => {
+        throw new PlotwrightError("disconnected", `The connection to the server at ${url} was lost.`, {
+          cause,
+        });
+      })
+      .finally(() => clearTimeout(silence));
     if (done) return;
     // Each event is one line that begins with "data:", and an empty line.
     const lines = (rest + decoder.decode(value, { stream: true })).split("\n");

@@ -160,9 +160,9 @@ describe("host", () => {
     expect(wrong.map(write)).toEqual([]);
   });
 
-  it("has folders that are layers: planning, plotter, queue, operations", () => {
+  it("has folders that are layers: planning, plotter, queue, operations, handle", () => {
     const level = (file: string): number =>
-      ["host", "host/planning", "host/plotter", "host/queue", "host/operations"].indexOf(
+      ["host", "host/planning", "host/plotter", "host/queue", "host/operations", "host/handle"].indexOf(
         path.posix.dirname(file),
       );
     expect(inside.filter(({ from, to }) => level(from) < level(to)).map(write)).toEqual([]);
@@ -230,7 +230,7 @@ describe("the folders of web", () => {
   it("use host only in the backend without a server, and in the entry for programs", () => {
     const wrong = importsIn("web").filter(
       ({ from, to }) =>
-        to.startsWith("host/") && !/^web\/(backend\/browser\/|serial\/open-plotter$)/.test(from),
+        to.startsWith("host/") && !/^web\/(backend\/browser\/|serial\/open-plotter\.ts$)/.test(from),
     );
     expect(wrong.map(write)).toEqual([]);
   });

@@ -1,5 +1,6 @@
 /** The entry plotwright/plotter: a plotter of this program, and one of a running server, by the same calls. */
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { connect, createServer as createTcpServer, type AddressInfo, type Socket } from "node:net";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { openPlotter, type PlotterChoice, type PlotterHandle } from "../../server/plotter/open-plotter.js";
 import { createServer, type PlotwrightServer } from "../../server/index.js";
 import { PlotwrightError, type Line } from "../../src/index.js";
@@ -152,6 +153,80 @@ describe.each(WAYS)("a plotter %s", (_, way) => {
     expect(await first).toBe("cancelled");
   });
 
+  it("is stopped and paused from the call on, before anything moves", async () => {
+    const stopped = codeOf(plotter.plot(LONG));
+    await Promise.all([plotter.stop(), plotter.stop()]);
+    expect(await stopped).toBe("cancelled");
+    expect(plotter.state.plot).toBeNull();
+    const paused = codeOf(plotter.plot(LONG));
+    await plotter.pause();
+    await until(() => plotter.state.activity === "held");
+    expect(plotter.state.plot?.progress ?? 0).toBe(0);
+    await plotter.pause();
+    await plotter.resume();
+    await plotter.resume();
+    await plotter.stop();
+    expect(await paused).toBe("cancelled");
+  });
+
+  it.each([0, 20])("is stopped by a signal %i ms after the call", async (ms) => {
+    const stop = new AbortController();
+    const plot = codeOf(plotter.plot(LONG, { signal: stop.signal }));
+    setTimeout(() => stop.abort(), ms);
+    expect(await plot).toBe("cancelled");
+  });
+
+  it("takes one of two plots that are started at once", async () => {
+    const codes = await Promise.all([codeOf(plotter.plot(ROW)), codeOf(plotter.plot(ROW))]);
+    expect(codes).toEqual(["done", "busy"]);
+  });
+
+  it("stops the plot with the pen up, and plots again, when the program's own callback throws", async () => {
+    const fault = new Error("the program's");
+    const boom = (): never => {
+      throw fault;
+    };
+    expect(await codeOf(plotter.plot(LONG, { onProgress: boom }))).toBe(fault);
+    expect(await codeOf(plotter.plot(TWO_PENS, { onPenChange: boom }))).toBe(fault);
+    plotter.onChange(boom);
+    expect(await codeOf(plotter.plot(LONG))).toBe(fault);
+    expect(await codeOf(plotter.plot(ROW))).toBe("done");
+    expect(plotter.state.penUp).toBe(true);
+  });
+
+  it.each([
+    ["stop", "cancelled"],
+    ["resume", "done"],
+  ] as const)("heeds a %s during a pen change", async (ask, code) => {
+    expect(await codeOf(plotter.plot(TWO_PENS, { onPenChange: () => plotter[ask]() }))).toBe(code);
+  });
+
+  it.each([
+    ["NaN", [[[10, Number.NaN]]], /Point 1 of line 1/],
+    ["one line instead of a list", [[10, 10]], /Point 1 of line 1 .* Lines are \[\[\[x, y\]/],
+    ["points with names", [[[1, 1]], [{ x: 1, y: 2 }]], /Point 1 of line 2/],
+    ["three coordinates", [[[1, 1, 1]]], /Point 1 of line 1/],
+    ["a number as a line", [7], /Line 1 is not a list of points/],
+    ["no lines", [], /nothing to draw/],
+  ])("refuses %s as lines, and says where", async (_what, lines, message) => {
+    const error: unknown = await plotter.plot(lines as never).catch((fault: unknown) => fault);
+    expect(error).toMatchObject({ code: "bad-file", message: expect.stringMatching(message) });
+  });
+
+  it("refuses heights and positions that are none", async () => {
+    for (const where of ["half", Number.NaN, 101, -1])
+      expect(await codeOf(plotter.pen(where as never))).toBe("bad-setting");
+    expect(await codeOf(plotter.moveTo(Number.NaN, 1))).toBe("bad-setting");
+    expect(await codeOf(plotter.moveTo(1, undefined as never))).toBe("bad-setting");
+  });
+
+  it("refuses everything after it was closed", async () => {
+    await plotter.close();
+    await plotter.close();
+    for (const ask of [() => plotter.plot(ROW), () => plotter.pen("up"), () => plotter.home()])
+      expect(await codeOf(ask())).toBe("disconnected");
+  });
+
   it("ends a plot that waits when it is closed", async () => {
     const plot = codeOf(plotter.plot(LONG));
     await until(() => plotter.state.plot !== null);
@@ -167,6 +242,7 @@ describe("openPlotter", () => {
     [{ devise: "auto" }, "bad-setting", /no option devise/],
     [{ webSerial: true }, "bad-setting", /for pages/],
     [{ url: "localhost:9080" }, "bad-setting", /not an address/],
+    [{ url: "http://me:secret@127.0.0.1:9080" }, "bad-setting", /access key in key/],
     [{ url: "http://127.0.0.1:1" }, "disconnected", /No plotwright server answers/],
     [{ url: "http://127.0.0.1:1", settings: {} }, "bad-setting", /server has the settings/],
     [{ virtual: true, settings: { machine: "axidraw-v33" } }, "bad-setting", /axidraw-v33/],
@@ -221,6 +297,93 @@ describe("openPlotter", () => {
     await plotter.close();
   });
 });
+
+describe("a plot on a server", () => {
+  it("ends with words when its job is removed by someone else", async () => {
+    const server = await createServer({
+      port: 0,
+      device: "virtual",
+      virtualSpeed: SPEED,
+      dataDir: folderOfTest(),
+    });
+    const [plotter, other] = await Promise.all([
+      openPlotter({ url: server.url }),
+      openPlotter({ url: server.url }),
+    ]);
+    const plot = codeOf(plotter.plot(LONG));
+    await until(() => plotter.state.plot !== null);
+    expect(await codeOf(other.plot(ROW))).toBe("busy");
+    const { jobs } = (await (await fetch(`${server.url}/api/v1/state`)).json()) as { jobs: { id: string }[] };
+    expect(jobs.length).toBe(1);
+    await fetch(`${server.url}/api/v1/jobs/${jobs[0].id}/cancel`, { method: "POST" });
+    expect(await plot).toBe("cancelled");
+    await Promise.all([plotter.close(), other.close()]);
+    await server.close();
+  });
+
+  it("ends with words when the server was ended and is back", async () => {
+    const dataDir = folderOfTest();
+    const first = await createServer({ port: 0, device: "virtual", virtualSpeed: SPEED, dataDir });
+    const plotter = await openPlotter({ url: first.url });
+    const plot = plotter.plot(LONG).catch((error: unknown) => error);
+    await plotter.pause();
+    await first.close();
+    const port = Number(new URL(first.url).port);
+    const second = await createServer({ port, device: "virtual", virtualSpeed: SPEED, dataDir });
+    expect(await plot).toMatchObject({ code: "disconnected", message: expect.stringMatching(/stopped/) });
+    await plotter.close();
+    await second.close();
+  });
+
+  it("ends with words when nothing answers for a minute, and not before", async () => {
+    const server = await createServer({
+      port: 0,
+      device: "virtual",
+      virtualSpeed: SPEED,
+      dataDir: folderOfTest(),
+    });
+    const relay = await relayTo(Number(new URL(server.url).port));
+    const plotter = await openPlotter({ url: `http://127.0.0.1:${relay.port}` });
+    let ended: unknown = null;
+    const plot = plotter.plot(LONG).catch((error: unknown) => (ended = error));
+    await plotter.pause();
+    vi.useFakeTimers({ toFake: ["Date"] });
+    try {
+      await relay.close();
+      await until(() => /No plotwright server answers/.test(plotter.state.message ?? ""));
+      expect(ended).toBeNull();
+      vi.setSystemTime(Date.now() + 61_000);
+      await plot;
+      expect(ended).toMatchObject({
+        code: "disconnected",
+        message: expect.stringMatching(/No plotwright server answers .* Whether the plot continues/),
+      });
+    } finally {
+      vi.useRealTimers();
+    }
+    await plotter.close();
+    await server.close();
+  });
+});
+
+/** A port that leads to another one, until it is closed: then all its connections end at once. */
+async function relayTo(port: number): Promise<{ port: number; close: () => Promise<void> }> {
+  const sockets = new Set<Socket>();
+  const relay = createTcpServer((socket) => {
+    const onward = connect(port, "127.0.0.1");
+    for (const one of [socket, onward]) sockets.add(one.on("error", () => undefined));
+    socket.pipe(onward).pipe(socket);
+  });
+  await new Promise<void>((resolve) => void relay.listen(0, "127.0.0.1", resolve));
+  return {
+    port: (relay.address() as AddressInfo).port,
+    close: () =>
+      new Promise((resolve) => {
+        relay.close(() => resolve());
+        for (const socket of sockets) socket.destroy();
+      }),
+  };
+}
 
 describe("a plotter of a server that goes away", () => {
   it("says so, and is known again when the server is back", async () => {
