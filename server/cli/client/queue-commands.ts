@@ -8,7 +8,14 @@ import { readBytes } from "../../planning/read-drawing.js";
 import { mustBeReadable, nameOf, withDrawingFile } from "../files.js";
 import { minutes, printed, row, type CliIo } from "../io.js";
 import { addJson, addLayerOptions, copies, type Declare } from "../options.js";
-import { accessOf, addJob, addServer, serverState, type ServerState } from "./server-client.js";
+import {
+  accessOf,
+  addJob,
+  addServer,
+  fontUnknownTo,
+  serverState,
+  type ServerState,
+} from "./server-client.js";
 import { serverClient, type ServerAccess, type ServerClient } from "../../../host/handle/server-client.js";
 import { machinesOf, plotterOf, storedOf } from "./served-plotter.js";
 import { addSettingOptions, settingsOver, type OptionValues } from "../settings-options.js";
@@ -18,6 +25,7 @@ type Options = Partial<ServerAccess> & { readonly data?: string; readonly json?:
 interface AddOptions extends Options {
   readonly only?: readonly string[];
   readonly pen?: readonly PenChoice[];
+  readonly font?: string;
   readonly copies: number;
   readonly plotter?: string;
   readonly start?: boolean;
@@ -28,11 +36,13 @@ export const declareAdd: Declare = (command, { io }) => {
   addLayerOptions(addServer(addSettingOptions(command.argument("<files...>", "drawings; - for stdin"))))
     .option("--copies <number>", "number of times to plot each", copies, 1)
     .option("--plotter <name>", "which of the server's plotters, by name or id (default: its first one)")
+    .option("--font <file>", "not here: make lines of text first, with plotwright plan --font --svg")
     .option("--start", "start the first one, if nothing else is plotting")
     .option("--quiet", "print nothing but errors")
     .option("--json", "print the jobs as JSON, one line for each")
     .action(async (files: string[], options: AddOptions & OptionValues) => {
       const access = accessOf(options);
+      if (options.font !== undefined) throw fontUnknownTo(access.url);
       const state = await serverState(access);
       const plotter = plotterOf(state.plotters, options.plotter);
       const base = settingsOver(options, storedOf(state, plotter), machinesOf(state)).settings;

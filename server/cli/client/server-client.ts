@@ -63,6 +63,13 @@ export async function serverState(options: ServerAccess): Promise<ServerState> {
   return (await sendTo(options, { ...OPERATIONS.state.get, answer: stateSchema }, {})) as ServerState;
 }
 
+/** A server reads drawings itself, and has only its own letters. */
+export const fontUnknownTo = (url: string): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    `--font: the server at ${url} reads the drawing itself, without your font. Make lines of the text first, with plotwright plan FILE --font FONT --svg LINES.svg, and give it LINES.svg; or convert text to paths in your drawing program.`,
+  );
+
 /** Uploads the drawing's file as it is, then adds the job. */
 export async function addJob(
   options: ServerAccess,

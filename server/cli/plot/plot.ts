@@ -35,6 +35,7 @@ import { plotOnServer } from "./plot-on-server.js";
 import { plotReport } from "./plot-report.js";
 import { CANCELLED, cancelled, waitForPaper, watch } from "./plot-watch.js";
 import type { Command, Option } from "commander";
+import { fontUnknownTo } from "../client/server-client.js";
 import { servedPlotter } from "../client/served-plotter.js";
 import { addSettingOptions, type OptionValues } from "../settings-options.js";
 import { settingsOfOwnPlotter, withPortByName } from "../client/known-plotters.js";
@@ -357,12 +358,6 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
       );
     });
 };
-
-const fontUnknownTo = (url: string): PlotwrightError =>
-  new PlotwrightError(
-    "bad-setting",
-    `--font: the server at ${url} has the plotter and reads the drawing, without your font. Convert text to paths in your drawing program, or stop the server.`,
-  );
 
 /** The other options belong to a new plot, and would have no effect. */
 const WITH_RESUME = ["--resume", "--device", "--virtual-speed", "--data", "--quiet", "--json"];

@@ -1,6 +1,7 @@
 /** Commands while a server has the plotter: they work through it. */
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { beforeEach, describe, expect, it, onTestFinished } from "vitest";
 import { createServer, type PlotwrightServer } from "../../../server/index.js";
 import type { Job, Plotter } from "../../../src/schema/index.js";
@@ -10,6 +11,12 @@ import { folderOfTest } from "../../support/processes/folders.js";
 
 const square = (times: number): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black" fill="none"><path d="${"M1 2h18v16h-18z".repeat(times)}"/></svg>`;
+const FONT = fileURLToPath(
+  new URL(
+    "../../../node_modules/@fontsource/dejavu-sans/files/dejavu-sans-latin-400-normal.woff",
+    import.meta.url,
+  ),
+);
 /** About a minute of the plotter at twenty times its speed: it never ends by itself during a test. */
 const LONG = square(400);
 
@@ -218,6 +225,27 @@ describe("a job of a running server", () => {
     expect((await there("cancel", "a.svg")).code).toBe(0);
     expect((await there("follow", "a.svg")).code).toBe(5);
   });
+
+  it.each(["add", "plot"])(
+    "is refused by %s with a font, with the way to draw it in that font",
+    async (command) => {
+      const text = join(data, "text.svg");
+      writeFileSync(
+        text,
+        '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="20mm"><text y="40">ink</text></svg>',
+      );
+      const { code, err } = await there(command, text, "--font", FONT);
+      expect(code).not.toBe(0);
+      expect(err).toMatch(
+        /^plotwright: --font: the server at .* plotwright plan FILE --font FONT --svg LINES\.svg/,
+      );
+      const lines = join(data, "lines.svg");
+      const planned = await cli("plan", text, "--font", FONT, "--svg", lines, "--json");
+      const { drawMm } = JSON.parse(planned.out) as { drawMm: number };
+      const added = await there("add", lines, "--no-fit", "--json");
+      expect((JSON.parse(added.out) as Job).stats?.drawMm).toBeCloseTo(drawMm, 0);
+    },
+  );
 
   it("is added, and stays in the queue, while another is plotted", async () => {
     writeFileSync(file, LONG);
