@@ -8,7 +8,7 @@
  */
 import { PlotwrightError } from "../errors.js";
 import type { Springs } from "../machines/profile.js";
-import { SpringAxis } from "../plan/simulate/spring-pen.js";
+import { SpringAxis } from "../plan/shaping/spring-axis.js";
 import { DEFAULT_MOTION, type MotionSettings } from "../settings/motion.js";
 import { SPRINGS_TABLE } from "../settings/machine.js";
 import { isAllowed, rangeInWords } from "../settings/setting.js";

@@ -179,12 +179,13 @@ class PlanBuilder {
     this.penMoves = new PenMoveWriter(4 * count + 2);
     // A stroke has one segment fewer than points, and a travel before it. The last segment is the travel home.
     // A controller that plans by itself is not shaped.
-    this.shaper = runs ? null : shaperKernel(motion.shaper ?? "none", machine?.springs ?? null);
+    const springs = machine?.springs ?? null;
+    this.shaper = runs ? null : shaperKernel(motion.shaper ?? "none", springs);
     const segments = pointCount(strokes) + 1;
     this.blocks = new BlockColumns(segments, motion.mode === "scurve");
     this.planned = new BlockColumns(segments, false);
     this.plannedFirst = new Uint32Array(this.shaper ? 2 * count + 2 : 0);
-    this.writer = runs ?? new RunWriter(motion.mode, motion.fit ?? null, this.shaper);
+    this.writer = runs ?? new RunWriter(motion.mode, motion.fit ?? null, this.shaper, springs);
   }
 
   /**

@@ -5,6 +5,7 @@
  *   2. fewer, longer blocks                  merge.ts, if the settings ask for it
  *   3. a filter over time                    filter.ts in mode `scurve`, impulse-filter.ts with a shaper
  *   4. a second merge, with a shaper         because its filter splits each block into several
+ *   5. all again, slower, with a shaper      while wrong-springs.ts finds that the pen could swing too far
  */
 import { AxisFrame } from "./axis-frame.js";
 import { limitBlends } from "./corners/blend-rule.js";
@@ -16,6 +17,8 @@ import { limitJunctions } from "./corners/junction-rule.js";
 import { capSegments, isStretched, shapedLimits, type RunLimits } from "./limits.js";
 import { lookAhead } from "./corners/look-ahead.js";
 import { mergeBlocks, SHAPED_RULES, type MergeRules } from "./merge.js";
+import { CALM_ACCEL, WrongSprings } from "./shaping/wrong-springs.js";
+import type { Springs } from "../machines/profile.js";
 import { RunPath } from "./run-path.js";
 import { filteredPlan, stopsAreFaster } from "./corners/scurve.js";
 import { CORNER_RULES, type FitSettings, type MotionMode } from "../settings/motion.js";
@@ -36,6 +39,9 @@ const CORNER_PLANNERS: Readonly<Record<MotionMode, CornerRule>> = {
   scurve: limitBlends,
 };
 
+/** A run that would sway on wrong springs is planned again with this share of its acceleration: another rhythm. */
+const CALMER = 0.85;
+
 export class RunWriter implements RunPlanner {
   /** The run before the filter. */
   private readonly unfiltered = new BlockColumns(0, false);
@@ -43,13 +49,19 @@ export class RunWriter implements RunPlanner {
   private readonly straight = new RunPath();
   private readonly frame = new AxisFrame();
   private readonly rules: MergeRules | null;
+  private readonly wrongSprings: WrongSprings | null;
 
-  /** @param shaper null: none */
+  /**
+   * @param shaper null: none
+   * @param springs those that it is for
+   */
   constructor(
     private readonly mode: MotionMode,
     fit: FitSettings | null,
     shaper: Kernel | null,
+    springs: Springs | null,
   ) {
+    this.wrongSprings = springs && new WrongSprings(springs);
     this.shaper = shaper && new ImpulseFilter(shaper);
     this.rules = fit && {
       toleranceMm: fit.toleranceMm,
@@ -88,11 +100,19 @@ export class RunWriter implements RunPlanner {
   ): void {
     const first = out.count;
     const plannedFirst = planned.count;
-    planned.clockS = out.clockS;
-    this.writeBlocks(path, shapedLimits(path, limits), planned);
-    const beginS = shaper.write(planned, plannedFirst, path.end(), out);
-    if (beginS > 0) planned.shift(plannedFirst, -beginS);
-    if (this.rules !== null) mergeBlocks(out, first, path.end(), limits, SHAPED_RULES);
+    const startS = out.clockS;
+    for (let calm = limits; ; calm = { ...calm, accel: Math.max(CALM_ACCEL, CALMER * calm.accel) }) {
+      out.count = first;
+      planned.count = plannedFirst;
+      planned.clockS = out.clockS = startS;
+      this.writeBlocks(path, shapedLimits(path, calm), planned);
+      const beginS = shaper.write(planned, plannedFirst, path.end(), out);
+      if (beginS > 0) planned.shift(plannedFirst, -beginS);
+      if (this.rules !== null) mergeBlocks(out, first, path.end(), calm, SHAPED_RULES);
+      // A straight has no corners, so no rhythm.
+      if (path.segmentCount === 1 || calm.accel <= CALM_ACCEL) return;
+      if (!this.wrongSprings?.sway(out, first)) return;
+    }
   }
 
   private writeFiltered(path: RunPath, runLimits: RunLimits, out: BlockColumns): void {

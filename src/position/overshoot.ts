@@ -10,7 +10,7 @@
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { Springs } from "../machines/profile.js";
-import { SpringAxis } from "../plan/simulate/spring-pen.js";
+import { SpringAxis } from "../plan/shaping/spring-axis.js";
 import {
   blockState,
   drawnAt,

@@ -3,7 +3,7 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type Trajectory } from "../../../src/index.js";
 import { maxShapingErrorMm } from "../../../src/plan/shaping/shapers.js";
-import { SpringAxis } from "../../../src/plan/simulate/spring-pen.js";
+import { SpringAxis } from "../../../src/plan/shaping/spring-axis.js";
 import { blockState, newMotionState } from "../../../src/plan/trajectory.js";
 import { SHAPERS, type Shaper } from "../../../src/settings/motion.js";
 import { arbitraryGridStroke, strokeSetOf, type Point } from "../../support/drawings/arbitraries.js";
@@ -53,12 +53,12 @@ function walk(
 }
 
 describe("a shaped motion", () => {
-  it("has the same planned motion as without a shaper", () => {
+  it("has the same planned motion as without a shaper up to the default's acceleration, at which no run is slowed", () => {
     fc.assert(
       fc.property(
         arbitraryStrokes,
         arbitrarySprings,
-        arbitraryAccel,
+        real(200, DEFAULT_MOTION.draw.accelMmPerS2),
         (strokes: Point[][] | readonly (readonly Point[])[], springs, accel) => {
           const set = strokeSetOf(strokes);
           const machine = swinging(springs);
@@ -75,6 +75,32 @@ describe("a shaped motion", () => {
           }
         },
       ),
+      RUNS,
+    );
+  });
+
+  it("takes each run at most as fast as without a shaper, and none slower than with the default's acceleration", () => {
+    fc.assert(
+      fc.property(arbitraryStrokes, arbitrarySprings, real(500, 3_000), (strokes, springs, accel) => {
+        const set = strokeSetOf(strokes);
+        const machine = swinging(springs);
+        const secondsOf = ({ durationS, blockCount, runs }: Trajectory): number[] =>
+          Array.from({ length: runs.count }, (_, run) =>
+            durationS
+              .subarray(runs.firstBlock[run], Math.min(blockCount, runs.firstBlock[run + 1]))
+              .reduce((sum, s) => sum + s, 0),
+          );
+        const planned = secondsOf(
+          plan(set, motionOf("zv", accel), DEFAULT_PEN, { machine }).planned!.trajectory,
+        );
+        const [fast, calm] = [accel, 500].map((one) =>
+          secondsOf(plan(set, motionOf("none", one), DEFAULT_PEN, { machine })),
+        );
+        for (const [run, seconds] of planned.entries()) {
+          expect(seconds).toBeGreaterThanOrEqual(0.99 * fast[run]);
+          expect(seconds).toBeLessThanOrEqual(1.01 * calm[run]);
+        }
+      }),
       RUNS,
     );
   });

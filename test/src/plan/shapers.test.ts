@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, plan } from "../../../src/index.js";
 import { maxShapingErrorMm } from "../../../src/plan/shaping/shapers.js";
 import { shaperImpulses } from "../../../src/plan/shaping/shapers.js";
-import { SpringAxis } from "../../../src/plan/simulate/spring-pen.js";
+import { SpringAxis } from "../../../src/plan/shaping/spring-axis.js";
 import { SHAPERS } from "../../../src/settings/motion.js";
 import { strokeSetOf } from "../../support/drawings/arbitraries.js";
 import { SPRINGS, swinging } from "../../support/machines/swinging.js";

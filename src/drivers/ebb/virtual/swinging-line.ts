@@ -1,10 +1,10 @@
 /**
  * The line that the virtual board has drawn on a machine that swings. The carriage follows the motors, and the pen hangs
- * on a spring in each axis (src/plan/simulate/spring-pen.ts). It continues to swing while the motors rest.
+ * on a spring in each axis (src/plan/shaping/spring-axis.ts). It continues to swing while the motors rest.
  */
 import { xFromMotors, yFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile, Springs } from "../../../machines/profile.js";
-import { SpringAxis } from "../../../plan/simulate/spring-pen.js";
+import { SpringAxis } from "../../../plan/shaping/spring-axis.js";
 import { sFromTicks, stepsPerSFromRate, TICKS_PER_MS } from "../../../units.js";
 import { DrawnPolylines, type DrawnPolyline } from "../../drawn-polylines.js";
 import type { RunningMove } from "../model/orders.js";

@@ -4,7 +4,7 @@
  */
 import { describe, expect, it } from "vitest";
 import type { StrokePosition } from "../../../../src/index.js";
-import { SpringAxis } from "../../../../src/plan/simulate/spring-pen.js";
+import { SpringAxis } from "../../../../src/plan/shaping/spring-axis.js";
 import { firmwareFeatures } from "../../../../src/drivers/ebb/protocol/firmware.js";
 import { comeToRest } from "../../../../src/plan/rest/come-to-rest.js";
 import { overshotPosition } from "../../../../src/position/overshoot.js";

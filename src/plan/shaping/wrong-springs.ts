@@ -1,0 +1,58 @@
+/**
+ * How far a shaped pen leaves its line on a machine that swings 10 % slower or faster than it was measured. Where corners
+ * come in the rhythm of the swing, what the shaper leaves adds up from corner to corner.
+ */
+import type { Springs } from "../../machines/profile.js";
+import { DEFAULT_MOTION } from "../../settings/motion.js";
+import type { BlockColumns } from "../block-columns.js";
+import { SpringAxis } from "./spring-axis.js";
+
+const FACTORS = [0.9, 1.1];
+/** The limit, as a multiple of how far the default's acceleration bends the softer axis. */
+const BENDS = 1.4;
+/** A rhythm needs some periods: shorter runs are not looked at. */
+const PERIODS = 4;
+/** At rest the pen has no direction, mm/s. */
+const SLOWEST = 1;
+
+/** The default's acceleration, at which nothing is slowed any more, mm/s². */
+export const CALM_ACCEL = DEFAULT_MOTION.draw.accelMmPerS2;
+
+export class WrongSprings {
+  private readonly limitMm: number;
+  private readonly shortestS: number;
+
+  constructor(private readonly springs: Springs) {
+    const softHz = Math.min(springs.xHz, springs.yHz);
+    this.limitMm = (BENDS * CALM_ACCEL) / (2 * Math.PI * softHz) ** 2;
+    this.shortestS = PERIODS / softHz;
+  }
+
+  /** Whether wrong springs move the pen too far across the line of a shaped run: the blocks from `first` on. */
+  sway({ count, clockS, startS, durationS, vx, vy, ax, ay }: BlockColumns, first: number): boolean {
+    if (first === count || clockS - startS[first] < this.shortestS) return false;
+    const right = this.axes(1);
+    const wrong = FACTORS.map((factor) => this.axes(factor));
+    for (let k = first; k < count; k++) {
+      const dt = durationS[k];
+      right.x.advance(dt, ax[k]);
+      right.y.advance(dt, ay[k]);
+      const endVx = vx[k] + dt * ax[k];
+      const endVy = vy[k] + dt * ay[k];
+      const speed = Math.sqrt(endVx * endVx + endVy * endVy);
+      for (const { x, y } of wrong) {
+        x.advance(dt, ax[k]);
+        y.advance(dt, ay[k]);
+        if (speed < SLOWEST) continue;
+        const across = ((x.d - right.x.d) * endVy - (y.d - right.y.d) * endVx) / speed;
+        if (Math.abs(across) > this.limitMm) return true;
+      }
+    }
+    return false;
+  }
+
+  private axes(factor: number): { readonly x: SpringAxis; readonly y: SpringAxis } {
+    const { xHz, yHz, damping } = this.springs;
+    return { x: new SpringAxis(factor * xHz, damping), y: new SpringAxis(factor * yHz, damping) };
+  }
+}
