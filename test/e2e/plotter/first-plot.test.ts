@@ -79,10 +79,10 @@ describe.each(NEW)("a new $machine", ({ machine, firmware, homesItself, clicks }
     const { page } = test;
     const slider = guide().locator(".pen-heights input[type=range]").nth(1);
     const box = (await slider.boundingBox())!;
-    await page.mouse.move(box.x + box.width * 0.41, box.y + box.height / 2);
-    await page.mouse.down();
-    await page.mouse.move(box.x + box.width * 0.3, box.y + box.height / 2, { steps: 5 });
-    await page.mouse.up();
+    await page.mouse.click(box.x + box.width * 0.3, box.y + box.height / 2);
+    await expect
+      .poll(async () => [(await plotter()).penUp, (await plotter()).connection])
+      .toEqual([false, "idle"]);
     await press("Draw a test line");
     await expect.poll(() => guide().locator("li[data-done]").count()).toBe(4);
     await guide().getByText("Press Plot.").waitFor();
