@@ -59,7 +59,9 @@ export type Webhook = z.infer<typeof webhookSchema>;
 
 export const newWebhookSchema = z.object({
   name: nameSchema(100),
-  url: z.url({ protocol: /^https?$/ }).max(2_000),
+  url: z
+    .url({ protocol: /^https?$/, error: "it must be an address that begins with http:// or https://" })
+    .max(2_000),
   events: z.array(webhookEventSchema).min(1).max(WEBHOOK_EVENTS.length),
   progress: webhookProgressSchema.prefault({}),
 });

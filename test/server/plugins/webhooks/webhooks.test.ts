@@ -241,6 +241,9 @@ describe("a webhook", () => {
         body: JSON.stringify({ name: "x", url: address, events: ["done"] }),
       });
       expect(response.status).toBe(400);
+      expect(await response.text()).toContain(
+        "url: it must be an address that begins with http:// or https://",
+      );
     },
   );
 });
