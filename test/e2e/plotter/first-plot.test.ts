@@ -77,9 +77,10 @@ describe.each(NEW)("a new $machine", ({ machine, firmware, homesItself, clicks }
 
   it("draws its first plot after few clicks, without scrolling", async () => {
     const { page } = test;
+    // Another height than the default of 30 %, so that the pen moves.
     const slider = guide().locator(".pen-heights input[type=range]").nth(1);
     const box = (await slider.boundingBox())!;
-    await page.mouse.click(box.x + box.width * 0.3, box.y + box.height / 2);
+    await page.mouse.click(box.x + box.width * 0.2, box.y + box.height / 2);
     await expect
       .poll(async () => [(await plotter()).penUp, (await plotter()).connection])
       .toEqual([false, "idle"]);
