@@ -39,14 +39,17 @@ const MAKERS_RANGE = { standard: 17_976, brushless: 7_200 };
 /** Of a profile that states none. */
 const USUAL: Omit<Controller, "kind"> = { servoPosAt0Pct: 7_500, servoPosAt100Pct: 28_000 };
 
+export const hasBrushlessLift = (machine: MachineProfile | null | undefined): boolean =>
+  machine?.controller.servoPin === BRUSHLESS_OUTPUT;
+
 /**
  * The servo of a machine. Profiles that do not describe it have one of AxiDraw's or NextDraw's, by its output. The rates
  * are those of the board's signal in the profile's own percent; only the servo's slope depends on the range.
  */
 export function penServoOf(machine: MachineProfile | null | undefined): PenServo {
   if (machine?.penServo) return machine.penServo;
-  const { servoPin, servoPosAt0Pct, servoPosAt100Pct } = { ...USUAL, ...machine?.controller };
-  const isBrushless = servoPin === BRUSHLESS_OUTPUT;
+  const { servoPosAt0Pct, servoPosAt100Pct } = { ...USUAL, ...machine?.controller };
+  const isBrushless = hasBrushlessLift(machine);
   const servo = isBrushless ? BRUSHLESS_LIFT : STANDARD_SERVO;
   const makersRange = isBrushless ? MAKERS_RANGE.brushless : MAKERS_RANGE.standard;
   const range = Math.abs(Number(servoPosAt100Pct) - Number(servoPosAt0Pct));

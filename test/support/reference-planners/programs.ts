@@ -15,7 +15,12 @@ import {
   type StrokeSet,
   type Trajectory,
 } from "../../../src/index.js";
-import { BRUSHLESS_LIFT, penServoOf, servoTime } from "../../../src/machines/pen-servo.js";
+import {
+  BRUSHLESS_LIFT,
+  hasBrushlessLift,
+  servoTime,
+  STANDARD_SERVO,
+} from "../../../src/machines/pen-servo.js";
 import { referenceRuns } from "./motion.js";
 import { NEXTDRAW } from "./nextdraw.js";
 import type { ReferencePlanner } from "./polyline.js";
@@ -38,11 +43,9 @@ interface Program {
   readonly penS: (machine: MachineProfile) => number | null;
 }
 
-const isBrushless = (machine: MachineProfile): boolean => penServoOf(machine) === BRUSHLESS_LIFT;
-
-/** A lift and a drop by the formula of AxiDraw's and NextDraw's software, at its default rates. */
+/** A lift and a drop by the formula of AxiDraw's and NextDraw's software, in percent of its range, at its default rates. */
 function makersPenS(machine: MachineProfile, heightPct: number): number {
-  const servo = penServoOf(machine);
+  const servo = hasBrushlessLift(machine) ? BRUSHLESS_LIFT : STANDARD_SERVO;
   return servoTime(servo, heightPct, servo.liftPctPerS) + servoTime(servo, heightPct, servo.dropPctPerS);
 }
 
@@ -53,7 +56,7 @@ const PROGRAMS: readonly Program[] = [
     draw: { speedMmPerS: 50, accelMmPerS2: 200, cornerMm: 0.127 },
     travel: { speedMmPerS: 200, accelMmPerS2: 400 },
     joinMm: 0.5,
-    penS: (machine) => 2 * (isBrushless(machine) ? 0.08 : 0.12),
+    penS: (machine) => 2 * (hasBrushlessLift(machine) ? 0.08 : 0.12),
   },
   {
     name: "AxiDraw software",
@@ -65,7 +68,7 @@ const PROGRAMS: readonly Program[] = [
     },
     travel: { speedMmPerS: (75 / 110) * TOP_SPEED, accelMmPerS2: ACCEL_SHARE * 60 * INCH },
     joinMm: 0.008 * INCH,
-    penS: (machine) => (isBrushless(machine) ? null : makersPenS(machine, 30)),
+    penS: (machine) => (hasBrushlessLift(machine) ? null : makersPenS(machine, 30)),
   },
   {
     // Its setting of acceleration acts on the jerk, by its cube.
