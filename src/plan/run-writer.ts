@@ -111,7 +111,7 @@ export class RunWriter implements RunPlanner {
       if (this.rules !== null) mergeBlocks(out, first, path.end(), calm, SHAPED_RULES);
       // A straight has no corners, so no rhythm.
       if (path.segmentCount === 1 || calm.accel <= CALM_ACCEL) return;
-      if (!this.wrongSprings?.sway(out, first)) return;
+      if (!this.wrongSprings?.sway(out, first, limits)) return;
     }
   }
 

@@ -5,6 +5,7 @@
 import type { Springs } from "../../machines/profile.js";
 import { DEFAULT_MOTION } from "../../settings/motion.js";
 import type { BlockColumns } from "../block-columns.js";
+import type { RunLimits } from "../limits.js";
 import { SpringAxis } from "./spring-axis.js";
 
 const FACTORS = [0.9, 1.1];
@@ -28,21 +29,26 @@ export class WrongSprings {
     this.shortestS = PERIODS / softHz;
   }
 
-  /** Whether wrong springs move the pen too far across the line of a shaped run: the blocks from `first` on. */
-  sway({ count, clockS, startS, durationS, vx, vy, ax, ay }: BlockColumns, first: number): boolean {
+  /**
+   * Whether wrong springs move the pen too far across the line of a shaped run: the blocks from `first` on, in the
+   * stretched frame of these limits.
+   */
+  sway(blocks: BlockColumns, first: number, { stretchX, stretchY }: RunLimits): boolean {
+    const { count, clockS, startS, durationS, vx, vy, ax, ay } = blocks;
     if (first === count || clockS - startS[first] < this.shortestS) return false;
     const right = this.axes(1);
     const wrong = FACTORS.map((factor) => this.axes(factor));
     for (let k = first; k < count; k++) {
       const dt = durationS[k];
-      right.x.advance(dt, ax[k]);
-      right.y.advance(dt, ay[k]);
-      const endVx = vx[k] + dt * ax[k];
-      const endVy = vy[k] + dt * ay[k];
+      const [accelX, accelY] = [ax[k] / stretchX, ay[k] / stretchY];
+      right.x.advance(dt, accelX);
+      right.y.advance(dt, accelY);
+      const endVx = vx[k] / stretchX + dt * accelX;
+      const endVy = vy[k] / stretchY + dt * accelY;
       const speed = Math.sqrt(endVx * endVx + endVy * endVy);
       for (const { x, y } of wrong) {
-        x.advance(dt, ax[k]);
-        y.advance(dt, ay[k]);
+        x.advance(dt, accelX);
+        y.advance(dt, accelY);
         if (speed < SLOWEST) continue;
         const across = ((x.d - right.x.d) * endVy - (y.d - right.y.d) * endVx) / speed;
         if (Math.abs(across) > this.limitMm) return true;

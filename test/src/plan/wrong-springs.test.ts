@@ -100,3 +100,18 @@ it("the pen on Gosper's curve stays as near as the default's on right springs, a
   const before = worstMm(strokes, DEFAULT_MOTION, springs, [1]);
   expect(worstMm(strokes, inQuality("fast", springs), springs, [0.9, 1.1])).toBeLessThanOrEqual(1.3 * before);
 });
+
+it("an axis that may accelerate less is slowed only for what the pen does on the paper", () => {
+  const [springs] = SPRINGS;
+  for (const accelXMmPerS2 of [600, 1_000]) {
+    const strokes = gosper(2);
+    const motion = { ...inQuality("fast", springs), accelXMmPerS2 };
+    const planned = plan(strokes, motion, DEFAULT_PEN, { machine: swinging(springs) });
+    // Both axes may accelerate as little: nothing is gained by that.
+    const draw = { ...motion.draw, accelMmPerS2: accelXMmPerS2 };
+    const slow = plan(strokes, { ...motion, draw }, DEFAULT_PEN, { machine: swinging(springs) });
+    expect(planned.totalS).toBeLessThan(slow.totalS);
+    const before = worstMm(strokes, DEFAULT_MOTION, springs, [1]);
+    expect(worstMm(strokes, motion, springs, [0.9, 1.1])).toBeLessThanOrEqual(1.3 * before);
+  }
+});
