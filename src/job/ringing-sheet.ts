@@ -128,26 +128,38 @@ export function frequenciesOf(readings: RippleReadings, damping: number): Freque
     if (x && hz.x !== null) hz.x *= lengthOf(springs, "x", x.ripples, hz.x) / x.lengthMm;
     if (y && hz.y !== null) hz.y *= lengthOf(springs, "y", y.ripples, hz.y) / y.lengthMm;
   }
+  if (x && hz.x !== null) checkHz("x", x, hz.x);
+  if (y && hz.y !== null) checkHz("y", y, hz.y);
   return hz;
 }
 
 /** As if the pen moved evenly along the line. */
-function plainHz(axis: Axis, { ripples, lengthMm }: RippleReading): number {
-  const hz = (SPEED * ripples) / lengthMm;
+function plainHz(axis: Axis, reading: RippleReading): number {
+  const { ripples, lengthMm } = reading;
+  if (!(Number.isInteger(ripples) && ripples > 0 && lengthMm > 0)) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `${axis}: ${ripples} ripples in ${lengthMm} mm: give a whole number of ripples, and their length in mm.`,
+    );
+  }
   if (lengthMm > STRAIGHT_MM) {
     throw new PlotwrightError(
       "bad-setting",
       `${axis}: ${lengthMm} mm is longer than the straight part, ${Math.round(STRAIGHT_MM)} mm: measure again.`,
     );
   }
-  if (!isAllowed(SPRINGS_TABLE.xHz, hz)) {
-    throw new PlotwrightError(
-      "bad-setting",
-      `${axis}: ${ripples} ripples in ${lengthMm} mm would be ${Math.round(hz * 10) / 10} Hz; ` +
-        `a machine swings at ${rangeInWords(SPRINGS_TABLE.xHz)}: count again, near the bend.`,
-    );
-  }
+  const hz = (SPEED * ripples) / lengthMm;
+  checkHz(axis, reading, hz);
   return hz;
+}
+
+function checkHz(axis: Axis, { ripples, lengthMm }: RippleReading, hz: number): void {
+  if (isAllowed(SPRINGS_TABLE.xHz, hz)) return;
+  throw new PlotwrightError(
+    "bad-setting",
+    `${axis}: ${ripples} ripples in ${lengthMm} mm would be ${Math.round(hz * 10) / 10} Hz; ` +
+      `a machine swings at ${rangeInWords(SPRINGS_TABLE.xHz)}: count again, near the bend.`,
+  );
 }
 
 /** Length of that many ripples on these springs, mm. */

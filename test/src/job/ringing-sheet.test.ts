@@ -1,4 +1,5 @@
 /** The ringing sheet, drawn by virtual machines that swing, and read as a person would read it off the paper. */
+import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import {
   DEFAULT_PEN,
@@ -6,9 +7,10 @@ import {
   importSvg,
   machineById,
   planJob,
+  PlotwrightError,
   prepare,
 } from "../../../src/index.js";
-import { boxOfPoints, swingPen, type Springs } from "../../../src/internal.js";
+import { boxOfPoints, isAllowed, SPRINGS_TABLE, swingPen, type Springs } from "../../../src/internal.js";
 import { ringingChecks } from "../../../src/job/ringing-checks.js";
 import {
   crestsOf,
@@ -184,6 +186,36 @@ describe("a reading", () => {
       frequenciesOf({ x: null, y: { ripples, lengthMm } }, 0.05);
     expect(() => read(50, 10)).toThrow(/^y: 50 ripples in 10 mm would be 750 Hz.*2 to 200 Hz/);
     expect(() => read(2, 50)).toThrow(/longer than the straight part, 32 mm/);
+    // Within the range only as long as the swing along the line is left out.
+    expect(() =>
+      frequenciesOf({ x: { ripples: 2, lengthMm: 20 }, y: { ripples: 1, lengthMm: 0.75 } }, 0.05),
+    ).toThrow(/^y: 1 ripples in 0.75 mm would be 211\.\d Hz/);
+  });
+
+  it("that is no count and length is refused, whatever it is, and any other gives a frequency that can be stored", () => {
+    const value = fc.oneof(
+      fc.integer({ min: -3, max: 50 }),
+      fc.double({ min: -1, max: 40 }),
+      fc.constantFrom(0, -2, 2.5, NaN, Infinity, -Infinity, 1e300),
+    );
+    const reading = fc.record({ ripples: value, lengthMm: value });
+    fc.assert(
+      fc.property(reading, reading, fc.double({ min: 0, max: 0.5, noNaN: true }), (x, y, damping) => {
+        try {
+          const hz = frequenciesOf({ x, y }, damping);
+          for (const { ripples, lengthMm } of [x, y]) {
+            expect(Number.isInteger(ripples) && ripples > 0 && lengthMm > 0 && lengthMm <= STRAIGHT_MM).toBe(
+              true,
+            );
+          }
+          expect(isAllowed(SPRINGS_TABLE.xHz, hz.x!) && isAllowed(SPRINGS_TABLE.yHz, hz.y!)).toBe(true);
+        } catch (error) {
+          if (!(error instanceof PlotwrightError)) throw error;
+          expect(error.code).toBe("bad-setting");
+        }
+      }),
+      { numRuns: cases(2_000, 200) },
+    );
   });
 });
 
