@@ -113,9 +113,12 @@ export const newerFirmwareNote = (version: string): string | null =>
     ? `Firmware ${version} is newer than plotwright knows: it is treated as ${NEWEST_FIRMWARE}. If a plot goes wrong, look for a newer plotwright.`
     : null;
 
-/** The version in a reply to V ("EBBv13_and_above EB Firmware Version 2.8.1"), or null if there is none. */
+/**
+ * The version in a reply to V ("EBBv13_and_above EB Firmware Version 2.8.1"), or null if there is none. What follows its
+ * three numbers, for example "-beta", does not count.
+ */
 export function firmwareFromReply(reply: string): string | null {
-  const match = /EBB.*?(\d+\.\d+(?:\.\d+)?)\s*$/i.exec(reply.trim());
+  const match = /EBB.*\bversion\s+v?(\d{1,4}\.\d{1,4}(?:\.\d{1,4})?)/i.exec(reply);
   return match?.[1] ?? null;
 }
 

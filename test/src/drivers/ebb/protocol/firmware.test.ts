@@ -44,6 +44,13 @@ describe("the firmware table", () => {
     expect(firmwareFromReply("Grbl 1.1h")).toBeNull();
   });
 
+  it.each(["3.1.7-beta", "3.1.7b", "3.1.7.1", "v3.1.7", "3.1.7 (rc 2.0)"])(
+    "reads the three numbers of version %s",
+    (version) => {
+      expect(firmwareFromReply(`EBBv13_and_above EB Firmware Version ${version}\r\n`)).toBe("3.1.7");
+    },
+  );
+
   it("refuses an invalid version", () => {
     for (const text of ["", "two", "2", "2.8.1; EM", "-1.0.0"]) {
       expect(() => firmwareFeatures(text)).toThrow(/firmware version/);
