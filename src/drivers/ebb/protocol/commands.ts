@@ -9,6 +9,9 @@ import { servoPosFromPct } from "./servo-height.js";
 /** Duration of one servo channel's pulse slot, ms. A frame is one slot for each channel. */
 const SLOT_MS = 3;
 
+/** Whole slots, nearest to the frame of the machine's servo. */
+const slotsPerFrame = (machine: MachineProfile): number => Math.round(penServoOf(machine).frameMs / SLOT_MS);
+
 /**
  * The commands to send before the first plot after connecting: motors on, which sets the step counters to zero, and the
  * pen's heights, speeds and servo frame.
@@ -33,8 +36,8 @@ export const closingCommands = (): string[] => ["EM,0,0"];
 export function penSetUpCommands(machine: MachineProfile, pen: PenSettings): string[] {
   const [upLine, upRateLine] = penMoveSetUp(machine, penMoveOf(pen, true));
   const [downLine, downRateLine] = penMoveSetUp(machine, penMoveOf(pen, false));
-  const frameLine = `SC,8,${Math.round(penServoOf(machine).frameMs / SLOT_MS)}`;
-  return [frameLine, upLine, downLine, upRateLine, downRateLine].filter((line) => line !== undefined);
+  const frameLines = [`SC,8,${slotsPerFrame(machine)}`, `SC,9,${SLOT_MS}`];
+  return [...frameLines, upLine, downLine, upRateLine, downRateLine].filter((line) => line !== undefined);
 }
 
 /** One move of the pen. */
@@ -77,8 +80,9 @@ export const MAX_DELAY_MS = 65_535;
 /** Change of servo position per frame. */
 function servoRate(machine: MachineProfile, { up, ratePctPerS }: ServoMove): number {
   const { servoPosAt0Pct, servoPosAt100Pct } = ebbOf(machine);
-  const { frameMs, liftPctPerS, dropPctPerS } = penServoOf(machine);
+  const { liftPctPerS, dropPctPerS } = penServoOf(machine);
   const unitsPerPct = Math.abs(servoPosAt100Pct - servoPosAt0Pct) / 100;
-  const pctPerFrame = ((ratePctPerS ?? (up ? liftPctPerS : dropPctPerS)) * frameMs) / 1_000;
+  const frameS = (slotsPerFrame(machine) * SLOT_MS) / 1_000;
+  const pctPerFrame = (ratePctPerS ?? (up ? liftPctPerS : dropPctPerS)) * frameS;
   return Math.max(1, Math.min(MAX_DELAY_MS, Math.ceil(pctPerFrame * unitsPerPct - 1e-9)));
 }

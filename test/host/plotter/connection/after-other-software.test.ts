@@ -34,12 +34,12 @@ async function drawnAfter(
 
 const points = (lines: readonly DrawnPolyline[]): number[] => lines.flatMap(({ xy }) => [...xy]);
 
-/** Of the maker's software: replies in one line, a queue of 16, frames of 3 ms, and its variables. */
+/** Of the maker's software: replies in one line, a queue of 16, frames of one slot, and its variables. The slots are of another program. */
 const SET_UP = [
   "CU,10,1",
   "CU,4,16",
   "SC,8,1",
-  "SC,9,3",
+  "SC,9,5",
   "SC,4,9000",
   "SC,5,6000",
   "SC,11,1000",

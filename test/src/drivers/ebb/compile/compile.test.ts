@@ -79,7 +79,14 @@ describe("compile", () => {
 
   it("sets the servo's frame and the pen's heights first, and holds the queue for each of its moves", () => {
     const lines = linesOf(compiled([LINE], "2.8.1"));
-    expect(lines.slice(0, 5)).toEqual(["SC,8,8", "SC,4,19800", "SC,5,13650", "SC,11,1845", "SC,12,1230"]);
+    expect(lines.slice(0, 6)).toEqual([
+      "SC,8,8",
+      "SC,9,3",
+      "SC,4,19800",
+      "SC,5,13650",
+      "SC,11,1845",
+      "SC,12,1230",
+    ]);
     expect(lines.filter((line) => line.startsWith("SP"))).toEqual(["SP,0,154", "SP,1,141"]);
   });
 
@@ -89,6 +96,7 @@ describe("compile", () => {
     const lines = linesOf(compile(trajectory, { machine: nextdraw, firmware: "2.8.1", pen: WAITING }));
     expect(lines.filter((line) => /^S[CP2]/.test(line))).toEqual([
       "SC,8,1",
+      "SC,9,3",
       "S2,7560,5,155,62",
       "S2,9720,5,232,60",
     ]);

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { setUpCommands } from "../../../../../src/drivers/ebb/protocol/commands.js";
 import { VirtualBoard } from "../../../../../src/drivers/ebb/virtual/virtual-board.js";
 import {
   commandLine,
@@ -8,6 +9,7 @@ import {
   machineById,
   plan,
 } from "../../../../../src/index.js";
+import { STANDARD_SERVO } from "../../../../../src/machines/pen-servo.js";
 import { strokeSetOf } from "../../../../support/drawings/arbitraries.js";
 import { ManualClock } from "../../../../support/clocks/manual-clock.js";
 import { ascii, boardWith } from "../../../../support/machines/board-in-text.js";
@@ -299,10 +301,22 @@ describe("the virtual board's servo frame", () => {
     expect(speedAfter("axidraw-v3", "SC,8,1", "R", ...down)).toBeCloseTo(410 / 205 / 0.024, 9);
   });
 
-  it("left by other software makes a gentle pen 8 times too fast or too slow, unless the plot's set-up sets it", () => {
+  it("of a profile that is no multiple of the board's slots is rounded, and the pen moves as fast as its settings say", () => {
+    for (const frameMs of [3, 4, 5, 10, 23, 24]) {
+      const machine = { ...machineById("axidraw-v3"), penServo: { ...STANDARD_SERVO, frameMs } };
+      const { ask, board } = boardWith({ speed: Infinity, machine });
+      for (const line of setUpCommands(machine, { ...DEFAULT_PEN, dropPctPerS: 40 }, "2.8.1")) ask(line);
+      ask("SP,0,500");
+      expect(board.statistics().fastestPenPctPerS).toBeGreaterThanOrEqual(40 - 1e-9);
+      expect(board.statistics().fastestPenPctPerS).toBeLessThan(42);
+    }
+  });
+
+  it("left by other software makes a gentle pen too fast or too slow, unless the plot's set-up sets it", () => {
     const pen = { ...DEFAULT_PEN, dropPctPerS: 40 };
     for (const [id, otherFrame, factor] of [
       ["axidraw-v3", "SC,8,1", 8],
+      ["axidraw-v3", "SC,9,12", 1 / 4],
       ["nextdraw-8511", "SC,8,8", 1 / 8],
     ] as const) {
       const machine = machineById(id);
@@ -322,7 +336,7 @@ describe("the virtual board's servo frame", () => {
       // A rate is a whole number of units per frame.
       expect(speedOf(lines)).toBeGreaterThanOrEqual(40);
       expect(speedOf(lines)).toBeLessThan(45);
-      const withoutFrame = lines.filter((line) => !line.startsWith("SC,8,"));
+      const withoutFrame = lines.filter((line) => !/^SC,[89],/.test(line));
       expect(speedOf(withoutFrame) / speedOf(lines)).toBeCloseTo(factor, 9);
     }
   });
