@@ -1,19 +1,22 @@
 /** Errors that any controller can report, in words for the user. `findsHome`: the machine finds home by itself. */
 import { PlotwrightError } from "../errors.js";
 
+/** Of a machine that finds home in its corner, if the user had set another home. */
+const HOME_ELSEWHERE = "if home was set by hand elsewhere than in its corner, set it there again first";
+
 export const powerLow = (findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
     "board-error",
     "The motors have no power, or too little: check the plotter's power supply, its plug and its switch. " +
       (findsHome
-        ? "The carriage may have moved: the plotter finds home by itself before the next plot."
+        ? `The carriage may have moved: the plotter finds home by itself before the next plot; ${HOME_ELSEWHERE}.`
         : "The carriage may have moved, so push it to home before the next plot."),
   );
 
 /** What to do about a position that is lost in a plot. */
 export const homeAgain = (findsHome: boolean): string =>
   findsHome
-    ? "the plotter finds home by itself when you resume"
+    ? `the plotter finds home by itself when you resume; ${HOME_ELSEWHERE}`
     : "push the carriage to home by hand before you resume";
 
 export const lineLost = (cause?: unknown): PlotwrightError =>
@@ -55,7 +58,7 @@ export const powerFailed = (findsHome: boolean): PlotwrightError =>
     "board-error",
     "The motors had no power, or too little, for a moment: check the plotter's power supply, its plug and its switch. " +
       (findsHome
-        ? "The carriage is no longer where the board counts it: the plotter finds home by itself when you resume."
+        ? `The carriage is no longer where the board counts it: ${homeAgain(true)}.`
         : "The carriage is no longer where the board counts it, so push it to home before you resume.") +
       ` ${MAY_OVERLAP}`,
   );

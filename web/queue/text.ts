@@ -113,7 +113,8 @@ export const jobText = {
   lost: "The plotter does not know where its carriage is",
   lostHint:
     "Push the carriage into its corner by hand. Otherwise the rest is drawn beside what is on the paper.",
-  lostHomes: "It finds its corner by itself when you resume. Keep the way there free.",
+  lostHomes:
+    "It finds its corner by itself when you resume. Keep the way there free. If you had set home elsewhere, set it there again first.",
   corner: "The carriage is in its corner",
   cornerFirst: "First push the carriage into its corner, and tick that it is there.",
   stopped: "Emergency stop",

@@ -1,6 +1,6 @@
 /** A machine with one switch in its corner, as a NextDraw: it finds home by itself, and says what keeps it from that. */
 import fc from "fast-check";
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { driver as ebbDriver } from "../../../../src/drivers/ebb/controller.js";
 import type { JournalEntry } from "../../../../host/plotter/plotter-port.js";
 import { machineById, VirtualBoard, type StrokePosition } from "../../../../src/index.js";
@@ -125,6 +125,44 @@ describe("a NextDraw that cannot home says what is wrong and what to do, and hom
 });
 
 describe("homing a NextDraw", () => {
+  it("gives up with words if the switch comes at another place in each pass", async () => {
+    const { world, driver, board } = await newPlotter();
+    const gantry = board.gantry!;
+    gantry.push({ xMm: 30, yMm: 20 }, 11, 50);
+    // Something holds the carriage back in each approach, where both motors turn, so that they slip.
+    const setModes = gantry.setModes.bind(gantry);
+    const slipping = vi.spyOn(gantry, "setModes").mockImplementation((mode1, mode2) => {
+      gantry.obstacleMm = mode2 === 0 ? -Infinity : 3.5;
+      setModes(mode1, mode2);
+    });
+    const ended = await world.run(outcome(driver.home()));
+    slipping.mockRestore();
+    gantry.obstacleMm = -Infinity;
+    expect(ended).toMatch(
+      /^board-error: Home was not found \(uneven readings\)\. .*belt is tight.*motors are off/,
+    );
+    expect(driver.state).toMatchObject({ xMm: null, motorsOn: false, penUp: true });
+    await world.run(driver.home());
+    expect(offMm(board)).toBeLessThan(0.05);
+    await driver.close();
+  });
+
+  it("is announced if home was set by hand elsewhere and is lost; home set there again is used instead", async () => {
+    const { world, driver, board } = await newPlotter();
+    const elsewhere = { xMm: 100, yMm: 50 };
+    board.gantry!.push(elsewhere);
+    await world.run(driver.setHome());
+    board.restart();
+    expect(await world.run(outcome(driver.moveTo(10, 10)))).toMatch(
+      /^board-error: The board restarted.*if home was set by hand elsewhere than in its corner, set it there again/,
+    );
+    board.gantry!.push(elsewhere);
+    await world.run(driver.setHome());
+    await world.run(driver.moveTo(10, 10));
+    expect(board.gantry!.carriage.xMm).toBeCloseTo(110, 0);
+    expect(board.gantry!.carriage.yMm).toBeCloseTo(60, 0);
+  });
+
   /** A machine with these settings on a board that the test has made. */
   async function machineOn(world: ManualClock, board: VirtualBoard): Promise<Machine> {
     const options = { clock: world, machineClock: world, speed: 1, events: NO_EVENTS };
