@@ -86,8 +86,11 @@ function mustFitTogether(options: RingingOptions): void {
       "--damping: give --ripples-x and --ripples-y too, what you counted.",
     );
   }
-  if (damping !== undefined && !isAllowed(SPRINGS_TABLE.damping, damping)) {
-    throw new PlotwrightError("bad-setting", `--damping: it must be ${rangeInWords(SPRINGS_TABLE.damping)}.`);
+  const springs: Readonly<Record<string, number | undefined>> = { xHz: springX, yHz: springY, damping };
+  for (const [key, setting] of Object.entries(SPRINGS_TABLE)) {
+    const value = springs[key];
+    if (value !== undefined && !isAllowed(setting, value))
+      throw new PlotwrightError("bad-setting", `${setting.flag}: it must be ${rangeInWords(setting)}.`);
   }
   if (store === true && (ripplesX === undefined || ripplesY === undefined)) {
     throw new PlotwrightError("bad-setting", "--store: give both --ripples-x and --ripples-y.");
@@ -128,7 +131,7 @@ function writeSheet(out: string, io: CliIo): void {
   writeOut(out, ringingSheet(), io);
   const { mode, draw } = RINGING_MOTION;
   io.err(
-    `Plot it: plotwright plot ${out} --no-fit --mode ${mode} --speed ${draw.speedMmPerS} --accel ${draw.accelMmPerS2} --corner ${draw.cornerMm}\n` +
+    `Plot it: plotwright plot ${out} --no-fit --mode ${mode} --speed ${draw.speedMmPerS} --accel ${draw.accelMmPerS2} --corner ${draw.cornerMm} --shaper none\n` +
       "Count the ripples on the straight part of a vertical line for x and of a horizontal one for y, from crest to crest on " +
       "its outer side, and measure their length to half a mm.\n" +
       "Then: plotwright ringing --ripples-x COUNT,MM --ripples-y COUNT,MM --store\n",
@@ -152,9 +155,9 @@ function writeCheck(
   checks.forEach(({ factor, springs }, i) => {
     const shaping =
       springs === null
-        ? ""
-        : ` --shaper zv --spring-x ${springs.xHz.toFixed(1)} --spring-y ${springs.yHz.toFixed(1)}`;
+        ? "--shaper none"
+        : `--shaper zv --spring-x ${springs.xHz.toFixed(1)} --spring-y ${springs.yHz.toFixed(1)} --damping ${springs.damping}`;
     const what = factor === null ? "not shaped" : `frequencies × ${factor}`;
-    io.err(`${what}: ${common} --place ${PLACES[i]}${shaping}\n`);
+    io.err(`${what}: ${common} --place ${PLACES[i]} ${shaping}\n`);
   });
 }

@@ -425,6 +425,34 @@ describe("plotwright pen-times", () => {
 });
 
 describe("plotwright ringing", () => {
+  /** The options of each command that it prints for plotting a sheet. */
+  const printedOptions = async (...args: string[]): Promise<string[][]> => {
+    const { err } = await there("ringing", join(home, "sheet.svg"), ...args);
+    return [...err.matchAll(/plotwright plot \S+ (.*)/g)].map(([, options]) => options.split(" "));
+  };
+
+  it("prints commands that plot the sheets shaped only as they should be, also with a plotter that is already measured", async () => {
+    await done("ringing", ...READ, "--store");
+    await done("settings", "set", "shaper", "zv");
+    const [sheet] = await printedOptions();
+    expect((await shown(...sheet)).settings.motion.shaper).toBe("none");
+    const checks = await printedOptions(
+      "--check",
+      "--spring-x",
+      "15",
+      "--spring-y",
+      "25",
+      "--damping",
+      "0.1",
+    );
+    const settings: PlotSettings[] = [];
+    for (const options of checks) settings.push((await shown(...options)).settings);
+    expect(settings.map(({ motion }) => motion.shaper)).toEqual(["none", "zv", "zv", "zv", "zv", "zv"]);
+    const springs = settings.slice(1).map(({ customMachine }) => customMachine?.springs);
+    expect(springs.map((one) => one?.damping)).toEqual([0.1, 0.1, 0.1, 0.1, 0.1]);
+    expect(springs.map((one) => one?.xHz)).toEqual([12, 13.5, 15, 16.5, 18.8]);
+  });
+
   const READ = ["--ripples-x", "2,20", "--ripples-y", "3,18", "--damping", "0.08"];
   const SPRINGS = { xHz: 15.1, yHz: 25.3, damping: 0.08 };
 

@@ -100,6 +100,7 @@ describe("a word that is not a command", () => {
       "ringing --ripples-y 50,10",
       "y: 50 ripples in 10 mm would be 750 Hz; a machine swings at 2 to 200 Hz: count again, near the bend.",
     ],
+    ["ringing --check --spring-x 15 --spring-y 500", "--spring-y: it must be 2 to 200 Hz."],
     ["ringing --spring-x 15", "--spring-x and --spring-y are for --check: add it."],
     ["plan in.svg --svg ./in.svg", "--svg ./in.svg would overwrite the drawing: choose another file."],
     ["machines --data no-folder", "--data no-folder: there is no such folder."],
