@@ -15,7 +15,7 @@ import { ColumnBuffer, PointBuffer } from "../geometry/growable.js";
 import { clipIndexFor, type ClipNode } from "./clip-node.js";
 import { getOrAdd } from "../get-or-add.js";
 import type { ShapeBuffer } from "./shape-buffer.js";
-import type { Warnings } from "./warnings.js";
+import type { ReadDrawing, Warnings } from "./warnings.js";
 
 /** One kilometre: far beyond any plotter, and small enough that calculations still resolve µm. */
 export const MAX_COORDINATE_MM = 1e6;
@@ -174,7 +174,7 @@ export class DrawingBuilder {
   }
 
   /** For files without a page: the page is the drawing's extent. */
-  finishAround(): Drawing {
+  finishAround(): ReadDrawing {
     const extent = this.clips.length === 0 ? this.extent() : this.clippedExtent();
     if (isEmptyBox(extent)) return this.finish(SMALLEST_SIDE, SMALLEST_SIDE);
     const { x0, y0, x1, y1 } = extent;
@@ -194,7 +194,7 @@ export class DrawingBuilder {
     }
   }
 
-  finish(widthMm: number, heightMm: number, pageFrom?: Drawing["pageFrom"]): Drawing {
+  finish(widthMm: number, heightMm: number, pageFrom?: Drawing["pageFrom"]): ReadDrawing {
     const count = this.shapeCount;
     if (count === 0) this.warnings.add("empty-drawing");
     return {

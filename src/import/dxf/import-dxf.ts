@@ -24,7 +24,8 @@ import type { ImportOptions } from "../import-options.js";
 import { fontOf } from "../text/single-stroke-font.js";
 import { ShapeBuffer } from "../shape-buffer.js";
 import type { TextFont } from "../text/text-font.js";
-import { Warnings } from "../warnings.js";
+import { WARNING_WORDS } from "../warning-words.js";
+import { inWords, Warnings } from "../warnings.js";
 import type { BlockCopy, Content } from "./dxf-content.js";
 import type { DxfEntity } from "./dxf-entities.js";
 import { readDxfFile, type DxfFile, type DxfLayer, dashesOf } from "./dxf-file.js";
@@ -151,7 +152,7 @@ class DxfImport {
       else this.visit(top.entities[top.next++], top, stack);
     }
     this.drawEndless();
-    return this.builder.finishAround();
+    return inWords(this.builder.finishAround(), WARNING_WORDS);
   }
 
   /** The sheets that the file lays out in paper space: their frames and titles. */

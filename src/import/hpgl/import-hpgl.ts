@@ -10,7 +10,8 @@ import { DrawingBuilder } from "../drawing-builder.js";
 import type { ImportOptions } from "../import-options.js";
 import { fontOf } from "../text/single-stroke-font.js";
 import type { TextFont } from "../text/text-font.js";
-import { Warnings } from "../warnings.js";
+import { WARNING_WORDS } from "../warning-words.js";
+import { inWords, Warnings } from "../warnings.js";
 import { HpglCanvas } from "./hpgl-canvas.js";
 import { GROUP_OF } from "./hpgl-commands.js";
 import { readEncodedPolyline, HpglReader, type HpglCommand } from "./hpgl-reader.js";
@@ -95,7 +96,7 @@ class HpglImport {
     if (count === 0) {
       throw new PlotwrightError("bad-file", "This is not an HPGL file: it has no commands. Export it again.");
     }
-    return this.builder.finishAround();
+    return inWords(this.builder.finishAround(), WARNING_WORDS);
   }
 
   private carryOut(command: HpglCommand): void {

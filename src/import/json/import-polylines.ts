@@ -14,7 +14,8 @@ import { IDENTITY } from "../../geometry/affine.js";
 import { parseCssColor } from "../css-color.js";
 import { DrawingBuilder, type Look } from "../drawing-builder.js";
 import { ShapeBuffer } from "../shape-buffer.js";
-import { Warnings } from "../warnings.js";
+import { WARNING_WORDS } from "../warning-words.js";
+import { inWords, Warnings } from "../warnings.js";
 
 const MAX_PAGE_MM = 100_000;
 
@@ -34,9 +35,9 @@ export function importPolylines(text: string): Drawing {
   const { widthMm, heightMm } = file;
   if (widthMm === undefined && heightMm === undefined) {
     warnings.add("page-size", undefined, "taken from the drawing");
-    return builder.finishAround();
+    return inWords(builder.finishAround(), WARNING_WORDS);
   }
-  return builder.finish(pageSide(widthMm, "widthMm"), pageSide(heightMm, "heightMm"));
+  return inWords(builder.finish(pageSide(widthMm, "widthMm"), pageSide(heightMm, "heightMm")), WARNING_WORDS);
 }
 
 function parseJson(text: string): unknown {

@@ -31,8 +31,10 @@ const FREE_EDGE = 0.01;
 /** Shapes side by side may overlap by this much, mm. */
 const OVERLAP_MM = 0.01;
 
+type Shapes = Omit<Drawing, "warnings">;
+
 /** 1 for each shape that is background; null if there is none. */
-export function backgroundsOf(drawing: Drawing): Uint8Array | null {
+export function backgroundsOf(drawing: Shapes): Uint8Array | null {
   const { paths, colors } = drawing;
   const isFilledOnly = (shape: number): boolean => paths.stroke[shape] < 0 && paths.fill[shape] >= 0;
   const isWhite = colors.map(isNearWhite);
@@ -58,7 +60,7 @@ export function backgroundsOf(drawing: Drawing): Uint8Array | null {
 }
 
 /** Tells whether a shape, cut to its clips, covers the page. */
-function pageCovers(drawing: Drawing): (shape: number) => boolean {
+function pageCovers(drawing: Shapes): (shape: number) => boolean {
   const { widthMm, heightMm, paths, clips } = drawing;
   const freeMm = FREE_EDGE * Math.min(widthMm, heightMm);
   const inner = grownBox({ x0: 0, y0: 0, x1: widthMm, y1: heightMm }, -freeMm);
@@ -94,7 +96,7 @@ function coversBox(rings: Paths64, box: Box): boolean {
  * Tells whether nothing but background is painted before a shape, where it lies. Compares boxes, so a shape is drawn in
  * case of doubt. `background` is known for the shapes before.
  */
-function onNothing(drawing: Drawing, background: Uint8Array): (shape: number) => boolean {
+function onNothing(drawing: Shapes, background: Uint8Array): (shape: number) => boolean {
   const boxes = visibleBoxes(drawing);
   const painted = Array.from(boxes.keys()).filter((shape) => !isEmptyBox(boxes[shape]));
   const tree = new Flatbush(Math.max(painted.length, 1));
@@ -109,7 +111,7 @@ function onNothing(drawing: Drawing, background: Uint8Array): (shape: number) =>
 }
 
 /** The box of each shape, cut to those of its clips. */
-function visibleBoxes({ paths, clips }: Drawing): Box[] {
+function visibleBoxes({ paths, clips }: Shapes): Box[] {
   const clipBoxes = clips.map((clip) => curveBoxOf(clip, IDENTITY));
   return Array.from({ length: paths.count }, (_, shape) => {
     let box = curveBoxOf(curvesOf(paths, shape), IDENTITY);

@@ -33,7 +33,7 @@ import type { LengthBasis } from "./css/length.js";
 import { aroundOrigin, parseTransform } from "./css/transform.js";
 import { declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./css/style.js";
 import type { TextPlacer } from "./text/placed-text.js";
-import { Warnings } from "../warnings.js";
+import { inWords, type ReadDrawing, Warnings } from "../warnings.js";
 
 /** Max error of an arc, as a share of the page's diagonal: 0.3 µm on A4, 1 µm on A1. */
 const ARC_TOLERANCE = 8e-7;
@@ -52,7 +52,11 @@ export async function importSvg(text: string, options: ImportOptions = {}): Prom
   const warnings = new Warnings();
   // The tree is out of scope when the columns are assembled, which halves the peak memory.
   const { builder, page, pxPerInch } = await draw(text, options, warnings);
-  const drawing = finish(builder, page, warnings);
+  const read = finish(builder, page, warnings);
+  const drawing =
+    read.warnings.length === 0
+      ? { ...read, warnings: [] }
+      : inWords(read, (await import("../warning-words.js")).WARNING_WORDS);
   return page.isInPx ? { ...drawing, pxPerInch } : drawing;
 }
 
@@ -166,7 +170,7 @@ function rootTransform(
 /** Browsers draw the root element regardless of its display property. */
 const isShown = (root: Declared): boolean => parseOpacity(root.get("opacity") ?? "1") !== 0;
 
-function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
+function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): ReadDrawing {
   const drawing = onPage(builder, page, warnings);
   const { paths } = drawing;
   const background = backgroundsOf(drawing);
@@ -177,7 +181,7 @@ function finish(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Dra
   return { ...drawing, paths: { ...paths, background }, warnings: warnings.toArray() };
 }
 
-function onPage(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): Drawing {
+function onPage(builder: DrawingBuilder, page: SvgPage, warnings: Warnings): ReadDrawing {
   if (page.pageFrom !== "extent" || builder.shapeCount === 0)
     return builder.finish(page.widthMm, page.heightMm, page.pageFrom);
   warnings.add("page-size", undefined, "taken from the drawing");

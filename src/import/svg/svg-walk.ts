@@ -5,7 +5,7 @@
  * as a frame with one child. The chain of enclosing targets stops cycles, and a limit on visits stops copies
  * of copies from growing without end.
  */
-import { type Drawing, isSpeedFactor } from "../../drawing/drawing.js";
+import { isSpeedFactor } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { compose, determinant, IDENTITY, translation, type Affine } from "../../geometry/affine.js";
 import type { Box } from "../../geometry/box.js";
@@ -40,7 +40,7 @@ import {
 import { declaredValue, parseOpacity, type Style } from "./css/style.js";
 import { withoutAlignment, withoutShift } from "./css/text-style.js";
 import { viewportInside } from "./svg-viewport.js";
-import { Warnings } from "../warnings.js";
+import { type ReadDrawing, Warnings } from "../warnings.js";
 import { DrawingBuilder } from "../drawing-builder.js";
 
 /**
@@ -132,7 +132,7 @@ export class SvgWalk {
   }
 
   /** Draws the content of `element` into a separate drawing, whose warnings include its errors and effects. */
-  private drawApart(element: number, context: Context, work: { left: number }): Drawing | null {
+  private drawApart(element: number, context: Context, work: { left: number }): ReadDrawing | null {
     const { file, svgGeometry, clips, masks } = this;
     const warnings = new Warnings();
     const builder = new DrawingBuilder(warnings);

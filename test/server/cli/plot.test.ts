@@ -426,7 +426,7 @@ describe("plotwright add and queue", () => {
     try {
       const port = (other.address() as AddressInfo).port;
       const faults: readonly (readonly [string, readonly string[], number, RegExp])[] = [
-        [paired.url, [], 5, /Pair this device first.* Or set the environment variable PLOTWRIGHT_KEY/],
+        [paired.url, [], 5, /Pair this device first.* Or give an access key.*PLOTWRIGHT_KEY/],
         [paired.url, ["--key", "x"], 5, /This access key is not valid/],
         [secure.url, [], 5, /The certificate of .* is not trusted .*NODE_EXTRA_CA_CERTS/],
         [secure.url.replace("https", "http"), [], 5, /Does it answer at https:/],

@@ -137,6 +137,7 @@ const NOT_RUN: Readonly<Record<string, string>> = {
   "serve --open": "it would open a browser: it has a test below",
   "add --url": "every line of add has it, and it has a test below",
   "queue --url": "every line of queue has it, and it has a test below",
+  "add --font": "a server does not take it: it has a test in test/server/cli/beside-server.test.ts",
   "pen-times --url": "it has a test in test/server/cli/settings-command.test.ts",
   "ringing --url": "it has a test in test/server/cli/settings-command.test.ts",
   "serve --shared-queue":

@@ -5,7 +5,7 @@
  */
 import type { Box } from "../../../geometry/box.js";
 import { compose, IDENTITY } from "../../../geometry/affine.js";
-import { type Drawing, curvesOf, VERB_MOVE } from "../../../drawing/drawing.js";
+import { curvesOf, VERB_MOVE } from "../../../drawing/drawing.js";
 import { ClipNode, type ClipShapes, rectangleClip } from "../../clip-node.js";
 import { getOrAdd } from "../../../get-or-add.js";
 import { basisOfBox, lengthPx, type Side } from "../css/length.js";
@@ -18,7 +18,7 @@ import { declaredValue, parseUrl } from "../css/style.js";
 import { ClipType, FillRule, type Paths64 } from "clipper2-ts/dist/Core.js";
 import { ClipperOffset, EndType, JoinType } from "clipper2-ts/dist/Offset.js";
 import { cleanRings, combine, SCALE } from "../../../geometry/region.js";
-import type { WarningCode } from "../../warnings.js";
+import type { ReadDrawing, WarningCode } from "../../warnings.js";
 import { clipShapesOf, outlinesOf, ringsOf } from "./clip-shapes.js";
 
 /** Max elements and coordinates drawn in masks, in the whole file: masks may be used many times. */
@@ -33,7 +33,7 @@ interface MaskClip {
 }
 
 /** Draws the content of an element and subtracts its cost from `work`; null if it exceeds what is left. */
-export type DrawApart = (element: number, context: Context, work: { left: number }) => Drawing | null;
+export type DrawApart = (element: number, context: Context, work: { left: number }) => ReadDrawing | null;
 
 export class SvgMasks {
   private readonly regions = new Map<string, MaskRegion | null>();
@@ -139,7 +139,7 @@ interface MaskRegion {
  *
  * @returns null if something in the mask is neither a plain shape nor a plain line
  */
-function maskRegion(content: Drawing, isAlpha: boolean): MaskRegion | null {
+function maskRegion(content: ReadDrawing, isAlpha: boolean): MaskRegion | null {
   const { paths, warnings } = content;
   const fades = warnings.some(({ code }) => FADES.has(code));
   if (warnings.some(({ code }) => !FADES.has(code) && !HARMLESS.has(code))) return null;
@@ -159,7 +159,7 @@ function maskRegion(content: Drawing, isAlpha: boolean): MaskRegion | null {
 }
 
 /** The fills as they are, with their curves. */
-function wholeShapes({ paths }: Drawing): ClipShapes {
+function wholeShapes({ paths }: ReadDrawing): ClipShapes {
   const rule: number[] = [];
   const shape: number[] = [];
   for (let i = 0; i < paths.count; i++) {
@@ -174,7 +174,7 @@ function wholeShapes({ paths }: Drawing): ClipShapes {
 }
 
 /** Fills and lines in paint order: light ones added, the others taken away. */
-function combined({ paths, clips }: Drawing, isLight: (color: number) => boolean): Paths64 {
+function combined({ paths, clips }: ReadDrawing, isLight: (color: number) => boolean): Paths64 {
   let region: Paths64 = [];
   const paint = (rings: Paths64, color: number, clip: number): void => {
     let inside = rings;
