@@ -61,20 +61,23 @@ export async function homeInCorner(
   settings: MachineSettings,
   input: SwitchInput,
 ): Promise<void> {
-  const { session } = board.connection;
-  const { stopSignal } = board;
+  const { stopSignal, position } = board;
+  const machine = machineOf(settings);
   await board.pen.move(true, settings);
-  await board.position.forget();
+  await position.forget();
   try {
     stopSignal.throwIfAborted();
-    await new CornerHoming(board, machineOf(settings), input, stopSignal).run();
-    await session.send("CU,50,1");
+    await position.mark.set(ebbOf(machine).microstepMode, false, false);
+    await new CornerHoming(board, machine, input, stopSignal).run();
+    if (await position.mark.isGone()) throw boardRestarted();
+    await board.connection.session.send("CU,50,1");
   } catch (error) {
     // A board that no longer answers has a fault of its own.
+    const isRestarted = !stopSignal.aborted && (await position.mark.isGone().catch(() => false));
     await endMotion(board, settings).catch(() => undefined);
-    throw error;
+    throw isRestarted ? boardRestarted() : error;
   }
-  await board.position.foundHome(settings);
+  await position.foundHome(settings);
 }
 
 async function endMotion(board: Board, settings: MachineSettings): Promise<void> {
@@ -262,6 +265,13 @@ const uneven = (): PlotwrightError =>
   homingFailed(
     "uneven readings",
     "The home switch came at another place each time. Check that nothing holds the carriage back and that the belt is tight, then press Home again.",
+  );
+
+/** Its motors are then off, so the switch is not met where it should be. */
+const boardRestarted = (): PlotwrightError =>
+  homingFailed(
+    "board restarted",
+    "Its reset button was pressed, or its supply failed for a moment. Press Home again.",
   );
 
 const buttonPressed = (): PlotwrightError =>

@@ -122,6 +122,11 @@ describe("a NextDraw that cannot home says what is wrong and what to do, and hom
     const ended = await homingWith((board) => board.pressButton(), { afterS });
     expect(ended).toMatch(/^board-error: Home was not found \(button pressed\)\. .*press Home|Press Home/);
   });
+
+  it.each([0.5, 1, 2.5, 3, 3.5, 4, 4.5, 5, 5.3])("its board, which restarted after %d s", async (afterS) => {
+    const ended = await homingWith((board) => board.restart(), { afterS });
+    expect(ended).toMatch(/^board-error: Home was not found \(board restarted\)\. .*Press Home again/);
+  });
 });
 
 describe("homing a NextDraw", () => {
