@@ -217,6 +217,35 @@ describe("random drawings", () => {
     },
   );
 
+  it.each(["safe", "fast"] as const)(
+    "have no stray marks and late starts in mode %s in layers with heights of their own",
+    (overlap) => {
+      const onPaper = fc.record({
+        paperPct: fc.integer({ min: 30, max: 70 }),
+        halfPct: fc.integer({ min: 2, max: 10 }),
+      });
+      const widths = fc.array(fc.integer({ min: 1, max: 3 }), { minLength: 3, maxLength: 3 });
+      const jobs = fc
+        .tuple(arbitraryJob(overlap), onPaper, widths)
+        .map(([job, { paperPct, halfPct }, factors]): Job => {
+          // One tip on one paper: every layer touches it at the same height, in the middle between its own two.
+          const heights = (half: number) => ({ downPct: paperPct - half, upPct: paperPct + half });
+          const layers = factors.map((_, i) => ({ id: `l${i}`, name: `Layer ${i}`, color: null }));
+          const own = Object.fromEntries(factors.map((factor, i) => [`l${i}`, heights(factor * halfPct)]));
+          const layer = job.strokes.layer.map((_, i) => Math.min(factors.length - 1, i >> 1));
+          return {
+            ...job,
+            strokes: { ...job.strokes, layer, layers },
+            pen: { ...job.pen, ...heights(halfPct), layers: own },
+          };
+        });
+      fc.assert(
+        fc.property(jobs, arbitraryServo, (job, servo) => expectClean(marksOf(job, servo))),
+        { numRuns: cases(3_000, 300) },
+      );
+    },
+  );
+
   it.each([
     ["safe", "zv"],
     ["fast", "zv"],
