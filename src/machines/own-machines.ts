@@ -34,7 +34,10 @@ export function measuredMachine(
     springs: { ...springs, xHz: tenth(springs.xHz), yHz: tenth(springs.yHz) },
   };
   if (!MACHINES.some(({ id }) => id === machine.id)) return measured;
-  const name = `${machine.name}, measured`;
+  // Two plotters of one model are measured separately.
+  const plain = `${machine.name}, measured`;
+  let name = plain;
+  for (let n = 2; own.some((other) => other.name === name); n++) name = `${plain} ${n}`;
   return { ...measured, id: freeId(name, own), name };
 }
 

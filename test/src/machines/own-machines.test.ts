@@ -26,4 +26,13 @@ describe("what was measured", () => {
     const again = measuredMachine(copy, { ...SPRINGS, xHz: 16 }, [copy]);
     expect(again).toEqual({ ...copy, springs: { ...SPRINGS, xHz: 16 } });
   });
+
+  it("has a name of its own for each plotter of one model", () => {
+    const model = machineById("axidraw-v3");
+    const first = measuredMachine(model, SPRINGS, []);
+    const second = measuredMachine(model, SPRINGS, [first]);
+    expect([second.name, second.id]).toEqual(["AxiDraw V3, measured 2", "axidraw-v3-measured-2"]);
+    const third = measuredMachine(model, SPRINGS, [first, second]);
+    expect([third.name, third.id]).toEqual(["AxiDraw V3, measured 3", "axidraw-v3-measured-3"]);
+  });
 });
