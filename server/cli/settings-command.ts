@@ -285,7 +285,7 @@ async function passToPlotter(
       return;
     }
     io.err(
-      printed`note: The plotter ${plotter.name} stays a ${its}: its model overrides the file's. To change it: plotwright settings set machine ${machine} --plotter ${plotter.id}\n`,
+      printed`note: The plotter ${plotter.name} keeps its model, ${its}, which overrides the file's. To change it: plotwright settings set machine ${machine} --plotter ${plotter.id}\n`,
     );
   });
 }

@@ -35,7 +35,7 @@ export function motionOfQuality(quality: Quality, springs: Springs | null): Qual
       return { shaper: "none", draw: DEFAULT_MOTION.draw, travel: DEFAULT_MOTION.travel };
     throw new PlotwrightError(
       "bad-setting",
-      `Quality ${quality} needs the measured swing of the machine: plot the ringing sheet, which takes ten minutes.`,
+      `Quality ${quality} needs the measured swing of the machine: plot the ringing sheet and count its ripples, which takes a few minutes.`,
     );
   }
   const { speed, accel, corner, travelSpeed, travelAccel } = STEPS[quality];

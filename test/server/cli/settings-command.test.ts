@@ -222,7 +222,7 @@ describe("settings set and unset", () => {
     const { code, err } = await there("settings", "set", "machine", "axidraw-v3");
     expect([code, err]).toEqual([
       0,
-      "note: The plotter main stays a nextdraw-2234: its model overrides the file's. To change it: plotwright settings set machine axidraw-v3 --plotter main\n",
+      "note: The plotter main keeps its model, nextdraw-2234, which overrides the file's. To change it: plotwright settings set machine axidraw-v3 --plotter main\n",
     ]);
     expect((await shown()).settings.machine).toBe("nextdraw-2234");
   });
