@@ -67,6 +67,7 @@ export async function homeInCorner(
   await position.forget();
   try {
     stopSignal.throwIfAborted();
+    // A restart of the board clears the mark.
     await position.mark.set(ebbOf(machine).microstepMode, false, false);
     await new CornerHoming(board, machine, input, stopSignal).run();
     if (await position.mark.isGone()) throw boardRestarted();

@@ -48,7 +48,7 @@ export class PositionMarker {
   }
 
   /**
-   * Call when the motors are on. Only if the counters count from home can the next connection find the position.
+   * Call when the motors are on, or before they are switched on to find home. Only if the counters count from home can the next connection find the position.
    * `isHomed`: a switch has found that home, which other programs can then use too.
    */
   async set(microstepMode: number, isFromHome: boolean, isHomed: boolean): Promise<void> {
