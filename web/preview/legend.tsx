@@ -54,7 +54,8 @@ export const ListLegend = ({ title, entries }: { title: string; entries: readonl
   return (
     <figure className="legend">
       <figcaption>{title}</figcaption>
-      <ul className="legend-list">
+      {/* On a phone it is one line, which scrolls. */}
+      <ul className="legend-list" tabIndex={0}>
         {different.slice(0, SHOWN_ENTRIES).map(([key, { color, label }]) => (
           <li key={key}>
             <span className="swatch" style={{ backgroundColor: color }} />

@@ -19,7 +19,7 @@ export const PLOTTER_STATES: readonly PageState[] = [
     reach: async ({ page }) => {
       await openPanel(page, "Plotter");
       await page.getByRole("button", { name: "Set up a plotter…" }).click();
-      await page.getByRole("button", { name: "Next" }).click();
+      await page.getByRole("button", { name: "Next", exact: true }).click();
       await page.getByRole("button", { name: "It is in the middle" }).click();
       await page.getByText("Which way did it go?").waitFor();
     },
