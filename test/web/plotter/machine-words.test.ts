@@ -58,7 +58,9 @@ describe("the button that stops a move by hand", () => {
     const connection = activity === "none" ? "idle" : "busy";
     const plotters = [makePlotter("one", { activity, connection })];
     const me = { role, id: null, name: null };
-    return />Stop</.test(page(createElement(MachinePanel), { plotters, me, link: "connected" }));
+    // The steps of the first plot, which have the button too, are loaded when they are shown.
+    const view = { ...DEFAULT_VIEW, hidesFirstPlot: true };
+    return />Stop</.test(page(createElement(MachinePanel), { plotters, me, view, link: "connected" }));
   };
 
   it.each(["operate", "watch"] as const)(
