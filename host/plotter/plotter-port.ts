@@ -125,7 +125,7 @@ export interface JournalEntry {
   readonly place: StrokePosition;
   /**
    * The end of what the board had received, and draws even if this program ends. Undefined if the plot is at rest, or is
-   * still on its way to `place`: then it has drawn nothing after `place`.
+   * still on its way to `place`: it had then received nothing that draws after `place`.
    */
   readonly received?: StrokePosition | undefined;
   readonly xMm: number;

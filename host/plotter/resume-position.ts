@@ -49,7 +49,9 @@ export function resumePosition(
   const profile = machineOf(settings);
   const { foundMidPlot, speed } = machine;
   const at = machine.positionMm(profile);
-  if (!received || !foundMidPlot || !at) return from;
+  if (!foundMidPlot || !at) return from;
+  // The plot was on its way to `from`. A pen on the paper shows that the board has received more since, and draws there.
+  if (!received && foundMidPlot.penUp) return from;
   const { motion, pen, sendAheadMs } = settings;
   const { draw, travel } = motion;
   const aheadS = (SENT_SINCE_S + sendAheadMs / 1_000) * speed;
@@ -59,5 +61,5 @@ export function resumePosition(
     stops: penStops,
     lowerAheadMm: lowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2),
   };
-  return reportedPosition(strokes, received, { ...at, up: foundMidPlot.penUp }, since) ?? from;
+  return reportedPosition(strokes, received ?? from, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

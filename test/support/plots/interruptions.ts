@@ -90,11 +90,11 @@ export class InterruptiblePlot {
    */
   disconnected(): Resumption[] {
     const { receivedPlace: received, progress } = this.run!;
-    if (!received || !progress.place) return [];
+    if (!progress.place) return [];
     const entry = { ...this.journal[this.journal.length - 1], place: progress.place, received };
     const { trajectory, commands } = this.planner.plots[0];
     const stream = streamOf(commands);
-    const receivedMm = mmOf(this.strokes, received);
+    const receivedMm = mmOf(this.strokes, received ?? progress.place);
     const { stroke, startS } = trajectory.runs;
     const firstS = startS[stroke.findIndex((one) => one >= 0)];
     const resumptions: Resumption[] = [];

@@ -133,6 +133,24 @@ describe.each(["2.8.1", "3.0.3"])(
   },
 );
 
+describe.each(["2.8.1", "3.0.3"])(
+  "a plot on firmware %s that is interrupted as its first line begins",
+  (firmware) => {
+    it("draws nothing of that line twice", async () => {
+      const plot = await InterruptiblePlot.begin(FAULT_DRAWING, DEFAULT_PLOT_SETTINGS, firmware);
+      const found: Resumption[] = [];
+      for (let i = 0; i < 60; i++) {
+        found.push(plot.killed(), ...plot.disconnected());
+        await plot.advance(0.02);
+      }
+      expect(found.length).toBeGreaterThan(80);
+      expect(found.filter(({ missingMm }) => missingMm > UNSEEN_MM)).toEqual([]);
+      const mostMm = mostAlikeMm(DEFAULT_PLOT_SETTINGS, UNSEEN_MM);
+      expect(found.filter((one) => overlapOf(one) > mostMm)).toEqual([]);
+    });
+  },
+);
+
 describe.each(["2.8.1", "3.0.3"])("a plot on firmware %s that is interrupted at any instant", (firmware) => {
   it.each(DRAWINGS)("leaves out nothing of %s", { timeout: 300_000 }, async (_, strokes) => {
     const found = await interruptedAnywhere(await strokes(), DEFAULT_PLOT_SETTINGS, firmware);
