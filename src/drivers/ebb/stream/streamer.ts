@@ -39,7 +39,7 @@ export class Streamer {
   private readonly session: BoardSession;
   private readonly options: SendOptions & StreamOptions;
   private readonly timeline: BoardTimeline;
-  private readonly window: SendWindow;
+  private readonly sendWindow: SendWindow;
 
   private stream: CommandStream | null = null;
   private next = 0;
@@ -64,7 +64,7 @@ export class Streamer {
     this.options = { windowS: 0.3, queueDepth: 1, stuckS: 2, ...options };
     const { clock, queueDepth, stuckS } = this.options;
     this.timeline = new BoardTimeline(clock, queueDepth, stuckS);
-    this.window = new SendWindow(this.options, this.timeline);
+    this.sendWindow = new SendWindow(this.options, this.timeline);
   }
 
   /**
@@ -234,13 +234,13 @@ export class Streamer {
     while (this.next < endIndex) {
       const end = Math.min(endIndex, endOfLowering(stream, this.next));
       const time = this.timeOf(stream, this.next);
-      if (!this.window.mayWrite(time, end - this.next, boardS, this.unanswered)) break;
+      if (!this.sendWindow.mayWrite(time, end - this.next, boardS, this.unanswered)) break;
       for (; this.next < end; this.next++) {
         batch.push(...this.queriesBefore(stream.boardS[this.next]), this.outgoing(stream, this.next));
       }
     }
     if (batch.length > 0) this.session.write(batch);
-    if (this.next < endIndex) this.sleep(this.window.wakeInS(this.timeOf(stream, this.next), boardS));
+    if (this.next < endIndex) this.sleep(this.sendWindow.wakeInS(this.timeOf(stream, this.next), boardS));
     else if (this.limit && this.limit.then.length > 0) this.take(this.limit.then);
     else this.awaitEnd(boardS);
   }
