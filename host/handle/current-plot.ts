@@ -1,7 +1,7 @@
 /** The plot that a program has started with a handle: from the call of `plot` on, also while it is read, sent and planned. */
 import { PlotwrightError } from "../../src/index.js";
 import type { PlotWait } from "../../src/schema/index.js";
-import type { HandleState, PlotAmount, PlotOptions, PlotResult } from "./plotter-handle.js";
+import type { PlotAmount, PlotOptions, PlotResult } from "./plotter-handle.js";
 
 /** A plot that has begun, as a handle controls it. */
 export interface BegunPlot {
@@ -114,36 +114,5 @@ export const stopped = (): PlotwrightError => new PlotwrightError("cancelled", "
 export const notPlotting = (): PlotwrightError =>
   new PlotwrightError("conflict", "This program is not plotting: start a plot first.");
 
-export const alreadyPlotting = (): PlotwrightError =>
-  new PlotwrightError("busy", "This program is plotting already: wait until it ends.");
-
 export const closed = (): PlotwrightError =>
   new PlotwrightError("disconnected", "This plotter was closed: open it again with openPlotter.");
-
-/** Keeps the listeners of a handle's state. */
-export class HandleListeners {
-  private readonly all = new Set<(state: HandleState) => void>();
-
-  add(listener: (state: HandleState) => void): () => void {
-    // Each call is ended by its own function, also if the same listener is added twice.
-    const own = (state: HandleState): void => listener(state);
-    this.all.add(own);
-    return () => void this.all.delete(own);
-  }
-
-  /** A listener that throws is called no more. Its error stops the plot; without one it is an uncaught error of the program. */
-  announce(state: HandleState, plot: CurrentPlot | null): void {
-    for (const listener of this.all) {
-      try {
-        listener(state);
-      } catch (error) {
-        this.all.delete(listener);
-        if (plot !== null) plot.fail(error);
-        else
-          queueMicrotask(() => {
-            throw error;
-          });
-      }
-    }
-  }
-}

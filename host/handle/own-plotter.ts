@@ -21,7 +21,8 @@ import {
   type SettingsOfPlotter,
   type WithMachine,
 } from "../plotter/settings-of-plotter.js";
-import { alreadyPlotting, CurrentPlot, HandleListeners, notPlotting, stopped } from "./current-plot.js";
+import { BaseHandle } from "./base-handle.js";
+import { type CurrentPlot, stopped } from "./current-plot.js";
 import {
   fileOf,
   givenOf,
@@ -88,9 +89,7 @@ export async function openOwnPlotter(
   return new OwnHandle(plotter, { ...model, settings }, withMachine);
 }
 
-class OwnHandle implements PlotterHandle {
-  private readonly listeners = new HandleListeners();
-  private current: CurrentPlot | null = null;
+class OwnHandle extends BaseHandle {
   private progress: PlotProgress | null = null;
   private wait: PlotWait | null = null;
 
@@ -99,6 +98,7 @@ class OwnHandle implements PlotterHandle {
     private readonly base: SettingsOfPlotter,
     private readonly withMachine: WithMachine,
   ) {
+    super();
     plotter.onChange(() => this.announce());
   }
 
@@ -108,22 +108,7 @@ class OwnHandle implements PlotterHandle {
     return { kind, connection, activity, firmware, message, penUp, xMm, yMm, plot: progress, wait };
   }
 
-  onChange(listener: (state: HandleState) => void): () => void {
-    return this.listeners.add(listener);
-  }
-
-  async plot(drawing: string | readonly Line[], options: PlotOptions = {}): Promise<PlotResult> {
-    if (this.current) throw alreadyPlotting();
-    const current = (this.current = new CurrentPlot(options));
-    try {
-      return await current.follow(() => this.draw(drawing, options, current));
-    } finally {
-      this.current = this.progress = this.wait = null;
-      this.announce();
-    }
-  }
-
-  private async draw(
+  protected async draw(
     drawing: string | readonly Line[],
     options: PlotOptions,
     current: CurrentPlot,
@@ -159,16 +144,8 @@ class OwnHandle implements PlotterHandle {
     };
   }
 
-  async pause(): Promise<void> {
-    await this.plotting().pause();
-  }
-
-  async resume(): Promise<void> {
-    await this.plotting().resume();
-  }
-
-  async stop(): Promise<void> {
-    await this.plotting().stop();
+  protected plotEnded(): void {
+    this.progress = this.wait = null;
   }
 
   async pen(where: "up" | "down" | number): Promise<void> {
@@ -185,14 +162,5 @@ class OwnHandle implements PlotterHandle {
 
   async close(): Promise<void> {
     await this.plotter.close();
-  }
-
-  private plotting(): CurrentPlot {
-    if (this.current === null) throw notPlotting();
-    return this.current;
-  }
-
-  private announce(): void {
-    this.listeners.announce(this.state, this.current);
   }
 }

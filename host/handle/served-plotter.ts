@@ -9,14 +9,8 @@ import {
   type PlotSettings,
   type ServerEvent,
 } from "../../src/schema/index.js";
-import {
-  alreadyPlotting,
-  closed,
-  CurrentPlot,
-  HandleListeners,
-  notPlotting,
-  stopped,
-} from "./current-plot.js";
+import { BaseHandle } from "./base-handle.js";
+import { closed, type CurrentPlot, stopped } from "./current-plot.js";
 import {
   fileOf,
   givenOf,
@@ -61,10 +55,8 @@ interface Followed {
   readonly reject: (error: Error) => void;
 }
 
-class ServerHandle implements PlotterHandle {
-  private readonly listeners = new HandleListeners();
+class ServerHandle extends BaseHandle {
   private readonly end = new AbortController();
-  private current: CurrentPlot | null = null;
   private followed: Followed | null = null;
   private job: Job | null = null;
   /** Why the server's state is not known, and since when. */
@@ -75,6 +67,7 @@ class ServerHandle implements PlotterHandle {
     private readonly requests: ServerClient,
     private plotter: Plotter,
   ) {
+    super();
     void followEvents(
       access,
       (event) => this.take(event),
@@ -99,22 +92,7 @@ class ServerHandle implements PlotterHandle {
     };
   }
 
-  onChange(listener: (state: HandleState) => void): () => void {
-    return this.listeners.add(listener);
-  }
-
-  async plot(drawing: string | readonly Line[], options: PlotOptions = {}): Promise<PlotResult> {
-    if (this.current) throw alreadyPlotting();
-    const current = (this.current = new CurrentPlot(options));
-    try {
-      return await current.follow(() => this.draw(drawing, options, current));
-    } finally {
-      this.current = this.followed = this.job = null;
-      this.announce();
-    }
-  }
-
-  private async draw(
+  protected async draw(
     drawing: string | readonly Line[],
     options: PlotOptions,
     plot: CurrentPlot,
@@ -142,16 +120,8 @@ class ServerHandle implements PlotterHandle {
     return { plottedS: plottedS ?? elapsedS, warnings };
   }
 
-  async pause(): Promise<void> {
-    await this.plotting().pause();
-  }
-
-  async resume(): Promise<void> {
-    await this.plotting().resume();
-  }
-
-  async stop(): Promise<void> {
-    await this.plotting().stop();
+  protected plotEnded(): void {
+    this.followed = this.job = null;
   }
 
   async pen(where: "up" | "down" | number): Promise<void> {
@@ -177,15 +147,6 @@ class ServerHandle implements PlotterHandle {
   private get client(): ServerClient {
     if (this.end.signal.aborted) throw closed();
     return this.requests;
-  }
-
-  private plotting(): CurrentPlot {
-    if (this.current === null) throw notPlotting();
-    return this.current;
-  }
-
-  private announce(): void {
-    this.listeners.announce(this.state, this.current);
   }
 
   private async start(id: string, plot: CurrentPlot): Promise<void> {
