@@ -5,7 +5,7 @@ import { formatSize } from "../ui/format.js";
 import type { Desk } from "./backdrop.js";
 import { previewText } from "./text.js";
 import { currentPlotter, type PageState } from "../state/store.js";
-import type { PenGlide } from "./pen-glide.js";
+import type { PenGlide } from "./pen/pen-glide.js";
 
 export const deskOf = (settings: PlotSettings, unit: LengthUnit): Desk => {
   const { paper, landscape, margins, marginMm } = settings.prepare;

@@ -5,7 +5,7 @@ import { usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
 import { deskOf, followPen } from "./desk.js";
 import { paintBesidePaper, paintCutOff } from "./overlay.js";
-import { PenGlide } from "./pen-glide.js";
+import { PenGlide } from "./pen/pen-glide.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
 import type { Point } from "./gestures.js";

@@ -18,7 +18,7 @@ import type { PageState } from "../state/store.js";
 import { formatDuration, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
 import type { Planned } from "../worker/protocol.js";
-import { ListLegend, Ramp, scaleLabels } from "./legend.js";
+import { ListLegend, Ramp, scaleLabels } from "./legends/legend.js";
 
 export interface ViewMode {
   /** Remembered by the browser. */
@@ -139,7 +139,7 @@ const TIME: ViewMode = {
     timePictures.set(planned.scene, picture);
     return picture;
   },
-  Legend: lazyPart<ModeInput>(async () => (await import("./time-legend.js")).TimeLegend),
+  Legend: lazyPart<ModeInput>(async () => (await import("./legends/time-legend.js")).TimeLegend),
 };
 
 const fileLooks = (shown: ModeInput): LineLook[] =>
@@ -215,7 +215,7 @@ const SWING: ViewMode = {
   // Thin, so that the planned line is visible beside it.
   layerLooks: (shown) => looksOf(shown, () => ({ color: ASKED_COLOR, widthMm: 0.1 })),
   picture: ({ swing, planned }) => (swing !== null && swing.of === planned ? swing.picture : null),
-  Legend: lazyPart<ModeInput>(async () => (await import("./swing-legend.js")).SwingLegend),
+  Legend: lazyPart<ModeInput>(async () => (await import("./legends/swing-legend.js")).SwingLegend),
 };
 
 const ofWidth = (name: string, mm: string): string => `${name}, ${mm} mm`;

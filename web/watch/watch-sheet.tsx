@@ -6,7 +6,7 @@ import { previewText } from "../preview/text.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { deskOf, followPen } from "../preview/desk.js";
-import { PenGlide } from "../preview/pen-glide.js";
+import { PenGlide } from "../preview/pen/pen-glide.js";
 import { lookOfJob } from "./watch-look.js";
 import { watchText as words } from "./text.js";
 import { useEffect } from "react";

@@ -3,8 +3,8 @@
  * as far as motion was sent to the machine. So the pen is shown on its real path at every frame of the screen, and it
  * rests when the machine has nothing left to do. Times are ms of the page's clock. No DOM.
  */
-import { AHEAD_STEP_MS, type PenMoment } from "../../src/internal.js";
-import type { ServerEvent } from "../../src/schema/index.js";
+import { AHEAD_STEP_MS, type PenMoment } from "../../../src/internal.js";
+import type { ServerEvent } from "../../../src/schema/index.js";
 
 export type PenReport = Pick<
   Extract<ServerEvent, { type: "progress" }>,

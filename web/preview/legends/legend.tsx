@@ -1,7 +1,7 @@
 /** The parts of which the view modes make their legends. */
-import { rampColor } from "../../src/internal.js";
-import { formatNumber } from "../ui/format.js";
-import { previewText as words } from "./text.js";
+import { rampColor } from "../../../src/internal.js";
+import { formatNumber } from "../../ui/format.js";
+import { previewText as words } from "../text.js";
 
 const GRADIENT_STOPS = 16;
 const GRADIENT = `linear-gradient(90deg, ${Array.from({ length: GRADIENT_STOPS + 1 }, (_, i) =>

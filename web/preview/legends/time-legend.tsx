@@ -1,14 +1,14 @@
 /** The legend of the view mode "Time": where the minutes go, and changes that would save some of them. */
 import { useEffect, useState } from "react";
-import { timesByLayer, withQuality, findMachine } from "../../src/internal.js";
-import type { PlotSettings } from "../../src/schema/index.js";
-import { SLOWEST_TIMES } from "../scene/scene.js";
-import { boardFirmware, type PageStore } from "../state/store.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { Button } from "../ui/button.js";
-import { formatDuration, formatNumber } from "../ui/format.js";
-import { openPlanner } from "../worker/planner.js";
-import type { Planned } from "../worker/protocol.js";
+import { timesByLayer, withQuality, findMachine } from "../../../src/internal.js";
+import type { PlotSettings } from "../../../src/schema/index.js";
+import { SLOWEST_TIMES } from "../../scene/scene.js";
+import { boardFirmware, type PageStore } from "../../state/store.js";
+import { useActions, usePageState, usePageStore } from "../../state/use-store.js";
+import { Button } from "../../ui/button.js";
+import { formatDuration, formatNumber } from "../../ui/format.js";
+import { openPlanner } from "../../worker/planner.js";
+import type { Planned } from "../../worker/protocol.js";
 import { Ramp } from "./legend.js";
 import "./time-legend.css";
 

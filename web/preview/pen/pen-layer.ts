@@ -2,12 +2,12 @@
  * The canvas of what moves at every frame: the pen, and the ink since the strokes were last drawn. Only the part that
  * changes is cleared, because a whole canvas at every frame is much work without a graphics card.
  */
-import { rampColor } from "../../src/internal.js";
-import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "../scene/pieces.js";
-import { lineWidthPx, type Frame } from "../scene/renderer.js";
-import { piecesBefore } from "../scene/scene.js";
-import type { Size, View } from "../scene/view.js";
-import { RULER_PX } from "./overlay.js";
+import { rampColor } from "../../../src/internal.js";
+import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "../../scene/pieces.js";
+import { lineWidthPx, type Frame } from "../../scene/renderer.js";
+import { piecesBefore } from "../../scene/scene.js";
+import type { Size, View } from "../../scene/view.js";
+import { RULER_PX } from "../overlay.js";
 import type { PenPlace } from "./pen-glide.js";
 
 /** Strokes from a moment of the plan to another one. */

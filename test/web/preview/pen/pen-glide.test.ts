@@ -1,11 +1,11 @@
 /** The shown pen against the virtual board, and what the glide promises for any reports. */
 import * as fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import type { ReportedProgress } from "../../../host/plotter/plotter-port.js";
-import { AHEAD_STEP_MS } from "../../../src/internal.js";
-import { PenGlide, type PenReport } from "../../../web/preview/pen-glide.js";
-import { plotting, seeded, type LivePlot } from "../../support/plots/live-plot.js";
-import { cases } from "../../support/runs/full-run.js";
+import type { ReportedProgress } from "../../../../host/plotter/plotter-port.js";
+import { AHEAD_STEP_MS } from "../../../../src/internal.js";
+import { PenGlide, type PenReport } from "../../../../web/preview/pen/pen-glide.js";
+import { plotting, seeded, type LivePlot } from "../../../support/plots/live-plot.js";
+import { cases } from "../../../support/runs/full-run.js";
 
 const FRAME_MS = 1_000 / 60;
 /** The host sends reports at most so often. */

@@ -1,13 +1,13 @@
 /** The legend of the view mode "Pen (simulated)", which runs the simulation in a worker while it is shown. */
 import { useEffect } from "react";
-import { findMachine, type Springs } from "../../src/internal.js";
-import { ASKED_COLOR } from "../scene/renderer.js";
-import type { Actions } from "../state/actions.js";
-import type { PageStore, Swing } from "../state/store.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { Button } from "../ui/button.js";
-import { formatNumber } from "../ui/format.js";
-import type { Planned, SwingReply, SwingRequest } from "../worker/protocol.js";
+import { findMachine, type Springs } from "../../../src/internal.js";
+import { ASKED_COLOR } from "../../scene/renderer.js";
+import type { Actions } from "../../state/actions.js";
+import type { PageStore, Swing } from "../../state/store.js";
+import { useActions, usePageState, usePageStore } from "../../state/use-store.js";
+import { Button } from "../../ui/button.js";
+import { formatNumber } from "../../ui/format.js";
+import type { Planned, SwingReply, SwingRequest } from "../../worker/protocol.js";
 import { Ramp, scaleLabels } from "./legend.js";
 import "./swing-legend.css";
 
@@ -118,7 +118,7 @@ const simulatePen = (
   show({});
   askStrokes((strokes) => {
     if (isStopped || worker) return;
-    worker = new Worker(new URL("../worker/swing.worker.ts", import.meta.url), { type: "module" });
+    worker = new Worker(new URL("../../worker/swing.worker.ts", import.meta.url), { type: "module" });
     worker.onerror = () => show({ fault: words.failed });
     worker.onmessage = ({ data }: MessageEvent<SwingReply>) => {
       if (data.type === "share") return show({ share: data.share });
