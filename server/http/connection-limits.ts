@@ -1,7 +1,8 @@
 /**
  * Limits the connections of each client. A client is unknown until it has sent a valid session or key. Unknown clients,
- * watchers, those who submit jobs, operators and this computer each have a share of the server's connections, and each client has a limit
- * within its share. So no client, and no number of unknown clients or watchers, can take the connections of operators.
+ * watchers, those who submit jobs, operators and this computer each have a share of the server's connections, and each
+ * client has a limit within its share. So no client, and no number of unknown clients or watchers, can take the
+ * connections of operators.
  *
  * A new connection is always accepted; at a limit, the oldest one of the client that has the most is closed.
  */

@@ -52,7 +52,8 @@ export interface PluginHost extends PluginCore {
 }
 
 /**
- * The claims of a server that is not connected to the shared queue. Jobs taken from there can't start, since they may have been given to another server meanwhile.
+ * The claims of a server that is not connected to the shared queue. Jobs taken from there can't start, since they may
+ * have been given to another server meanwhile.
  */
 export function claimsWithoutSharing(store: Pick<Store, "unreportedShared">): Claims {
   return {

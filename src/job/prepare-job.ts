@@ -1,4 +1,7 @@
-/** Prepares the drawing of a job, and checks that there are strokes, that they are on the paper, and that the machine reaches them. */
+/**
+ * Prepares the drawing of a job, and checks that there are strokes, that they are on the paper, and that the machine
+ * reaches them.
+ */
 import type { Drawing } from "../drawing/drawing.js";
 import { withPxPerInch } from "../drawing/px-size.js";
 import { strokeCount } from "../drawing/stroke-set.js";

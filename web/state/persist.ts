@@ -1,5 +1,6 @@
 /**
- * What the page remembers between visits. It is parsed by the schema: a stored value that does not fit is replaced by its default. The rest stays.
+ * What the page remembers between visits. It is parsed by the schema: a stored value that does not fit is replaced by its
+ * default. The rest stays.
  */
 import { z } from "zod";
 import { findMachine, LENGTH_UNITS, withoutShaperIfUnmeasured } from "../../src/internal.js";

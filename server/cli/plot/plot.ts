@@ -1,7 +1,8 @@
 /**
- * `plotwright plot FILE…`: plots on the server that has the plotter (plot-on-server.ts), or else without one. The first Ctrl-C pauses (Enter resumes), a second one
- * cancels: the pen lifts and the carriage goes home. Without a keyboard to resume with, the first one cancels.
- * When the process must end (SIGTERM, or its terminal is closed), the pen lifts, and the plot can be resumed.
+ * `plotwright plot FILE…`: plots on the server that has the plotter (plot-on-server.ts), or else without one. The first
+ * Ctrl-C pauses (Enter resumes), a second one cancels: the pen lifts and the carriage goes home. Without a keyboard to
+ * resume with, the first one cancels. When the process must end (SIGTERM, or its terminal is closed), the pen lifts, and
+ * the plot can be resumed.
  */
 import { basename } from "node:path";
 import { importDrawing, PlotwrightError } from "../../../src/index.js";

@@ -32,7 +32,10 @@ const PROBE_INTERVAL_MS = 250;
 const YIELD_MS = 1_000;
 /** Time until the next try when nothing can be sent: the network may come up later than the server. */
 const NO_NETWORK_MS = 5_000;
-/** So many names may be taken at once. Then each further probe waits (8.1), so that a device that claims all names causes no flood. */
+/**
+ * So many names may be taken at once. Then each further probe waits (8.1), so that a device that claims all names causes
+ * no flood.
+ */
 const FAST_CONFLICTS = 15;
 const CONTESTED_MS = 5_000;
 /** A record is multicast at most once in this time (6), but sooner in reply to a probe, which must not take the name. */

@@ -1,7 +1,7 @@
 /**
- * HPGL labels: position and size of their letters, set by SI SR DI DR DV SL LO ES (HP, "PCL 5 Technical
- * Reference", chapter 23), symbols (SM) and characters drawn by the file (UC). The plotter's letters all have the same width, so each letter is centred where the
- * plotter's would be.
+ * HPGL labels: position and size of their letters, set by SI SR DI DR DV SL LO ES (HP, "PCL 5 Technical Reference",
+ * chapter 23), symbols (SM) and characters drawn by the file (UC). The plotter's letters all have the same width, so each
+ * letter is centred where the plotter's would be.
  *
  *    ┌ W ┐ W/2            a cell is 1.5 W wide, a line 2 H high
  *    ┌───┐     ┌───┐  ┐

@@ -5,32 +5,20 @@
 import type { Drawing } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { boxOfPoints } from "../../geometry/box.js";
-import { RAD_PER_DEG } from "../../units.js";
 import { DrawingBuilder } from "../drawing-builder.js";
 import type { ImportOptions } from "../import-options.js";
 import { fontOf } from "../text/single-stroke-font.js";
 import type { TextFont } from "../text/text-font.js";
 import { WARNING_WORDS } from "../warning-words.js";
 import { inWords, Warnings } from "../warnings.js";
+import { HpglArcs } from "./hpgl-arcs.js";
 import { HpglCanvas } from "./hpgl-canvas.js";
 import { GROUP_OF } from "./hpgl-commands.js";
 import { readEncodedPolyline, HpglReader, type HpglCommand } from "./hpgl-reader.js";
 import { HpglFrame } from "./hpgl-frame.js";
 import { HpglLabels } from "./hpgl-label.js";
 import { linesOfFill } from "./hpgl-polygon.js";
-import {
-  arcAbout,
-  arcThrough,
-  chordAngle,
-  drawArc,
-  drawCircle,
-  drawRectangle,
-  drawTick,
-  drawWedge,
-  sweepOf,
-  TURN,
-  type HpglArc,
-} from "./hpgl-shapes.js";
+import { drawRectangle, drawTick } from "./hpgl-shapes.js";
 
 /** Percent of the distance between P1 and P2. */
 const USUAL_TICK = 0.5;
@@ -44,8 +32,6 @@ export function importHpgl(text: string, options: ImportOptions): Drawing {
 /** What DF and IN reset. */
 class Defaults {
   isRelative = false;
-  /** CT: chords are given by their distance from the arc instead of their angle. */
-  areChordsDeviations = false;
   /** The character of SM; "" for none. */
   symbol = "";
   fill: readonly number[] = [];
@@ -53,8 +39,10 @@ class Defaults {
   anchor: readonly [x: number, y: number] = [0, 0];
   ticks: readonly [up: number, down: number] = [USUAL_TICK, USUAL_TICK];
   readonly labels: HpglLabels;
+  readonly arcs: HpglArcs;
 
-  constructor(frame: HpglFrame) {
+  constructor(frame: HpglFrame, canvas: HpglCanvas) {
+    this.arcs = new HpglArcs(frame, canvas);
     this.labels = new HpglLabels(frame);
   }
 }
@@ -64,7 +52,7 @@ class HpglImport {
   private readonly builder = new DrawingBuilder(this.warnings);
   private readonly frame = new HpglFrame();
   private readonly canvas: HpglCanvas;
-  private state = new Defaults(this.frame);
+  private state: Defaults;
   /** Start of the last label: a new line begins there. */
   private labelStart = { x: 0, y: 0 };
   /** The label of BL. */
@@ -82,6 +70,7 @@ class HpglImport {
   ) {
     this.canvas = new HpglCanvas(this.builder, this.warnings, font?.kind === "outline");
     this.canvas.diagonal = this.frame.diagonal;
+    this.state = new Defaults(this.frame, this.canvas);
   }
 
   run(): Drawing {
@@ -143,17 +132,17 @@ class HpglImport {
         return this.encoded(text);
       case "AA":
       case "AR":
-        return this.arcAboutCentre(numbers, name === "AR");
+        return state.arcs.drawAboutCentre(numbers, name === "AR");
       case "AT":
       case "RT":
-        return this.arcThroughPoint(numbers, name === "RT");
+        return state.arcs.drawThroughPoint(numbers, name === "RT");
       case "BZ":
       case "BR":
         return this.curves(numbers, name === "BR");
       case "CI":
-        return this.circle(first, second);
+        return state.arcs.drawCircle(first, second);
       case "CT":
-        state.areChordsDeviations = first === 1;
+        state.arcs.areChordsDeviations = first === 1;
         return;
       case "EA":
       case "ER":
@@ -164,10 +153,10 @@ class HpglImport {
         this.rectangle(first, second, name === "RR");
         return this.fill(true);
       case "EW":
-        this.wedge(numbers);
+        state.arcs.setWedge(numbers);
         return canvas.drawEdges();
       case "WG":
-        this.wedge(numbers);
+        state.arcs.setWedge(numbers);
         return this.fill(true);
       case "PM":
         return this.polygonMode(first ?? 0);
@@ -251,7 +240,7 @@ class HpglImport {
     canvas.polygon.clear();
     canvas.lineTypes.reset();
     canvas.setWindow(null);
-    this.state = new Defaults(frame);
+    this.state = new Defaults(frame, canvas);
     frame.setScaling([]);
     this.textStyles = [];
     if (name === "DF") return;
@@ -297,29 +286,6 @@ class HpglImport {
     return [canvas.x + dx, canvas.y + dy];
   }
 
-  /** The pen's position in user units. */
-  private get here(): [x: number, y: number] {
-    return this.frame.inUserUnits(this.canvas.x, this.canvas.y);
-  }
-
-  private arc(arc: HpglArc, chord: number | undefined): void {
-    const angle = chordAngle(chord, arc.radius, this.state.areChordsDeviations);
-    if (arc.radius > 0) this.canvas.draw((shape) => drawArc(shape, arc, angle, this.frame));
-  }
-
-  private arcAboutCentre([cx, cy, sweepDeg, chord]: readonly number[], isRelative: boolean): void {
-    const [x, y] = this.here;
-    this.arc(isRelative ? arcAbout(x + cx, y + cy, x, y, sweepDeg) : arcAbout(cx, cy, x, y, sweepDeg), chord);
-  }
-
-  private arcThroughPoint([mx, my, ex, ey, chord]: readonly number[], isRelative: boolean): void {
-    const [x, y] = this.here;
-    const [fromX, fromY] = isRelative ? [x, y] : [0, 0];
-    const arc = arcThrough(x, y, fromX + mx, fromY + my, fromX + ex, fromY + ey);
-    if (arc !== null) this.arc(arc, chord);
-    else this.canvas.goTo(...this.frame.onPaper(fromX + ex, fromY + ey));
-  }
-
   /** Bézier curves; relative ones are from their own start. */
   private curves(numbers: readonly number[], isRelative: boolean): void {
     for (let i = 0; i + 5 < numbers.length; i += 6) {
@@ -334,28 +300,12 @@ class HpglImport {
     if (numbers.length % 6 !== 0) this.fault(isRelative ? "BR" : "BZ", "an incomplete curve");
   }
 
-  private circle(radius: number, chord: number | undefined): void {
-    const [x, y] = this.here;
-    const angle = chordAngle(chord, radius, this.state.areChordsDeviations);
-    const circle = { x, y, radius, start: 0, sweep: TURN };
-    if (radius !== 0) this.canvas.drawClosed((shape) => drawCircle(shape, circle, angle, this.frame));
-  }
-
   /** From the pen's position to the opposite corner. */
   private rectangle(x: number, y: number, isRelative: boolean): void {
-    const { canvas, frame, here } = this;
+    const { canvas, frame } = this;
+    const here = frame.inUserUnits(canvas.x, canvas.y);
     const corner = isRelative ? ([here[0] + x, here[1] + y] as const) : ([x, y] as const);
     canvas.setPolygon((rings) => drawRectangle(rings, here, corner, frame));
-  }
-
-  /** A sector whose tip is the pen's position. */
-  private wedge([radius, startDeg, sweepDeg, chord]: readonly number[]): void {
-    const [x, y] = this.here;
-    const angle = chordAngle(chord, radius, this.state.areChordsDeviations);
-    const arc = { x, y, radius, start: startDeg * RAD_PER_DEG, sweep: sweepOf(sweepDeg) };
-    this.canvas.setPolygon((rings) => {
-      if (radius !== 0) drawWedge(rings, arc, angle, this.frame);
-    });
   }
 
   /** 0 begins a polygon, 1 ends a ring of it, 2 ends it. The pen returns to where the polygon began. */

@@ -3,8 +3,8 @@ import { LineBuilder, isClosedLine, lineCount, type Lines, nearestShare } from "
 import { randomFrom } from "../work.js";
 
 /**
- * Removes points: none of them is farther than `tolerance` mm from the new line, and end points stay. Douglas and Peucker's method, with a work list
- * instead of recursion. (D. Douglas, T. Peucker, The Canadian Cartographer 10(2), 1973)
+ * Removes points: none of them is farther than `tolerance` mm from the new line, and end points stay. Douglas and
+ * Peucker's method, with a work list instead of recursion. (D. Douglas, T. Peucker, The Canadian Cartographer 10(2), 1973)
  *
  *        ·  far
  *      /   \           if the point farthest from the chord is farther than the tolerance, it stays, and both

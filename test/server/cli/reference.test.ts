@@ -138,8 +138,8 @@ const NOT_RUN: Readonly<Record<string, string>> = {
   "add --url": "every line of add has it, and it has a test below",
   "queue --url": "every line of queue has it, and it has a test below",
   "add --font": "a server does not take it: it has a test in test/server/cli/beside-server.test.ts",
-  "pen-times --url": "it has a test in test/server/cli/settings-command.test.ts",
-  "ringing --url": "it has a test in test/server/cli/settings-command.test.ts",
+  "pen-times --url": "it has a test in test/server/cli/measuring-commands.test.ts",
+  "ringing --url": "it has a test in test/server/cli/measuring-commands.test.ts",
   "serve --shared-queue":
     "it needs a PostgreSQL database: it has a test in test/server/plugins/shared-queue/shared-begin.test.ts",
 };

@@ -2,10 +2,9 @@
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import fc from "fast-check";
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it } from "vitest";
 import { usualConfigPath } from "../../../server/cli/config-file.js";
 import { SETTING_OPTIONS } from "../../../server/cli/setting-table.js";
-import { createServer, type PlotwrightServer } from "../../../server/index.js";
 import { Store } from "../../../server/storage/store.js";
 import { SETTING_FLAGS } from "../../../src/internal.js";
 import {
@@ -15,45 +14,25 @@ import {
   type Job,
   type PlotSettings,
 } from "../../../src/schema/index.js";
-import { cli, type CliRun } from "../../support/processes/command-line.js";
-import { folderOfTest } from "../../support/processes/folders.js";
+import { cli } from "../../support/processes/command-line.js";
+import { CommandUser } from "../../support/processes/command-user.js";
 
-let home: string;
-let data: string;
+const user = new CommandUser();
+const { done, shown, startServer } = user;
 let drawing: string;
 beforeEach(() => {
-  home = folderOfTest();
-  data = join(home, "data");
-  drawing = join(home, "a.svg");
+  drawing = join(user.home, "a.svg");
   writeFileSync(
     drawing,
     `<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20" stroke="black"><path d="M1 2h9"/></svg>`,
   );
-  vi.stubEnv("XDG_CONFIG_HOME", home);
 });
-afterEach(() => vi.unstubAllEnvs());
 
-const there = (...args: string[]): Promise<CliRun> => cli(...args, "--data", data);
-const done = async (...args: string[]): Promise<string> => {
-  const { code, out, err } = await there(...args);
-  expect([args, code, err]).toEqual([args, 0, err]);
-  return out;
-};
 const config = (): unknown => JSON.parse(readFileSync(usualConfigPath(), "utf8"));
 const writeConfig = (value: unknown): void => {
   mkdirSync(dirname(usualConfigPath()), { recursive: true });
   writeFileSync(usualConfigPath(), JSON.stringify(value));
 };
-interface Shown {
-  readonly settings: PlotSettings;
-  readonly sources: Readonly<Record<string, string>>;
-}
-const shown = async (...args: string[]): Promise<Shown> =>
-  JSON.parse(await done("settings", "show", "--json", ...args)) as Shown;
-
-const startServer = (): Promise<PlotwrightServer> =>
-  createServer({ port: 0, device: "virtual", virtualSpeed: 100, dataDir: data, log: () => undefined });
-
 describe("the config file that always applies", () => {
   it("is where the platform keeps such files", () => {
     expect(usualConfigPath({ XDG_CONFIG_HOME: "/x" }, "linux")).toBe(join("/x", "plotwright", "config.json"));
@@ -66,7 +45,7 @@ describe("the config file that always applies", () => {
 
   it("lies over the defaults and under --config and flags, part by part", async () => {
     writeConfig({ pen: { upPct: 71, downPct: 21 }, prepare: { marginMm: 4 } });
-    const file = join(home, "other.json");
+    const file = join(user.home, "other.json");
     writeFileSync(file, JSON.stringify({ pen: { downPct: 22 }, motion: { draw: { speedMmPerS: 33 } } }));
     const { settings, sources } = await shown("--config", file, "--speed", "34");
     expect(settings).toEqual({
@@ -107,7 +86,7 @@ describe("the config file that always applies", () => {
     const pen = await shown("pen");
     expect(pen.settings).toEqual({ pen: { ...DEFAULT_PLOT_SETTINGS.pen, upPct: 71 } });
     expect(Object.keys(pen.sources).every((path) => path.startsWith("pen."))).toBe(true);
-    expect(await there("settings", "show", "get", "margin")).toMatchObject({
+    expect(await user.run("settings", "show", "get", "margin")).toMatchObject({
       code: 2,
       out: "",
       err: expect.stringContaining("get: there is no such setting"),
@@ -127,7 +106,7 @@ describe("the config file that always applies", () => {
     expect(err).toContain(`plotwright: ${usualConfigPath()}: `);
     // A fault of the file is never written over.
     if (!text.includes("typewriter")) {
-      expect((await there("settings", "set", "margin", "3")).code).toBe(2);
+      expect((await user.run("settings", "set", "margin", "3")).code).toBe(2);
       expect(readFileSync(usualConfigPath(), "utf8")).toBe(text);
     }
   });
@@ -155,9 +134,9 @@ describe("settings set and unset", () => {
     await done("settings", "set", key, value);
     expect(config()).toEqual({ sendAheadMs: 200, ...expected });
     await done("settings", "unset", key);
-    await there("settings", "unset", "landscape");
+    await user.run("settings", "unset", "landscape");
     expect(config()).toEqual({ sendAheadMs: 200 });
-    expect(await there("settings", "unset", key)).toMatchObject({
+    expect(await user.run("settings", "unset", key)).toMatchObject({
       code: 2,
       err: expect.stringContaining("does not have"),
     });
@@ -184,7 +163,7 @@ describe("settings set and unset", () => {
     ["constructor", "1", "constructor: there is no such setting.\n"],
     ["penStops", "constructor", "penStops: it must be one of "],
   ])("%s to %s is refused, and writes nothing", async (key, value, words) => {
-    const { code, err } = await there("settings", "set", key, value);
+    const { code, err } = await user.run("settings", "set", key, value);
     expect([code, err]).toEqual([2, expect.stringContaining(words)]);
     expect(existsSync(usualConfigPath())).toBe(false);
   });
@@ -219,7 +198,7 @@ describe("settings set and unset", () => {
     expect((await shown()).settings.machine).toBe("axidraw-se-a2");
     await done("settings", "set", "machine", "nextdraw-2234", "--plotter", "main");
     expect((await shown()).settings.machine).toBe("nextdraw-2234");
-    const { code, err } = await there("settings", "set", "machine", "axidraw-v3");
+    const { code, err } = await user.run("settings", "set", "machine", "axidraw-v3");
     expect([code, err]).toEqual([
       0,
       "note: The plotter main keeps its model, nextdraw-2234, which overrides the file's. To change it: plotwright settings set machine axidraw-v3 --plotter main\n",
@@ -251,7 +230,7 @@ describe("a preset", () => {
     await done("settings", "save", "Fine", "--speed", "20", "--pen-down", "22");
     await done("settings", "save", "Fine", "--speed", "21", "--pen-down", "22");
     expect(await done("settings", "presets")).toBe("Fine\n");
-    const store = Store.open(data);
+    const store = Store.open(user.data);
     const { presets } = plotterSettingsSchema.parse(store.plotterSettings()["main"]);
     store.close();
     const { draw } = DEFAULT_PLOT_SETTINGS.motion;
@@ -263,15 +242,15 @@ describe("a preset", () => {
       }),
     );
     // The data folder has access keys too.
-    if (process.platform !== "win32") expect(statSync(data).mode & 0o077).toBe(0);
+    if (process.platform !== "win32") expect(statSync(user.data).mode & 0o077).toBe(0);
     await done("settings", "remove", "fine");
-    expect(await there("settings", "presets")).toMatchObject({ code: 0, out: "" });
+    expect(await user.run("settings", "presets")).toMatchObject({ code: 0, out: "" });
   });
 
   it("lies over the config file that always applies, and under --config and flags", async () => {
     await done("settings", "save", "Fine", "--speed", "20", "--pen-down", "22");
     writeConfig({ pen: { downPct: 11 }, prepare: { marginMm: 4 } });
-    const file = join(home, "other.json");
+    const file = join(user.home, "other.json");
     writeFileSync(file, JSON.stringify({ motion: { draw: { accelMmPerS2: 77 } } }));
     const { settings, sources } = await shown("--preset", "fine", "--config", file, "--pen-up", "66");
     expect(settings.motion.draw).toMatchObject({ speedMmPerS: 20, accelMmPerS2: 77 });
@@ -287,7 +266,7 @@ describe("a preset", () => {
 
   it("that does not exist is refused with the names that there are", async () => {
     const fault = async (...args: string[]): Promise<readonly [number, string]> => {
-      const { code, err } = await there(...args);
+      const { code, err } = await user.run(...args);
       return [code, err];
     };
     for (const args of [
@@ -349,7 +328,7 @@ describe("beside a running server", () => {
   it("a plot on a board of its own takes the server's presets", async () => {
     const server = await startServer();
     await done("settings", "save", "Fine", "--speed", "20");
-    const { code, err } = await there(
+    const { code, err } = await user.run(
       ...["plot", drawing, "--device", "virtual", "--virtual-speed", "50", "--preset", "Fine"],
     );
     expect([code, err]).toEqual([0, expect.stringContaining("Done: a.svg")]);
@@ -368,7 +347,7 @@ describe("any settings", () => {
           const { settings } = await shown(
             ...["--pen-down", String(down), "--speed", String(speed), "--order", order],
           );
-          const file = join(home, "saved.json");
+          const file = join(user.home, "saved.json");
           writeFileSync(file, JSON.stringify(settings));
           expect((await shown("--config", file)).settings).toEqual(settings);
         },
@@ -377,111 +356,3 @@ describe("any settings", () => {
     );
   });
 });
-
-describe("plotwright pen-times", () => {
-  it("writes a sheet and the settings to plot it with, which wait as long as each line's number says", async () => {
-    const sheet = join(home, "pen.svg");
-    const { code, err } = await there("pen-times", sheet);
-    expect([code, err]).toEqual([
-      0,
-      expect.stringContaining(`plotwright plot ${sheet} --config ${join(home, "pen.json")}`),
-    ]);
-    const planOf = async (...args: string[]): Promise<{ penLifts: number; durationS: number }> =>
-      JSON.parse(await done("plan", sheet, "--json", ...args)) as { penLifts: number; durationS: number };
-    const plain = await planOf("--no-fit", "--order", "none", "--pen-overlap", "off");
-    const waiting = await planOf("--config", join(home, "pen.json"));
-    expect(waiting.penLifts).toBe(plain.penLifts);
-    // Nine lines of twelve strokes, and the numbers at 300 ms; the waits of some lines cancel each other.
-    const numbers = plain.penLifts - 9 * 12;
-    const extraMs = 2 * (numbers * 300 + 12 * (300 + 60 + 40 + 20 - 20 - 40 - 60 - 80));
-    expect(Math.abs(waiting.durationS - plain.durationS - extraMs / 1_000)).toBeLessThan(0.5);
-  });
-
-  it("stores the number that was read with the plotter, and keeps its other settings", async () => {
-    await done("settings", "save", "Ink", "--pen-down", "20");
-    expect(await done("pen-times", "--right", "20")).toBe(
-      "Extra wait after lifting\t20 ms\tplotter virtual\nExtra wait after lowering\t20 ms\tplotter virtual\n".replaceAll(
-        "virtual",
-        plotterName(),
-      ),
-    );
-    expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 20, extraDropMs: 20, upPct: 60 });
-    await done("pen-times", "--drop", "-40");
-    expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 20, extraDropMs: -40 });
-    expect(await done("settings", "presets")).toBe("Ink\n");
-    const { code, err } = await there("pen-times", "--right", "-900");
-    expect([code, err]).toEqual([2, expect.stringContaining("-900 ms: it must be -500 to 10000 ms")]);
-  });
-
-  it("stores it with the plotter of a running server", async () => {
-    const server = await startServer();
-    try {
-      await done("pen-times", "--right", "40", "--url", server.url);
-      expect((await shown()).settings.pen).toMatchObject({ extraLiftMs: 40, extraDropMs: 40 });
-    } finally {
-      await server.close();
-    }
-  });
-});
-
-describe("plotwright ringing", () => {
-  /** The options of each command that it prints for plotting a sheet. */
-  const printedOptions = async (...args: string[]): Promise<string[][]> => {
-    const { err } = await there("ringing", join(home, "sheet.svg"), ...args);
-    return [...err.matchAll(/plotwright plot \S+ (.*)/g)].map(([, options]) => options.split(" "));
-  };
-
-  it("prints commands that plot the sheets shaped only as they should be, also with a plotter that is already measured", async () => {
-    await done("ringing", ...READ, "--store");
-    await done("settings", "set", "shaper", "zv");
-    const [sheet] = await printedOptions();
-    expect((await shown(...sheet)).settings.motion.shaper).toBe("none");
-    const checks = await printedOptions(
-      "--check",
-      "--spring-x",
-      "15",
-      "--spring-y",
-      "25",
-      "--damping",
-      "0.1",
-    );
-    const settings: PlotSettings[] = [];
-    for (const options of checks) settings.push((await shown(...options)).settings);
-    expect(settings.map(({ motion }) => motion.shaper)).toEqual(["none", "zv", "zv", "zv", "zv", "zv"]);
-    const springs = settings.slice(1).map(({ customMachine }) => customMachine?.springs);
-    expect(springs.map((one) => one?.damping)).toEqual([0.1, 0.1, 0.1, 0.1, 0.1]);
-    expect(springs.map((one) => one?.xHz)).toEqual([12, 13.5, 15, 16.5, 18.8]);
-  });
-
-  const READ = ["--ripples-x", "2,20", "--ripples-y", "3,18", "--damping", "0.08"];
-  const SPRINGS = { xHz: 15.1, yHz: 25.3, damping: 0.08 };
-
-  it("stores the swing with the plotter, in a copy of its built-in model", async () => {
-    expect(await done("ringing", ...READ)).toBe("x\t15.1 Hz\ny\t25.3 Hz\n");
-    expect(await done("ringing", ...READ, "--store")).toContain(
-      `stored\tAxiDraw V3, measured\tplotter ${plotterName()}`,
-    );
-    const { settings } = await shown();
-    expect([settings.machine, settings.customMachine?.springs]).toEqual(["axidraw-v3-measured", SPRINGS]);
-    // Measured again, it is the same machine.
-    await done("ringing", "--ripples-x", "2,19", "--ripples-y", "3,18", "--store");
-    expect((await shown()).settings.machine).toBe("axidraw-v3-measured");
-  });
-
-  it("stores it with the plotter of a running server", async () => {
-    const server = await startServer();
-    try {
-      await done("ringing", ...READ, "--store", "--url", server.url);
-      expect((await shown()).settings.customMachine?.springs).toEqual(SPRINGS);
-    } finally {
-      await server.close();
-    }
-  });
-});
-
-const plotterName = (): string => {
-  const store = Store.open(data);
-  const [{ id, name }] = store.plotters();
-  store.close();
-  return name ?? id;
-};

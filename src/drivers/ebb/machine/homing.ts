@@ -34,6 +34,7 @@ export async function seekHome(
 ): Promise<void> {
   const machine = machineOf(settings);
   const slow = withTravelSpeed(settings, SEEK_SPEED_MM_PER_S);
+  // A stop ends the search of both axes: later moves have another signal.
   const { stopSignal } = board;
   await board.position.switchOn(settings);
   await seekAxis(board, slow, homing.x, "x", machine.widthMm * SLACK, stopSignal);

@@ -3,8 +3,9 @@
  *
  * The board answers in order, but its replies have no number. Some end in `OK` and some do not, an error may or may not
  * be followed by an `OK`, and after `CU,10,1` the command name comes first (firmware 3.x). Upper and lower case are
- * alike. So every waiting command has the pattern of its reply, and a line is assigned to the first command that it fits. A value that fits only a later
- * command proves that the replies before it were lost. The plot continues, and lost replies are counted.
+ * alike. So every waiting command has the pattern of its reply, and a line is assigned to the first command that it
+ * fits. A value that fits only a later command proves that the replies before it were lost. The plot continues, and lost
+ * replies are counted.
  *
  * A line that fits no command is ignored and logged. An `OK` where a value is due is either surplus, or the value was
  * lost and a second `OK` follows. In both cases the order is in doubt until the reply to `V` arrives, which cannot be
