@@ -16,14 +16,16 @@ export { printable, printableJson } from "./plain-text.js";
 // drawing
 export { hasFill, type DrawingWarning } from "./drawing/drawing.js";
 export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
-export { meanScale } from "./geometry/affine.js";
+export { compose, inverse, meanScale, scaling, type Affine } from "./geometry/affine.js";
 export { nearestShare } from "./geometry/polyline.js";
 export type { PaperName, PaperSize } from "./drawing/paper.js";
+export { combine, type SheetSource } from "./drawing/combine.js";
 export { listColor, rampColor } from "./drawing/color-ramp.js";
 export { otherPapers, PX_NOTE, withPxPerInch, type PaperInPx } from "./drawing/px-size.js";
 
 // import
 export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
+export { isSheetBegun, parseSheet, type SheetFile } from "./import/sheet/import-sheet.js";
 export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 
 // settings
@@ -87,7 +89,7 @@ export { SPRINGS_TABLE } from "./settings/machine.js";
 export { STREAM_TABLE } from "./settings/machine.js";
 
 // prepare
-export { boxOfPoints, isEmptyBox, type Box } from "./geometry/box.js";
+export { boxOfPoints, isEmptyBox, mapBox, uniteBoxes, type Box } from "./geometry/box.js";
 export { isReached, unreachedCount } from "./prepare/on-paper.js";
 export {
   canBePaper,

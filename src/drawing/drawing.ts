@@ -7,6 +7,7 @@
  *
  * Memory: columns instead of an object per path or point, so that a 100 MB file fits in memory.
  */
+import { compose, inverse, meanScale, scaling, type Affine } from "../geometry/affine.js";
 
 /** Segment verbs in `DrawingPaths.verbs`, and how many coordinate pairs each takes. */
 export const VERB_MOVE = 0; // 1 pair: the start of a subpath
@@ -113,6 +114,15 @@ export interface LinearMap {
   readonly b: number;
   readonly c: number;
   readonly d: number;
+}
+
+/** The pattern after a map of its page, without distortion. */
+export function mappedDash({ lengths, offset, measure }: DashPattern, map: Affine): DashPattern {
+  const scale = meanScale(map);
+  const pattern = { lengths: lengths.map((length) => length * scale), offset: offset * scale };
+  if (measure === undefined) return pattern;
+  // A mapped vector is mapped back to the page and measured there.
+  return { ...pattern, measure: compose(compose(scaling(scale), { ...measure, e: 0, f: 0 }), inverse(map)) };
 }
 
 /** The union of its shapes under `rule`, intersected with `parent` (index into `Drawing.clips`; −1: none). */

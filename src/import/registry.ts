@@ -12,9 +12,10 @@ import { isHpglBegun } from "./hpgl/hpgl-reader.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
 import { checkImportOptions, type ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
+import { importSheet, isSheetBegun } from "./sheet/import-sheet.js";
 import { importSvg } from "./svg/import-svg.js";
 
-type DrawingFormat = "svg" | "dxf" | "hpgl" | "json";
+type DrawingFormat = "svg" | "dxf" | "hpgl" | "sheet" | "json";
 
 interface Format {
   /** Common name. */
@@ -37,6 +38,8 @@ const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
     extensions: ["hpgl", "hpg", "hgl", "plt"],
     isBegun: isHpglBegun,
   },
+  // Before polylines, which are JSON too.
+  sheet: { name: "plotwright sheet", extensions: [], isBegun: isSheetBegun },
   json: { name: "JSON polylines", extensions: ["json"], isBegun: (head) => /^[{[]/.test(head) },
 };
 
@@ -47,6 +50,8 @@ const READERS: Readonly<Record<DrawingFormat, Reader>> = {
   svg: importSvg,
   dxf: importDxf,
   hpgl: importHpgl,
+  sheet: (text, { pxPerInch: _ofOneFile, ...options }) =>
+    importSheet(text, (file) => importDrawing("", file, options)),
   json: importPolylines,
 };
 

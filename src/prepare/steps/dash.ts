@@ -1,8 +1,8 @@
 /** Splits dashed lines into their dashes. */
-import type { DashPattern } from "../../drawing/drawing.js";
+import { mappedDash, type DashPattern } from "../../drawing/drawing.js";
 import { PlotwrightError } from "../../errors.js";
 import { insideRange, type Box } from "../../geometry/box.js";
-import { compose, meanScale, scaling, type Affine, inverse } from "../../geometry/affine.js";
+import type { Affine } from "../../geometry/affine.js";
 import { LineBuilder, SAME_POINT_MM, lineCount, mix, type Lines } from "../../geometry/polyline.js";
 
 /** A pattern with a shorter period than this is drawn as a solid line, because no pen resolves it, mm. */
@@ -29,13 +29,9 @@ export function dashLines(lines: Lines, patternOf: (tag: number) => DashPattern 
 /**
  * The pattern on the paper; null if it is too fine there. `map` maps the file's page to the paper, without distortion.
  */
-export function patternOnPaper({ lengths, offset, measure }: DashPattern, map: Affine): DashPattern | null {
-  const scale = meanScale(map);
-  const pattern = { lengths: lengths.map((length) => length * scale), offset: offset * scale };
-  if (periodOf(pattern) < FINEST_PERIOD) return null;
-  if (measure === undefined) return pattern;
-  // A vector on the paper is mapped back to the page and measured there.
-  return { ...pattern, measure: compose(compose(scaling(scale), { ...measure, e: 0, f: 0 }), inverse(map)) };
+export function patternOnPaper(dash: DashPattern, map: Affine): DashPattern | null {
+  const pattern = mappedDash(dash, map);
+  return periodOf(pattern) < FINEST_PERIOD ? null : pattern;
 }
 
 const periodOf = (pattern: DashPattern): number => pattern.lengths.reduce((sum, length) => sum + length, 0);
