@@ -66,6 +66,7 @@ export {
   PLOT_PEN_TABLE,
 } from "./settings/pen.js";
 export { getOrAdd } from "./get-or-add.js";
+export { inPageWords } from "./settings/page-words.js";
 export { bestMatches, type Searched } from "./settings/matching.js";
 export { GIVEN_WHOLE, isSameJson, withGiven } from "./settings/partial.js";
 export {

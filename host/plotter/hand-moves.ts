@@ -115,7 +115,7 @@ function beyond({ name, widthMm, heightMm }: MachineProfile, x: number, y: numbe
   const at = `${Number(x.toFixed(2))}, ${Number(y.toFixed(2))} mm`;
   return new PlotwrightError(
     "out-of-bounds",
-    `${at} is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home. Set home first if the carriage is elsewhere. If your plotter is larger, name its model with --machine, or on the page.`,
+    `${at} is beyond the ${name}, which reaches ${widthMm} × ${heightMm} mm from home. Set home first if the carriage is elsewhere. If your plotter is larger, choose its model with --machine.`,
   );
 }
 

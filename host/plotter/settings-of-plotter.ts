@@ -109,7 +109,7 @@ export function onPlottersMachine(
     const names = [known?.name ?? wanted.machine, machineOf(plotter.settings).name];
     const why = plotter.hasMachine
       ? "because that is the plotter's model"
-      : "because the plotter's model is not set. Choose the model on the page, in Model and position, with plotwright settings set machine, or by PATCH /plotters/:id";
+      : "because the plotter's model is not set. Choose the model on the page, in Model and position, or on the command line with plotwright settings set machine, or by PATCH /plotters/:id";
     return {
       settings: { ...wanted, machine, customMachine, motion: motionFor(wanted, plotter.settings) },
       note: `Its settings are for the ${names[0]}. It is plotted as on the ${names[1]}, ${why}.`,

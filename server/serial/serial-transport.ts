@@ -86,14 +86,14 @@ export function openError(path: string, error: Error): PlotwrightError {
   if (/no such file|file not found|ENOENT|ENXIO|ENODEV|cannot find/i.test(words)) {
     return new PlotwrightError(
       "no-board",
-      `There is no device at ${path}: plug the plotter in, or choose another with --device ("plotwright devices" lists them).`,
+      `There is no device at ${path}: plug the plotter in, or choose another with --device. On the command line, "plotwright devices" lists them.`,
       { cause: error },
     );
   }
   if (/inappropriate ioctl|ENOTTY|is a directory|EISDIR|invalid argument|EINVAL/i.test(words)) {
     return new PlotwrightError(
       "no-board",
-      `${path} is not a serial port: choose the plotter's with --device ("plotwright devices" lists them).`,
+      `${path} is not a serial port: choose the plotter's with --device. On the command line, "plotwright devices" lists them.`,
       { cause: error },
     );
   }

@@ -12,6 +12,10 @@ export const WARNING_WORDS = {
     `${many(n, "text is", "texts are")} drawn in single-stroke letters instead of the file's font. To keep the font, convert text to paths in your drawing program, or on the command line give its file with --font.`,
   "glyphs-missing": (n: number, details: string) =>
     `${many(n, "character is", "characters are")} not in the font and left out${details}. Use another font, or convert text to paths.`,
+  "text-over-edge": (n: number) =>
+    `${many(n, "text reaches", "texts reach")} over the edge of the file's page, which cuts ${n === 1 ? "it" : "them"} off on a screen. Make ${n === 1 ? "it" : "them"} smaller, or move ${n === 1 ? "it" : "them"} in your drawing program.`,
+  "text-off-path": (n: number) =>
+    `${many(n, "letter has", "letters have")} no room on ${n === 1 ? "its path and is" : "their path and are"} left out. Make the text smaller, or the path longer.`,
   "image-not-drawn": (n: number) =>
     `${many(n, "picture is", "pictures are")} not drawn: a pen draws lines. Trace pictures to paths first.`,
   "foreign-object": (n: number) =>

@@ -155,7 +155,7 @@ export function checkBounds(
     "out-of-bounds",
     `The drawing reaches from ${pointInWords(box.x0, box.y0)} to ${pointInWords(box.x1, box.y1)} mm, but ${machine.name} ` +
       `can only go from (0, 0) to ${pointInWords(machine.widthMm, machine.heightMm)} mm: choose a smaller paper, ` +
-      `turn the paper, or fit the drawing to it. If your plotter is larger, name its model with --machine, or "machine" in the ` +
+      `turn the paper, or fit the drawing to it. If your plotter is larger, choose its model with --machine, or "machine" in the ` +
       `settings.`,
   );
 }

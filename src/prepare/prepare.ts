@@ -120,7 +120,7 @@ export function prepare(
     dashed = clipLines(dashed, drawing, clipOf, gaps, options);
   }
   lines = cropLines(lines, dashed, limit, edge, warnings);
-  if (settings.cropToPage) lines = cropToPage(lines, drawing, place);
+  if (settings.cropToPage) lines = cropToPage(lines, drawing, place, warnings);
 
   progress(0.25, "filling");
   const hatches = hatchesOf(settings, table);
@@ -138,7 +138,7 @@ export function prepare(
       if (toHatch.size === 0) warnings.push(nothingToFill(settings.hatchOutlines));
       lines = addHatch(lines, toHatch, (shape) => hatches[table.ofShape[shape]], options);
     }
-    if (settings.cropToPage && hatches !== null) lines = cropToPage(lines, drawing, place);
+    if (settings.cropToPage && hatches !== null) lines = cropToPage(lines, drawing, place, warnings);
     if (settings.hideCovered)
       lines = hideCovered(
         lines,
@@ -203,7 +203,7 @@ const cutHatch = (edge: string): string =>
 const nothingToFill = (withOutlines: boolean): string =>
   withOutlines
     ? "There is nothing to fill with lines: no filled shape and no closed line."
-    : "There is nothing to fill with lines: no shape of this drawing is filled. Fill closed outlines too (--hatch-outlines), or give shapes a fill.";
+    : "There is nothing to fill with lines: no shape of this drawing is filled. Use --hatch-outlines, or give shapes a fill.";
 
 /** The same work, with its progress mapped to a part of the whole. */
 const within = (work: Work, from: number, to: number): Work => ({

@@ -3,6 +3,7 @@
  * single request. `server/` implements it with plotwright's server, `browser/` with a worker of the page. A failed
  * request rejects with a BackendFault.
  */
+import { inPageWords } from "../../src/internal.js";
 import type { Job, NewJob, OperationClient, Plotter, ServerEvent } from "../../src/schema/index.js";
 import type { DrawingText } from "./drawing-text.js";
 
@@ -12,7 +13,7 @@ export class BackendFault extends Error {
   readonly code: string;
 
   constructor(code: string, message: string) {
-    super(message);
+    super(inPageWords(message));
     this.code = code;
   }
 }

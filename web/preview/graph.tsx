@@ -1,4 +1,4 @@
-import { useEffect, useRef } from "react";
+import { useEffect, useRef, type RefObject } from "react";
 import UPlot from "uplot";
 import { type Trajectory, stateAt } from "../../src/index.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
@@ -8,8 +8,14 @@ import "uplot/dist/uPlot.min.css";
 
 const HEIGHT_PX = 132;
 
+interface GraphProps {
+  /** The slider of the time line: the graph begins and ends where the middle of its thumb does. */
+  readonly slider: RefObject<HTMLInputElement | null>;
+  onSeek(tS: number): void;
+}
+
 /** Speed and acceleration over time. A drag zooms, a double click shows everything, a click goes to that moment. */
-export const Graph = ({ onSeek }: { onSeek(tS: number): void }) => {
+export const Graph = ({ slider, onSeek }: GraphProps) => {
   const box = useRef<HTMLDivElement>(null);
   const store = usePageStore();
   const trajectory = usePageState((state) => state.planned?.trajectory ?? null);
@@ -17,7 +23,8 @@ export const Graph = ({ onSeek }: { onSeek(tS: number): void }) => {
   useEffect(() => {
     if (!box.current || !trajectory) return;
     const element = box.current;
-    const plot = makePlot(element, trajectory, () => store.getState().momentS, onSeek);
+    const room = (): Room => roomBeside(element, slider.current);
+    const plot = makePlot(element, trajectory, room, () => store.getState().momentS, onSeek);
     const stop = store.subscribe((state, before) => {
       if (state.momentS !== before.momentS) plot.redraw(false);
     });
@@ -30,7 +37,7 @@ export const Graph = ({ onSeek }: { onSeek(tS: number): void }) => {
       stop();
       plot.destroy();
     };
-  }, [store, trajectory, theme, onSeek]);
+  }, [store, trajectory, theme, slider, onSeek]);
   return (
     <div className="graph">
       <p className="graph-units" aria-hidden="true">
@@ -42,9 +49,30 @@ export const Graph = ({ onSeek }: { onSeek(tS: number): void }) => {
   );
 };
 
+/** For the numbers of the two axes, px. */
+interface Room {
+  readonly left: number;
+  readonly right: number;
+}
+
+/** The width of the numbers. */
+const LEAST_ROOM: Room = { left: 36, right: 44 };
+/** As in the style of sliders. */
+const HALF_THUMB_PX = 8;
+
+const roomBeside = (element: HTMLElement, slider: HTMLElement | null): Room => {
+  const graph = element.getBoundingClientRect();
+  const track = slider?.getBoundingClientRect() ?? graph;
+  return {
+    left: Math.max(LEAST_ROOM.left, track.left + HALF_THUMB_PX - graph.left),
+    right: Math.max(LEAST_ROOM.right, graph.right - track.right + HALF_THUMB_PX),
+  };
+};
+
 const makePlot = (
   element: HTMLElement,
   trajectory: Trajectory,
+  room: () => Room,
   momentS: () => number | null,
   onSeek: (tS: number) => void,
 ): UPlot => {
@@ -71,6 +99,7 @@ const makePlot = (
     {
       width: element.clientWidth,
       height: HEIGHT_PX,
+      padding: [8, 0, 0, 0],
       legend: { show: false },
       cursor: { points: { size: 6 }, drag: { x: true, y: false, setScale: false } },
       scales: { x: { time: false }, speed: { range: fromZero }, accel: { range: fromZero } },
@@ -79,14 +108,14 @@ const makePlot = (
         {
           ...axis,
           scale: "speed",
-          size: 44,
+          size: () => room().left,
           values: (_plot, splits) => splits.map((v) => formatNumber(v, 0)),
         },
         {
           ...axis,
           scale: "accel",
           side: 1,
-          size: 52,
+          size: () => room().right,
           grid: { show: false },
           values: (_plot, splits) => splits.map((v) => formatNumber(v, 0)),
         },

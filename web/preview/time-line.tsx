@@ -1,4 +1,4 @@
-import { lazy, Suspense } from "react";
+import { lazy, Suspense, useRef, type RefObject } from "react";
 import { drawnUntilS } from "./drawn-until.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { GRAPH, PLAY } from "./preview-actions.js";
@@ -15,19 +15,20 @@ export const TimeLine = () => {
   const totalS = usePageState((state) => state.planned?.trajectory.totalS ?? 0);
   const isOpen = usePageState((state) => state.view.showGraph);
   const { seek } = useActions();
+  const slider = useRef<HTMLInputElement>(null);
   if (totalS === 0) return null;
   return (
     <section className="time-line" aria-label={words.title}>
       <div className="time-row">
         <PlayButton />
-        <Scrubber totalS={totalS} />
+        <Scrubber totalS={totalS} slider={slider} />
         <Moment totalS={totalS} />
         <RateSelect />
         <GraphButton />
       </div>
       {isOpen && (
         <Suspense fallback={<div className="graph" />}>
-          <Graph onSeek={seek} />
+          <Graph slider={slider} onSeek={seek} />
         </Suspense>
       )}
     </section>
@@ -42,11 +43,12 @@ const PlayButton = () => {
 /** The shown moment, else how far this drawing has been plotted; null: the end. */
 const useMoment = (): number | null => usePageState((state) => state.momentS ?? drawnUntilS(state));
 
-const Scrubber = ({ totalS }: { totalS: number }) => {
+const Scrubber = ({ totalS, slider }: { totalS: number; slider: RefObject<HTMLInputElement | null> }) => {
   const momentS = useMoment() ?? totalS;
   const { seek, stopPlaying } = useActions();
   return (
     <input
+      ref={slider}
       type="range"
       aria-label={words.scrub}
       aria-valuetext={formatMoment(momentS)}

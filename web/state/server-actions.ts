@@ -17,6 +17,7 @@ import {
   type QueueSettings,
 } from "../../src/schema/index.js";
 import { addJob, BackendFault, type Backend, type JobAction } from "../backend/backend.js";
+import { withPageWords } from "./server-events.js";
 import { activeJob, currentPlotter, penOf, type PageNotice, type PageStore } from "./store.js";
 import { stateText } from "./text.js";
 
@@ -112,7 +113,7 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
       store.setState(({ jobs, wholeHistories }) => {
         const known = new Set(jobs.map(({ id }) => id));
         return {
-          jobs: [...jobs, ...page.jobs.filter(({ id }) => !known.has(id))],
+          jobs: [...jobs, ...page.jobs.filter(({ id }) => !known.has(id)).map(withPageWords)],
           wholeHistories: page.hasOlderJobs ? wholeHistories : [...wholeHistories, plotterId],
         };
       });

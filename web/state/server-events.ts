@@ -1,8 +1,13 @@
 /** Applies the server's events to the page's state. Pure functions. */
+import { inPageWords } from "../../src/internal.js";
 import { ENDED_STATES, type ServerEvent, type Snapshot } from "../../src/schema/index.js";
 import { isPositionLost, type PageState } from "./store.js";
 
 type Change = Partial<PageState>;
+
+/** What the server says of a job or a plotter names settings for the command line, too. */
+export const withPageWords = <T extends { readonly message: string | null }>(item: T): T =>
+  item.message === null ? item : { ...item, message: inPageWords(item.message) };
 
 export const applyServerEvent = (state: PageState, event: ServerEvent): Change => {
   const change = changeBy(state, event);
@@ -17,7 +22,7 @@ const changeBy = (state: PageState, event: ServerEvent): Change => {
     case "snapshot":
       return applySnapshot(state, event.snapshot);
     case "job":
-      return applyJob(state, event.job);
+      return applyJob(state, withPageWords(event.job));
     case "job-removed":
       return { jobs: state.jobs.filter((job) => job.id !== event.id) };
     case "expected":
@@ -27,9 +32,9 @@ const changeBy = (state: PageState, event: ServerEvent): Change => {
     case "order":
       return { jobs: ordered(state, event.ids) };
     case "plotter":
-      return { plotters: upserted(state.plotters, event.plotter) };
+      return { plotters: upserted(state.plotters, withPageWords(event.plotter)) };
     case "plotters":
-      return withPlotters(state, event.plotters);
+      return withPlotters(state, event.plotters.map(withPageWords));
     case "plotter-settings":
       return { plotterSettings: { ...state.plotterSettings, [event.plotterId]: event.settings } };
     case "machines":
@@ -43,7 +48,7 @@ const changeBy = (state: PageState, event: ServerEvent): Change => {
     case "local-name":
       return { localName: event.localName };
     case "notice":
-      return { serverNotices: upserted(state.serverNotices, event.notice) };
+      return { serverNotices: upserted(state.serverNotices, withPageWords(event.notice)) };
     case "notice-removed":
       return { serverNotices: state.serverNotices.filter(({ id }) => id !== event.id) };
     case "progress":
@@ -58,17 +63,17 @@ const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
   const { localName, machines } = snapshot;
   const isRunning = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
   return {
-    ...withPlotters(state, plotters),
+    ...withPlotters(state, plotters.map(withPageWords)),
     ...(isRunning ? {} : { live: null }),
     version,
     isOutdated: state.isOutdated || (state.version !== null && state.version !== version),
     plotterSettings,
-    jobs,
+    jobs: jobs.map(withPageWords),
     hasOlderJobs,
     wholeHistories: [],
     queues,
     operator,
-    serverNotices,
+    serverNotices: serverNotices.map(withPageWords),
     localName,
     machines,
   };

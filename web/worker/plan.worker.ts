@@ -16,6 +16,7 @@ import {
 import {
   boxOfPoints,
   hasFill,
+  inPageWords,
   unreachedCount,
   machineOf,
   otherPapers,
@@ -127,8 +128,11 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
       layers: ready.layers,
       penStops: penStopsOf(ready.strokes, settings),
       drawnLayers: ready.strokes.layers,
-      fileWarnings: drawing.warnings,
-      layoutWarnings: [...ready.warnings, ...unusedSettings(settings, machineOf(settings))],
+      fileWarnings: drawing.warnings.map((warning) => ({
+        ...warning,
+        message: inPageWords(warning.message),
+      })),
+      layoutWarnings: [...ready.warnings, ...unusedSettings(settings, machineOf(settings))].map(inPageWords),
       cutOff,
       besidePaper,
       unreachedCount: unreachedCount(ready.strokes, machineOf(settings)),
@@ -240,7 +244,8 @@ const isSuperseded = async (): Promise<boolean> => {
   return newest !== null;
 };
 
-const messageOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+const messageOf = (error: unknown): string =>
+  inPageWords(error instanceof Error ? error.message : String(error));
 
 /** The trajectory's columns and the scene's buffers, each once. */
 function transferables({ planned: { trajectory, scene, picture } }: PlannedReply): Transferable[] {

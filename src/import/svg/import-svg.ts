@@ -82,7 +82,10 @@ async function draw(
   if (!layers.isSplit) warnings.add("too-many-layers", undefined, undefined, layers.groupCount);
   const arcToleranceMm = ARC_TOLERANCE * Math.hypot(page.widthMm, page.heightMm);
   const geometry = new SvgGeometry(tree, warnings, arcToleranceMm);
-  const painter = new SvgPainter(file, geometry, texts, new SvgPaintServers(file), builder, warnings);
+  const { widthMm, heightMm, pageFrom } = page;
+  const pageBox = pageFrom === "extent" ? null : { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
+  const servers = new SvgPaintServers(file);
+  const painter = new SvgPainter(file, geometry, texts, servers, builder, warnings, pageBox);
   const clips = new SvgClips(file, geometry, painter, warnings);
   const walk = new SvgWalk(file, geometry, clips, painter, builder, warnings);
   if (isShown(root)) walk.run(context);

@@ -8,7 +8,18 @@ import {
   unstretched,
   type Affine,
 } from "../../geometry/affine.js";
-import { EMPTY_BOX, mapBox, uniteBoxes, type Box } from "../../geometry/box.js";
+import {
+  EMPTY_BOX,
+  boxContains,
+  boxesTouch,
+  boxOfPoints,
+  grownBox,
+  intersectBoxes,
+  isEmptyBox,
+  mapBox,
+  uniteBoxes,
+  type Box,
+} from "../../geometry/box.js";
 import type { DashPattern } from "../../drawing/drawing.js";
 import { MM_PER_PX } from "../../units.js";
 import type { Declared, Paint } from "./css/properties.js";
@@ -30,6 +41,9 @@ import type { Color } from "../color.js";
 import { declaredValue, INITIAL_STYLE } from "./css/style.js";
 import type { Warnings } from "../warnings.js";
 
+/** A text that leaves the page by less is not reported, because that is rounding, mm. */
+const UNNOTICED_MM = 0.1;
+
 export class SvgPainter {
   constructor(
     private readonly file: SvgFile,
@@ -39,12 +53,14 @@ export class SvgPainter {
     private readonly servers: SvgPaintServers,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
+    /** In page mm. A text that crosses its edge is reported. Null: the page will be the drawing's own extent. */
+    private readonly pageBox: Box | null,
   ) {}
 
   /** A painter for the content of a mask. */
   forMask(builder: DrawingBuilder, warnings: Warnings): SvgPainter {
     const { file, geometry, texts } = this;
-    return new SvgPainter(file, geometry, texts, new MaskPaintServers(file), builder, warnings);
+    return new SvgPainter(file, geometry, texts, new MaskPaintServers(file), builder, warnings, null);
   }
 
   /** The box of a text in its user units: the full line height, from the first letter to the last. */
@@ -121,11 +137,28 @@ export class SvgPainter {
       if (texts.font.kind === "single-stroke") warnings.add("text-substituted", box);
       for (const wanted of otherFaces(text.letters, texts.font))
         warnings.add("text-style-ignored", box, wanted);
+      if (this.isCutByPage(box, context)) warnings.add("text-over-edge", box);
     }
+    if (text.offPathCount > 0 && context.style.isVisible)
+      warnings.add("text-off-path", box, undefined, text.offPathCount);
     for (const char of text.missing) warnings.add("glyphs-missing", box, `"${char}"`);
     if (text.unsupported.length > 0) {
       warnings.add("text-not-drawn", box, undefined, text.unsupported.length);
     }
+  }
+
+  /** Whether a box is partly on the page and partly outside, within its clips. */
+  private isCutByPage(box: Box, { clip }: Context): boolean {
+    const { pageBox } = this;
+    if (pageBox === null) return false;
+    let visible = box;
+    for (let at = clip; at !== null; at = at.parent)
+      visible = intersectBoxes(visible, boxOfPoints(at.shapes.coords));
+    return (
+      !isEmptyBox(visible) &&
+      boxesTouch(visible, pageBox) &&
+      !boxContains(grownBox(pageBox, UNNOTICED_MM), visible)
+    );
   }
 
   private drawLetter(letter: PlacedLetter, element: number, context: Context): void {

@@ -171,14 +171,18 @@ export function cutsAreas(
 }
 
 /** Crops to the file's own page, which may be rotated. */
-export function cropToPage(lines: Lines, drawing: Drawing, place: Layout): Lines {
+export function cropToPage(lines: Lines, drawing: Drawing, place: Layout, warnings: string[]): Lines {
   const corners = pageCorners(drawing, place.map);
   const page = regionOf([ringOf(corners)]);
   // Most drawings are within their page. Check that first, because cutting a large drawing by a region is slow.
   const [x0, y0, x1, y1] = corners;
   const isUpright = Math.min(Math.abs(x1 - x0), Math.abs(y1 - y0)) < 1e-6;
   if (isUpright && boxContains(boxOfPoints(corners), boxOfPoints(lines.xy))) return lines;
-  return cutLines(lines, page);
+  const kept = cutLines(lines, page);
+  const lost = totalLength(lines) - totalLength(kept);
+  if (lost > UNNOTICED_CROP)
+    warnings.push(`${Math.ceil(lost)} mm of line lie outside the file's page and are cut off.`);
+  return kept;
 }
 
 /** Removes the outlines of the page's background. */

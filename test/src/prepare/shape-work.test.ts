@@ -78,6 +78,9 @@ describe("cropping", () => {
     const layout = { xMm: 10, yMm: 10, widthMm: null, heightMm: null };
     expect(draw(drawing, { layout })).toEqual([[10, 10, 210, 10]]);
     expect(draw(drawing, { layout, cropToPage: true })).toEqual([[10, 10, 110, 10]]);
+    expect(
+      prepare(drawing, { ...TRUE_SIZE, layout, cropToPage: true, clipToMargins: false }).warnings,
+    ).toEqual(["100 mm of line lie outside the file's page and are cut off."]);
     const turned = prepare(drawing, { ...TRUE_SIZE, rotateDeg: 30, cropToPage: true });
     expect(turned.drawMm).toBeCloseTo(100 / Math.cos(Math.PI / 6) - 100 / Math.cos(Math.PI / 6) + 100, 2);
   });

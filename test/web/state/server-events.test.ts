@@ -51,6 +51,28 @@ describe("server events", () => {
     expect(currentPlotter(state)?.id).toBe("virtual");
   });
 
+  it("messages of jobs, plotters and the server name the page's controls, not flags", () => {
+    const message = 'choose its model with --machine, or "machine" in the settings.';
+    const connected = snapshot() as Extract<ServerEvent, { type: "snapshot" }>;
+    const plotter = { ...makePlotter("virtual"), message };
+    const notice = { id: "n", at: "2026-01-01T00:00:00.000Z", message };
+    const job = { ...makeJob("a"), message };
+    const parts = { plotters: [plotter], jobs: [job], serverNotices: [notice] };
+    for (const state of [
+      after(start(), { type: "snapshot", snapshot: { ...connected.snapshot, ...parts } }),
+      after(start(), { type: "plotter", plotter }, { type: "job", job }, { type: "notice", notice }),
+      after(
+        start(),
+        { type: "plotters", plotters: [plotter] },
+        { type: "job", job },
+        { type: "notice", notice },
+      ),
+    ])
+      expect([...state.plotters, ...state.jobs, ...state.serverNotices].map((item) => item.message)).toEqual(
+        Array(3).fill("choose its model with “Model”."),
+      );
+  });
+
   it("the machines come with the snapshot, and again when one is stored", () => {
     const listed = (widthMm: number) => ({
       ...machineById("axidraw-v3"),

@@ -47,6 +47,14 @@ export interface LaidOutText {
   readonly letters: readonly PlacedLetter[];
   /** Characters that are missing in the font. */
   readonly missing: readonly string[];
+  /** How many letters have no room on their path and are left out. */
+  readonly offPathCount: number;
+}
+
+/** What a text loses, while it is laid out. */
+interface Losses {
+  readonly missing: string[];
+  offPathCount: number;
 }
 
 /** A letter on a straight line: x along it, y across. */
@@ -68,23 +76,23 @@ const ANCHORS: Readonly<Record<Style["textAnchor"], number>> = { start: 0, middl
 
 export function layOutText(chars: readonly Char[], font: TextFont): LaidOutText {
   const letters: PlacedLetter[] = [];
-  const missing: string[] = [];
+  const losses: Losses = { missing: [], offPathCount: 0 };
   const pen: Pen = { x: 0, y: 0 };
   for (let at = 0; at < chars.length;) {
     let end = at + 1;
     while (end < chars.length && !beginsChunk(chars[end], chars[end - 1])) end++;
     const chunk = chars.slice(at, end);
-    letters.push(...(chunk[0].path === null ? straight : along)(chunk, font, pen, missing));
+    letters.push(...(chunk[0].path === null ? straight : along)(chunk, font, pen, losses));
     at = end;
   }
-  return { letters, missing };
+  return { letters, ...losses };
 }
 
 /** On a path only x sets a position, along the path. */
 const beginsChunk = (char: Char, before: Char): boolean =>
   char.path !== before.path || char.x !== null || (char.y !== null && char.path === null);
 
-function straight(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string[]): PlacedLetter[] {
+function straight(chunk: readonly Char[], font: TextFont, pen: Pen, { missing }: Losses): PlacedLetter[] {
   pen.x = chunk[0].x ?? pen.x;
   pen.y = chunk[0].y ?? pen.y;
   const { isVertical } = chunk[0].style.text;
@@ -116,24 +124,30 @@ function anchorOf({ textAnchor, text }: Style): number {
  * The middle of each letter lies on the path, and the letter is rotated to the path's direction there.
  * Letters whose middle is off the path are dropped, as the specification requires.
  */
-function along(chunk: readonly Char[], font: TextFont, pen: Pen, missing: string[]): PlacedLetter[] {
+function along(chunk: readonly Char[], font: TextFont, pen: Pen, losses: Losses): PlacedLetter[] {
   const path = chunk[0].path!;
   const anchor = chunk[0].style.textAnchor;
   const line: Pen = { x: chunk[0].x ?? 0, y: 0 };
   const startX = line.x;
-  const laid = layOutRuns(chunk, font, line, missing);
+  const laid = layOutRuns(chunk, font, line, losses.missing);
   const shift = path.startOffset - (line.x - startX) * anchorOf(chunk[0].style);
   const letters: PlacedLetter[] = [];
+  // A letter's lines and marks have the same place as the letter.
+  const placesOffPath = new Set<number>();
   for (const letter of laid) {
     const middle = letter.pen + letter.advance / 2;
     const place = path.placeOf(middle + shift, anchor);
-    if (place === null) continue;
+    if (place === null) {
+      placesOffPath.add(letter.pen);
+      continue;
+    }
     const cos = Math.cos(place.angle);
     const sin = Math.sin(place.angle);
     const x = place.x + (letter.x - middle) * cos - letter.y * sin;
     const y = place.y + (letter.x - middle) * sin + letter.y * cos;
     letters.push({ ...letter, x, y, angle: place.angle + letter.angle });
   }
+  losses.offPathCount += placesOffPath.size;
   const end = path.end();
   if (end !== null) {
     pen.x = end.x;

@@ -1,5 +1,6 @@
 /** Features of text, in the built-in letters: capitals 0.7 em high, small letters 14/30 em. */
 import { describe, expect, it } from "vitest";
+import { importSvg } from "../../../../src/import/svg/import-svg.js";
 import { codes, draw, pointsOf, shapes } from "../../../support/import/shapes.js";
 
 const text = (body: string, attributes = ""): string =>
@@ -137,5 +138,56 @@ describe("letters", () => {
   it("of a tspan in another language are left out", async () => {
     expect(await shapes(text('H<tspan systemLanguage="ru">HHH</tspan>'))).toEqual(await shapes(text("H")));
     expect(codes(await draw(text("H")))).toEqual(["text-substituted"]);
+  });
+});
+
+describe("at the page's edge", () => {
+  const reported = async (body: string): Promise<string[]> =>
+    codes(await draw(body)).filter((code) => code.startsWith("text-o"));
+
+  it.each([
+    ["right", '<text x="90" y="50" font-size="10" fill="red">Wide</text>'],
+    ["upper", '<text x="10" y="3" font-size="10" fill="red">High</text>'],
+    ["left, by its anchor", '<text x="4" y="50" font-size="10" fill="red" text-anchor="end">Wide</text>'],
+    ["lower, turned", '<text transform="translate(50 90) rotate(90)" font-size="10" fill="red">Wide</text>'],
+    [
+      "right, in a copy",
+      '<g id="a"><text x="60" y="50" font-size="9" fill="red">b</text></g><use href="#a" x="37"/>',
+    ],
+  ])("a text that reaches over the %s one is reported with its place", async (_edge, body) => {
+    const { warnings } = await draw(body);
+    const warning = warnings.find(({ code }) => code === "text-over-edge");
+    expect(warning?.count).toBe(1);
+    const [x0, y0, x1, y1] = warning!.boxes[0];
+    expect(Math.min(x0, y0, 100 - x1, 100 - y1)).toBeLessThan(-0.1);
+    expect(warning?.message).toContain("1 text reaches over the edge of the file's page");
+  });
+
+  it("a text within the page, wholly beside it, invisible, or cut by a clip within it is not", async () => {
+    const clip = '<clipPath id="c"><rect x="80" y="40" width="19" height="20"/></clipPath>';
+    for (const body of [
+      '<text x="10" y="50" font-size="10" fill="red">Wide</text>',
+      '<text x="120" y="50" font-size="10" fill="red">Wide</text>',
+      '<text x="90" y="50" font-size="10" fill="none" stroke="none">Wide</text>',
+      `${clip}<text x="90" y="50" font-size="10" fill="red" clip-path="url(#c)">Wide</text>`,
+      '<svg x="80" y="40" width="19" height="20"><text y="10" font-size="10" fill="red">Wide</text></svg>',
+    ])
+      expect(await reported(body), body).toEqual([]);
+  });
+
+  it("a text is not reported where the drawing's own extent is the page", async () => {
+    const file = '<svg xmlns="http://www.w3.org/2000/svg"><text x="900" y="50" fill="red">Wide</text></svg>';
+    expect(codes(await importSvg(file))).not.toContain("text-over-edge");
+  });
+
+  it("letters without room on their path are counted", async () => {
+    const along = (word: string, attributes = ""): string =>
+      `<text font-size="10" fill="red" ${attributes}><textPath path="M10 50H30">${word}</textPath></text>`;
+    const { warnings } = await draw(along("OOOOOOOO", 'text-decoration="underline"'));
+    const drawn = (await shapes(along("OOOOOOOO"))).length;
+    expect(drawn).toBeGreaterThan(1);
+    expect(warnings.find(({ code }) => code === "text-off-path")?.count).toBe(8 - drawn);
+    expect(await reported(along("O"))).toEqual([]);
+    expect(await reported(along("OOOOOOOO", 'visibility="hidden"'))).toEqual([]);
   });
 });

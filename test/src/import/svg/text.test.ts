@@ -118,7 +118,7 @@ describe("single-stroke letters", () => {
 
   it("have every printable character of ASCII", async () => {
     const all = Array.from({ length: 94 }, (_, i) => `&#${33 + i};`).join("");
-    const drawing = await draw(text(all, 'x="0" y="50"'));
+    const drawing = await draw(text(all, 'x="0" y="50" style="font-size: 1px"'));
     expect(drawing.paths.count).toBe(94);
     expect(codes(drawing)).toEqual(["text-substituted"]);
   });
