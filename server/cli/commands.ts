@@ -206,6 +206,12 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await import("./settings-command.js")).declareSettings,
   },
   {
+    name: "mcp",
+    about: "let an AI assistant plan drawings and use a running server's queue (Model Context Protocol)",
+    examples: ["plotwright mcp", "plotwright mcp --url http://127.0.0.1:9080"],
+    load: async () => (await import("./mcp/mcp-command.js")).declareMcp,
+  },
+  {
     name: "completion",
     about: "print a script that completes commands, options and their values in your shell",
     examples: ["plotwright completion bash"],

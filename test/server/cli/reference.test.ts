@@ -102,6 +102,7 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
     case "cancel":
     case "remove":
     case "follow":
+    case "mcp":
       return ["--url", server.url];
     case "board":
       return ["--pty", join(folder, "plotter")];
@@ -115,6 +116,7 @@ const READY: Readonly<Record<string, RegExp>> = {
   serve: /plotwright is at/,
   board: /plotter/,
   follow: /[Ff]ollow/,
+  mcp: /assistant can use/,
 };
 
 /** The state in which these commands find their job. */
@@ -137,6 +139,7 @@ const NOT_RUN: Readonly<Record<string, string>> = {
   "serve --open": "it would open a browser: it has a test below",
   "add --url": "every line of add has it, and it has a test below",
   "queue --url": "every line of queue has it, and it has a test below",
+  "mcp --url": "every line of mcp has it",
   "add --font": "a server does not take it: it has a test in test/server/cli/beside-server.test.ts",
   "pen-times --url": "it has a test in test/server/cli/measuring-commands.test.ts",
   "ringing --url": "it has a test in test/server/cli/measuring-commands.test.ts",
