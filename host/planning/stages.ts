@@ -2,11 +2,21 @@
  * Plans a job in the planner's thread. The machine is passed as a profile, so custom machines need no lookup
  * here. This file must not import zod, so that the thread starts fast.
  */
-import { planJob, trajectoryStats, type MachineProfile, type Prepared } from "../../src/index.js";
-import { pointCount, strokeCount } from "../../src/internal.js";
-import type { JobStats, PlotSettings } from "../../src/schema/index.js";
+import {
+  planJob,
+  trajectoryStats,
+  type MachineProfile,
+  type Prepared,
+  type StrokeSet,
+  type Trajectory,
+} from "../../src/index.js";
+import { penOf, penStopsOf, pointCount, strokeCount } from "../../src/internal.js";
+import type { JobPens, JobStats, PlotSettings } from "../../src/schema/index.js";
 import { faultOf, type FromWorker, type ToWorker } from "./messages.js";
 import type { Measured, PlanRequest, PlannedPlot } from "./planning.js";
+
+/** Longer lists are cut off: nobody reads them, and every page gets them. */
+const MAX_PEN_STOPS = 20;
 
 /** The input with which the planner's thread is started. */
 export interface ThreadInput {
@@ -55,8 +65,28 @@ function measurePrepared(
   const job = planJob(prepared, settings, machine, { firmware });
   const { drawMm, travelMm, penLiftCount, durationS } = trajectoryStats(job.trajectory);
   const counts = { strokeCount: strokeCount(prepared.strokes), pointCount: pointCount(prepared.strokes) };
-  const stats: JobStats = { size: prepared.size, ...counts, drawMm, travelMm, penLiftCount, durationS };
+  const pens = pensOf(prepared.strokes, settings, job.trajectory);
+  const stats: JobStats = { size: prepared.size, ...counts, drawMm, travelMm, penLiftCount, durationS, pens };
   return { stats, warnings: [...warnings, ...job.commands().warnings] };
+}
+
+/** Which pens the plot begins and ends with, and when it waits for others. Linear in strokes and runs. */
+export function pensOf(strokes: StrokeSet, settings: PlotSettings, { runs }: Trajectory): JobPens {
+  const penAt = (stroke: number): JobPens["first"] => {
+    if (stroke < 0) return null;
+    const layer = strokes.layers[strokes.layer[stroke]];
+    const pen = penOf(settings, layer);
+    return pen === null ? null : { name: pen.name, color: pen.color ?? layer.color };
+  };
+  const count = strokeCount(strokes);
+  let run = 0;
+  const stops = penStopsOf(strokes, settings)
+    .slice(0, MAX_PEN_STOPS)
+    .map(({ strokeIndex, penName, layerName, color }) => {
+      while (run < runs.count && runs.stroke[run] < strokeIndex) run++;
+      return { name: penName ?? layerName, color, strokeIndex, atS: runs.startS[run] ?? 0 };
+    });
+  return { first: penAt(count > 0 ? 0 : -1), last: penAt(count - 1), stops };
 }
 
 /** The buffers of all arrays in `value`, to transfer between threads. A buffer that arrays share is listed once. */

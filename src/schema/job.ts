@@ -26,6 +26,28 @@ export type JobState = z.infer<typeof jobStateSchema>;
 /** Final states: the job is history. */
 export const ENDED_STATES: readonly JobState[] = ["done", "failed", "cancelled"];
 
+const statsPenSchema = z.object({
+  /** Of the pen, or of the layer if it has none. */
+  name: z.string(),
+  color: z.string().nullable(),
+});
+
+/** The pens of a job, as far as they are assigned to layers. */
+export const jobPensSchema = z.object({
+  /** That of the first and of the last stroke; null: none is assigned, so any pen may be in the holder. */
+  first: statsPenSchema.nullable(),
+  last: statsPenSchema.nullable(),
+  /** Where the plot waits for another pen, up to the first 20. */
+  stops: z.array(
+    statsPenSchema.extend({
+      strokeIndex: z.int().min(0),
+      /** Seconds of the plan. */
+      atS: z.number(),
+    }),
+  ),
+});
+export type JobPens = z.infer<typeof jobPensSchema>;
+
 export const jobStatsSchema = z.object({
   /** The drawing's size on the paper, and its scale: 1 is the size in the file. */
   size: z.object({
@@ -42,6 +64,8 @@ export const jobStatsSchema = z.object({
   travelMm: z.number(),
   penLiftCount: z.number(),
   durationS: z.number(),
+  /** Left out for jobs that were planned by an older version. */
+  pens: jobPensSchema.optional(),
 });
 export type JobStats = z.infer<typeof jobStatsSchema>;
 

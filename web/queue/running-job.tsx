@@ -8,6 +8,7 @@ import { Thumb } from "../drawing/thumb.js";
 import { HoldCard } from "./hold-card.js";
 import { JobButtons } from "./job-buttons.js";
 import { JobName, Progress, StateBadge, stateOf } from "./job-head.js";
+import { stopsLeft } from "./queue-time.js";
 import { PenWait } from "./pen-wait.js";
 
 /** The job that has the plotter, first in the queue. In Watch its buttons are on the status card. */
@@ -29,6 +30,9 @@ export const RunningJob = ({ job }: { job: Job }) => {
   );
 };
 
+/** A plot that waits for pens may end later. */
+const doneWords = (job: Job) => (stopsLeft(job) > 0 ? jobText.doneAtEarliest : jobText.doneAt);
+
 const TimeLeft = ({ job }: { job: Job }) => {
   const nowMs = useNow();
   const isConnected = useIsConnected();
@@ -40,7 +44,7 @@ const TimeLeft = ({ job }: { job: Job }) => {
       {job.remainingS !== null && (
         <span>
           {jobText.left(formatDuration(job.remainingS))}
-          {job.state === "plotting" && `, ${jobText.doneAt(formatClockIn(nowMs, job.remainingS))}`}
+          {job.state === "plotting" && `, ${doneWords(job)(formatClockIn(nowMs, job.remainingS))}`}
         </span>
       )}
     </p>

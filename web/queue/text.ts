@@ -52,7 +52,8 @@ export const queueText = {
   copies: (count: number) => `${count} copies`,
   progress: (name: string) => `Progress of ${name}`,
   total: (count: number, duration: string) => `${count === 1 ? "1 plot" : `${count} plots`}, ${duration}`,
-  totalDoneAt: (total: string, clock: string) => `${total}: done ${clock}`,
+  totalAtLeast: (count: number, duration: string) =>
+    `${count === 1 ? "1 plot" : `${count} plots`}, more than ${duration}`,
   waitsForPen: "Pen change",
   stopped: "Stopped",
   states: {
@@ -65,6 +66,8 @@ export const queueText = {
     cancelled: "Cancelled",
   },
   start: "Start",
+  startNow: "Start this one now",
+  startNowNamed: (name: string) => `Start ${name} now`,
   fromStroke: (number: string) => `from stroke ${number}`,
   atSpeed: (pct: number) => `at ${pct} %`,
   earlier: "Move earlier",
@@ -90,6 +93,22 @@ export const queueText = {
   estimated: (duration: string) => `estimated ${duration}`,
 };
 
+/** When the plots of the queue start and end, and what a person must do between them. */
+export const axisText = {
+  ifNow: "Times if you start now",
+  fromTo: (from: string, to: string) => `${from}–${to}`,
+  notBefore: (clock: string) => `Not before ${clock}`,
+  paper: "New paper, then press Start",
+  paperAfterEach: "new paper after each copy",
+  pen: (name: string) => `Waits for the pen “${name}”`,
+  penUnasked: (name: string) => `Begins with the pen “${name}”: change it yourself, the plot does not wait`,
+  place: "Waits at its first stroke until you resume it",
+  penStops: (count: number) => (count === 1 ? "Stops once for a pen:" : `Stops ${count} times for pens:`),
+  end: (clock: string) => `All done ${clock}`,
+  endAtEarliest: (clock: string) => `All done ${clock} at the earliest`,
+  endUnknown: "The end is not known yet.",
+};
+
 export const notifyText = {
   waits: (name: string, what: string) => `${name}: ${what}.`,
   ask: "Notify me when a plot ends",
@@ -103,6 +122,7 @@ export const notifyText = {
 export const jobText = {
   left: (duration: string) => `${duration} left`,
   doneAt: (clock: string) => `done ${clock}`,
+  doneAtEarliest: (clock: string) => `done ${clock} at the earliest`,
   pause: "Pause",
   asked: "The plotter was asked already.",
   resume: "Resume",

@@ -1,4 +1,4 @@
-/** Times in the queue and in Watch: durations in words, the day if it is not today, no end time while nothing moves. */
+/** Times in the queue and in Watch: durations in words, the day if it is not today, no end time while a plot is held. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { queuePanel, statusCard } from "../../support/browser/page-actions.js";
@@ -20,6 +20,7 @@ const SLOW = {
 };
 /** "18 h 30 min": never "18:30", which could be a time of day. */
 const HOURS = /\b1\d h( \d+ min)?/;
+const EARLIEST = /All done (Mon|Tue|Wed|Thu|Fri|Sat|Sun) \d\d:\d\d at the earliest/;
 const DONE_ON_A_DAY = /done (Mon|Tue|Wed|Thu|Fri|Sat|Sun) \d\d:\d\d/;
 
 let test: PageTest;
@@ -41,13 +42,16 @@ const wordsOf = async (locator: ReturnType<typeof queuePanel>): Promise<string> 
   (await locator.innerText()).replace(/[\u202f\u00a0]/g, " ");
 
 describe("a queue of many hours", () => {
-  it("says how long it takes, in words, and no time of day while nothing is plotted", async () => {
+  it("says how long it takes, in words, and when it would end if it were started now", async () => {
     const { page } = test;
     await test.panel("Queue");
     await queuePanel(page).getByText("×2").waitFor();
     await expect.poll(() => wordsOf(queuePanel(page))).toMatch(/2 plots, 3\d h/);
-    expect(await wordsOf(queuePanel(page))).toMatch(HOURS);
-    expect(await wordsOf(queuePanel(page))).not.toMatch(/\d:\d\d/);
+    expect(await wordsOf(queuePanel(page))).toMatch(/Times if you start now/);
+    expect(await wordsOf(queuePanel(page))).toMatch(/18:41–\w\w\w \d\d:\d\d/);
+    // Somebody must put in new paper before the second copy.
+    expect(await wordsOf(queuePanel(page))).toMatch(/new paper after each copy/);
+    expect(await wordsOf(queuePanel(page))).toMatch(EARLIEST);
   });
 
   it("names the day on which the running plot is done", async () => {
@@ -66,6 +70,7 @@ describe("a queue of many hours", () => {
     await statusCard(page).getByRole("button", { name: "Resume" }).waitFor();
     expect(await wordsOf(statusCard(page))).toMatch(HOURS);
     for (const part of [statusCard(page), queuePanel(page)]) expect(await wordsOf(part)).not.toMatch(/done/);
+    expect(await wordsOf(queuePanel(page))).toMatch(/The end is not known yet/);
     expect(test.complaints).toEqual([]);
   });
 });

@@ -41,8 +41,10 @@ async function lay(page: Page, name: string, lines: number): Promise<void> {
 /** Names of the waiting jobs, in their order. */
 const waiting = (page: Page): Promise<string[]> =>
   queuePanel(page)
-    .getByRole("button", { name: /^Start / })
-    .evaluateAll((buttons) => buttons.map((button) => (button.getAttribute("aria-label") ?? "").slice(6)));
+    .getByRole("button", { name: /^More for / })
+    .evaluateAll((buttons) =>
+      buttons.map((button) => (button.getAttribute("aria-label") ?? "").slice("More for ".length)),
+    );
 
 const expectWaiting = (page: Page, names: readonly string[]): Promise<void> =>
   expect.poll(() => waiting(page), { timeout: PATIENCE_MS }).toEqual(names);

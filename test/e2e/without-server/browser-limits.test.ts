@@ -56,12 +56,13 @@ async function addToQueue(): Promise<void> {
   await openPanel(page, "Queue");
   await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
 }
-const queued = (name: string) => queuePanel(page).getByRole("button", { name: `Start ${name}` });
+const queued = (name: string) => queuePanel(page).getByRole("button", { name: `More for ${name}` });
+const startOf = (name: string) => queuePanel(page).getByRole("button", { name: `Start ${name}` });
 
 async function plotsOnTheVirtualBoard(): Promise<void> {
   await lay("line", LINE);
   await addToQueue();
-  await queued("line").click();
+  await startOf("line").click();
   await openView(page, "Prepare");
   await historyPanel(page).getByText("Done", { exact: true }).waitFor();
 }
@@ -212,7 +213,7 @@ describe("a browser's storage", { timeout: 200_000 }, () => {
     });
     await page.getByText(/The data of this site were cleared in the browser/).waitFor();
 
-    await queued("waiting").click();
+    await startOf("waiting").click();
     await page
       .getByText(/The browser no longer has this drawing\. Add it again\./)
       .first()

@@ -14,9 +14,8 @@ export const PLOT_STATES: readonly PageState[] = [
         }
       }
       await openPanel(page, "Queue");
-      await button(page, /^Start /)
-        .nth(1)
-        .waitFor();
+      await queuePanel(page).getByText("×2").nth(1).waitFor();
+      await queuePanel(page).getByText("All done").waitFor();
     },
   },
   {
