@@ -330,7 +330,7 @@ export class PlotterConnection {
       message:
         machine.foundMidPlot?.penUp === false
           ? penRested(this.current, restedS)
-          : welcome(connection.kind, this.options.device),
+          : (machine.note ?? welcome(connection.kind, this.options.device)),
     });
   }
 

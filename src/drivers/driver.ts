@@ -162,6 +162,8 @@ export interface StopSignal extends Cancellation {
 interface MachineParts {
   /** The controller's own name. */
   readonly name?: string | null;
+  /** What the user should know about this machine before plotting, in words. */
+  readonly note?: string | null;
   /**
    * How the machine was found, if it still knew its position when it was connected. Null after the first move, and for
    * a carriage that may have been brought home by hand.

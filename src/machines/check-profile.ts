@@ -55,9 +55,9 @@ export const checkController = (machine: MachineProfile, fields: ControllerField
 function checkFields(machine: MachineProfile, at: string, fields: ControllerFields, values: Values): void {
   for (const [key, field] of Object.entries(fields)) {
     const value = values[key];
+    const isLeftOut = value === null || value === undefined;
+    if (isLeftOut && field.isOptional) continue;
     if (field.kind === "group") {
-      const isLeftOut = value === null || value === undefined;
-      if (isLeftOut && field.isOptional) continue;
       check(machine, at + key, OBJECT, value);
       checkFields(machine, `${at}${key}.`, field.fields, value as Values);
     } else check(machine, at + key, ruleOf(field), value);
@@ -72,6 +72,11 @@ function ruleOf(field: Exclude<ControllerField, { kind: "group" }>): Rule {
       return oneOf(field.choices);
     case "switch":
       return oneOf([true, false]);
+    case "text":
+      return {
+        isValid: (value) => typeof value === "string" && value.length <= field.maxLength,
+        allowed: `a text of at most ${field.maxLength} characters`,
+      };
     case "number":
       return { isValid: (value) => isAllowed(field, value as number), allowed: rangeInWords(field) };
   }

@@ -41,8 +41,11 @@ export interface Controller {
 /** The fields of one kind of controller, besides `kind`. They are defined in its driver's folder (src/drivers). */
 export type ControllerFields = Readonly<Record<string, ControllerField>>;
 
-export type ControllerField =
+/** With `isOptional` it may be null or left out. */
+export type ControllerField = { readonly isOptional?: true } & (
   | Setting
   | { readonly kind: "one-of"; readonly values: readonly (string | number)[] }
-  /** An object of fields. With `isOptional` it may be null or left out. */
-  | { readonly kind: "group"; readonly isOptional?: true; readonly fields: ControllerFields };
+  | { readonly kind: "text"; readonly maxLength: number }
+  /** An object of fields. */
+  | { readonly kind: "group"; readonly fields: ControllerFields }
+);

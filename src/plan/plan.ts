@@ -66,6 +66,13 @@ export interface PlanOptions {
    */
   readonly runs?: RunPlanner | undefined;
   /**
+   * How long the carriage stands for a pen move, s, for a controller that decides that. `waitS`: the time by the model of
+   * the servo. From a height to the same one: only a wait.
+   *
+   * @internal
+   */
+  readonly penS?: ((fromPct: number, toPct: number, waitS: number) => number) | undefined;
+  /**
    * Lower the pen only at the stroke, also with "fast" (pen-flight.ts): for a machine that may lose the end of a travel
    * with its connection. Default false.
    *
@@ -138,7 +145,8 @@ class PlanBuilder {
    */
   private readonly waitsS: readonly number[];
   private readonly dropsAtStroke: boolean;
-  /** The board waits for whole milliseconds. A controller that plans by itself waits as its driver says. */
+  private readonly penS: PlanOptions["penS"];
+  /** The board waits for whole milliseconds. */
   private readonly waitsWholeMs: boolean;
   /** The pen settings of the current or last stroke. */
   private pen: TimedPen;
@@ -155,8 +163,9 @@ class PlanBuilder {
     machine: MachineProfile | undefined,
     private x: number,
     private y: number,
-    { runs, dropsAtStroke = false }: Pick<PlanOptions, "runs" | "dropsAtStroke"> = {},
+    { runs, penS, dropsAtStroke = false }: Pick<PlanOptions, "runs" | "penS" | "dropsAtStroke"> = {},
   ) {
+    this.penS = penS;
     if (!(Math.abs(x) + Math.abs(y) < Infinity)) {
       throw new RangeError(`the start is (${x}, ${y}): it must be finite, in mm`);
     }
@@ -237,7 +246,9 @@ class PlanBuilder {
   }
 
   liftFirst(): void {
-    this.moveInPlace(true, this.heightPct, liftTime(this.pen, this.heightPct));
+    const waitS = liftTime(this.pen, this.heightPct);
+    const lift = { heightPct: this.heightPct, waitS, moveS: waitS };
+    this.movePen(true, lift, this.blocks.clockS, this.pen.downPct);
   }
 
   private beginsLayer(stroke: number): boolean {
@@ -271,9 +282,16 @@ class PlanBuilder {
     this.movePen(up, { heightPct, waitS, moveS: waitS });
   }
 
-  private movePen(up: boolean, lift: Lift, startS = this.blocks.clockS): void {
-    const { heightPct, moveS } = lift;
-    const waitS = this.waitsWholeMs ? wholeMs(lift.waitS) : lift.waitS;
+  private movePen(
+    up: boolean,
+    lift: Lift,
+    startS = this.blocks.clockS,
+    fromPct = this.penUp ? this.heightPct : this.pen.downPct,
+  ): void {
+    const { heightPct } = lift;
+    const ownS = this.penS?.(fromPct, heightPct, lift.waitS);
+    const waitS = ownS ?? (this.waitsWholeMs ? wholeMs(lift.waitS) : lift.waitS);
+    const moveS = ownS ?? lift.moveS;
     this.penUp = up;
     if (up) this.heightPct = heightPct;
     this.penMoves.push({ beforeRun: this.runCount, up, startS, waitS, moveS, heightPct });

@@ -8,10 +8,21 @@ import { PEN_SERVO_TABLE, SPRINGS_TABLE } from "../settings/machine.js";
 import { schemaOf, shapeOf } from "./setting.js";
 
 function fieldSchema(field: ControllerField): z.ZodType {
-  if (field.kind === "one-of") return z.literal([...field.values]);
-  if (field.kind !== "group") return schemaOf(field);
-  const group = z.object(fieldShape(field.fields));
-  return field.isOptional ? group.nullable().optional() : group;
+  const schema = valueSchema(field);
+  return field.isOptional ? schema.nullable().optional() : schema;
+}
+
+function valueSchema(field: ControllerField): z.ZodType {
+  switch (field.kind) {
+    case "one-of":
+      return z.literal([...field.values]);
+    case "text":
+      return z.string().max(field.maxLength);
+    case "group":
+      return z.object(fieldShape(field.fields));
+    default:
+      return schemaOf(field);
+  }
 }
 
 const fieldShape = (fields: ControllerFields): Record<string, z.ZodType> =>

@@ -3,11 +3,13 @@ import type { ControllerDescription, Driver } from "../driver.js";
 import { GrblMachine } from "./machine/grbl-machine.js";
 import { GrblSession } from "./machine/session.js";
 import { GRBL_FIELDS } from "./model/grbl-controller.js";
+import { liftFault } from "./model/pen-lift.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
 import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
 export const description: ControllerDescription = {
   fields: GRBL_FIELDS,
+  contradictionOf: liftFault,
   // Many other devices have the same USB chips as these boards.
   usbIds: [],
   // The plan does not depend on the version.

@@ -2,15 +2,16 @@
  * Makes a job for a Grbl controller from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
  */
 import type { StrokeSet } from "../../drawing/stroke-set.js";
-import type { MachineProfile, PenServo } from "../../machines/profile.js";
+import type { MachineProfile } from "../../machines/profile.js";
 import { penMovesOf } from "../../plan/pen/pen-moves.js";
 import { plan } from "../../plan/plan.js";
 import { runEndS, type Trajectory } from "../../plan/trajectory.js";
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
-import { dwellS, grblOf, type GrblController } from "./model/grbl-controller.js";
+import { axisLimits, dwellS, grblOf } from "./model/grbl-controller.js";
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
-import { moveTimeS } from "./model/planner.js";
+import { number, penLiftOf, waitLine, type PenLift } from "./model/pen-lift.js";
+import type { Axes, GrblAxisLimits } from "./model/planner.js";
 
 /** Lines of G-code. The reply to the last one comes when everything is done. */
 export interface GrblCommands extends MachineCommands {
@@ -21,6 +22,12 @@ export interface GrblCommands extends MachineCommands {
 export function grblCommandsOf(commands: MachineCommands): GrblCommands {
   if (!("lines" in commands)) throw new TypeError("these commands are for another controller");
   return commands as GrblCommands;
+}
+
+/** The state of a connected Grbl (`MachineState`): its work position, and the limits that it has been set to. */
+export interface GrblState {
+  readonly at: Axes;
+  readonly limits: GrblAxisLimits;
 }
 
 /** mm, absolute coordinates, mm/min. Sent again after a reset, which may change these modes. */
@@ -34,10 +41,11 @@ export function planGrblJob(
   machine: MachineProfile,
   options: DriverPlanOptions,
 ): MachineJob<GrblCommands> {
-  const grbl = grblOf(machine);
-  const runs = new GrblRuns(machine, grbl);
+  const { limits = axisLimits(grblOf(machine)) } = (options.board ?? {}) as Partial<GrblState>;
+  const lift = penLiftOf(machine, limits);
+  const runs = new GrblRuns(machine, limits);
   const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, penAtRest(pen), {
-    servo: zAxisAsServo(grbl),
+    servo: lift.servo,
     from: options.from ?? undefined,
     startX: options.startXMm,
     startY: options.startYMm,
@@ -47,48 +55,43 @@ export function planGrblJob(
     liftFirst: options.liftFirst,
     cancel: options.cancel,
     runs,
+    penS: (fromPct, toPct, waitS) => penS(lift, fromPct, toPct, waitS),
   });
   let written: GrblCommands | null = null;
   const commands = (): GrblCommands =>
-    (written ??= writeCommands(trajectory, runs.runs, grbl, options.liftFirst ?? false));
+    (written ??= writeCommands(trajectory, runs.runs, lift, {
+      heightPct: pen.upPct,
+      isUp: !options.liftFirst,
+      downPct: pen.downPct,
+    }));
   return { trajectory, commands, lines: () => [MODES, ...commands().lines] };
 }
 
-/** Grbl moves the pen only at rest, and waits for whole dwells. */
-function penAtRest({ upPct, downPct, layers = {}, contactPct, fullHeightMm }: PenSettings): PenSettings {
-  const waits = Object.entries(layers).map(([id, { beforeMs }]) => {
-    return [id, beforeMs ? { beforeMs: 1_000 * dwellS(beforeMs / 1_000) } : {}] as const;
-  });
-  const heights = { upPct, downPct, overlap: "off", contactPct, fullHeightMm } as const;
-  return { ...heights, extraLiftMs: 0, extraDropMs: 0, layers: Object.fromEntries(waits) };
+/** How long the carriage stands for a pen move; from a height to the same one it only waits. */
+const penS = (lift: PenLift, fromPct: number, toPct: number, waitS: number): number =>
+  fromPct === toPct ? dwellS(waitS) : lift.moveS(fromPct, toPct) + lift.waitS(waitS);
+
+/** Grbl moves the pen only at rest, and a servo's signal at once. */
+const penAtRest = (pen: PenSettings): PenSettings => ({
+  ...pen,
+  overlap: "off",
+  liftPctPerS: null,
+  dropPctPerS: null,
+});
+
+/** The pen when a job begins. */
+interface PenAtStart {
+  readonly heightPct: number;
+  /** False: it may be at `downPct`. */
+  readonly isUp: boolean;
+  readonly downPct: number;
 }
-
-/** The Z axis as a servo: it always moves between the profile's two heights. */
-function zAxisAsServo(grbl: GrblController): PenServo {
-  const minMs = 1_000 * (penTimeS(grbl) + dwellS(grbl.penWaitMs / 1_000));
-  return { minMs, slopeMsPerPct: 0, liftPctPerS: Infinity, dropPctPerS: Infinity, frameMs: 0 };
-}
-
-/** Duration of the move of the Z axis. */
-const penTimeS = ({ penUpZMm, penDownZMm, penSpeedMmPerS, penAccelMmPerS2 }: GrblController): number =>
-  moveTimeS(Math.abs(penUpZMm - penDownZMm), penSpeedMmPerS, penAccelMmPerS2);
-
-/** The move to a height, and the wait after it. */
-export const penLines = (grbl: GrblController, zMm: number): [move: string, wait: string] => [
-  `G1Z${number(zMm)}F${number(60 * grbl.penSpeedMmPerS)}`,
-  wait(grbl.penWaitMs / 1_000),
-];
-
-const wait = (seconds: number): string => `G4P${number(dwellS(seconds))}`;
-
-/** At most three decimals. */
-const number = (value: number): string => String(Number(value.toFixed(3)));
 
 function writeCommands(
   trajectory: Trajectory,
   runs: readonly (readonly SentMove[])[],
-  grbl: GrblController,
-  liftFirst: boolean,
+  lift: PenLift,
+  start: PenAtStart,
 ): GrblCommands {
   const lines: string[] = [];
   const planS: number[] = [];
@@ -97,18 +100,17 @@ function writeCommands(
     planS.push(atS);
   };
   const penMoves = penMovesOf(trajectory);
-  let isUp: boolean | null = liftFirst ? null : true;
+  let { isUp } = start;
+  let pct = isUp ? start.heightPct : start.downPct;
   let next = 0;
   for (let run = 0; run <= runs.length; run++) {
     for (; next < penMoves.length && penMoves[next].beforeRun === run; next++) {
-      const { up, startS, waitS } = penMoves[next];
-      if (up && isUp) add(wait(waitS), startS);
-      else {
-        const [move, settle] = penLines(grbl, up ? grbl.penUpZMm : grbl.penDownZMm);
-        add(move, startS);
-        add(settle, startS + penTimeS(grbl));
-      }
-      isUp = up;
+      const { up, startS, waitS, heightPct } = penMoves[next];
+      const moveS = lift.moveS(pct, heightPct);
+      const isMove = up !== isUp || heightPct !== pct;
+      if (isMove) for (const line of lift.lines(up, heightPct)) add(line, startS);
+      add(waitLine(waitS - moveS), startS + moveS);
+      [isUp, pct] = [up, heightPct];
     }
     let feed = 0;
     const moves = runs[run] ?? [];

@@ -12,6 +12,12 @@ export const RX_BYTES = 128;
 export const CHECK = "$G";
 export const MODES_REPORT = "[GC:";
 
+/** The S of a spindle that runs, in a report of the modes; null if it stands, as after a reset. */
+export function servoSignalOf(modes: string): number | null {
+  const signal = /\bM[34]\b.*\bS([\d.]+)/.exec(modes)?.[1];
+  return signal === undefined ? null : Number(signal);
+}
+
 export const isGreeting = (line: string): boolean => /^Grbl(HAL)? /.test(line);
 
 /** The version in a greeting or in the reply to `$I`, such as "Grbl 1.1h"; null if the line has none. */

@@ -1,4 +1,4 @@
-/** Labels of the settings that Grbl ignores, by path: Grbl plans its motion by itself, and its Z axis moves the pen. */
+/** Labels of the settings that Grbl ignores, by path: Grbl plans its motion by itself, and moves the pen only at rest. */
 import {
   AXIS_TABLE,
   DRAW_TABLE,
@@ -7,7 +7,7 @@ import {
   MOTOR_ACCEL,
   TRAVEL_TABLE,
 } from "../../settings/motion.js";
-import { DROP_RATE, LIFT_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../settings/pen.js";
+import { DROP_RATE, LIFT_RATE, OVERLAP_TABLE } from "../../settings/pen.js";
 
 export const UNUSED_SETTINGS: Readonly<Record<string, string>> = {
   "motion.mode": MOTION_TABLE.mode.label,
@@ -25,15 +25,7 @@ export const UNUSED_SETTINGS: Readonly<Record<string, string>> = {
   "motion.accelXMmPerS2": AXIS_TABLE.accelXMmPerS2.label,
   "motion.accelYMmPerS2": AXIS_TABLE.accelYMmPerS2.label,
   "motion.motorAccelStepsPerS2": MOTOR_ACCEL.label,
-  "pen.upPct": PEN_TABLE.upPct.label,
-  "pen.downPct": PEN_TABLE.downPct.label,
-  "pen.extraLiftMs": PEN_TABLE.extraLiftMs.label,
-  "pen.extraDropMs": PEN_TABLE.extraDropMs.label,
   "pen.liftPctPerS": LIFT_RATE.label,
   "pen.dropPctPerS": DROP_RATE.label,
   "pen.overlap": OVERLAP_TABLE.overlap.label,
-  "pen.layers.*.upPct": `${PEN_TABLE.upPct.label} of a layer`,
-  "pen.layers.*.downPct": `${PEN_TABLE.downPct.label} of a layer`,
-  "pen.layers.*.extraLiftMs": `${PEN_TABLE.extraLiftMs.label} of a layer`,
-  "pen.layers.*.extraDropMs": `${PEN_TABLE.extraDropMs.label} of a layer`,
 };

@@ -27,7 +27,7 @@ export const NO_EVENTS: MachineEvents = {
 };
 
 /** Grbl A of the golden figures: 10 000 mm/min, 1 000 mm/s², junction deviation 0.01 mm. */
-export const GRBL: MachineProfile<GrblController> = {
+export const GRBL = {
   id: "my-grbl",
   name: "My Grbl",
   widthMm: 300,
@@ -45,4 +45,14 @@ export const GRBL: MachineProfile<GrblController> = {
     penAccelMmPerS2: 1_000,
     penWaitMs: 100,
   },
+} as const satisfies MachineProfile<GrblController>;
+
+/** The same with another pen lift. */
+const withPen = (pen: Partial<GrblController>): MachineProfile<GrblController> => {
+  const { kind, maxSpeedMmPerS, accelMmPerS2, junctionMm } = GRBL.controller;
+  return { ...GRBL, controller: { kind, maxSpeedMmPerS, accelMmPerS2, junctionMm, ...pen } };
 };
+/** A servo on the output of the spindle. */
+export const GRBL_SERVO = withPen({ penUpS: 600, penDownS: 300 });
+/** Own lines for the pen. */
+export const GRBL_LINES = withPen({ penUpLines: "M3 S90", penDownLines: "M4 S40", penWaitMs: 200 });

@@ -4,8 +4,8 @@
  */
 import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
-import { GRBL_FIELDS, grblOf, type GrblController } from "../model/grbl-controller.js";
-import type { Axes } from "../model/planner.js";
+import { axisLimits, GRBL_FIELDS, grblOf } from "../model/grbl-controller.js";
+import type { Axes, GrblAxisLimits } from "../model/planner.js";
 
 const AXES = ["X", "Y", "Z"] as const;
 const MM_PER_INCH = 25.4;
@@ -19,6 +19,8 @@ const SETTING = {
   softLimits: 20,
   homing: 22,
   homingDirections: 23,
+  maxSignal: 30,
+  laserMode: 32,
   speed: 110,
   accel: 120,
   travel: 130,
@@ -54,29 +56,74 @@ export class BoardSettings {
     return this.isOn(SETTING.homing);
   }
 
-  /** Throws `bad-setting` if the Grbl moves otherwise than the profile says, since all times would then be wrong. */
-  mustMatch(profile: MachineProfile): void {
-    const grbl = grblOf(profile);
-    const wrong = [
-      ...[0, 1].flatMap((axis) => this.faster("maxSpeedMmPerS", grbl, axis)),
-      ...[0, 1].flatMap((axis) => this.different("accelMmPerS2", grbl, SETTING.accel + axis)),
-      ...this.different("junctionMm", grbl, SETTING.junctionMm),
-      ...this.faster("penSpeedMmPerS", grbl, 2),
-      ...this.different("penAccelMmPerS2", grbl, SETTING.accel + 2),
-    ];
-    if (wrong.length === 0) return;
+  /** Those that a plan has to follow: the Grbl's own, and the lower of both speeds. */
+  limitsFor(profile: MachineProfile): GrblAxisLimits {
+    const { speed, accel, junctionMm } = axisLimits(grblOf(profile));
+    const own = (setting: number, axis: number): number | undefined => this.values.get(setting + axis);
+    const each = (value: (axis: 0 | 1 | 2) => number): Axes => [value(0), value(1), value(2)];
+    return {
+      speed: each((axis) => Math.min(speed[axis], (own(SETTING.speed, axis) ?? Infinity) / 60)),
+      accel: each((axis) => own(SETTING.accel, axis) ?? accel[axis]),
+      junctionMm: this.values.get(SETTING.junctionMm) ?? junctionMm,
+    };
+  }
+
+  /** What the Grbl does more slowly than the profile says, in words; null: nothing. */
+  slowerThan(profile: MachineProfile): string | null {
+    const asked = axisLimits(grblOf(profile));
+    const own = this.limitsFor(profile);
+    const slower = AXES.flatMap((letter, axis) => {
+      const name = axis === 2 ? "the pen" : letter;
+      return [
+        ...lower(`speed of ${name}`, "mm/s", own.speed[axis], asked.speed[axis], SETTING.speed + axis),
+        ...lower(
+          `acceleration of ${name}`,
+          "mm/s²",
+          own.accel[axis],
+          asked.accel[axis],
+          SETTING.accel + axis,
+        ),
+      ];
+    });
+    const { label, unit } = GRBL_FIELDS.junctionMm;
+    slower.push(...lower(label, unit, own.junctionMm, asked.junctionMm, SETTING.junctionMm));
+    if (slower.length === 0) return null;
+    return (
+      `This Grbl is slower than the profile of ${profile.name} says: ${slower.join("; ")}. Plots take longer than ` +
+      "the preview tells: change the profile, or the Grbl's settings in the console."
+    );
+  }
+
+  /** Throws if the Grbl would not perform lines as they are meant. `offset`: the work zero in machine coordinates. */
+  mustPerform(lines: readonly string[], offset: Axes): void {
+    this.mustSignal(lines);
+    this.mustReach(lines, offset);
+  }
+
+  /** Throws `bad-setting` if the servo would not follow its lines. */
+  private mustSignal(lines: readonly string[]): void {
+    const range = rangeOf(lines, "M3S");
+    if (!range) return;
+    if (this.isOn(SETTING.laserMode)) {
+      throw new PlotwrightError(
+        "bad-setting",
+        "The Grbl is in laser mode ($32=1), in which it switches the signal of the pen's servo by itself. Nothing has " +
+          "moved. Switch the mode off: send $32=0 in the console.",
+      );
+    }
+    const max = this.values.get(SETTING.maxSignal) ?? Infinity;
+    if (range[1] <= max) return;
     throw new PlotwrightError(
       "bad-setting",
-      `The profile of ${profile.name} does not fit the Grbl's own settings, so all times would be wrong: ${wrong.join("; ")}. ` +
-        "Change the profile, or the Grbl's settings in the console.",
+      `The pen's servo needs S${mm(range[1])}, but the Grbl's highest S is ${mm(max)} ($30). Nothing has moved. ` +
+        "Lower the pen's heights, or change the profile's S values or $30.",
     );
   }
 
   /**
-   * Throws `out-of-bounds` if lines leave the soft limits, at which the Grbl would stop with an alarm. `offset`: the work
-   * zero in machine coordinates.
+   * Throws `out-of-bounds` if lines leave the soft limits, at which the Grbl would stop with an alarm.
    */
-  mustReach(lines: readonly string[], offset: Axes): void {
+  private mustReach(lines: readonly string[], offset: Axes): void {
     if (!this.isOn(SETTING.softLimits)) return;
     AXES.forEach((letter, axis) => {
       const limits = this.limitsOf(axis);
@@ -103,24 +150,13 @@ export class BoardSettings {
   private isOn(setting: number): boolean {
     return (this.values.get(setting) ?? 0) !== 0;
   }
-
-  private faster(field: "maxSpeedMmPerS" | "penSpeedMmPerS", grbl: GrblController, axis: number): string[] {
-    const max = (this.values.get(SETTING.speed + axis) ?? Infinity) / 60;
-    if (grbl[field] <= max * (1 + SAME)) return [];
-    return [`${GRBL_FIELDS[field].label} is at most ${mm(max)} mm/s ($${SETTING.speed + axis})`];
-  }
-
-  private different(
-    field: "accelMmPerS2" | "penAccelMmPerS2" | "junctionMm",
-    grbl: GrblController,
-    setting: number,
-  ): string[] {
-    const value = this.values.get(setting);
-    // Reported with three decimals.
-    if (value === undefined || Math.abs(value - grbl[field]) <= SAME * value + 0.0005) return [];
-    return [`${GRBL_FIELDS[field].label} is ${mm(value)} ${GRBL_FIELDS[field].unit} ($${setting})`];
-  }
 }
+
+/** The Grbl reports three decimals. */
+const lower = (what: string, unit: string, own: number, asked: number, setting: number): string[] =>
+  asked === Infinity || own >= asked - SAME * asked - 0.0005
+    ? []
+    : [`${what} is at most ${mm(own)} ${unit} ($${setting})`];
 
 const mm = (value: number): string => String(Number(value.toFixed(3)));
 

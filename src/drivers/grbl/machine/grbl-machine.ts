@@ -6,6 +6,8 @@ import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
+import { servoTime } from "../../../machines/pen-servo.js";
+import { waitOf } from "../../../plan/pen/pen-times.js";
 import type {
   ConnectOptions,
   ConsoleAnswer,
@@ -18,11 +20,11 @@ import { moveStopped } from "../../faults.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
 import { MoveSignal, moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
-import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, penLines } from "../grbl-job.js";
-import { grblOf } from "../model/grbl-controller.js";
+import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, type GrblState } from "../grbl-job.js";
+import { number, penLiftOf, waitLine, type PenLift } from "../model/pen-lift.js";
 import type { Axes } from "../model/planner.js";
-import { isLocked, locked, NOT_LIFTED, type Status } from "../protocol.js";
-import { whyRefused } from "./console-lines.js";
+import { isLocked, locked, NOT_LIFTED, servoSignalOf, type Status } from "../protocol.js";
+import { whyRefused } from "../console-lines.js";
 import { GrblPlayback } from "./grbl-playback.js";
 import { LineStream } from "./line-stream.js";
 import type { GrblSession } from "./session.js";
@@ -35,6 +37,8 @@ const SET_HOME = "G10L20P1X0Y0";
 const BELOW = 0.25;
 /** A share of the pen's travel from which the pen counts as up. */
 const UP = 0.99;
+/** The longest way of a pen, whose height is unknown. */
+const WHOLE_PCT = 100;
 
 export class GrblMachine implements Machine {
   readonly console = { send: (line: string): Promise<ConsoleAnswer> => this.sendLine(line) };
@@ -42,8 +46,14 @@ export class GrblMachine implements Machine {
   penUp: boolean | null = null;
   penMoving = false;
   motorsOn: boolean | null = null;
+  /** What the user should know about it, in words; null: nothing. */
+  note: string | null = null;
+  /** Where the pen is or goes to, percent; null: unknown. */
+  private heightPct: number | null = null;
   /** Work position, mm; null if its origin is unknown. */
   private at: Axes | null = null;
+  /** That of the latest settings. */
+  private profile: MachineProfile | null = null;
   private isAsleep = false;
   /** Only the user may unlock it. */
   private isLocked = false;
@@ -64,7 +74,7 @@ export class GrblMachine implements Machine {
   }
 
   get state(): MachineState | null {
-    return this.at && { at: this.at };
+    return this.at && this.profile && this.stateAt(this.at, this.profile);
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
@@ -80,7 +90,9 @@ export class GrblMachine implements Machine {
       await session.brake();
       await session.reset();
     }
+    this.profile = machineOf(settings);
     await session.readSettings();
+    this.note = session.settings.slowerThan(this.profile);
     await session.tryCheck();
     // Again, because only now the units are known.
     const status = await session.status();
@@ -89,36 +101,41 @@ export class GrblMachine implements Machine {
   }
 
   async prepareMotors(settings: MachineSettings): Promise<MachineState> {
-    const profile = machineOf(settings);
-    grblOf(profile);
+    this.profile = machineOf(settings);
+    penLiftOf(this.profile);
     // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
     await this.mustBeUnlocked();
-    this.session.settings.mustMatch(profile);
-    if (!this.at) await this.homeIsHere();
+    const at = this.at ?? (await this.homeIsHere());
     this.motorsOn = true;
     this.options.events.changed();
-    return { at: this.at };
+    return this.stateAt(at, this.profile);
   }
 
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
-    const grbl = grblOf(machineOf(settings));
-    const { upPct, downPct } = settings.pen;
+    const profile = machineOf(settings);
+    const { upPct, downPct, extraLiftMs, extraDropMs } = settings.pen;
     const pct = heightPct ?? (up ? upPct : downPct);
-    const share = Math.min(1, Math.max(0, (pct - downPct) / (upPct - downPct)));
-    const zMm = grbl.penDownZMm + share * (grbl.penUpZMm - grbl.penDownZMm);
+    const lift = penLiftOf(profile, this.session.settings.limitsFor(profile));
     if (this.isAsleep) await this.prepareMotors(settings);
     await this.mustBeUnlocked();
-    const lines = [SYNC, ...penLines(grbl, zMm)];
-    this.session.settings.mustReach(lines, this.session.offset);
+    const byPct = this.heightPct === null ? WHOLE_PCT : Math.abs(pct - this.heightPct);
+    const { liftPctPerS, dropPctPerS } = lift.servo;
+    const servoS = waitOf(
+      servoTime(lift.servo, byPct, up ? liftPctPerS : dropPctPerS),
+      up ? extraLiftMs : extraDropMs,
+    );
+    const lines = [SYNC, ...lift.lines(up, pct), waitLine(lift.waitS(servoS))];
+    this.session.settings.mustPerform(lines, this.session.offset);
     this.penUp = up;
+    this.heightPct = pct;
     this.penMoving = true;
     this.options.events.changed();
     try {
       for (const line of lines) await this.session.sendSurely(line);
     } catch (error) {
-      this.penUp = null;
+      this.penUp = this.heightPct = null;
       throw error;
     } finally {
       this.penMoving = false;
@@ -161,6 +178,8 @@ export class GrblMachine implements Machine {
   async arrived(): Promise<void> {
     this.at = (await this.session.status()).at;
     this.penUp = true;
+    // Each layer may have its own.
+    this.heightPct = null;
     this.options.events.changed();
   }
 
@@ -222,7 +241,7 @@ export class GrblMachine implements Machine {
     if (/^\$(\d+=|RST)/i.test(line)) await this.session.readSettings();
     if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, refused, note: null };
     await this.session.send(SYNC).catch(() => undefined);
-    this.penUp = null;
+    this.penUp = this.heightPct = null;
     await this.forgetPosition();
     return {
       replies,
@@ -244,9 +263,9 @@ export class GrblMachine implements Machine {
   }
 
   stream(commands: GrblCommands): LineStream {
-    this.session.settings.mustReach(commands.lines, this.session.offset);
+    this.session.settings.mustPerform(commands.lines, this.session.offset);
     this.motorsOn = true;
-    this.penUp = null;
+    this.penUp = this.heightPct = null;
     return new LineStream(this.session, commands, this.clock, () => this.options.events.buttonPressed());
   }
 
@@ -268,7 +287,7 @@ export class GrblMachine implements Machine {
 
   /** Call after a reset: restores the modes that the lines need, and takes over the reported position. */
   private async recovered({ state, at }: Status, mayUnlock = this.mayUnlock): Promise<void> {
-    this.penUp = null;
+    this.penUp = this.heightPct = null;
     if (this.at) this.at = at;
     this.isLocked = isLocked(state) && !mayUnlock;
     this.options.events.changed();
@@ -286,13 +305,14 @@ export class GrblMachine implements Machine {
   }
 
   /**
-   * Lifts a pen that may have been left on the paper. A Grbl that was not restarted still knows the pen's height. One that
-   * was counts from 0 wherever the pen is, so the pen is lifted by its travel; at the first connection nothing moves then,
+   * Lifts a pen that may have been left on the paper. At the first connection nothing moves if the pen's height is unknown,
    * because it is probably up.
    */
   private async liftLeft(status: Status, settings: MachineSettings, before: PenBefore | null): Promise<void> {
-    const grbl = grblOf(machineOf(settings));
-    if (hasRestarted(status)) {
+    const lift = penLiftOf(machineOf(settings));
+    const { upPct, downPct } = settings.pen;
+    if (lift.kind === "z" && hasRestarted(status)) {
+      // It counts from 0 wherever the pen is, so the pen is lifted by its travel.
       if (!before) return;
       const penUp = before.penUp === true;
       await this.setHeight(penUp, settings);
@@ -300,23 +320,40 @@ export class GrblMachine implements Machine {
       else await this.movePen(true, settings);
       return;
     }
-    const share = (status.at[2] - grbl.penDownZMm) / (grbl.penUpZMm - grbl.penDownZMm);
-    if (share > UP) this.penUp = true;
-    else if (share > -BELOW || before) await this.movePen(true, settings);
+    const pct = this.keptHeightPct(lift, status);
+    const share = pct === null ? null : (pct - downPct) / (upPct - downPct);
+    if (share !== null && share > UP) this.penUp = true;
+    else if (before || (share !== null && (lift.kind === "servo" || share > -BELOW))) {
+      await this.movePen(true, settings);
+    }
+  }
+
+  /** The pen's height that a Grbl still has from before it was connected; null: it has none. */
+  private keptHeightPct(lift: PenLift, { at }: Status): number | null {
+    if (lift.kind === "z") return lift.pctOf(at[2]);
+    const signal = lift.kind === "servo" ? servoSignalOf(this.session.modes) : null;
+    return signal === null ? null : lift.pctOf(signal);
   }
 
   /** After a restart: the pen's current height is that of a pen that is up, or down. */
   private async setHeight(penUp: boolean, settings: MachineSettings): Promise<void> {
-    const { penUpZMm, penDownZMm } = grblOf(machineOf(settings));
-    await this.session.sendSurely(`G10L20P1Z${penUp ? penUpZMm : penDownZMm}`);
+    const lift = penLiftOf(machineOf(settings));
+    if (lift.kind !== "z") return;
+    const { upPct, downPct } = settings.pen;
+    await this.session.sendSurely(`G10L20P1Z${number(lift.valueAt(penUp ? upPct : downPct))}`);
   }
 
-  private async homeIsHere(): Promise<void> {
+  private stateAt(at: Axes, profile: MachineProfile): GrblState {
+    return { at, limits: this.session.settings.limitsFor(profile) };
+  }
+
+  private async homeIsHere(): Promise<Axes> {
     await this.session.sendSurely(SET_HOME);
     // Reads the new offset.
     await this.session.status();
     this.at = [0, 0, 0];
     this.options.events.changed();
+    return this.at;
   }
 }
 

@@ -86,6 +86,8 @@ export class GrblSession implements LineProtocol {
   isLockOurs = false;
   /** The board knows the command of a check. */
   canCheck = false;
+  /** The latest report of the parser's modes; "": none has come. */
+  modes = "";
 
   private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
   private sentBytes = 0;
@@ -304,8 +306,10 @@ export class GrblSession implements LineProtocol {
     if (line === "ok") this.settleFirst(null);
     // Old versions write words instead of a number.
     else if (line.startsWith("error:")) this.settleFirst(line);
-    else if (line.startsWith(MODES_REPORT)) this.checkReported();
-    else if (alarmed) {
+    else if (line.startsWith(MODES_REPORT)) {
+      this.modes = line;
+      this.checkReported();
+    } else if (alarmed) {
       const code = Number(alarmed[1]);
       if (code === RESET_ALARM && this.greetingWaiters.length > 0) this.isLockOurs = true;
       else this.broken(alarm(code));

@@ -1,17 +1,18 @@
 /** The fields of a machine profile for its Grbl. */
 import { PlotwrightError } from "../../../errors.js";
 import type { Controller, MachineProfile } from "../../../machines/profile.js";
-import type { SettingsTable, ValuesOf } from "../../../settings/setting.js";
+import type { Setting, SettingsTable, ValuesOf } from "../../../settings/setting.js";
 import type { GrblAxisLimits } from "./planner.js";
 
 const speed = { kind: "number", min: 0, minExcluded: true, max: 1_000, unit: "mm/s", step: 1 } as const;
 const accel = { kind: "number", min: 0, minExcluded: true, max: 50_000, unit: "mm/s²", step: 10 } as const;
-const height = { kind: "number", min: -200, max: 200, unit: "mm", step: 0.5 } as const;
+const height = { kind: "number", min: -200, max: 200, unit: "mm", step: 0.5, isOptional: true } as const;
+const signal = { kind: "number", min: 0, max: 65_535, unit: "", step: 10, isOptional: true } as const;
 
-/** A Grbl that lifts the pen with its Z axis. X and Y have the same limits. `$110` and so on are Grbl's own settings. */
-export const GRBL_FIELDS = {
-  maxSpeedMmPerS: { ...speed, label: "Highest speed", about: "$110 and $111, divided by 60", default: 100 },
-  accelMmPerS2: { ...accel, label: "Acceleration", about: "$120 and $121", default: 1_000 },
+/** `$110` and so on are Grbl's own settings. Once it is connected, plans use those for speeds and accelerations. */
+const LIMIT_FIELDS = {
+  maxSpeedMmPerS: { ...speed, label: "Highest speed", about: "$110, divided by 60", default: 100 },
+  accelMmPerS2: { ...accel, label: "Acceleration", about: "$120", default: 1_000 },
   junctionMm: {
     kind: "number",
     label: "Junction deviation",
@@ -23,19 +24,62 @@ export const GRBL_FIELDS = {
     step: 0.01,
     digits: 3,
   },
-  penUpZMm: { ...height, label: "Z with the pen up", about: "the pen's height for travel", default: 5 },
-  penDownZMm: { ...height, label: "Z with the pen down", about: "the pen's height for drawing", default: 0 },
+} as const satisfies SettingsTable;
+
+type OptionalFields = Readonly<Record<string, Setting & { readonly isOptional: true }>>;
+
+/** Of the Grbl's own axes. Left out: that of X. */
+const Y_FIELDS = {
+  maxSpeedYMmPerS: {
+    ...speed,
+    isOptional: true,
+    label: "Highest speed of Y",
+    about: "$111, divided by 60; left out: that of X",
+    default: 100,
+  },
+  accelYMmPerS2: {
+    ...accel,
+    isOptional: true,
+    label: "Acceleration of Y",
+    about: "$121; left out: that of X",
+    default: 1_000,
+  },
+} as const satisfies OptionalFields;
+
+/**
+ * Three kinds of pen lift: a Z axis, a servo on the spindle's output, or own lines. The two heights of a Z axis and a
+ * servo are those at the default heights of pens, 60 % and 30 %; other heights follow in proportion.
+ */
+const PEN_FIELDS = {
+  penUpZMm: { ...height, label: "Z with the pen up", about: "Z at a pen height of 60 %", default: 5 },
+  penDownZMm: { ...height, label: "Z with the pen down", about: "Z at a pen height of 30 %", default: 0 },
+  penMinZMm: { ...height, label: "Lowest Z", about: "Z never goes below this", default: 0 },
+  penMaxZMm: { ...height, label: "Highest Z", about: "Z never goes above this", default: 10 },
   penSpeedMmPerS: {
     ...speed,
+    isOptional: true,
     label: "Pen speed",
     about: "speed of Z, up to $112 divided by 60",
     default: 10,
   },
-  penAccelMmPerS2: { ...accel, label: "Pen acceleration", about: "$122", default: 200 },
+  penAccelMmPerS2: { ...accel, isOptional: true, label: "Pen acceleration", about: "$122", default: 200 },
+  penUpS: {
+    ...signal,
+    label: "S with the pen up",
+    about: "value of M3 S at a pen height of 60 %, for a servo on the spindle's output",
+    default: 600,
+  },
+  penDownS: {
+    ...signal,
+    label: "S with the pen down",
+    about: "value of M3 S at a pen height of 30 %",
+    default: 300,
+  },
   penWaitMs: {
     kind: "number",
+    isOptional: true,
     label: "Wait for the pen",
-    about: "after each pen move, in steps of 50 ms",
+    about: "after each pen move, in steps of 50 ms, besides the time of its servo",
     default: 0,
     min: 0,
     max: 10_000,
@@ -44,10 +88,27 @@ export const GRBL_FIELDS = {
     step: 50,
     digits: 0,
   },
-} as const satisfies SettingsTable;
+} as const satisfies OptionalFields;
 
-export interface GrblController extends Controller, ValuesOf<typeof GRBL_FIELDS> {
+/** G-code, with line ends between its lines. */
+const OWN_LINES = { kind: "text", isOptional: true, maxLength: 1_000 } as const;
+
+export const GRBL_FIELDS = {
+  ...LIMIT_FIELDS,
+  ...Y_FIELDS,
+  ...PEN_FIELDS,
+  penUpLines: OWN_LINES,
+  penDownLines: OWN_LINES,
+} as const;
+
+type Optional<Values> = { readonly [K in keyof Values]?: Values[K] | null | undefined };
+
+export interface GrblController
+  extends Controller, ValuesOf<typeof LIMIT_FIELDS>, Optional<ValuesOf<typeof Y_FIELDS & typeof PEN_FIELDS>> {
   readonly kind: "grbl";
+  /** G-code that lifts the pen; lines are separated by line ends. */
+  readonly penUpLines?: string | null | undefined;
+  readonly penDownLines?: string | null | undefined;
 }
 
 /** The machine's controller as this driver's type. Throws `bad-setting` for a machine that it cannot drive. */
@@ -65,9 +126,14 @@ export function grblOf({ name, motors, controller }: MachineProfile): GrblContro
   );
 }
 
+/** By the profile. A Z axis that the pen does not use has no limits. */
 export function axisLimits(grbl: GrblController): GrblAxisLimits {
   const { maxSpeedMmPerS: speed, accelMmPerS2: accel, penSpeedMmPerS, penAccelMmPerS2, junctionMm } = grbl;
-  return { speed: [speed, speed, penSpeedMmPerS], accel: [accel, accel, penAccelMmPerS2], junctionMm };
+  return {
+    speed: [speed, grbl.maxSpeedYMmPerS ?? speed, penSpeedMmPerS ?? Infinity],
+    accel: [accel, grbl.accelYMmPerS2 ?? accel, penAccelMmPerS2 ?? Infinity],
+    junctionMm,
+  };
 }
 
 /** Grbl waits in units of 50 ms, rounded up. */

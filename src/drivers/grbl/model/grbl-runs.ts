@@ -6,8 +6,7 @@ import { capSegments, type RunLimits } from "../../../plan/limits.js";
 import type { RunPath } from "../../../plan/run-path.js";
 import type { RunPlanner } from "../../../plan/run-writer.js";
 import { newStraight, writeStraight } from "../../../plan/trapezoid.js";
-import { axisLimits, type GrblController } from "./grbl-controller.js";
-import { moveOf, plannedSpeeds2, type GrblAxisLimits, type Move } from "./planner.js";
+import { moveOf, plannedSpeeds2, type Axes, type GrblAxisLimits, type Move } from "./planner.js";
 
 /** A line to send: to a position of the axes, mm. */
 export interface SentMove {
@@ -31,14 +30,11 @@ interface Point {
 export class GrblRuns implements RunPlanner {
   /** By run. */
   readonly runs: SentMove[][] = [];
-  private readonly limits: GrblAxisLimits;
 
   constructor(
     private readonly machine: MachineProfile,
-    grbl: GrblController,
-  ) {
-    this.limits = axisLimits(grbl);
-  }
+    private readonly limits: GrblAxisLimits,
+  ) {}
 
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
     // The controller has its own accelerations, so the path is not planned in a stretched frame.
@@ -56,7 +52,7 @@ export class GrblRuns implements RunPlanner {
       if (to.steps1 === from.steps1 && to.steps2 === from.steps2) continue;
       const before = moves[moves.length - 1] ?? null;
       const moveAt = (feed: number): Move =>
-        moveOf([from.x, from.y, 0], [to.x, to.y, 0], feed / 60, this.limits, before);
+        moveOf(this.axesAt(from), this.axesAt(to), feed / 60, this.limits, before);
       // The profile may limit the speed more than the Grbl itself.
       const feed = feedOf(moveAt(60 * Math.sqrt(path.cap2[i])).speed);
       moves.push(moveAt(feed));
@@ -64,14 +60,15 @@ export class GrblRuns implements RunPlanner {
       points.push(to);
     }
     const speeds2 = plannedSpeeds2(moves);
-    const { stepsPerMm } = this.machine;
     const straight = newStraight();
     moves.forEach((move, i) => {
       const [from, to] = [points[i], points[i + 1]];
-      sent.push({ x: to.steps1 / stepsPerMm, y: to.steps2 / stepsPerMm, feed: feeds[i], startS: out.clockS });
+      const [x, y] = this.axesAt(to);
+      sent.push({ x, y, feed: feeds[i], startS: out.clockS });
       straight.x = from.x;
       straight.y = from.y;
-      [straight.ux, straight.uy] = move.unit;
+      straight.ux = (to.x - from.x) / move.lengthMm;
+      straight.uy = (to.y - from.y) / move.lengthMm;
       straight.length = move.lengthMm;
       straight.v0 = Math.sqrt(speeds2[i]);
       straight.v1 = Math.sqrt(speeds2[i + 1]);
@@ -81,6 +78,12 @@ export class GrblRuns implements RunPlanner {
       writeStraight(straight, move.accel, out);
     });
     out.addSegments(path.segmentCount);
+  }
+
+  /** Grbl's own axes, which may be turned against the page. */
+  private axesAt({ steps1, steps2 }: Point): Axes {
+    const { stepsPerMm } = this.machine;
+    return [steps1 / stepsPerMm, steps2 / stepsPerMm, 0];
   }
 
   private pointAt({ x, y }: RunPath, i: number, alongMm: number): Point {

@@ -4,37 +4,22 @@
  * that this driver sends, and refuses others as Grbl does.
  */
 import { positionFromMotors } from "../../../machines/motors.js";
-import { DrawnPolylines, type DrawnPolyline } from "../../drawn-polylines.js";
+import type { DrawnPolyline } from "../../drawn-polylines.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Transport } from "../../transport.js";
-import { dwellS, grblOf } from "../model/grbl-controller.js";
+import { dwellS } from "../model/grbl-controller.js";
 import { difference, QUEUE_MOVES, sum, type Axes } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
 import { VirtualLink } from "../../virtual-link.js";
+import { ERROR, wordsOf } from "./gcode-words.js";
 import { GrblMotion } from "./motion.js";
+import { Ink, VirtualPen } from "./virtual-pen.js";
 import { VirtualSettings, type LineFault, type VirtualGrblOptions } from "./virtual-settings.js";
 
 const VERSION = "1.1h";
 /** How long Grbl waits for more lines before it starts with a queue that is not full. */
 const START_S = 0.005;
-const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
-const ERROR = {
-  letter: 1,
-  number: 2,
-  dollar: 3,
-  busy: 8,
-  locked: 9,
-  unknown: 20,
-  sameGroup: 21,
-  noFeed: 22,
-  repeated: 25,
-  noWait: 28,
-  unused: 36,
-} as const;
-/** Supported modes, by group. G4 and G10 are in a group of their own. */
-const GROUPS = [["G0", "G1"], ["G21"], ["G54"], ["G90"], ["G94"], ["G4", "G10"]];
-
 interface VirtualGrblState {
   readonly state: string;
   readonly xMm: number;
@@ -42,6 +27,8 @@ interface VirtualGrblState {
   /** The pen's real height, from that of the first start. */
   readonly zMm: number;
   readonly penUp: boolean;
+  /** Motions that began while the pen's servo was still on its way. */
+  readonly earlyCount: number;
   /** Characters that arrived when the buffer was full: a real Grbl loses them silently. */
   readonly lostCount: number;
 }
@@ -49,10 +36,15 @@ interface VirtualGrblState {
 export class VirtualGrbl implements VirtualMachine {
   private readonly settings: VirtualSettings;
   private readonly motion: GrblMotion;
+  private readonly pen: VirtualPen;
   private readonly startS: number;
   private link: VirtualLink | null = null;
   private received = "";
   private lostCount = 0;
+  private earlyCount = 0;
+  /** "M5": the spindle's output is off. */
+  private spindle = "M5";
+  private spindleSpeed = 0;
   private isLocked = false;
   private isAsleep = false;
   private isHeld = false;
@@ -71,8 +63,10 @@ export class VirtualGrbl implements VirtualMachine {
   private startDueS: number | null = null;
   private cancelTimer: () => void = () => undefined;
   private isClosed = false;
-  private readonly lines = new DrawnPolylines();
-  private isDrawing = false;
+  private readonly ink = new Ink(
+    () => this.isPenDown,
+    () => this.onPage,
+  );
 
   constructor(
     private readonly options: VirtualMachineOptions,
@@ -81,13 +75,14 @@ export class VirtualGrbl implements VirtualMachine {
     const { clock, machine } = options;
     this.startS = clock.nowS();
     this.settings = new VirtualSettings(machine, board);
+    this.pen = new VirtualPen(machine);
     this.motion = new GrblMotion(
       () => this.settings.limits,
       (at) => this.onSteps(at),
-      () => this.record(),
+      () => this.ink.arrived(),
     );
     this.isLocked = this.settings.hasHoming;
-    this.newLine(false);
+    this.ink.begin(false);
   }
 
   transport(): Transport {
@@ -113,7 +108,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.motion.stop();
     this.origin = sum(this.origin, this.motion.at);
     this.motion.zero();
-    this.newLine(this.isPenDown);
+    this.ink.begin(this.isPenDown);
     this.isLocked = this.settings.hasHoming;
     this.begin();
     this.schedule();
@@ -145,15 +140,21 @@ export class VirtualGrbl implements VirtualMachine {
 
   state(): VirtualGrblState {
     this.catchUp();
-    const [x, y] = this.workAt();
-    const { x: xMm, y: yMm } = this.onPage(x, y);
+    const { x: xMm, y: yMm } = this.onPage;
     const pen = { zMm: this.zMm, penUp: !this.isPenDown };
-    return { state: this.stateName(), xMm, yMm, ...pen, lostCount: this.lostCount };
+    return {
+      state: this.stateName(),
+      xMm,
+      yMm,
+      ...pen,
+      earlyCount: this.earlyCount,
+      lostCount: this.lostCount,
+    };
   }
 
   drawn(): DrawnPolyline[] {
     this.catchUp();
-    return this.lines.list();
+    return this.ink.lines.list();
   }
 
   private get nowS(): number {
@@ -183,12 +184,13 @@ export class VirtualGrbl implements VirtualMachine {
       const line = this.received.slice(0, end).replace(/\s|\(.*?\)|;.*/g, "");
       const answer = this.perform(line.toUpperCase());
       if (answer === null) break;
+      if (answer === 0) this.pen.executed(line.toUpperCase(), this.nowS);
       this.received = this.received.slice(end + 1);
       this.answer(answer === 0 ? "ok" : `error:${answer}`);
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
       this.startDueS ??= this.nowS + START_S;
-      const waitsForMotion = this.received.startsWith("G4");
+      const waitsForMotion = /^(G4|M[345])/.test(this.received);
       if (this.motion.isFull || waitsForMotion) this.startDueS = this.nowS;
     }
     this.schedule();
@@ -212,12 +214,15 @@ export class VirtualGrbl implements VirtualMachine {
   private catchUp(minS = 0): void {
     const toS = Math.max(this.nowS, minS);
     if (this.startDueS !== null && this.startDueS <= toS) {
+      if (this.pen.isMoving(this.startDueS)) this.earlyCount++;
+      if (!this.pen.isOnZ) this.ink.see();
       this.motion.go(this.startDueS);
       this.startDueS = null;
     }
     this.motion.advance(toS);
     if (this.waitUntilS !== null && this.waitUntilS <= toS) {
       this.waitUntilS = null;
+      this.ink.see();
       this.afterWait();
       this.answer("ok");
     }
@@ -229,18 +234,10 @@ export class VirtualGrbl implements VirtualMachine {
     if (this.settings.takes("refused")) return ERROR.unknown;
     if (line.startsWith("$")) return this.system(line);
     if (this.isLocked) return ERROR.locked;
-    const rest = line.replace(WORDS, "");
-    if (rest !== "") return /^[A-Z]/.test(rest) ? ERROR.number : ERROR.letter;
-    const words = new Map<string, number>();
-    const modes: string[] = [];
-    for (const [, letter, value] of line.matchAll(WORDS)) {
-      if (letter === "G" || letter === "M") modes.push(`${letter}${Number(value)}`);
-      else if (words.has(letter)) return ERROR.repeated;
-      else words.set(letter, Number(value));
-    }
-    const groups = modes.map((mode) => GROUPS.findIndex((group) => group.includes(mode)));
-    if (groups.includes(-1)) return ERROR.unknown;
-    if (new Set(groups).size < groups.length) return ERROR.sameGroup;
+    const block = wordsOf(line);
+    if (typeof block === "number") return block;
+    const { modes, words } = block;
+    if (!this.setSpindle(modes, words)) return null;
     if (modes.includes("G4")) return this.dwell(modes, words);
     if (modes.includes("G10")) return this.setOffset(words);
     return this.move(modes, words);
@@ -250,7 +247,9 @@ export class VirtualGrbl implements VirtualMachine {
     const isAtRest = this.motion.isEmpty || this.isLocked;
     const [, number, value] = /^\$(\d+)=(-?[\d.]+)$/.exec(line) ?? [];
     if (line === "$G") {
-      this.reply(`[GC:${this.isRapid ? "G0" : "G1"} G54 G17 G21 G90 G94 M5 M9 T0 F${this.feed} S0]`);
+      this.reply(
+        `[GC:${this.isRapid ? "G0" : "G1"} G54 G17 G21 G90 G94 ${this.spindle} M9 T0 F${this.feed} S${this.spindleSpeed}]`,
+      );
     } else if (line === "$")
       this.reply("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]");
     else if (line === "$X") {
@@ -288,6 +287,19 @@ export class VirtualGrbl implements VirtualMachine {
     return null;
   }
 
+  /** Takes M3, M5 and S out of the line. A change waits for rest: false while it does. */
+  private setSpindle(modes: readonly string[], words: Map<string, number>): boolean {
+    const spindle = modes.find((mode) => mode.startsWith("M")) ?? this.spindle;
+    const speed = words.get("S") ?? this.spindleSpeed;
+    const isChange = spindle !== this.spindle || (speed !== this.spindleSpeed && spindle !== "M5");
+    if (isChange && !this.motion.isEmpty) return false;
+    words.delete("S");
+    this.spindle = spindle;
+    this.spindleSpeed = speed;
+    if (isChange) this.pen.signal(spindle === "M5" ? null : speed, this.nowS);
+    return true;
+  }
+
   private setOffset(words: ReadonlyMap<string, number>): number | null {
     if (words.get("L") !== 20 || words.get("P") !== 1) return ERROR.unknown;
     if (!this.motion.isEmpty) return null;
@@ -296,7 +308,7 @@ export class VirtualGrbl implements VirtualMachine {
       words.has(letter) ? at[i] - (words.get(letter) ?? 0) : this.offset[i];
     this.offset = [set(0, "X"), set(1, "Y"), set(2, "Z")];
     this.isOffsetReported = false;
-    this.newLine(false);
+    this.ink.begin(false);
     return 0;
   }
 
@@ -370,6 +382,8 @@ export class VirtualGrbl implements VirtualMachine {
     this.waitUntilS = this.startDueS = null;
     this.feed = 0;
     this.isRapid = true;
+    this.spindle = "M5";
+    this.spindleSpeed = 0;
     this.isOffsetReported = false;
     this.reply(`Grbl ${VERSION} ['$' for help]`);
     if (this.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
@@ -415,29 +429,12 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private get isPenDown(): boolean {
-    const { penUpZMm, penDownZMm } = grblOf(this.options.machine);
-    return Math.abs(this.zMm - penDownZMm) < Math.abs(this.zMm - penUpZMm);
+    return this.pen.isDown(this.zMm, this.nowS);
   }
 
-  private onPage(x: number, y: number): { x: number; y: number } {
-    const { stepsPerMm } = this.options.machine;
-    return positionFromMotors(this.options.machine, x * stepsPerMm, y * stepsPerMm);
-  }
-
-  private record(): void {
-    if (this.isDrawing !== this.isPenDown) this.newLine(this.isPenDown);
-    else this.addPoint();
-  }
-
-  private newLine(penDown: boolean): void {
-    this.isDrawing = penDown;
-    this.lines.begin(penDown);
-    this.addPoint();
-  }
-
-  private addPoint(): void {
+  private get onPage(): { x: number; y: number } {
+    const { machine } = this.options;
     const [x, y] = this.workAt();
-    const page = this.onPage(x, y);
-    this.lines.add(page.x, page.y);
+    return positionFromMotors(machine, x * machine.stepsPerMm, y * machine.stepsPerMm);
   }
 }

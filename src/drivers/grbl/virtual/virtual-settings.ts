@@ -1,6 +1,6 @@
 /** What differs from one virtual Grbl to another: its own settings, its receive buffer, and faults of the connection. */
 import type { MachineProfile } from "../../../machines/profile.js";
-import { grblOf } from "../model/grbl-controller.js";
+import { axisLimits, grblOf } from "../model/grbl-controller.js";
 import type { Axes, GrblAxisLimits } from "../model/planner.js";
 import { RX_BYTES } from "../protocol.js";
 
@@ -24,7 +24,8 @@ export class VirtualSettings {
 
   constructor(machine: MachineProfile, { rxBytes = RX_BYTES, settings = {} }: VirtualGrblOptions) {
     this.rxBytes = rxBytes;
-    const { maxSpeedMmPerS, accelMmPerS2, junctionMm, penSpeedMmPerS, penAccelMmPerS2 } = grblOf(machine);
+    const { speed, accel, junctionMm } = axisLimits(grblOf(machine));
+    const finite = (value: number, other: number): number => (Number.isFinite(value) ? value : other);
     const { stepsPerMm, widthMm, heightMm } = machine;
     const all: Readonly<Record<number, number>> = {
       0: 10,
@@ -35,15 +36,18 @@ export class VirtualSettings {
       20: 0,
       22: 0,
       23: 0,
+      30: 1_000,
+      31: 0,
+      32: 0,
       100: stepsPerMm,
       101: stepsPerMm,
       102: stepsPerMm,
-      110: 60 * maxSpeedMmPerS,
-      111: 60 * maxSpeedMmPerS,
-      112: 60 * penSpeedMmPerS,
-      120: accelMmPerS2,
-      121: accelMmPerS2,
-      122: penAccelMmPerS2,
+      110: 60 * speed[0],
+      111: 60 * speed[1],
+      112: finite(60 * speed[2], 500),
+      120: accel[0],
+      121: accel[1],
+      122: finite(accel[2], 10),
       130: widthMm,
       131: heightMm,
       132: 200,

@@ -1,5 +1,6 @@
 /** A Grbl's own settings, its locks, and its pen after a reconnection. */
 import { describe, expect, it } from "vitest";
+import type { PlotProgress } from "../../../../src/internal.js";
 import { PlotterConnection } from "../../../../host/plotter/plotter-connection.js";
 import { driver as grblDriver } from "../../../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
@@ -44,29 +45,40 @@ describe("a Grbl that reports in inches ($13=1)", () => {
 });
 
 describe("a Grbl with other settings than its profile", () => {
-  it.each([
-    [{ 110: 3_000 }, "Highest speed is at most 50 mm/s ($110)"],
-    [{ 111: 3_000 }, "Highest speed is at most 50 mm/s ($111)"],
-    [{ 112: 600 }, "Pen speed is at most 10 mm/s ($112)"],
-    [{ 120: 500 }, "Acceleration is 500 mm/s² ($120)"],
-    [{ 121: 2_000 }, "Acceleration is 2000 mm/s² ($121)"],
-    [{ 122: 100 }, "Pen acceleration is 100 mm/s² ($122)"],
-    [{ 11: 0.05 }, "Junction deviation is 0.05 mm ($11)"],
-  ])("refuses to plot, since all times would be wrong, and nothing moves: %j", async (settings, words) => {
-    const { world, board, driver, begin, within } = await newPlotter({ settings });
-    const run = await begin();
-    const message = await within(run.finished);
-    expect(message).toMatch(/^bad-setting: The profile of My Grbl does not fit the Grbl's own settings/);
-    expect(message).toContain(words);
-    expect(board.state()).toMatchObject({ state: "Idle", xMm: 0, yMm: 0, zMm: 0 });
-    // The profile and the settings fit again.
-    const [number] = Object.keys(settings);
-    const right = { 110: 10_000, 111: 10_000, 112: 3_000, 120: 1_000, 121: 1_000, 122: 1_000, 11: 0.01 };
-    await within(driver.command(`$${number}=${right[Number(number) as keyof typeof right]}`));
-    await world.advance(1);
-    expect(await within(driver.move({ kind: "move-to", xMm: 5, yMm: 5 }))).toBeUndefined();
-  });
+  const SLOWER = [
+    [{ 110: 3_000 }, "speed of X is at most 50 mm/s ($110)"],
+    [{ 111: 3_000 }, "speed of Y is at most 50 mm/s ($111)"],
+    [{ 112: 600 }, "speed of the pen is at most 10 mm/s ($112)"],
+    [{ 120: 300 }, "acceleration of X is at most 300 mm/s² ($120)"],
+    [{ 121: 500 }, "acceleration of Y is at most 500 mm/s² ($121)"],
+    [{ 122: 100 }, "acceleration of the pen is at most 100 mm/s² ($122)"],
+    [{ 11: 0.002 }, "Junction deviation is at most 0.002 mm ($11)"],
+  ] as const;
+  const FASTER = [{ 121: 2_000 }, { 120: 3_000, 121: 1_500 }, { 11: 0.05 }, { 122: 4_000 }].map(
+    (settings) => [settings, null] as const,
+  );
 
+  it.each([...SLOWER, ...FASTER])(
+    "plots in the time that its plan for this Grbl says, and a slower one is told before: %j",
+    async (settings, words) => {
+      const { world, driver, begin, within } = await newPlotter({ settings });
+      if (words === null) expect(driver.state.message).toBeNull();
+      else {
+        expect(driver.state.message).toMatch(/^This Grbl is slower than the profile of My Grbl says: /);
+        expect(driver.state.message).toContain(words);
+      }
+      const run = await begin();
+      const startS = world.nowS();
+      const first = await new Promise<PlotProgress>((resolve) => {
+        run.onProgress(resolve);
+        void world.advance(1);
+      });
+      const toldS = first.elapsedS + first.remainingS;
+      expect(await within(run.finished)).toEqual({ kind: "done" });
+      // The pen goes up before the plan begins.
+      expect(Math.abs(world.nowS() - startS - toldS)).toBeLessThan(0.01 * toldS + 0.6);
+    },
+  );
   it("a Grbl that is faster than its profile plots no faster than told", async () => {
     const settings = { 110: 30_000, 111: 30_000, 112: 9_000 };
     const { world, begin, within } = await newPlotter({ settings });

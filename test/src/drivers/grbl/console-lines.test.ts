@@ -1,6 +1,6 @@
 /** Typed lines that would stop a Grbl from answering, in every form in which it reads them. */
 import { expect, it } from "vitest";
-import { whyRefused } from "../../../../../src/drivers/grbl/machine/console-lines.js";
+import { whyRefused } from "../../../../src/drivers/grbl/console-lines.js";
 
 it.each([
   ["M0", /wait for a resume.*G4P/],
