@@ -12,17 +12,16 @@ import { ROOT } from "./setup.mjs";
 
 const CHUNKS = path.join(ROOT, "dist", "chunks");
 
-const { dependencies, optionalDependencies } = JSON.parse(
+const { dependencies, optionalDependencies, peerDependencies } = JSON.parse(
   readFileSync(path.join(ROOT, "package.json"), "utf8"),
 );
 /**
  * What users of the package install. Packages of many small files, of which few are used, are development dependencies
  * and become part of the bundle: loading them one by one takes 70 ms. They must run in browsers too, and as ES modules.
  */
-const external = [...Object.keys(dependencies), ...Object.keys(optionalDependencies)].flatMap((name) => [
-  name,
-  `${name}/*`,
-]);
+const external = Object.keys({ ...dependencies, ...optionalDependencies, ...peerDependencies }).flatMap(
+  (name) => [name, `${name}/*`],
+);
 
 /**
  * The files that src/index.ts exports from are entries too. So the code of each name is in files of its own, and the

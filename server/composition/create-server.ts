@@ -150,7 +150,11 @@ async function openParts(
   const uploads = new UploadedDrawings(files, log);
   closing.add("the uploaded drawings", () => uploads.close());
   const hub = new EventHub();
-  const announce = (event: ServerEvent): void => hub.announce(event);
+  const running: RunningPlugin[] = [];
+  const announce = (event: ServerEvent): void => {
+    hub.announce(event);
+    for (const plugin of running) plugin.onEvent?.(event);
+  };
   const nowIso = (): string => new Date().toISOString();
   const machines = new MachineFiles(dataDir, announce);
   machines.warnings.forEach(log);
@@ -192,7 +196,6 @@ async function openParts(
     announce({ type: "local-name", localName: name });
   };
   const host: PluginHost = { ...core, queue, files, uploads, notices, setLocalName };
-  const running: RunningPlugin[] = [];
   for (const plugin of plugins) {
     const started = await plugin.start(host);
     closing.add(plugin.name, () => started.close());

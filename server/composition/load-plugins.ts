@@ -5,7 +5,7 @@ import type { ServerOptions } from "./server-options.js";
 
 /** The webhooks are first, so that their deliveries are closed even if a later plug-in fails to start. */
 export async function loadPlugins(options: ServerOptions, core: PluginCore): Promise<ServerPlugin[]> {
-  const { webhooks = true, watchDir, sharedQueue, lan = false, mdns = lan } = options;
+  const { webhooks = true, watchDir, sharedQueue, mqtt, lan = false, mdns = lan } = options;
   const plugins: ServerPlugin[] = [];
   if (webhooks) {
     const { webhooksPlugin } = await import("../plugins/webhooks/plugin.js");
@@ -19,6 +19,10 @@ export async function loadPlugins(options: ServerOptions, core: PluginCore): Pro
     const { sharedQueuePlugin } = await import("../plugins/shared-queue/plugin.js");
     const { sharedPollMs: pollMs, sharedLostAfterMs: lostAfterMs, sharedTimeoutMs: timeoutMs } = options;
     plugins.push(sharedQueuePlugin({ url: sharedQueue, pollMs, lostAfterMs, timeoutMs }, core));
+  }
+  if (mqtt !== undefined) {
+    const { mqttPlugin } = await import("../plugins/mqtt/plugin.js");
+    plugins.push(mqttPlugin(mqtt));
   }
   if (mdns) {
     const { localNamePlugin } = await import("../plugins/local-name/plugin.js");

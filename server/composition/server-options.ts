@@ -49,6 +49,11 @@ export interface ServerOptions {
   readonly sharedLostAfterMs?: number;
   /** Timeout of the shared database; default 5 s. */
   readonly sharedTimeoutMs?: number;
+  /**
+   * `mqtt://` or `mqtts://` address of a broker, with user, password and topic, that learns the plotters' states and sends
+   * commands; needs the package mqtt.
+   */
+  readonly mqtt?: string;
   /** Called when the links in `pairing` were replaced, because a device was removed. */
   readonly onNewPairing?: () => void;
   /** Receives the lines of the log. */
@@ -75,6 +80,7 @@ const NAMES = Object.keys({
   sharedPollMs: true,
   sharedLostAfterMs: true,
   sharedTimeoutMs: true,
+  mqtt: true,
   onNewPairing: true,
   log: true,
 } satisfies Record<keyof ServerOptions, true>);

@@ -10,6 +10,7 @@ import type { PlotterPort } from "../../host/plotter/plotter-port.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { Notices } from "../../host/queue/notices.js";
 import type { JobHooks, Claims } from "../../host/queue/queue-parts.js";
+import type { ServerEvent } from "../../src/schema/index.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
 import type { Store } from "../storage/store.js";
 import type { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
@@ -24,6 +25,8 @@ export interface ServerPlugin {
 
 export interface RunningPlugin {
   readonly operations?: ServerHandlers;
+  /** Called after each change of plotters and jobs, and many times a second while one plots. Never throws. */
+  onEvent?(event: ServerEvent): void;
   /** The server accepts requests. */
   listening?(address: ServerAddress): void;
   close(): Promise<void> | void;

@@ -28,6 +28,7 @@ export interface ServeCommandOptions {
   readonly data?: string;
   readonly watch?: string;
   readonly sharedQueue?: string;
+  readonly mqtt?: string;
   readonly maxUploadMb: number;
   readonly open?: boolean;
   readonly lan?: boolean;
@@ -61,6 +62,7 @@ export async function runServe(options: ServeCommandOptions, io: CliIo): Promise
     ...(options.data === undefined ? {} : { dataDir: options.data }),
     ...(options.watch === undefined ? {} : { watchDir: options.watch }),
     ...(options.sharedQueue === undefined ? {} : { sharedQueue: options.sharedQueue }),
+    ...(options.mqtt === undefined ? {} : { mqtt: options.mqtt }),
     onNewPairing: () => void showPairing("A device was removed, so the links for pairing are new.\n"),
     log: (line) => io.err(printed`${line}\n`),
   });

@@ -75,6 +75,12 @@ function addServe(command: Command): Command {
         "PLOTWRIGHT_SHARED_QUEUE",
       ),
     )
+    .addOption(
+      new Option(
+        "--mqtt <url>",
+        "report the plotters to an MQTT broker and take its commands, as mqtt://user:password@host/topic",
+      ).env("PLOTWRIGHT_MQTT"),
+    )
     .option("--max-upload-mb <number>", "maximum size of a drawing, MB", positive, 200)
     .option("--open", "open the page in the browser");
 }

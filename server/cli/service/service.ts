@@ -61,7 +61,10 @@ const PATH_OPTIONS = ["--data", "--watch", "--cert", "--key"];
  * on this computer can read a process's options in process lists and in `systemctl show`, so these values are in an
  * EnvironmentFile.
  */
-const SECRET_OPTIONS: Readonly<Record<string, string>> = { "--shared-queue": "PLOTWRIGHT_SHARED_QUEUE" };
+const SECRET_OPTIONS: Readonly<Record<string, string>> = {
+  "--shared-queue": "PLOTWRIGHT_SHARED_QUEUE",
+  "--mqtt": "PLOTWRIGHT_MQTT",
+};
 
 /** How long a server may take to start, on a slow computer, and how often its port is tried meanwhile. */
 const START_MS = 20_000;

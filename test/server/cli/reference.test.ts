@@ -143,6 +143,7 @@ const NOT_RUN: Readonly<Record<string, string>> = {
   "add --font": "a server does not take it: it has a test in test/server/cli/beside-server.test.ts",
   "pen-times --url": "it has a test in test/server/cli/measuring-commands.test.ts",
   "ringing --url": "it has a test in test/server/cli/measuring-commands.test.ts",
+  "serve --mqtt": "it needs a broker: it has a test in test/server/plugins/mqtt/mqtt.test.ts",
   "serve --shared-queue":
     "it needs a PostgreSQL database: it has a test in test/server/plugins/shared-queue/shared-begin.test.ts",
 };

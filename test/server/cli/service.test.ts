@@ -180,6 +180,13 @@ describe("plotwright service", () => {
     expect(out).not.toContain("s3cret");
   });
 
+  it("keeps the address of an MQTT broker, which may have a password, in that file too", async () => {
+    await installService({}, serve("--mqtt", "mqtt://ada:s3cret@broker.example"), io, host());
+    expect(readFileSync(userUnit(), "utf8")).not.toContain("s3cret");
+    const secrets = readFileSync(userUnit().replace(".service", ".env"), "utf8");
+    expect(secrets).toBe('PLOTWRIGHT_MQTT="mqtt://ada:s3cret@broker.example"\n');
+  });
+
   it("quotes what systemd would interpret", () => {
     const unit = unitText({}, ["--watch", '/my "plots"/100%/$HOME'], host());
     expect(unit).toContain(' --watch "/my \\"plots\\"/100%%/$$HOME"\n');
