@@ -3,6 +3,7 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 import { defineConfig } from "vitest/config";
 import { BaseSequencer, type TestSpecification } from "vitest/node";
+import { WITH_PREACT } from "./web/vite.config.js";
 
 /** Tests at the speed of a real board. They mostly wait; heavier work beside them would disturb them. */
 const REAL_TIME = ["test/serial/**/*.test.ts"];
@@ -53,6 +54,8 @@ const COMMON = {
   execArgv: EXEC_ARGV,
   setupFiles: ["test/support/runs/fixed-seed.ts"],
   env: { XDG_CONFIG_HOME: path.join(EMPTY, "config"), XDG_DATA_HOME: path.join(EMPTY, "data") },
+  // Its import of React is replaced too.
+  server: { deps: { inline: ["zustand"] } },
 };
 
 /** These tests leave nothing behind, so they share workers that have loaded the product once. */
@@ -100,6 +103,7 @@ export default defineConfig({
     sequence: { sequencer: SlowestFirst },
     projects: [
       {
+        resolve: WITH_PREACT,
         test: {
           ...COMMON,
           ...WAITING,
@@ -112,6 +116,7 @@ export default defineConfig({
         },
       },
       {
+        resolve: WITH_PREACT,
         test: {
           ...COMMON,
           ...WAITING,
@@ -122,6 +127,7 @@ export default defineConfig({
         },
       },
       {
+        resolve: WITH_PREACT,
         test: {
           ...COMMON,
           ...WAITING,
@@ -134,6 +140,7 @@ export default defineConfig({
         },
       },
       {
+        resolve: WITH_PREACT,
         test: {
           ...COMMON,
           ...MOSTLY_WAITING,
@@ -145,6 +152,7 @@ export default defineConfig({
         },
       },
       {
+        resolve: WITH_PREACT,
         test: {
           ...COMMON,
           name: "load",

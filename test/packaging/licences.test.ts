@@ -20,7 +20,7 @@ describe.each(BACKENDS)("the page with its backend in the %s", (backend) => {
     const text = readFileSync(path.join(out, "licences.txt"), "utf8").trim();
     const packages = packagesOf(sources);
     // Each is in another part: the page, the worker that reads drawings.
-    expect(packages).toEqual(expect.arrayContaining(["react", "zustand", "css-tree", "clipper2-ts"]));
+    expect(packages).toEqual(expect.arrayContaining(["preact", "zustand", "css-tree", "clipper2-ts"]));
     for (const name of packages) expect(licenceOf(name, text)).toMatch(/permi(t|ssion)/i);
     for (const name of packages) {
       const rest = text.replace(licenceOf(name, text) ?? "", "");

@@ -73,10 +73,10 @@ describe("the installed package", () => {
 
   it("has the licence of everything that is built into the page", () => {
     const text = readFileSync(path.join(installed, "dist", "web", "licences.txt"), "utf8");
-    // React and zustand are in the page, css-tree, saxes and clipper2-ts in its workers, the fonts in our sources.
+    // Preact and zustand are in the page, css-tree, saxes and clipper2-ts in its workers, the fonts in our sources.
     for (const name of [
       "plotwright",
-      "react",
+      "preact",
       "zustand",
       "css-tree",
       "saxes",

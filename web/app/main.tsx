@@ -1,5 +1,4 @@
 /** Mounts the page. The only file with side effects on import. */
-import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { PageContext } from "../state/use-store.js";
 import { ErrorBoundary } from "../ui/lazy-part.js";
@@ -27,12 +26,10 @@ if (!root) throw new Error("index.html has no #root");
 // worker, and styles depend on :has(). Without them, index.html's text stays.
 if (typeof OffscreenCanvas !== "undefined" && CSS.supports("selector(:has(a))")) {
   createRoot(root).render(
-    <StrictMode>
-      <ErrorBoundary fallback={(message) => <Crash message={message} />}>
-        <PageContext value={openPage()}>
-          <App />
-        </PageContext>
-      </ErrorBoundary>
-    </StrictMode>,
+    <ErrorBoundary fallback={(message) => <Crash message={message} />}>
+      <PageContext value={openPage()}>
+        <App />
+      </PageContext>
+    </ErrorBoundary>,
   );
 }

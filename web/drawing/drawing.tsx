@@ -9,6 +9,7 @@ import { Button } from "../ui/button.js";
 import { ChooseFile } from "../ui/files/choose-file.js";
 import { formatSize } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
+import { useShownAgain } from "../ui/fields/choice.js";
 import { SettingsGroup } from "../ui/fields/settings-group.js";
 import { Panel } from "../ui/panel.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -47,16 +48,13 @@ export const ChooseDrawing = ({ label }: { label: string }) => {
 const Samples = () => {
   const samples = usePageState((state) => state.samples);
   const { openSample } = useActions();
+  const open = useShownAgain((chosen: string) => {
+    const sample = samples.find(({ name }) => name === chosen);
+    if (sample) void openSample(sample.name, sample.title);
+  });
   if (samples.length === 0) return null;
   return (
-    <select
-      aria-label={words.sampleHint}
-      value=""
-      onChange={(event) => {
-        const sample = samples.find(({ name }) => name === event.target.value);
-        if (sample) void openSample(sample.name, sample.title);
-      }}
-    >
+    <select aria-label={words.sampleHint} value="" onChange={(event) => open(event.target.value)}>
       <option value="" disabled>
         {words.sample}
       </option>

@@ -3,6 +3,7 @@ import { activeJob, mayOperate, maySubmit } from "../state/store.js";
 import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
 import { axisText, plotText, queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
+import { useShownAgain } from "../ui/fields/choice.js";
 import { formatClockIn, formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { RowMenu } from "../ui/rows/row-menu.js";
@@ -169,16 +170,17 @@ const PlotterChoice = ({ copies }: { copies: Copies }) => {
   const [job] = copies;
   const plotters = usePageState((state) => state.plotters);
   const { patchJob } = useActions();
-  if (plotters.length < 2) return null;
   const moveAll = async (plotterId: string): Promise<void> => {
     for (const { id } of copies) await patchJob(id, { plotterId });
   };
+  const choose = useShownAgain((plotterId: string) => void moveAll(plotterId));
+  if (plotters.length < 2) return null;
   return (
     <select
       className="select-small"
       aria-label={words.moveToPlotter(job.name)}
       value={job.plotterId}
-      onChange={(event) => void moveAll(event.target.value)}
+      onChange={(event) => choose(event.target.value)}
     >
       {plotters.map(({ id, name }) => (
         <option key={id} value={id}>

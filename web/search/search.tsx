@@ -94,7 +94,7 @@ export const Search = ({ actions }: { actions: readonly PageAction[] }) => {
           role="combobox"
           autoFocus
           autoComplete="off"
-          spellCheck={false}
+          spellCheck="false"
           aria-label={words.title}
           aria-expanded={found.length > 0}
           aria-controls={`${id}-list`}

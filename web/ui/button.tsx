@@ -18,9 +18,17 @@ interface ButtonProps extends ComponentProps<"button"> {
   readonly kind?: ButtonKind | undefined;
 }
 
-/** A button in one of the page's looks. `className` adds to the look. */
-export const Button = ({ kind = "plain", className, ...props }: ButtonProps) => (
-  <button type="button" className={className ? `${CLASSES[kind]} ${className}` : CLASSES[kind]} {...props} />
+/** The attribute `autofocus` alone has no effect on elements that are added later, outside of a dialog. */
+const focusNow = (button: HTMLButtonElement | null): void => button?.focus();
+
+/** A button in one of the page's looks. `className` adds to the look. With `autoFocus` it has the focus once it is shown. */
+export const Button = ({ kind = "plain", className, autoFocus, ...props }: ButtonProps) => (
+  <button
+    type="button"
+    className={className ? `${CLASSES[kind]} ${className}` : CLASSES[kind]}
+    ref={autoFocus ? focusNow : null}
+    {...props}
+  />
 );
 
 interface IconButtonProps extends ButtonProps {

@@ -28,9 +28,9 @@ export const Dialog = ({ title, isBare, className = "", onClose, children }: Dia
       ref={dialog}
       className={`dialog ${className}`.trim()}
       aria-label={title}
-      // The event is asynchronous: React's strict mode may have opened the dialog again by then.
+      // The event is asynchronous: another dialog may have replaced this one by then.
       onClose={() => {
-        if (!dialog.current?.open) onClose();
+        if (dialog.current) onClose();
       }}
     >
       {!isBare && (

@@ -55,7 +55,8 @@ it("is not offered on paper that is too small for it", () => {
 it("shows the number that is stored, if both waits have it", () => {
   const chosenIn = (extraLiftMs: number, extraDropMs: number): string | undefined => {
     const pen = { ...DEFAULT_PLOT_SETTINGS.pen, extraLiftMs, extraDropMs };
-    return /<option value="([^"]*)" selected/.exec(shown({ ...DEFAULT_PLOT_SETTINGS, pen }))?.[1];
+    const [chosen] = /<option selected value[^>]*>/.exec(shown({ ...DEFAULT_PLOT_SETTINGS, pen })) ?? [];
+    return chosen && (/value="(.*)"/.exec(chosen)?.[1] ?? "");
   };
   expect([chosenIn(0, 0), chosenIn(-40, -40), chosenIn(20, 0), chosenIn(7, 7)]).toEqual(["0", "-40", "", ""]);
 });

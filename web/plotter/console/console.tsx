@@ -95,7 +95,7 @@ const CommandLine = ({ onSend }: { onSend(line: string): Promise<void> }) => {
         autoFocus
         autoComplete="off"
         autoCapitalize="characters"
-        spellCheck={false}
+        spellCheck="false"
         aria-label={words.command}
         placeholder="QS"
         value={line}

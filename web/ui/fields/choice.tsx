@@ -1,5 +1,19 @@
-import { useId } from "react";
+import { useId, useReducer } from "react";
 import { useHint } from "../hint.js";
+
+/**
+ * Calls `onChange`, then shows the page's own value again. A field would otherwise keep what was chosen when the page
+ * did not take it over, because nothing is rendered then.
+ */
+export const useShownAgain = <T extends string | number | boolean>(
+  onChange: (value: T) => void,
+): ((value: T) => void) => {
+  const [, render] = useReducer((count: number) => count + 1, 0);
+  return (value) => {
+    onChange(value);
+    render();
+  };
+};
 
 interface ChoiceOption<T extends string> {
   readonly value: T;
@@ -35,6 +49,7 @@ export const Segments = <T extends string>({
 }: SegmentsProps<T>) => {
   const name = useId();
   const help = useHint(label, `${name}-note`, hint);
+  const choose = useShownAgain(onChange);
   return (
     <div
       role="group"
@@ -54,7 +69,7 @@ export const Segments = <T extends string>({
               name={name}
               checked={option.value === value}
               disabled={option.isOff}
-              onChange={() => onChange(option.value)}
+              onChange={() => choose(option.value)}
             />
             <span>{option.label}</span>
           </label>
@@ -69,13 +84,14 @@ export const Segments = <T extends string>({
 export const Select = <T extends string>({ label, value, options, hint, onChange }: ChoiceProps<T>) => {
   const id = useId();
   const help = useHint(label, `${id}-note`, hint);
+  const choose = useShownAgain(onChange);
   return (
     <div className="field">
       <span className="field-label">
         <label htmlFor={id}>{label}</label>
         {help.button}
       </span>
-      <select id={id} value={value} onChange={(event) => onChange(event.target.value as T)}>
+      <select id={id} value={value} onChange={(event) => choose(event.target.value as T)}>
         {options.map((option) => (
           <option key={option.value} value={option.value} disabled={option.isOff}>
             {option.label}
@@ -93,15 +109,13 @@ interface SwitchProps {
   onChange(isOn: boolean): void;
 }
 
-export const Switch = ({ label, isOn, onChange }: SwitchProps) => (
-  <label className="switch">
-    <input
-      type="checkbox"
-      role="switch"
-      checked={isOn}
-      onChange={(event) => onChange(event.target.checked)}
-    />
-    <span className="switch-track" aria-hidden="true" />
-    <span className="switch-label">{label}</span>
-  </label>
-);
+export const Switch = ({ label, isOn, onChange }: SwitchProps) => {
+  const turn = useShownAgain(onChange);
+  return (
+    <label className="switch">
+      <input type="checkbox" role="switch" checked={isOn} onChange={(event) => turn(event.target.checked)} />
+      <span className="switch-track" aria-hidden="true" />
+      <span className="switch-label">{label}</span>
+    </label>
+  );
+};

@@ -1,5 +1,6 @@
 import { useId } from "react";
 import { useHint } from "../hint.js";
+import { useShownAgain } from "./choice.js";
 import { NumberBox, useTypedNumber, type NumberLimits } from "./number-box.js";
 
 interface NumberFieldProps extends NumberLimits {
@@ -22,6 +23,11 @@ export const NumberField = (props: NumberFieldProps) => {
   const typed = useTypedNumber(value, props, onChange);
   const noteId = `${id}-note`;
   const help = useHint(label, noteId, hint);
+  const slide = useShownAgain((to: number) => {
+    typed.forget();
+    onChange(to);
+    onSlide?.(to);
+  });
   return (
     <div className={slider ? "field field-sliding" : "field"}>
       <span className="field-label">
@@ -39,11 +45,7 @@ export const NumberField = (props: NumberFieldProps) => {
           step={step}
           value={Math.min(slider[1], Math.max(slider[0], value))}
           disabled={disabled}
-          onChange={(event) => {
-            typed.forget();
-            onChange(Number(event.target.value));
-            onSlide?.(Number(event.target.value));
-          }}
+          onChange={(event) => slide(Number(event.target.value))}
         />
       )}
       <NumberBox
