@@ -2,6 +2,7 @@
 // lengths
 export {
   LENGTH_UNITS,
+  mmInWords,
   lengthFromMm,
   mmFromLength,
   parseLength,
@@ -17,6 +18,8 @@ export { printable, printableJson } from "./plain-text.js";
 export { hasFill, type DrawingWarning } from "./drawing/drawing.js";
 export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
 export { compose, inverse, meanScale, scaling, type Affine } from "./geometry/affine.js";
+export { firstWhere } from "./geometry/binary-search.js";
+export { ColumnBuffer, PointBuffer } from "./geometry/growable.js";
 export { nearestShare } from "./geometry/polyline.js";
 export type { PaperName, PaperSize } from "./drawing/paper.js";
 export { combine, type SheetSource } from "./drawing/combine.js";
@@ -179,13 +182,14 @@ export type {
   Machine,
   MachineEvents,
   Playback,
+  PlaybackGrowth,
   PenBefore,
   SupplyState,
   UsbId,
   VirtualMachine,
 } from "./drivers/driver.js";
 export { homeAgain, powerFailed, powerLost, powerLow } from "./drivers/faults.js";
-export type { MachineState, PlannedPlot } from "./drivers/machine-job.js";
+export type { LivePart, MachineCommands, MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export { AHEAD_STEP_MS, type PenMoment, type PlotProgress } from "./drivers/playback-progress.js";
 
 // pen sheet

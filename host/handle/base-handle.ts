@@ -1,7 +1,15 @@
 /** What both handles share: one plot at a time, the requests to it, and the listeners of the state. */
 import { PlotwrightError, type Line } from "../../src/index.js";
 import { CurrentPlot, notPlotting } from "./current-plot.js";
-import type { HandleState, PlotOptions, PlotResult, PlotterHandle } from "./plotter-handle.js";
+import { ProgramsLive, type BegunLive } from "./programs-live.js";
+import type {
+  HandleState,
+  LiveDrawing,
+  LiveOptions,
+  PlotOptions,
+  PlotResult,
+  PlotterHandle,
+} from "./plotter-handle.js";
 
 export abstract class BaseHandle implements PlotterHandle {
   private readonly listeners = new Set<(state: HandleState) => void>();
@@ -18,6 +26,8 @@ export abstract class BaseHandle implements PlotterHandle {
     options: PlotOptions,
     plot: CurrentPlot,
   ): Promise<PlotResult>;
+  /** Begins a live drawing, and tells `plot` how far it is. `ended` settles when the plotter has drawn it. */
+  protected abstract beginLive(options: LiveOptions, plot: CurrentPlot): Promise<BegunLive>;
   /** Forgets what `state` says about the plot. */
   protected abstract plotEnded(): void;
 
@@ -29,12 +39,31 @@ export abstract class BaseHandle implements PlotterHandle {
   }
 
   async plot(drawing: string | readonly Line[], options: PlotOptions = {}): Promise<PlotResult> {
+    return this.follow(options, (current) => this.draw(drawing, options, current));
+  }
+
+  async live(options: LiveOptions = {}): Promise<LiveDrawing> {
+    return new Promise((resolve, reject) => {
+      const ended = this.follow(options, async (current) => {
+        const begun = await this.beginLive(options, current);
+        resolve(new ProgramsLive(begun.strokes, () => ended));
+        return begun.ended;
+      });
+      // Whoever waits for `end` gets the error; before the drawing has begun, whoever called `live`.
+      ended.catch(reject);
+    });
+  }
+
+  private async follow(
+    options: PlotOptions,
+    draw: (current: CurrentPlot) => Promise<PlotResult>,
+  ): Promise<PlotResult> {
     if (this.current) {
       throw new PlotwrightError("busy", "This program is plotting already: wait until it ends.");
     }
     const current = (this.current = new CurrentPlot(options));
     try {
-      return await current.follow(() => this.draw(drawing, options, current));
+      return await current.follow(() => draw(current));
     } finally {
       this.current = null;
       this.plotEnded();

@@ -14,21 +14,25 @@ import type { PlotPlanner } from "../planning/planning.js";
 import { planAndCompile } from "../planning/stages.js";
 import type { Devices } from "../plotter/connected-machine.js";
 import { FIRST_PLOTTER, NamedPlotter } from "../plotter/named-plotter.js";
-import type { PlotProgress, PlotterPort } from "../plotter/plotter-port.js";
+import type { PlotProgress, PlotterPort, RunningPlot } from "../plotter/plotter-port.js";
 import {
   settingsOfPlotter,
   settingsWith,
   type SettingsOfPlotter,
   type WithMachine,
 } from "../plotter/settings-of-plotter.js";
+import { livePlanner, LiveStrokes } from "../plotter/live-strokes.js";
 import { BaseHandle } from "./base-handle.js";
 import { type CurrentPlot, stopped } from "./current-plot.js";
+import type { BegunLive } from "./programs-live.js";
 import {
   fileOf,
   givenOf,
+  liftAfterMsOf,
   penTarget,
   positionOf,
   type HandleState,
+  type LiveOptions,
   type PlotOptions,
   type PlotResult,
   type PlotterHandle,
@@ -125,6 +129,25 @@ class OwnHandle extends BaseHandle {
       close: () => Promise.resolve(),
     };
     const run = await this.plotter.plot(planner, settings);
+    return this.ended(run, current, note === null ? warnings : [...warnings, note]);
+  }
+
+  protected async beginLive(options: LiveOptions, current: CurrentPlot): Promise<BegunLive> {
+    const { settings, note } = settingsWith(this.base, givenOf(options), this.withMachine);
+    const strokes = new LiveStrokes(machineOf(settings), liftAfterMsOf(options));
+    current.throwIfStopped();
+    const run = await this.plotter.plot(livePlanner(strokes), settings, { live: strokes });
+    const ended = this.ended(run, current, note === null ? [] : [note]);
+    ended.catch((error: unknown) => strokes.fail(error instanceof Error ? error : new Error(String(error))));
+    return { strokes, ended };
+  }
+
+  /** Follows a plot to its end. */
+  private async ended(
+    run: RunningPlot,
+    current: CurrentPlot,
+    warnings: readonly string[],
+  ): Promise<PlotResult> {
     run.onProgress((progress) => {
       this.progress = progress;
       current.tellProgress(progress);
@@ -138,10 +161,7 @@ class OwnHandle extends BaseHandle {
     current.begin(run);
     const { kind } = await run.finished;
     if (kind === "cancelled") throw stopped();
-    return {
-      plottedS: this.progress?.elapsedS ?? 0,
-      warnings: note === null ? warnings : [...warnings, note],
-    };
+    return { plottedS: this.progress?.elapsedS ?? 0, warnings };
   }
 
   protected plotEnded(): void {

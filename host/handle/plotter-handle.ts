@@ -11,6 +11,7 @@ import {
   type PlotSettings,
   type PlotWait,
 } from "../../src/schema/index.js";
+import { LIFT_AFTER_MS, type LivePoints } from "../plotter/live-strokes.js";
 import { parseWith } from "../parse-with.js";
 
 /** How far a plot is. */
@@ -59,6 +60,30 @@ export interface PlotResult {
   readonly warnings: readonly string[];
 }
 
+/** Settings of a live drawing, all optional. */
+export interface LiveOptions extends Omit<PlotOptions, "onPenChange" | "onProgress" | "prepare"> {
+  /** When points are late, the pen rests on the line for this time, ms, before it is lifted. Default 300. */
+  readonly liftAfterMs?: number;
+}
+
+/**
+ * A drawing that is drawn while it is made. Points are in mm from home, which is the corner of the paper. What is added is
+ * drawn as soon as possible; the promises of `stroke` and `lineTo` resolve when there is room for more. When the drawing is
+ * stopped or fails, all methods reject with the reason.
+ */
+export interface LiveDrawing {
+  /** Adds a whole stroke: [[x, y], …], or x, y, x, y … in a typed array. A stroke that grows is complete. */
+  stroke(points: LivePoints): Promise<void>;
+  /** Adds a point to the stroke that grows, or begins one. The pen stays on the paper until `penUp` or the next stroke. */
+  lineTo(x: number, y: number): Promise<void>;
+  /** The stroke that grows is complete. */
+  penUp(): void;
+  /** Resolves when everything so far is drawn. */
+  idle(): Promise<void>;
+  /** The drawing is complete: draws the rest and goes home. Resolves when the carriage is there. */
+  end(): Promise<PlotResult>;
+}
+
 /** A plotter that this program has opened. All methods reject with a PlotwrightError. */
 export interface PlotterHandle {
   readonly state: HandleState;
@@ -72,6 +97,13 @@ export interface PlotterHandle {
    * anything moves; "no-board", "busy"; "board-error", "board-timeout" or "disconnected" if the plot fails
    */
   plot(drawing: string | readonly Line[], options?: PlotOptions): Promise<PlotResult>;
+  /**
+   * Draws while the strokes are still being made. Resolves when the plotter waits for them. `pause`, `resume` and `stop`
+   * apply to it as to a plot. Only for plotters with an EiBotBoard.
+   *
+   * @throws PlotwrightError as `plot`
+   */
+  live(options?: LiveOptions): Promise<LiveDrawing>;
   /** Slows down along the line and lifts the pen. Resolves when it is up. */
   pause(): Promise<void>;
   resume(): Promise<void>;
@@ -113,14 +145,26 @@ export function givenOf({
   onProgress: _onProgress,
   onPenChange: _onPenChange,
   signal: _signal,
+  liftAfterMs: _liftAfterMs,
   ...given
-}: PlotOptions): GivenSettings {
+}: PlotOptions & LiveOptions): GivenSettings {
   const short: GivenSettings = {
     ...(paper === undefined ? {} : { prepare: { paper: sizeOf(paper) } }),
     ...(speed === undefined ? {} : { motion: { draw: { speedMmPerS: speed } } }),
   };
   return parseWith(givenSettingsSchema, withGiven(short, given));
 }
+
+/** How long the pen rests on the line, checked, ms. */
+export function liftAfterMsOf({ liftAfterMs = LIFT_AFTER_MS }: Pick<LiveOptions, "liftAfterMs">): number {
+  if (liftAfterMs >= 0 && liftAfterMs <= MAX_LIFT_AFTER_MS) return liftAfterMs;
+  throw new PlotwrightError(
+    "bad-setting",
+    `liftAfterMs is ${liftAfterMs}: give the time that the pen rests on the line, 0 to ${MAX_LIFT_AFTER_MS} ms.`,
+  );
+}
+
+const MAX_LIFT_AFTER_MS = 60_000;
 
 function sizeOf(paper: PaperName | PaperSize): PaperSize {
   if (typeof paper !== "string") return paper;

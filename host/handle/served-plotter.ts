@@ -10,6 +10,7 @@ import {
   type ServerEvent,
 } from "../../src/schema/index.js";
 import { BaseHandle } from "./base-handle.js";
+import type { BegunLive } from "./programs-live.js";
 import { closed, type CurrentPlot, stopped } from "./current-plot.js";
 import {
   fileOf,
@@ -118,6 +119,10 @@ class ServerHandle extends BaseHandle {
     });
     const { plottedS, elapsedS } = await ended;
     return { plottedS: plottedS ?? elapsedS, warnings };
+  }
+
+  protected beginLive(): Promise<BegunLive> {
+    throw new PlotwrightError("bad-setting", "Live drawing on a server is not there yet.");
   }
 
   protected plotEnded(): void {

@@ -25,6 +25,8 @@ import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { resumePosition, PROGRESS_S } from "./resume-position.js";
 import { PenStops } from "./pen-stops.js";
 import { PlotReports } from "./plot-reports.js";
+import { LiveFeed } from "./live-feed.js";
+import type { LiveStrokes } from "./live-strokes.js";
 import { LiveSettings } from "./live-settings.js";
 import type { PlannedPlot, PlotPlanner } from "../planning/planning.js";
 import type { RunningPlot, PlotChange, PlotOutcome, PlotStart, ReportedProgress } from "./plotter-port.js";
@@ -51,7 +53,8 @@ export class MachinePlot implements RunningPlot {
   private readonly settings: LiveSettings;
   private readonly reports: PlotReports;
   private readonly stops: PenStops;
-  private readonly strokes: StrokeSet;
+  /** Null: the drawing is complete. */
+  private readonly feed: LiveFeed | null;
   private failure: PlotwrightError | null = null;
   /** Planned time of the plot after the part being drawn. */
   private afterPartS = 0;
@@ -76,18 +79,23 @@ export class MachinePlot implements RunningPlot {
     start: PlotStart = {},
   ) {
     this.start = start;
-    this.strokes = planner.strokes;
     this.settings = new LiveSettings(settings);
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
+    const { live } = start;
     this.stream = machine.startPlayback({
-      strokes: this.strokes,
+      get strokes() {
+        return planner.strokes;
+      },
+      grows: live !== undefined,
       settings: () => this.settings.current,
       events: {
         progressed: (progress) => this.reports.progressed(progress),
         ended: (place) => this.reports.streamEnded(place),
       },
     });
-    this.reports = new PlotReports(machine, this.stream, this.settings, start);
+    if (live && !this.stream.growth) throw notLive(machineOf(settings).name);
+    this.feed = live ? new LiveFeed(live, machine, this.stream, this.settings) : null;
+    this.reports = new PlotReports(machine, this.stream, this.settings, live ? inWhole(live, start) : start);
     const { from = null, received } = start;
     this.holdPlace =
       from && resumePosition(machine, this.strokes, settings, this.stops.strokes, { from, received });
@@ -102,6 +110,10 @@ export class MachinePlot implements RunningPlot {
 
   get isHeld(): boolean {
     return this.held;
+  }
+
+  private get strokes(): StrokeSet {
+    return this.planner.strokes;
   }
 
   onProgress(listener: (report: ReportedProgress) => void): void {
@@ -159,7 +171,7 @@ export class MachinePlot implements RunningPlot {
   fail(error: PlotwrightError): void {
     this.failure ??= error;
     this.stream.fail(error);
-    this.wakeHold?.();
+    this.wakeAll();
   }
 
   async change(change: PlotChange): Promise<void> {
@@ -209,11 +221,16 @@ export class MachinePlot implements RunningPlot {
     this.requested = state;
     this.holdsPosition = false;
     if (state !== "run") this.stream.slowToRest();
+    this.wakeAll();
+  }
+
+  private wakeAll(): void {
     this.wakeHold?.();
+    this.feed?.interrupt();
   }
 
   private async run(): Promise<PlotOutcome> {
-    if (strokeCount(this.strokes) === 0) {
+    if (!this.feed && strokeCount(this.strokes) === 0) {
       throw new PlotwrightError(
         "bad-file",
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
@@ -224,6 +241,12 @@ export class MachinePlot implements RunningPlot {
       if (this.requested === "run" && this.stops.due(this.holdPlace)) this.requested = "hold";
       if (this.requested === "hold") await this.hold();
       if (this.requested === "cancel") return this.goHome();
+      if (this.feed) {
+        await this.feed.untilMore(this.holdPlace, () => this.requested !== "run" || this.failure !== null);
+        if (this.failure) throw this.failure;
+        if (this.requested !== "run") continue;
+        this.holdPlace = this.feed.forget(this.holdPlace);
+      }
       const until = this.stops.nextAfter(this.holdPlace);
       const { changeCount } = this.settings;
       const plot = await this.planFromRest().catch((error: unknown) => {
@@ -232,21 +255,34 @@ export class MachinePlot implements RunningPlot {
       });
       if (!plot) continue;
       // Lift before the check: a request during the lift must be seen before anything moves.
-      if (this.machine.penUp !== true) await this.machine.movePen(true, this.settings.current);
+      if (this.machine.penUp !== true && !this.feed) await this.machine.movePen(true, this.settings.current);
       if (this.requested !== "run" || this.settings.changeCount !== changeCount) continue;
-      await this.stream.play(plot, this.afterPartS, () => this.streamBegun());
+      const ended = await this.play(plot);
       const next = this.stream.stopped?.place ?? (until === null ? null : { stroke: until, alongMm: 0 });
       if (next) this.holdPlace = next;
+      else if (ended && !this.feed?.isOver) this.holdPlace = ended;
       else if (this.stream.stopped) return this.finishStoppedReturn();
       else return { kind: "done" };
     }
+  }
+
+  /** Returns where a live drawing goes on after the plan; null for another drawing. */
+  private async play(plot: PlannedPlot): Promise<StrokePosition | null> {
+    this.feed?.take(plot);
+    try {
+      await this.stream.play(plot, this.afterPartS, () => this.streamBegun());
+    } catch (error) {
+      this.feed?.ended(true);
+      throw error;
+    }
+    return this.feed?.ended(this.stream.stopped !== null) ?? null;
   }
 
   /** Lifts a pen that an interrupted plot may have left on the paper. */
   private async liftPenIfDown(): Promise<void> {
     if (!this.start.from) return;
     // Plan now, while the user checks pen and paper.
-    this.timesOfWhole().catch(() => undefined);
+    if (!this.feed) this.timesOfWhole().catch(() => undefined);
     if (this.machine.state && this.machine.penUp !== true) {
       await this.machine.movePen(true, this.settings.current);
     }
@@ -277,6 +313,7 @@ export class MachinePlot implements RunningPlot {
     y: number,
     board: MachineState,
   ): Promise<PlannedPlot> {
+    if (this.feed) return this.feed.planFrom(from, x, y, board);
     const until = this.stops.nextAfter(from);
     const times = until === null && !this.start.from ? null : await this.timesOfWhole();
     this.afterPartS = until === null ? 0 : times!.leftFrom({ stroke: until, alongMm: 0 });
@@ -324,7 +361,7 @@ export class MachinePlot implements RunningPlot {
         tries++;
         const plot = await this.plan(over.from, over.x, over.y, over.board);
         if (this.requested !== "run" || this.stream.playing !== playing) return;
-        if (over.switchTo(plot, this.afterPartS)) return;
+        if (over.switchTo(plot, this.afterPartS)) return this.feed?.take(plot);
       } else if (!this.stream.isSwitching) return;
       else await new Promise<void>((resolve) => void clock.after(PROGRESS_S * speed, resolve));
     }
@@ -387,5 +424,24 @@ export class MachinePlot implements RunningPlot {
     this.reports.streamBegun();
   }
 }
+
+/** The journal's places are in the whole drawing. */
+const inWhole = (live: LiveStrokes, { journal, noted }: PlotStart): Pick<PlotStart, "journal" | "noted"> => ({
+  noted,
+  journal: journal && {
+    record: ({ place, received, ...entry }) =>
+      journal.record({
+        ...entry,
+        place: live.wholePlace(place),
+        received: received && live.wholePlace(received),
+      }),
+  },
+});
+
+const notLive = (name: string): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    `${name} can't draw live yet: only plotters with an EiBotBoard can. Plot finished drawings on it instead.`,
+  );
 
 const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was cancelled.");

@@ -12,6 +12,7 @@ import type {
   BoardId,
   PlotWait,
 } from "../../src/schema/index.js";
+import type { LiveStrokes } from "./live-strokes.js";
 import type { PlotPlanner } from "../planning/planning.js";
 import type { MotionSettings, PenSettings, StrokePosition } from "../../src/index.js";
 import type { PenMoment, PlotProgress } from "../../src/internal.js";
@@ -141,6 +142,8 @@ interface PlotJournal {
 }
 
 export interface PlotStart {
+  /** The drawing is drawn while these strokes are still being added; the planner is `livePlanner` of them. */
+  readonly live?: LiveStrokes | undefined;
   /** Where in the drawing to start; after a crash, the journal's place. Default: the beginning. */
   readonly from?: StrokePosition | null | undefined;
   /** `received` of the same journal entry. Default: nothing was drawn after `from`. */

@@ -13,7 +13,7 @@
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { PlotwrightError } from "../errors.js";
 import type { Controller, ControllerFields, MachineProfile, Springs } from "../machines/profile.js";
-import type { StrokePosition } from "../plan/trajectory.js";
+import type { StrokePosition, Trajectory } from "../plan/trajectory.js";
 import type { Cancellation } from "../prepare/work.js";
 import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
 import type { PenMoment, PlotProgress, PlaybackProgress } from "./playback-progress.js";
@@ -209,7 +209,10 @@ export interface ConsoleAnswer {
 }
 
 export interface PlaybackRequest {
+  /** Of a live drawing: those known so far. */
   readonly strokes: StrokeSet;
+  /** The plan will grow. Default false. */
+  readonly grows?: boolean;
   /** The current settings; they may change during the plot. */
   settings(): MachineSettings;
   readonly events: PlaybackEvents;
@@ -256,6 +259,21 @@ export interface Playback {
    * the controller cannot switch in motion: a change then waits for the next rest.
    */
   placeAhead(leadS: number): PlaceAhead | null;
+  /** Goes on with longer plans while a drawing grows. Left out: the controller can't. */
+  readonly growth?: PlaybackGrowth;
+}
+
+/** A live drawing: its plan always ends at rest, and is replaced by a longer one while it is played. */
+export interface PlaybackGrowth {
+  /** Planned time that is not sent yet, s of the machine; 0 at rest. */
+  readonly unsentS: number;
+  /**
+   * Goes on with a plan that begins where the current one did, or on the stroke that is being drawn, and moves like it up
+   * to what is sent. False if it does not; the current plan then continues.
+   */
+  extend(plan: Trajectory): boolean;
+  /** Goes on with a plan that begins at rest where the current one ends. False before everything is sent. */
+  append(plan: Trajectory): boolean;
 }
 
 /** Where another plan can take over: plan from `from`, at `x`, `y` in mm. */

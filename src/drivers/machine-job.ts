@@ -70,8 +70,20 @@ export interface DriverPlanOptions {
   /** Where to go when everything is drawn, mm from home; default: home. */
   readonly endXMm?: number | undefined;
   readonly endYMm?: number | undefined;
+  /** A part of a live drawing. Left out: the drawing is complete, and the job begins with the pen up and ends at home. */
+  readonly live?: LivePart | undefined;
   /** Checked before every stroke. */
   readonly cancel?: Cancellation | undefined;
+}
+
+/** A part of a drawing that is not complete yet. */
+export interface LivePart {
+  /** The pen is down at the start, at rest on the line at `from`. */
+  readonly penDown: boolean;
+  /** Where the pen is at the end: on the line, because the stroke goes on; up above it; at the end position of the job. */
+  readonly end: "down" | "up" | "home";
+  /** Strokes whose end may not be known yet. */
+  readonly mayGrow: (stroke: number) => boolean;
 }
 
 /** The properties of a controller's firmware that affect a plan. */

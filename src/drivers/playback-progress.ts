@@ -48,7 +48,9 @@ export interface PlanPart {
 }
 
 /** Number of past parts to keep: a plan, the path to rest in it, and a change of heights. */
-const PAST_PARTS = 3;
+export const PAST_PARTS = 3;
+/** The same for a plan that grows several times while the machine performs what was sent ahead. */
+export const PAST_PARTS_GROWING = 40;
 
 /** `P`: what a driver stores with each part. */
 export class PlaybackProgress<P extends PlanPart = PlanPart> {
@@ -67,6 +69,8 @@ export class PlaybackProgress<P extends PlanPart = PlanPart> {
   private partStartS = 0;
   private readonly motion = newMotionState();
 
+  constructor(private readonly pastParts = PAST_PARTS) {}
+
   /**
    * Sets the plan that the page shows; all parts that are streamed belong to it. `from`: an earlier run drew everything
    * before this place.
@@ -84,6 +88,11 @@ export class PlaybackProgress<P extends PlanPart = PlanPart> {
       this.times = new PositionTimes(part.trajectory);
     }
     this.parts.push(part);
+  }
+
+  /** Forgets a part of which nothing was sent. */
+  remove(part: P): void {
+    this.parts = this.parts.filter((one) => one !== part);
   }
 
   /** False for parts long past, which are forgotten. */
@@ -152,7 +161,7 @@ export class PlaybackProgress<P extends PlanPart = PlanPart> {
     this.partStartS = startS;
     this.part = part;
     // Finished parts are not played again, but the board may still be in one of the last.
-    this.parts = this.parts.slice(Math.max(0, this.parts.indexOf(part) - PAST_PARTS));
+    this.parts = this.parts.slice(Math.max(0, this.parts.indexOf(part) - this.pastParts));
   }
 
   private penAt(part: P, planS: number, now: MotionState, lastS: number | null): PenMoment {

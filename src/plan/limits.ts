@@ -90,7 +90,7 @@ export const scaledLimits = (limits: RunLimits, factor: number): RunLimits =>
  * machine a motor may get 2 V. A straight keeps its direction, so there the limit of `capSegments` is enough.
  */
 export const shapedLimits = (path: RunPath, limits: RunLimits): RunLimits =>
-  limits.mixed && path.segmentCount > 1
+  limits.mixed && (path.segmentCount > 1 || path.mayGrow)
     ? { ...limits, speed: Math.min(limits.speed, limits.motorSpeed / 2) }
     : limits;
 

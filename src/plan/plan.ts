@@ -22,7 +22,7 @@ import { BlockColumns } from "./block-columns.js";
 import { checkSettings } from "./check-settings.js";
 import type { Kernel } from "./shaping/impulse-filter.js";
 import { drawLimitsOf, runLimits, scaledLimits, type RunLimits } from "./limits.js";
-import { PenMoveWriter } from "./pen/pen-moves.js";
+import { loweredBefore, PenMoveWriter } from "./pen/pen-moves.js";
 import { dropsInFlight, dropWait, hopLift, liftBefore, lowerDuring, type Lift } from "./pen/pen-flight.js";
 import { dropMoveTime, liftTime, penOfLayer, type TimedPen } from "./pen/pen-times.js";
 import { Resampler } from "./resample.js";
@@ -47,6 +47,12 @@ export interface PlanOptions {
    * default 0.
    */
   readonly penOffsetMm?: number | undefined;
+  /**
+   * The pen is down at `startX`, `startY`, at rest on the line at `from`. Default false.
+   *
+   * @internal
+   */
+  readonly penDown?: boolean | undefined;
   /** Begin with a lift, because the pen's height is unknown. Default false: the pen is up. */
   readonly liftFirst?: boolean | undefined;
   /**
@@ -57,6 +63,19 @@ export interface PlanOptions {
   /** mm in the machine frame; default 0, 0 (home). */
   readonly endX?: number | undefined;
   readonly endY?: number | undefined;
+  /**
+   * False: the pen stays down where the last stroke ends, because the stroke goes on later. Default true.
+   *
+   * @internal
+   */
+  readonly liftAtEnd?: boolean | undefined;
+  /**
+   * Strokes whose end may not be known yet (live drawing). Their motion depends only on the points near by, so that it
+   * stays the same when more points follow. Default: none.
+   *
+   * @internal
+   */
+  readonly mayGrow?: ((stroke: number) => boolean) | undefined;
   /** If given, its motor limits and pen servo apply too: the max step rate, and `motorAccelStepsPerS2`. */
   readonly machine?: MachineProfile | undefined;
   /**
@@ -111,10 +130,12 @@ export function plan(
   const { servo = penServoOf(machine) } = options;
   const builder = new PlanBuilder(strokes, motion, { ...pen, servo }, machine, startX, startY, options);
   if (options.liftFirst) builder.liftFirst();
+  if (options.penDown === true && from.stroke < strokeCount(strokes)) builder.beginDown(from.stroke);
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
     if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
     builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0, penOffsetMm);
   }
+  if (options.liftAtEnd === false) return builder.finish();
   builder.lift(Infinity);
   if (options.returnHome ?? true) builder.travel(options.endX ?? 0, options.endY ?? 0);
   return builder.finish();
@@ -146,6 +167,9 @@ class PlanBuilder {
   private readonly waitsS: readonly number[];
   private readonly dropsAtStroke: boolean;
   private readonly penS: PlanOptions["penS"];
+  private readonly mayGrow: (stroke: number) => boolean;
+  /** The stroke on which the plan begins with the pen down; -1: none. */
+  private downAtStroke = -1;
   /** The board waits for whole milliseconds. */
   private readonly waitsWholeMs: boolean;
   /** The pen settings of the current or last stroke. */
@@ -163,7 +187,12 @@ class PlanBuilder {
     machine: MachineProfile | undefined,
     private x: number,
     private y: number,
-    { runs, penS, dropsAtStroke = false }: Pick<PlanOptions, "runs" | "penS" | "dropsAtStroke"> = {},
+    {
+      runs,
+      penS,
+      dropsAtStroke = false,
+      mayGrow = () => false,
+    }: Pick<PlanOptions, "runs" | "penS" | "dropsAtStroke" | "mayGrow"> = {},
   ) {
     this.penS = penS;
     if (!(Math.abs(x) + Math.abs(y) < Infinity)) {
@@ -172,6 +201,7 @@ class PlanBuilder {
     this.pen = pen;
     this.heightPct = pen.upPct;
     this.dropsAtStroke = dropsAtStroke;
+    this.mayGrow = mayGrow;
     this.waitsWholeMs = runs === undefined;
     this.pens = strokes.layers.map((layer) => penOfLayer(pen, settingsIdOf(layer)));
     this.drawLimits = strokes.layers.map((layer) =>
@@ -180,12 +210,13 @@ class PlanBuilder {
     this.waitsS = strokes.layers.map(({ id }) => (pen.layers?.[id]?.beforeMs ?? 0) / 1_000);
     this.travelLimits = runLimits(motion.travel, motion, machine);
     // Max number of runs: a travel and a draw run for each stroke, and the travel home. Max number of pen moves: for each
-    // stroke a lift, a lowering to the hop height, a wait and a drop, and one more at the beginning and at the end.
+    // stroke a lift, a lowering to the hop height, a wait and a drop, and one more at the beginning and at the end, and the
+    // drop before the beginning.
     const count = strokeCount(strokes);
     this.firstBlock = new Uint32Array(2 * count + 2);
     this.runStroke = new Int32Array(2 * count + 1);
     this.runStartS = new Float64Array(2 * count + 1);
-    this.penMoves = new PenMoveWriter(4 * count + 2);
+    this.penMoves = new PenMoveWriter(4 * count + 3);
     // A stroke has one segment fewer than points, and a travel before it. The last segment is the travel home.
     // A controller that plans by itself is not shaped.
     const springs = machine?.springs ?? null;
@@ -208,7 +239,8 @@ class PlanBuilder {
     if (fromAlong > 0 && path.segmentCount === 0) return;
     const layer = strokes.layer[stroke];
     const awayMm = Math.hypot(path.x[0] - this.x, path.y[0] - this.y);
-    if (fromAlong > 0 && awayMm >= SHORTEST_MM && awayMm < penOffsetMm) path.prependPoint(this.x, this.y);
+    const continues = fromAlong > 0 || (stroke === this.downAtStroke && path.segmentCount > 0);
+    if (continues && awayMm >= SHORTEST_MM && awayMm < penOffsetMm) path.prependPoint(this.x, this.y);
     const x = path.x[0];
     const y = path.y[0];
     const gap = Math.hypot(x - this.x, y - this.y);
@@ -222,6 +254,7 @@ class PlanBuilder {
     this.pen = this.pens[layer];
     this.drop(waitS > 0 ? null : travelS);
     this.beginRun(stroke);
+    path.mayGrow = this.mayGrow(stroke);
     if (motion.ease) path.ease(motion.ease.lengthMm);
     const limits = scaledLimits(this.drawLimits[layer], strokes.speedFactor?.[stroke] ?? 1);
     this.writer.write(path, limits, this.blocks, this.planned);
@@ -243,6 +276,16 @@ class PlanBuilder {
     if (this.penUp) return;
     this.liftS = this.blocks.clockS;
     this.movePen(true, liftBefore(this.pen, travelMm, this.motion.travel.accelMmPerS2));
+  }
+
+  /** The pen was lowered before the plan begins. */
+  beginDown(stroke: number): void {
+    const layer = this.strokes.layer[stroke];
+    this.lastLayer = layer;
+    this.downAtStroke = stroke;
+    this.pen = this.pens[layer];
+    this.penUp = false;
+    this.penMoves.push(loweredBefore(this.pen.downPct));
   }
 
   liftFirst(): void {

@@ -41,6 +41,8 @@ export class RunPath {
   /** Segments before `easeUntil` and from `easeFrom` on are drawn at the easing speed. */
   easeUntil = 0;
   easeFrom = Infinity;
+  /** More points may follow later, so nothing may depend on where the path ends. */
+  mayGrow = false;
 
   /** A straight line between two points, at least SHORTEST_MM apart. */
   setLine(x0: number, y0: number, x1: number, y1: number): void {
@@ -182,16 +184,16 @@ export class RunPath {
     return along;
   }
 
-  /** Marks the first and last `mm` for easing, and splits segments at the boundaries. */
+  /** Marks the first and last `mm` for easing, and splits segments at the boundaries. The end of a path that may grow is not the last. */
   ease(mm: number): void {
     if (this.segmentCount === 0) return;
     const whole = this.endAlong() - this.startAlong;
-    if (whole <= 2 * mm) {
+    if (whole <= (this.mayGrow ? 1 : 2) * mm) {
       this.easeUntil = this.segmentCount;
       return;
     }
     this.easeUntil = this.cutAt(mm);
-    this.easeFrom = this.cutAt(whole - mm);
+    if (!this.mayGrow) this.easeFrom = this.cutAt(whole - mm);
   }
 
   /** Adds a point `mm` after the first one, unless one is very close; returns its index. */

@@ -109,8 +109,8 @@ export class RunWriter implements RunPlanner {
       const beginS = shaper.write(planned, plannedFirst, path.end(), out);
       if (beginS > 0) planned.shift(plannedFirst, -beginS);
       if (this.rules !== null) mergeBlocks(out, first, path.end(), calm, SHAPED_RULES);
-      // A straight has no corners, so no rhythm.
-      if (path.segmentCount === 1 || calm.accel <= CALM_ACCEL) return;
+      // A straight has no corners, so no rhythm. A path that grows keeps its rhythm.
+      if (path.segmentCount === 1 || path.mayGrow || calm.accel <= CALM_ACCEL) return;
       if (!this.wrongSprings?.sway(out, first, limits)) return;
     }
   }
@@ -120,7 +120,11 @@ export class RunWriter implements RunPlanner {
     const { unfiltered } = this;
     unfiltered.clear();
     this.writeBlocks(path, limits, unfiltered);
-    if (path.segmentCount > 1 && stopsAreFaster(path, runLimits, unfiltered.clockS + widthS)) {
+    if (
+      path.segmentCount > 1 &&
+      !path.mayGrow &&
+      stopsAreFaster(path, runLimits, unfiltered.clockS + widthS)
+    ) {
       this.writeWithStops(path, runLimits, out);
     } else writeFiltered(unfiltered, path.end(), widthS, out);
   }

@@ -25,7 +25,7 @@ export interface FilteredPlan {
 }
 
 export function filteredPlan(path: RunPath, limits: RunLimits): FilteredPlan {
-  return path.segmentCount === 1 ? forStraight(path, limits) : forLine(limits);
+  return path.segmentCount === 1 && !path.mayGrow ? forStraight(path, limits) : forLine(limits);
 }
 
 function forLine(limits: RunLimits): FilteredPlan {

@@ -47,6 +47,12 @@ export const penMoveAt = (moves: PenMoveColumns, i: number): PenMove => ({
   heightPct: moves.heightPct[i],
 });
 
+/** The drop of a plan that begins with the pen down: it was made before the plan's time 0. */
+export const loweredBefore = (heightPct: number): PenMove => ({
+  ...{ beforeRun: 0, up: false, startS: -1, waitS: 0, moveS: 0 },
+  heightPct,
+});
+
 interface WithPenMoves {
   readonly penMoves: PenMoveColumns;
 }

@@ -6,12 +6,13 @@
  * command is computed from that state. So rounding never adds up, and the final step counters equal the plan's.
  */
 import { checkObject } from "../../../check-arguments.js";
+import { firstWhere } from "../../../geometry/binary-search.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { PenSettings } from "../../../settings/pen.js";
 import { checkPen } from "../../../plan/check-settings.js";
 import { penMoveAt } from "../../../plan/pen/pen-moves.js";
-import { runEndS, type PenMove, type Trajectory } from "../../../plan/trajectory.js";
-import { TICKS_PER_MS } from "../../../units.js";
+import { runEndS, SAME_TIME_S, type PenMove, type Trajectory } from "../../../plan/trajectory.js";
+import { S_PER_TICK, TICKS_PER_MS } from "../../../units.js";
 import {
   MAX_DELAY_MS,
   penCommand,
@@ -42,6 +43,20 @@ export interface CompileOptions {
   readonly pen: PenSettings;
   /** State of the board at the start; default: at home, all zero, as after EM and CS. */
   readonly start?: BoardState | undefined;
+  /**
+   * The board has performed the trajectory up to this time, s; `start` is its state then. Only the commands after it are
+   * written, without the set-up at the beginning.
+   *
+   * @internal
+   */
+  readonly fromS?: number | undefined;
+  /**
+   * With `fromS` during a run: how many pen moves that begin by then are not written yet. A pen move is written after the
+   * command during which it begins. Default 0.
+   *
+   * @internal
+   */
+  readonly penMovesDue?: number | undefined;
 }
 
 /**
@@ -98,12 +113,20 @@ class Compiler {
   run(): CommandStream {
     const { trajectory } = this;
     const { penMoves, runs } = trajectory;
+    const { fromS } = this.options;
     if (!Number.isFinite(trajectory.totalS)) throw new RangeError("the trajectory's time is not finite");
     const note = newerFirmwareNote(this.options.firmware);
     if (note !== null) this.columns.warnOnce(note);
-    if (penMoves.count > 0) this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0, -1);
-    let next = 0;
-    for (let r = 0; r <= runs.count; r++) {
+    if (penMoves.count > 0 && fromS === undefined)
+      this.setUp(penSetUpCommands(this.options.machine, this.options.pen), 0, -1);
+    const beginS = (fromS ?? 0) - SAME_TIME_S;
+    // A plan may begin with the pen down: its drop was made before.
+    const due = this.options.penMovesDue ?? 0;
+    const notBeforeS = due > 0 ? beginS + S_PER_TICK : beginS;
+    let next = firstWhere(0, penMoves.count, (i) => penMoves.startS[i] >= notBeforeS) - due;
+    const first = firstWhere(0, runs.count, (r) => runEndS(trajectory, r) > (fromS ?? -1) + SAME_TIME_S);
+    if (fromS !== undefined) this.waitForNext(fromS, first, next);
+    for (let r = first; r <= runs.count; r++) {
       for (; next < penMoves.count && penMoves.beforeRun[next] <= r; next++)
         this.penMove(penMoveAt(penMoves, next));
       if (r === runs.count) break;
@@ -113,6 +136,7 @@ class Compiler {
         inFlight.push(penMoveAt(penMoves, next));
       this.runs.write(
         r,
+        fromS,
         inFlight.map((move) => ({
           atS: move.startS,
           write: (planS) => this.penMoveInFlight(move, r, planS),
@@ -121,6 +145,14 @@ class Compiler {
       for (const { waitS } of inFlight) this.waitForPen(waitS, endS);
     }
     return this.columns.finish(trajectory.totalS);
+  }
+
+  /** Waits for the rest of a pen move that began before `fromS`. */
+  private waitForNext(fromS: number, run: number, move: number): void {
+    const { runs, penMoves, totalS } = this.trajectory;
+    const runS = run < runs.count ? runs.startS[run] : totalS;
+    const moveS = move < penMoves.count ? penMoves.startS[move] : totalS;
+    this.waitForPen(Math.min(runS, moveS) - fromS, fromS);
   }
 
   private runWriter(): RunCommandWriter {

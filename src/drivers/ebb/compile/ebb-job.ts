@@ -32,6 +32,12 @@ export function planEbbJob(
     liftFirst: options.liftFirst,
     dropsAtStroke: dropsAtStroke(firmware),
     cancel: options.cancel,
+    ...(options.live && {
+      penDown: options.live.penDown,
+      liftAtEnd: options.live.end !== "down",
+      returnHome: options.live.end === "home",
+      mayGrow: options.live.mayGrow,
+    }),
   });
   const start = options.board as BoardState | undefined;
   let compiled: CommandStream | null = null;

@@ -67,12 +67,13 @@ export class LegRuns implements RunCommandWriter {
     return this.trajectory.planned ? SHAPED_TURN_TICKS : this.writer.turnTicks;
   }
 
-  write(run: number, midway: readonly PenEvent[]): void {
+  write(run: number, fromS: number | undefined, midway: readonly PenEvent[]): void {
     const { walk, columns } = this;
-    walk.begin(run, columns.boardTicks);
+    walk.begin(run, columns.boardTicks, fromS);
     if (walk.first === walk.end) return;
     this.runIndex = run;
     this.midway = midway;
+    if (fromS !== undefined) this.writeMidway(columns.boardTicks);
     let block = walk.first;
     let notBefore = 0;
     for (let isRunEnd = false; !isRunEnd;) {

@@ -50,11 +50,12 @@ export interface PenEvent {
 }
 
 /**
- * Writes the commands for one run of the trajectory, from the motors' current positions to its end. Each pen move in
+ * Writes the commands for one run of the trajectory, from the motors' current positions to its end. `fromS`: the motors
+ * have moved up to this time of the trajectory, which may be within the run; undefined: the whole run is written. Each pen move in
  * `midway` is written at the first end of a command at or after its time.
  */
 export interface RunCommandWriter {
-  write(run: number, midway: readonly PenEvent[]): void;
+  write(run: number, fromS: number | undefined, midway: readonly PenEvent[]): void;
 }
 
 /** A command, and the board ticks from its start to the next one's. */

@@ -3,7 +3,7 @@
  *
  *   board tick = plan seconds × 25 000 + origin
  *
- * `origin` is reset at each run's start, and increases whenever the plan has to be slowed down.
+ * `origin` is reset at the start of each run (or of the part of it that is written), and increases whenever the plan has to be slowed down.
  */
 import { motor1FromXy, motor2FromXy } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -33,11 +33,13 @@ export class RunWalk {
     private readonly machine: MachineProfile,
   ) {}
 
-  begin(run: number, boardTicks: number): void {
+  begin(run: number, boardTicks: number, fromS = 0): void {
     const { runs } = this.trajectory;
-    this.first = runs.firstBlock[run];
+    const beginS = Math.max(fromS, runs.startS[run]);
     this.end = runs.firstBlock[run + 1];
-    this.origin = boardTicks - runs.startS[run] * TICKS_PER_S;
+    this.origin = boardTicks - beginS * TICKS_PER_S;
+    this.first = runs.firstBlock[run];
+    if (beginS > runs.startS[run]) this.first = this.blockAt(boardTicks, this.first);
   }
 
   tickOf(planS: number): number {

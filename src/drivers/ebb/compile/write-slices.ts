@@ -40,9 +40,9 @@ export class SliceRuns implements RunCommandWriter {
     private readonly columns: StreamColumns,
   ) {}
 
-  write(run: number, midway: readonly PenEvent[]): void {
+  write(run: number, fromS: number | undefined, midway: readonly PenEvent[]): void {
     const { walk, columns, features } = this;
-    walk.begin(run, columns.boardTicks - this.lateTicks);
+    walk.begin(run, columns.boardTicks - this.lateTicks, fromS);
     if (walk.first === walk.end) return;
     columns.warnOnce(OLD_FIRMWARE);
     const last = walk.end - 1;

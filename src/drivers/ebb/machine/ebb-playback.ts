@@ -16,9 +16,12 @@ import type { StrokePosition, Trajectory } from "../../../plan/trajectory.js";
 import { strokeLengthMm } from "../../../position/on-drawing.js";
 import { passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition, stoppedPosition } from "../../../position/pen-position.js";
-import type { Playback, PlaceAhead, PlaybackEvents, PlaybackRequest } from "../../driver.js";
+import { sameMotionS } from "../../../position/same-motion.js";
+import type { Playback, PlaybackGrowth, PlaceAhead, PlaybackEvents, PlaybackRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import {
+  PAST_PARTS,
+  PAST_PARTS_GROWING,
   PlaybackProgress,
   type PenMoment,
   type PlanPart,
@@ -27,7 +30,13 @@ import {
 import { streamOf, type BoardState, type CommandStream } from "../compile/command-stream.js";
 import { compile } from "../compile/compile.js";
 import { penCommand } from "../protocol/commands.js";
-import { boardStateBefore, commandAfter, restingStream, withoutDrop } from "../stream/cut-streams.js";
+import {
+  boardStateBefore,
+  commandAfter,
+  penMovesInRun,
+  restingStream,
+  withoutDrop,
+} from "../stream/cut-streams.js";
 import type { PollTime } from "../stream/stream-types.js";
 import type { Streamer } from "../stream/streamer.js";
 import type { StreamSpan } from "../stream/timeline.js";
@@ -57,15 +66,15 @@ interface Rest {
   readonly state: BoardState;
 }
 
-export class EbbPlayback implements Playback {
+export class EbbPlayback implements Playback, PlaybackGrowth {
   /** Set when the stream was stopped on purpose: the first place still to be drawn. */
   stopped: { readonly place: StrokePosition | null } | null = null;
-  readonly progress = new PlaybackProgress<EbbPart>();
+  readonly progress: PlaybackProgress<EbbPart>;
 
+  readonly growth: PlaybackGrowth = this;
   private streamer: Streamer | null = null;
   /** The part with which the current play began. */
   private firstPart: EbbPart | null = null;
-  private readonly strokes: StrokeSet;
   private readonly events: PlaybackEvents;
   /** The error with which an emergency stop ends the current play. */
   private emergency: PlotwrightError | null = null;
@@ -78,8 +87,12 @@ export class EbbPlayback implements Playback {
     private readonly carriage: Carriage,
     private readonly request: PlaybackRequest,
   ) {
-    this.strokes = request.strokes;
     this.events = request.events;
+    this.progress = new PlaybackProgress(request.grows ? PAST_PARTS_GROWING : PAST_PARTS);
+  }
+
+  private get strokes(): StrokeSet {
+    return this.request.strokes;
   }
 
   private get settings(): MachineSettings {
@@ -235,6 +248,46 @@ export class EbbPlayback implements Playback {
     this.progress.add({ ...rest.part, afterS });
     this.progress.add({ commands: heights, trajectory, start: rest.state, afterS, next: rest.place });
     this.progress.add({ commands, trajectory: plot.trajectory, start: rest.state, afterS: afterSectionS });
+    return true;
+  }
+
+  get unsentS(): number {
+    const { streamer } = this;
+    if (!streamer?.playing) return 0;
+    const { trajectory, commands } = this.progress.partOf(streamer.nextStream);
+    return trajectory.totalS - commands.planS[streamer.nextIndex];
+  }
+
+  extend(plan: Trajectory): boolean {
+    const { streamer } = this;
+    if (!streamer?.playing || streamer.isSwitching || this.stopped) return false;
+    const { trajectory, commands } = this.progress.partOf(streamer.nextStream);
+    const fromS = sameMotionS(trajectory, commands.planS[streamer.nextIndex], plan);
+    return fromS !== null && this.goOn(streamer, plan, fromS);
+  }
+
+  append(plan: Trajectory): boolean {
+    const { streamer } = this;
+    if (!streamer?.playing || streamer.isSwitching || this.stopped) return false;
+    return streamer.nextIndex === streamer.nextStream.count && this.goOn(streamer, plan, 0);
+  }
+
+  /** Sends another plan from `fromS` on, in place of what is not sent. */
+  private goOn(streamer: Streamer, plan: Trajectory, fromS: number): boolean {
+    const part = this.progress.partOf(streamer.nextStream);
+    const start = boardStateBefore(part.commands, streamer.nextIndex, part.start);
+    const commands = compile(plan, {
+      machine: machineOf(this.settings),
+      firmware: this.carriage.connection.features.version,
+      pen: this.settings.pen,
+      start,
+      fromS,
+      penMovesDue: penMovesInRun(part.commands, streamer.nextIndex),
+    });
+    const isUnsent = streamer.nextIndex === 0 && part !== this.firstPart;
+    this.progress.add({ commands, trajectory: plan, start, afterS: 0 });
+    streamer.replace(commands);
+    if (isUnsent) this.progress.remove(part);
     return true;
   }
 

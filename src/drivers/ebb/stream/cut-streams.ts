@@ -36,6 +36,17 @@ export function endOfLowering(stream: CommandStream, index: number): number {
   return end;
 }
 
+/** How many pen moves during a run are written from command `index` on, before the carriage moves on. */
+export function penMovesInRun(stream: CommandStream, index: number): number {
+  let moves = 0;
+  for (let i = index; i < stream.count && stream.run[i] >= 0; i++) {
+    const line = commandLine(stream, i);
+    if (/^(SP|S2),/.test(line)) moves++;
+    else if (!line.startsWith("SC,")) break;
+  }
+  return moves;
+}
+
 /**
  * A stream without its initial drop, for a pen that is already down. `setUp`: the heights and speeds that the left out
  * commands set. The board needs them, because the stream sets them again only where they change.
