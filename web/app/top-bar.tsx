@@ -17,9 +17,9 @@ export const TopBar = () => {
   const isPreparing = usePageState((state) => shownView(state) === "prepare");
   return (
     <header className="top-bar">
-      <h1 className="wordmark">
+      <h1 className="wordmark" aria-label={appName}>
         <Mark />
-        {appName}
+        <span>{appName}</span>
       </h1>
       <ViewSwitch />
       <PlotterSwitch />

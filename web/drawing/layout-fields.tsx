@@ -61,12 +61,16 @@ const Aligning = ({ layout, set }: AligningProps) => {
     const state = store.getState();
     const frame = frameNow(state);
     if (!frame) return;
-    const { paperMm, margins } = deskOf(state.settings, state.view.lengthUnit);
+    const { paperMm, margins, turn } = deskOf(state.settings, state.view);
     const { xs, ys } = snapLinesOf(paperMm, margins);
     const { x0, y0, x1, y1 } = boxAround(frame);
     const [left, right, top, bottom] = [xs[1], xs[3], ys[1], ys[3]];
-    if (where === "across") return set({ xMm: rounded(layout.xMm + (paperMm.width - x0 - x1) / 2) });
-    if (where === "down") return set({ yMm: rounded(layout.yMm + (paperMm.height - y0 - y1) / 2) });
+    // As the sheet is seen, which may be turned.
+    const isAlongX = (where === "across") === (turn % 2 === 0);
+    if (where !== "fill") {
+      if (isAlongX) return set({ xMm: rounded(layout.xMm + (paperMm.width - x0 - x1) / 2) });
+      return set({ yMm: rounded(layout.yMm + (paperMm.height - y0 - y1) / 2) });
+    }
     const factor = Math.min((right - left) / (x1 - x0), (bottom - top) / (y1 - y0));
     if (!Number.isFinite(factor)) return;
     const widthMm = frame.widthMm * factor;

@@ -73,7 +73,7 @@ export const penText = {
   },
   whichPlotter: "Which plotter is this?",
   allModels: "All models",
-  chooseModel: "Choose your plotter…",
+  chooseModel: "Choose…",
   inCorner: "The carriage is in its corner",
   modelNamed: (name: string) => `It is a ${name}`,
   otherModel: "Another model…",

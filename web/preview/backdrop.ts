@@ -1,10 +1,15 @@
 /** The desk under the strokes: paper with its shadow, a faint grid, the margins, the machine's reach. */
-import type { FourMargins } from "../../src/internal.js";
-import { rulerStep, type Size, type View } from "../scene/view.js";
+import type { Box, FourMargins } from "../../src/internal.js";
+import { previewText } from "./text.js";
+import { rulerStep, screenBox, screenPoint, turnOf, type Size, type View } from "../scene/view.js";
+
+/** The smallest size of the page's text. */
+export const DESK_FONT = "11px Helvetica, Arial, sans-serif";
 
 /** The style sheet has each as `--desk-NAME`. */
 const COLOR_NAMES = [
   "paper",
+  "ghost",
   "shadow",
   "grid",
   "grid-strong",
@@ -23,7 +28,12 @@ export interface Desk {
   readonly reach: (Size & { readonly label: string }) | null;
   /** The unit of the grid and the rulers. */
   readonly unitMm: number;
+  /** How far it is turned clockwise, in quarters. */
+  readonly turn: number;
 }
+
+const boxOfSize = ({ width, height }: Size): Box => ({ x0: 0, y0: 0, x1: width, y1: height });
+const sidesOf = ({ x0, y0, x1, y1 }: Box): [number, number, number, number] => [x0, y0, x1 - x0, y1 - y0];
 
 /** The colours of the theme in use. */
 export const deskColors = (element: Element): DeskColors => {
@@ -56,10 +66,7 @@ export const drawBackdrop = (
   desk: Desk,
   colors: DeskColors,
 ): void => {
-  const x = view.offsetX;
-  const y = view.offsetY;
-  const width = desk.paperMm.width * view.scale;
-  const height = desk.paperMm.height * view.scale;
+  const sheet = sidesOf(screenBox(view, boxOfSize(desk.paperMm)));
   context.save();
   context.fillStyle = colors.paper;
   // Two shadows: a narrow one at the edge of the sheet, and a wide one from the light of the room.
@@ -70,12 +77,13 @@ export const drawBackdrop = (
     context.shadowColor = colors.shadow;
     context.shadowBlur = blur;
     context.shadowOffsetY = down;
-    context.fillRect(x, y, width, height);
+    context.fillRect(...sheet);
   }
   context.restore();
   drawGrid(context, view, desk, colors);
   drawMargin(context, view, desk, colors);
   drawReach(context, view, desk, colors);
+  drawHome(context, view, colors);
 };
 
 const drawGrid = (
@@ -93,33 +101,40 @@ const drawGrid = (
     context.strokeStyle = color;
     context.lineWidth = 1;
     context.beginPath();
-    for (let mm = spacing; mm < paper.width; mm += spacing) {
-      const px = Math.round(view.offsetX + mm * view.scale) + 0.5;
-      context.moveTo(px, view.offsetY);
-      context.lineTo(px, view.offsetY + paper.height * view.scale);
-    }
-    for (let mm = spacing; mm < paper.height; mm += spacing) {
-      const px = Math.round(view.offsetY + mm * view.scale) + 0.5;
-      context.moveTo(view.offsetX, px);
-      context.lineTo(view.offsetX + paper.width * view.scale, px);
-    }
+    for (let mm = spacing; mm < paper.width; mm += spacing)
+      addCrispLine(context, screenPoint(view, mm, 0), screenPoint(view, mm, paper.height));
+    for (let mm = spacing; mm < paper.height; mm += spacing)
+      addCrispLine(context, screenPoint(view, 0, mm), screenPoint(view, paper.width, mm));
     context.stroke();
   }
 };
 
+type Px = readonly [x: number, y: number];
+
+/** Adds a level or upright line that fills whole pixels. */
+export const addCrispLine = (context: CanvasRenderingContext2D, [ax, ay]: Px, [bx, by]: Px): void => {
+  const isUpright = Math.abs(bx - ax) < Math.abs(by - ay);
+  const px = Math.round(isUpright ? ax : ay) + 0.5;
+  context.moveTo(isUpright ? px : ax, isUpright ? ay : px);
+  context.lineTo(isUpright ? px : bx, isUpright ? by : px);
+};
+
 const drawMargin = (context: CanvasRenderingContext2D, view: View, desk: Desk, colors: DeskColors): void => {
   const { topMm, rightMm, bottomMm, leftMm } = desk.margins;
-  const width = (desk.paperMm.width - leftMm - rightMm) * view.scale;
-  const height = (desk.paperMm.height - topMm - bottomMm) * view.scale;
-  if (topMm + rightMm + bottomMm + leftMm <= 0 || width <= 0 || height <= 0) return;
+  const inside = {
+    x0: leftMm,
+    y0: topMm,
+    x1: desk.paperMm.width - rightMm,
+    y1: desk.paperMm.height - bottomMm,
+  };
+  if (topMm + rightMm + bottomMm + leftMm <= 0 || inside.x1 <= inside.x0 || inside.y1 <= inside.y0) return;
   context.strokeStyle = colors.margin;
   context.lineWidth = 1;
   context.setLineDash([4, 4]);
-  context.strokeRect(view.offsetX + leftMm * view.scale, view.offsetY + topMm * view.scale, width, height);
+  context.strokeRect(...sidesOf(screenBox(view, inside)));
   context.setLineDash([]);
 };
 
-const REACH_FONT = "11px Helvetica, Arial, sans-serif";
 /** A smaller sheet than this has no room for words that only confirm. */
 const MIN_LABEL_PX = 340;
 /** From the line to the words above it. */
@@ -129,9 +144,7 @@ const REACH_GAP_PX = 5;
 const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, colors: DeskColors): void => {
   const { reach, paperMm } = desk;
   if (!reach) return;
-  const { offsetX, offsetY, scale } = view;
-  const width = reach.width * scale;
-  const height = reach.height * scale;
+  const box = screenBox(view, boxOfSize(reach));
   const isShort = reach.width < paperMm.width || reach.height < paperMm.height;
   context.save();
   context.strokeStyle = context.fillStyle = isShort ? colors.accent : colors["ruler-text"];
@@ -139,34 +152,49 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   context.globalAlpha = isShort ? 1 : 0.5;
   context.lineWidth = isShort ? 1.5 : 1;
   context.setLineDash([2, 5]);
-  context.strokeRect(offsetX, offsetY, width, height);
+  context.strokeRect(...sidesOf(box));
   context.setLineDash([]);
   context.globalAlpha = isShort ? 1 : 0.8;
-  if (!isShort && width < MIN_LABEL_PX) return context.restore();
-  context.font = REACH_FONT;
+  if (!isShort && box.x1 - box.x0 < MIN_LABEL_PX) return context.restore();
+  context.font = DESK_FONT;
   context.textAlign = "right";
   // Below the lower edge, and not beyond the paper's right edge, so that it is visible.
-  context.fillText(
-    reach.label,
-    offsetX + Math.min(reach.width, paperMm.width) * scale,
-    offsetY + height + REACH_GAP_PX + 9,
-  );
+  const right = Math.min(box.x1, screenBox(view, boxOfSize(paperMm)).x1);
+  context.fillText(reach.label, right, box.y1 + REACH_GAP_PX + 9);
   context.restore();
 };
 
-const shadeBeyond = (
-  context: CanvasRenderingContext2D,
-  { offsetX, offsetY, scale }: View,
-  paper: Size,
-  reach: Size,
-): void => {
+const shadeBeyond = (context: CanvasRenderingContext2D, view: View, paper: Size, reach: Size): void => {
   context.globalAlpha = 0.08;
-  const [right, below] = [paper.width - reach.width, paper.height - reach.height];
-  if (right > 0) {
-    context.fillRect(offsetX + reach.width * scale, offsetY, right * scale, paper.height * scale);
-  }
-  if (below > 0) {
-    const width = Math.min(paper.width, reach.width);
-    context.fillRect(offsetX, offsetY + reach.height * scale, width * scale, below * scale);
-  }
+  const whole = boxOfSize(paper);
+  const shade = (box: Box): void => context.fillRect(...sidesOf(screenBox(view, box)));
+  if (paper.width > reach.width) shade({ ...whole, x0: reach.width });
+  if (paper.height > reach.height)
+    shade({ ...whole, y0: reach.height, x1: Math.min(paper.width, reach.width) });
+};
+
+const HOME_PX = 9;
+/** From the corner to the word. */
+const HOME_GAP_PX = 5;
+
+/** Marks the paper's corner at home, with the word where the desk is turned. */
+const drawHome = (context: CanvasRenderingContext2D, view: View, colors: DeskColors): void => {
+  const [cos, sin] = turnOf(view);
+  // Along the paper's edges from its corner.
+  const at = (along: number, down: number): Px => [
+    view.offsetX + cos * along - sin * down,
+    view.offsetY + sin * along + cos * down,
+  ];
+  context.fillStyle = colors["ruler-text"];
+  context.beginPath();
+  context.moveTo(...at(0, 0));
+  context.lineTo(...at(HOME_PX, 0));
+  context.lineTo(...at(0, HOME_PX));
+  context.fill();
+  const { turn = 0, offsetX, offsetY } = view;
+  if (turn === 0) return;
+  context.font = DESK_FONT;
+  // Beside the sheet, which lies to the left of a corner on the right, and above a lower one.
+  context.textAlign = turn === 3 ? "left" : "right";
+  context.fillText(previewText.home, offsetX, turn === 1 ? offsetY - HOME_GAP_PX : offsetY + HOME_GAP_PX + 9);
 };

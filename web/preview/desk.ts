@@ -1,13 +1,17 @@
 /** The desk of the preview: paper, margins and the machine's reach, from a job's settings, and where the plotter's pen is. */
-import { findMachine, mmFromLength, orientedPaper, type LengthUnit } from "../../src/internal.js";
+import { findMachine, mmFromLength, orientedPaper } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { formatSize } from "../ui/format.js";
 import type { Desk } from "./backdrop.js";
 import { previewText } from "./text.js";
+import type { ViewSettings } from "../state/persist.js";
 import { currentPlotter, type PageState } from "../state/store.js";
 import type { PenGlide } from "./pen/pen-glide.js";
 
-export const deskOf = (settings: PlotSettings, unit: LengthUnit): Desk => {
+export const deskOf = (
+  settings: PlotSettings,
+  { lengthUnit: unit, deskTurn }: Pick<ViewSettings, "lengthUnit" | "deskTurn">,
+): Desk => {
   const { paper, landscape, margins, marginMm } = settings.prepare;
   const { widthMm, heightMm } = orientedPaper(paper, landscape);
   const machine = findMachine(settings);
@@ -20,6 +24,7 @@ export const deskOf = (settings: PlotSettings, unit: LengthUnit): Desk => {
       label: previewText.reach(machine.name, formatSize(machine.widthMm, machine.heightMm, unit)),
     },
     unitMm: mmFromLength(1, unit),
+    turn: deskTurn,
   };
 };
 

@@ -19,7 +19,8 @@ import {
   type SnapLines,
 } from "../scene/placing.js";
 import type { OverlayPainter, Stage } from "./stage.js";
-import { mmFromScreen, type View } from "../scene/view.js";
+import { addCrispLine, DESK_FONT } from "./backdrop.js";
+import { mmFromPx, mmFromScreen, screenBox, screenPoint, type View } from "../scene/view.js";
 
 const HANDLE_PX = 10;
 const REACH_PX = 20;
@@ -57,7 +58,7 @@ export const grabFrame = (stage: Stage, store: PageStore, actions: Actions, at: 
   const lines = snapLinesOf(paperMm, margins);
   return {
     to: (dxPx, dyPx, isFree) => {
-      const dragged = draggedFrame(frame, part, { x, y }, dxPx / scale, dyPx / scale);
+      const dragged = draggedFrame(frame, part, { x, y }, ...mmFromPx(stage.view, dxPx, dyPx));
       const snapped = isFree ? null : snapFrame(dragged, part, lines, SNAP_PX / scale);
       store.setState({ snapLines: snapped?.lines ?? null });
       setFrame(actions, "drag", snapped?.frame ?? dragged);
@@ -118,7 +119,7 @@ const paintFrame = (
   frame: FrameMm,
   unit: LengthUnit,
 ): void => {
-  const onScreen = ({ x, y }: Point): Px => [view.offsetX + x * view.scale, view.offsetY + y * view.scale];
+  const onScreen = ({ x, y }: Point): Px => screenPoint(view, x, y);
   const [nw, ne, sw, se] = CORNER_PARTS.map((part) => onScreen(cornerOf(frame, part)));
   const knob = onScreen(knobOf(frame, KNOB_PX / view.scale));
   context.strokeStyle = FRAME_COLOR;
@@ -150,16 +151,16 @@ type Px = [number, number];
 
 /** Paints a label with size and angle below the frame. */
 const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm, unit: LengthUnit): void => {
-  const { x0, x1, y1 } = boxAround(frame);
+  const { x0, x1, y1 } = screenBox(view, boxAround(frame));
   const label = `${formatSize(frame.widthMm, frame.heightMm, unit)}${
     frame.turnDeg === 0 ? "" : `, ${formatNumber(frame.turnDeg, 1)}°`
   }`;
-  context.font = "12px Helvetica, Arial, sans-serif";
+  context.font = DESK_FONT;
   const width = context.measureText(label).width + 14;
-  const x = view.offsetX + ((x0 + x1) / 2) * view.scale;
+  const x = (x0 + x1) / 2;
   // Inside the canvas, above the tools at its lower edge.
   const heightPx = context.canvas.height / context.getTransform().d;
-  const y = Math.min(view.offsetY + y1 * view.scale + 12, heightPx - BELOW_LABEL_PX);
+  const y = Math.min(y1 + 12, heightPx - BELOW_LABEL_PX);
   context.fillStyle = FRAME_COLOR;
   context.beginPath();
   context.roundRect(x - width / 2, y, width, 21, 4);
@@ -171,27 +172,26 @@ const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm
 
 const paintSnapLines = (context: CanvasRenderingContext2D, view: View, { xs, ys }: SnapLines): void => {
   const { width, height } = context.canvas;
+  // Longer than the canvas from anywhere on it.
+  const [farX, farY] = mmFromPx({ ...view, turn: 0 }, width + height, width + height);
+  const [left, top] = mmFromScreen(view, 0, 0);
   context.strokeStyle = SNAP_COLOR;
   context.lineWidth = 1;
   context.beginPath();
-  for (const mm of xs) {
-    const x = Math.round(view.offsetX + mm * view.scale) + 0.5;
-    context.moveTo(x, 0);
-    context.lineTo(x, height);
-  }
-  for (const mm of ys) {
-    const y = Math.round(view.offsetY + mm * view.scale) + 0.5;
-    context.moveTo(0, y);
-    context.lineTo(width, y);
-  }
+  for (const mm of xs)
+    addCrispLine(context, screenPoint(view, mm, top - farY), screenPoint(view, mm, top + farY));
+  for (const mm of ys)
+    addCrispLine(context, screenPoint(view, left - farX, mm), screenPoint(view, left + farX, mm));
   context.stroke();
 };
 
 const paintNote = (context: CanvasRenderingContext2D, view: View, box: BoxMm): void => {
-  const x = view.offsetX + box.xMm * view.scale - NOTE_PAD_PX;
-  const y = view.offsetY + box.yMm * view.scale - NOTE_PAD_PX;
-  const width = box.widthMm * view.scale + 2 * NOTE_PAD_PX;
-  const height = box.heightMm * view.scale + 2 * NOTE_PAD_PX;
+  const { xMm, yMm, widthMm, heightMm } = box;
+  const shown = screenBox(view, { x0: xMm, y0: yMm, x1: xMm + widthMm, y1: yMm + heightMm });
+  const x = shown.x0 - NOTE_PAD_PX;
+  const y = shown.y0 - NOTE_PAD_PX;
+  const width = shown.x1 - shown.x0 + 2 * NOTE_PAD_PX;
+  const height = shown.y1 - shown.y0 + 2 * NOTE_PAD_PX;
   context.fillStyle = NOTE_COLOR;
   context.globalAlpha = 0.14;
   context.fillRect(x, y, width, height);

@@ -15,8 +15,8 @@ export interface GestureTarget {
   hover(at: Point | null): void;
   /** Begins a drag of the object under (x, y). Null: there is none, and the drag pans. */
   grab(at: Point): Drag | null;
-  /** An arrow key moves a drawing placed by hand, mm. False: there is none, and the key pans. */
-  nudge(dxMm: number, dyMm: number): boolean;
+  /** An arrow key moves a drawing placed by hand, mm on the screen. False: there is none, and the key pans. */
+  nudge(rightMm: number, downMm: number): boolean;
   /** A press without a drag. */
   tap(at: Point): void;
 }

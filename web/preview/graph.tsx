@@ -1,6 +1,7 @@
 import { useEffect, useRef, type RefObject } from "react";
 import UPlot from "uplot";
 import { type Trajectory, stateAt } from "../../src/index.js";
+import { DESK_FONT } from "./backdrop.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { timeLineText as words } from "./text.js";
 import { formatMoment, formatNumber } from "../ui/format.js";
@@ -83,7 +84,7 @@ const makePlot = (
     stroke: color("--text-soft"),
     grid,
     ticks: { show: false },
-    font: "11px Helvetica, Arial, sans-serif",
+    font: DESK_FONT,
   };
   const sample = (fromS: number, toS: number): UPlot.AlignedData => {
     const { tS, speedMmPerS, accelMmPerS2 } = graphData(

@@ -1,7 +1,7 @@
 /** Drawn over the strokes: rulers along the edges, and what lies beside the paper. */
 import type { Box } from "../../src/internal.js";
-import type { DeskColors } from "./backdrop.js";
-import { rulerStep, type Size, type View } from "../scene/view.js";
+import { DESK_FONT, type DeskColors } from "./backdrop.js";
+import { rulerStep, screenBox, screenMap, turnOf, type Size, type View } from "../scene/view.js";
 import type { CutOffPicture } from "../worker/cut-off.js";
 
 export const RULER_PX = 22;
@@ -16,21 +16,23 @@ export const drawRulers = (
   span: Box | null,
 ): void => {
   const unitPx = view.scale * unitMm;
+  const [cos, sin] = turnOf(view);
+  const isUpright = sin === 0;
   context.fillStyle = colors.ruler;
   context.fillRect(0, 0, size.width, RULER_PX);
   context.fillRect(0, RULER_PX, RULER_PX, size.height - RULER_PX);
   if (span) markSpan(context, view, span);
-  drawTicks(context, view.offsetX, unitPx, size.width, colors, false);
+  drawTicks(context, view.offsetX, (isUpright ? cos : -sin) * unitPx, size.width, colors, false);
   context.save();
   // The left ruler is the top one, rotated. Its numbers read upwards.
   context.rotate(-Math.PI / 2);
   context.scale(-1, 1);
-  drawTicks(context, view.offsetY, unitPx, size.height, colors, true);
+  drawTicks(context, view.offsetY, (isUpright ? cos : sin) * unitPx, size.height, colors, true);
   context.restore();
   context.fillStyle = colors.ruler;
   context.fillRect(0, 0, RULER_PX, RULER_PX);
   context.fillStyle = colors["ruler-text"];
-  context.font = "9px Helvetica, Arial, sans-serif";
+  context.font = DESK_FONT;
   context.textAlign = "center";
   context.fillText(unitMm === 1 ? "mm" : "in", RULER_PX / 2, RULER_PX / 2 + 3);
   context.strokeStyle = colors["ruler-line"];
@@ -45,14 +47,16 @@ export const drawRulers = (
 
 const SPAN_COLOR = "rgb(47 98 216 / 22%)";
 
-const markSpan = (context: CanvasRenderingContext2D, { offsetX, offsetY, scale }: View, span: Box): void => {
-  const x = Math.max(RULER_PX, offsetX + span.x0 * scale);
-  const y = Math.max(RULER_PX, offsetY + span.y0 * scale);
+const markSpan = (context: CanvasRenderingContext2D, view: View, span: Box): void => {
+  const { x0, y0, x1, y1 } = screenBox(view, span);
+  const x = Math.max(RULER_PX, x0);
+  const y = Math.max(RULER_PX, y0);
   context.fillStyle = SPAN_COLOR;
-  context.fillRect(x, 0, Math.max(0, offsetX + span.x1 * scale - x), RULER_PX);
-  context.fillRect(0, y, RULER_PX, Math.max(0, offsetY + span.y1 * scale - y));
+  context.fillRect(x, 0, Math.max(0, x1 - x), RULER_PX);
+  context.fillRect(0, y, RULER_PX, Math.max(0, y1 - y));
 };
 
+/** `scale`: px per unit; below 0: the numbers grow towards the ruler's beginning. */
 const drawTicks = (
   context: CanvasRenderingContext2D,
   offset: number,
@@ -61,10 +65,11 @@ const drawTicks = (
   colors: DeskColors,
   isMirrored: boolean,
 ): void => {
-  const step = rulerStep(scale, 64);
+  const step = rulerStep(Math.abs(scale), 64);
   const parts = 10;
-  const first = Math.floor((RULER_PX - offset) / scale / step) * step;
-  const last = (lengthPx - offset) / scale;
+  const ends = [(RULER_PX - offset) / scale, (lengthPx - offset) / scale];
+  const first = Math.floor(Math.min(...ends) / step) * step;
+  const last = Math.max(...ends);
   context.strokeStyle = colors["ruler-text"];
   context.lineWidth = 1;
   context.beginPath();
@@ -79,7 +84,7 @@ const drawTicks = (
   context.stroke();
   context.globalAlpha = 1;
   context.fillStyle = colors["ruler-text"];
-  context.font = "10px Helvetica, Arial, sans-serif";
+  context.font = DESK_FONT;
   context.textAlign = isMirrored ? "right" : "left";
   for (let mm = first; mm <= last; mm += step) {
     const px = offset + mm * scale;
@@ -122,23 +127,22 @@ const paintOutside = (
   { limit, points, offsets }: CutOffPicture,
   passes: readonly GlowPass[],
 ): void => {
-  const x = (mm: number): number => view.offsetX + mm * view.scale;
-  const y = (mm: number): number => view.offsetY + mm * view.scale;
+  const { a, b, c, d, e, f } = screenMap(view);
+  const kept = screenBox(view, limit);
+  const to = (k: number): [number, number] => [
+    a * points[k] + c * points[k + 1] + e,
+    b * points[k] + d * points[k + 1] + f,
+  ];
   context.save();
   // Clips to the canvas without the box.
   context.beginPath();
   context.rect(0, 0, context.canvas.width, context.canvas.height);
-  context.rect(
-    x(limit.x0),
-    y(limit.y0),
-    (limit.x1 - limit.x0) * view.scale,
-    (limit.y1 - limit.y0) * view.scale,
-  );
+  context.rect(kept.x0, kept.y0, kept.x1 - kept.x0, kept.y1 - kept.y0);
   context.clip("evenodd");
   context.beginPath();
   for (let i = 0; i + 1 < offsets.length; i++) {
-    context.moveTo(x(points[offsets[i]]), y(points[offsets[i] + 1]));
-    for (let k = offsets[i] + 2; k < offsets[i + 1]; k += 2) context.lineTo(x(points[k]), y(points[k + 1]));
+    context.moveTo(...to(offsets[i]));
+    for (let k = offsets[i] + 2; k < offsets[i + 1]; k += 2) context.lineTo(...to(k));
   }
   context.lineCap = context.lineJoin = "round";
   for (const [color, widthPx] of passes) {

@@ -88,4 +88,20 @@ const TURN_PAPER: PageAction = {
     })),
 };
 
-export const PREVIEW_ACTIONS: readonly PageAction[] = [PLAY, TRAVEL, GRAPH, PLACE, START_HERE, TURN_PAPER];
+/** Turns the picture of sheet and drawing, not the plot. */
+export const TURN_DESK: PageAction = {
+  id: "turn-desk",
+  label: previewText.turnDesk,
+  words: "rotate the view, compass, upright, portrait",
+  perform: ({ store, actions }) => actions.changeView({ deskTurn: (store.getState().view.deskTurn + 1) % 4 }),
+};
+
+export const PREVIEW_ACTIONS: readonly PageAction[] = [
+  PLAY,
+  TRAVEL,
+  GRAPH,
+  PLACE,
+  START_HERE,
+  TURN_PAPER,
+  TURN_DESK,
+];

@@ -18,7 +18,7 @@ import type { FrameLook, ShownPen, Stage } from "./stage.js";
 import { selectionPainter } from "./stroke.js";
 import { TimeLine } from "./time-line.js";
 import { penLooks, viewModeOf } from "./view-modes.js";
-import { mmFromScreen, type View } from "../scene/view.js";
+import { mmFromPx, mmFromScreen, type View } from "../scene/view.js";
 
 /** Height of the legend under the paper. */
 const BELOW_PX = 30;
@@ -93,7 +93,7 @@ const hoverUnder = (stage: Stage, planned: Planned, { x, y }: Point): Hover | nu
   return hoverAt(planned, at, stage.view.scale);
 };
 
-const deskOfState = ({ settings, view }: PageState) => deskOf(settings, view.lengthUnit);
+const deskOfState = ({ settings, view }: PageState) => deskOf(settings, view);
 
 const lookOf = (state: PageState): FrameLook => {
   const { planned, settings } = state;
@@ -134,7 +134,8 @@ const PREPARED: SheetKind = {
   show: showState,
   hand: (stage, store, actions) => ({
     grab: (at) => grabFrame(stage, store, actions, at),
-    nudge: (dxMm, dyMm) => nudgeFrame(store, actions, dxMm, dyMm),
+    nudge: (rightMm, downMm) =>
+      nudgeFrame(store, actions, ...mmFromPx({ ...stage.view, scale: 1 }, rightMm, downMm)),
     hover: (at) => {
       const { planned, hover } = store.getState();
       const found = at && planned ? hoverUnder(stage, planned, at) : null;

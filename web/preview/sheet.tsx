@@ -1,11 +1,13 @@
 import { useEffect, useRef, useState, type ReactNode, type RefObject } from "react";
 import type { PageState, PageStore } from "../state/store.js";
-import { useActions, usePageStore } from "../state/use-store.js";
+import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import type { Actions } from "../state/actions.js";
 import type { Desk } from "./backdrop.js";
 import { listenForGestures, type GestureTarget } from "./gestures.js";
 import { Stage, type FrameLook } from "./stage.js";
+import { TURN_DESK } from "./preview-actions.js";
 import { previewText } from "./text.js";
+import { ActionButton } from "../ui/action-button.js";
 
 /** What a sheet shows, and its gestures besides moving the view. Must be the same object on every render. */
 export interface SheetKind {
@@ -28,6 +30,16 @@ interface SheetProps {
   /** Controls under the sheet. */
   foot(stage: RefObject<Stage | null>): ReactNode;
 }
+
+/** Turns the desk, and points to where its upper edge is. */
+const Compass = () => {
+  const turn = usePageState((state) => state.view.deskTurn);
+  return (
+    <div className="compass" data-turn={turn}>
+      <ActionButton action={TURN_DESK} kind="tool" icon="compass" />
+    </div>
+  );
+};
 
 /** Paper with strokes, which can be moved and zoomed. Used in Prepare and in Watch. */
 export const Sheet = ({ kind, label, pictureLabel, children, foot }: SheetProps) => {
@@ -85,6 +97,7 @@ export const Sheet = ({ kind, label, pictureLabel, children, foot }: SheetProps)
             {previewText.cannotShow}
           </p>
         )}
+        <Compass />
         {children}
       </div>
       <div className="preview-foot">{foot(stage)}</div>

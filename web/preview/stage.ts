@@ -4,7 +4,7 @@
  * The strokes are drawn elsewhere. Until they are drawn for a new view, the last picture is moved and scaled, so that
  * the paper follows the finger even if the drawing is large.
  */
-import { isSameJson, type Box } from "../../src/internal.js";
+import { compose, inverse, isSameJson, type Box } from "../../src/internal.js";
 import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
 import { markMoment } from "../worker/moments.js";
 import { drawRulers, RULER_PX } from "./overlay.js";
@@ -14,7 +14,7 @@ import { LAYER_SHORT, PIECE_SHORTS } from "../scene/pieces.js";
 import { piecesBefore } from "../scene/scene.js";
 import type { Frame, Picture } from "../scene/renderer.js";
 import { Strokes } from "./strokes.js";
-import { fitView, zoomAt, type Size, type View } from "../scene/view.js";
+import { fitView, screenMap, zoomAt, type Size, type View } from "../scene/view.js";
 
 interface StageCanvases {
   readonly box: HTMLElement;
@@ -36,7 +36,7 @@ export interface ShownPen {
   readonly isDrawing: boolean;
 }
 
-export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio">;
+export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio" | "ghostColor">;
 
 const INSET_PX = 26;
 /** On a low screen, what lies under the paper may lie over it: the share of the height that is kept free for it. */
@@ -136,8 +136,8 @@ export class Stage {
   }
 
   setDesk(desk: Desk): void {
-    const { width, height } = this.shownDesk.paperMm;
-    const isOther = desk.paperMm.width !== width || desk.paperMm.height !== height;
+    const { paperMm, turn } = this.shownDesk;
+    const isOther = !isSameJson(desk.paperMm, paperMm) || desk.turn !== turn;
     this.shownDesk = desk;
     if (isOther) this.fit();
     else this.refresh(false);
@@ -163,7 +163,7 @@ export class Stage {
   /** Reads the colours again, after the theme has changed. */
   recolor(): void {
     this.colors = deskColors(this.canvases.box);
-    this.refresh(false);
+    this.refresh(true);
   }
 
   close(): void {
@@ -189,7 +189,7 @@ export class Stage {
       right: INSET_PX,
       bottom: INSET_PX + Math.min(this.belowPx, MOST_BELOW * this.cssSize.height),
     };
-    this.currentView = fitView(this.shownDesk.paperMm, this.cssSize, insets);
+    this.currentView = fitView(this.shownDesk.paperMm, this.cssSize, insets, this.shownDesk.turn);
   }
 
   private refresh(areStrokesStale: boolean): void {
@@ -270,7 +270,8 @@ export class Stage {
 
   private askForStrokes(ratio: number): void {
     this.areStrokesStale = false;
-    const frame: Frame = { ...this.look, ...this.cssSize, ratio, view: this.currentView };
+    const { ghost: ghostColor } = this.colors;
+    const frame: Frame = { ...this.look, ...this.cssSize, ratio, ghostColor, view: this.currentView };
     this.scenes.set(frame, this.scene);
     this.strokes.show(frame);
     this.moveStrokes();
@@ -301,6 +302,6 @@ export class Stage {
 
 /** The CSS transform that shows a picture drawn for `from` in the view `to`. */
 const transformBetween = (from: View, to: View): string => {
-  const f = to.scale / from.scale;
-  return `translate(${to.offsetX - from.offsetX * f}px, ${to.offsetY - from.offsetY * f}px) scale(${f})`;
+  const { a, b, c, d, e, f } = compose(screenMap(to), inverse(screenMap(from)));
+  return `matrix(${[a, b, c, d, e, f].map((value) => value.toFixed(12)).join()})`;
 };

@@ -1,6 +1,7 @@
 /** The selected stroke of a plan: its numbers and its picture. */
 import type { Trajectory } from "../../src/index.js";
 import { PIECE_FLOATS } from "../scene/pieces.js";
+import { screenMap } from "../scene/view.js";
 import { piecesBefore, type Scene } from "../scene/scene.js";
 import { selectedStroke, type PageState } from "../state/store.js";
 import { penLooks } from "./view-modes.js";
@@ -70,14 +71,15 @@ export const selectionPainter = (state: PageState): OverlayPainter | null => {
   const widthMm = penLooks({ planned, settings: state.settings })[hover.layer]?.widthMm ?? 0;
   return (context, view) => {
     const { points } = stroke;
+    const { a, b, c, d, e, f } = screenMap(view);
     const linePx = Math.max(MIN_PX, widthMm * view.scale);
     context.save();
     context.lineCap = "round";
     context.lineJoin = "round";
     context.beginPath();
     for (let k = 0; k < points.length; k += 2) {
-      const x = view.offsetX + points[k] * view.scale;
-      const y = view.offsetY + points[k + 1] * view.scale;
+      const x = a * points[k] + c * points[k + 1] + e;
+      const y = b * points[k] + d * points[k + 1] + f;
       if (k === 0) context.moveTo(x, y);
       else context.lineTo(x, y);
     }

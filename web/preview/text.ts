@@ -1,6 +1,8 @@
 /** Texts of the preview and the time line. */
 export const previewText = {
   reach: (machine: string, size: string) => `Reach of ${machine}: ${size}`,
+  home: "Home",
+  turnDesk: "Turn the desk",
   reading: (name: string) => `Reading ${name}…`,
   nothingToDraw: "Nothing to draw",
   nothingToDrawHint: "Every layer is switched off, or everything lies outside the margins.",

@@ -13,7 +13,7 @@ import {
   type StrokeLayer,
 } from "../../src/internal.js";
 import { ASKED_COLOR, INK_COLOR, type Frame, type Picture } from "../scene/renderer.js";
-import { withTimes, type Scene } from "../scene/scene.js";
+import { usualSpeeds, withSpeeds, withTimes, type Scene, type SpeedRange } from "../scene/scene.js";
 import type { PageState } from "../state/store.js";
 import { formatDuration, formatNumber } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
@@ -101,24 +101,42 @@ const SPEED: ViewMode = {
   colorBy: "value",
   isTrueToWidth: false,
   layerLooks: structureLooks,
-  Legend: ({ planned }) => <SpeedLegend topMmPerS={planned.scene.topDrawMmPerS} />,
+  picture: ({ planned }) => planned && speedsOf(planned.scene).picture,
+  Legend: ({ planned }) => <SpeedLegend scene={planned.scene} />,
+};
+
+interface Speeds {
+  readonly range: SpeedRange;
+  readonly picture: Picture;
+}
+const speeds = new WeakMap<Scene, Speeds>();
+
+const speedsOf = (scene: Scene): Speeds => {
+  const known = speeds.get(scene);
+  if (known) return known;
+  const range = usualSpeeds(scene);
+  const found = { range, picture: withSpeeds(scene, range) };
+  speeds.set(scene, found);
+  return found;
 };
 
 const STOPS = 17;
 
 /** `data-stops` is the scale as JSON, for programs that read the page. */
-const SpeedLegend = ({ topMmPerS }: { topMmPerS: number }) => {
+const SpeedLegend = ({ scene }: { scene: Scene }) => {
+  const { from, to } = speedsOf(scene).range;
+  const [lowest, highest] = [from * scene.topDrawMmPerS, to * scene.topDrawMmPerS];
   const stops = Array.from({ length: STOPS }, (_, i) => {
     const share = i / (STOPS - 1);
-    return { mmPerS: Number((share * topMmPerS).toFixed(3)), color: rampColor(share) };
+    return { mmPerS: Number((lowest + share * (highest - lowest)).toFixed(3)), color: rampColor(share) };
   });
+  const labels = scaleLabels(lowest, highest, highest < 10 ? 1 : 0);
+  // What is slower or faster has the colours of the ends.
+  if (from > 0) labels[0] = `≤ ${labels[0]}`;
+  if (to < 1) labels[labels.length - 1] = `≥ ${labels.at(-1)}`;
   return (
     <figure className="legend" role="img" aria-label="Speed legend" data-stops={JSON.stringify(stops)}>
-      <Ramp
-        title="Speed with the pen down"
-        unit="mm/s"
-        labels={scaleLabels(topMmPerS, topMmPerS < 10 ? 1 : 0)}
-      />
+      <Ramp title="Speed with the pen down" unit="mm/s" labels={labels} />
     </figure>
   );
 };

@@ -2,6 +2,7 @@
  * The shader. Each instance draws one piece: a quad around it, with round ends, smooth edges and its colour.
  *
  *   line              mm x0 y0 x1 y1           scale             device px a mm
+ *   turn              cos and sin of the desk's turn
  *   time              s                        offset, viewport  device px
  *   value             share of the ramp        radius            device px, of the narrowest line
  *   share             of value, of time        widthMm           of a full alpha in the palette; 0: all are equally narrow
@@ -16,7 +17,7 @@ layout(location = 1) in vec2 time;
 layout(location = 2) in vec2 value;
 layout(location = 3) in float layer;
 uniform float scale;
-uniform vec2 offset, viewport;
+uniform vec2 turn, offset, viewport;
 uniform float radius;
 uniform float widthMm;
 uniform sampler2D palette;
@@ -27,10 +28,13 @@ flat out float reach;
 flat out float len;
 out vec2 share;
 flat out float layerIndex;
+vec2 onScreen(vec2 mm) {
+  return vec2(turn.x * mm.x - turn.y * mm.y, turn.y * mm.x + turn.x * mm.y) * scale + offset;
+}
 void main() {
-  vec2 a = line.xy * scale + offset;
+  vec2 a = onScreen(line.xy);
   float part = time.y > time.x ? clamp((cutOffS - time.x) / (time.y - time.x), 0.0, 1.0) : 1.0;
-  vec2 b = mix(line.xy, line.zw, part) * scale + offset;
+  vec2 b = onScreen(mix(line.xy, line.zw, part));
   len = distance(a, b);
   vec2 u = len > 1e-4 ? (b - a) / len : vec2(1.0, 0.0);
   reach = radius;
@@ -73,6 +77,7 @@ void main() {
 
 export const UNIFORMS = [
   "scale",
+  "turn",
   "offset",
   "viewport",
   "radius",

@@ -13,7 +13,6 @@ import { bytesFromHex, RAMP_SIZE, rampBytes } from "./color-map.js";
 import { linkProgram, makeTexture, UNIFORMS, type Uniforms } from "./gl-program.js";
 import {
   ASKED_COLOR,
-  GHOST_COLOR,
   lineWidthPx,
   pictureSize,
   TRAVEL_ALPHA,
@@ -25,6 +24,7 @@ import {
   type SceneRenderer,
 } from "./renderer.js";
 import { LAYER_SHORT, PIECE_BYTES, VALUE_SHORT } from "./pieces.js";
+import { turnOf } from "./view.js";
 import {
   cutOffS,
   drawSome,
@@ -183,6 +183,7 @@ class GlRenderer implements SceneRenderer {
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
     gl.uniform1f(this.uniforms.scale, view.scale * ratio);
+    gl.uniform2f(this.uniforms.turn, ...turnOf(view));
     gl.uniform2f(this.uniforms.offset, view.offsetX * ratio, view.offsetY * ratio);
     gl.uniform2f(this.uniforms.viewport, w, h);
     gl.uniform1f(this.uniforms.totalS, Math.max(1e-6, this.scene?.totalS ?? 1));
@@ -240,7 +241,7 @@ class GlRenderer implements SceneRenderer {
     gl.uniform1f(this.uniforms.cutOffS, Math.min(NEVER_S, cutOffS(frame, style)));
     gl.uniform1f(this.uniforms.radius, (narrowestPx * frame.ratio) / 2);
     gl.uniform1f(this.uniforms.widthMm, isThin ? 0 : WIDEST_MM);
-    if (style === "ghost") this.setPlain(GHOST_COLOR, 1);
+    if (style === "ghost") this.setPlain(frame.ghostColor, 1);
     else if (style === "asked") this.setPlain(ASKED_COLOR, 1);
     else if (style === "travel") this.setPlain(TRAVEL_COLOR, TRAVEL_ALPHA);
     else gl.uniform1i(this.uniforms.colorBy, COLOR_CODE[frame.colorBy]);

@@ -22,6 +22,8 @@ export interface Frame {
    * thinner than usual.
    */
   readonly lineGapMm?: number | undefined;
+  /** "#rrggbb" of strokes that are not drawn yet at the shown moment. */
+  readonly ghostColor: string;
   /** Strokes after this time are shown pale, s; null: the whole plot is shown as drawn. */
   readonly untilS: number | null;
 }
@@ -57,7 +59,6 @@ export interface SceneRenderer {
 export const MIN_LINE_PX = 1.15;
 /** Min. line width in a dense drawing, CSS px: leaves half of the visible paper empty. */
 const HAIR_LINE_PX = 0.5;
-export const GHOST_COLOR = "#dcdad4";
 export const ASKED_COLOR = "#a8a498";
 export const TRAVEL_COLOR = "#5b8fa8";
 export const TRAVEL_ALPHA = 0.6;

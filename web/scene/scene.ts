@@ -202,15 +202,55 @@ class PieceWriter {
 /** From the top of the scale of time to its beginning: a mm takes so many times as long. */
 export const SLOWEST_TIMES = 10;
 
+type ScenePicture = Pick<Scene, "draw" | "travel" | "totalS">;
+
 /** The same pieces with other values: how long a mm takes, from the least (0) to `SLOWEST_TIMES` as long (1), by ratio. */
-export const withTimes = ({ draw, travel, totalS }: Scene): Pick<Scene, "draw" | "travel" | "totalS"> => {
+export const withTimes = (scene: Scene): ScenePicture =>
+  withValues(scene, (speed) => Math.log(1 / Math.max(1 / 65_535, speed)) / Math.log(SLOWEST_TIMES));
+
+/** Of the top speed. */
+export interface SpeedRange {
+  readonly from: number;
+  readonly to: number;
+}
+
+/** The same pieces with other values: the speed within a range. */
+export const withSpeeds = (scene: Scene, { from, to }: SpeedRange): ScenePicture =>
+  withValues(scene, (speed) => (speed - from) / (to - from));
+
+/** `valueOf` gets the share of the top speed; values are kept within 0 … 1. */
+const withValues = ({ draw, travel, totalS }: Scene, valueOf: (speed: number) => number): ScenePicture => {
   const bytes = draw.bytes.slice(0);
   const shorts = new Uint16Array(bytes);
   for (let k = VALUE_SHORT; k < shorts.length; k += PIECE_SHORTS) {
-    for (const at of [k, k + 1]) {
-      const times = 65_535 / Math.max(1, shorts[at]);
-      shorts[at] = Math.round(65_535 * Math.min(1, Math.log(times) / Math.log(SLOWEST_TIMES)));
-    }
+    for (const at of [k, k + 1])
+      shorts[at] = Math.round(65_535 * Math.min(1, Math.max(0, valueOf(shorts[at] / 65_535))));
   }
   return { draw: { count: draw.count, bytes }, travel, totalS };
+};
+
+/** The slowest and the fastest ink that a scale of speeds leaves to its ends. */
+const LEFT_AT_AN_END = 0.05;
+const SPEED_STEPS = 256;
+/** A scale of nearly one speed begins at 0. */
+const NARROWEST = 0.1;
+
+/** The range of speeds with which most of a drawing is drawn, by length. Linear in the pieces. */
+export const usualSpeeds = ({ draw }: Pick<Scene, "draw">): SpeedRange => {
+  const floats = new Float32Array(draw.bytes);
+  const shorts = new Uint16Array(draw.bytes);
+  const lengths = new Float64Array(SPEED_STEPS);
+  for (let i = 0; i < draw.count; i++) {
+    const [f, s] = [i * PIECE_FLOATS, i * PIECE_SHORTS + VALUE_SHORT];
+    const speed = (shorts[s] + shorts[s + 1]) / 2 / 65_535;
+    const at = Math.min(SPEED_STEPS - 1, Math.floor(speed * SPEED_STEPS));
+    lengths[at] += Math.hypot(floats[f + 2] - floats[f], floats[f + 3] - floats[f + 1]);
+  }
+  const total = lengths.reduce((sum, length) => sum + length, 0);
+  let from = 0;
+  for (let sum = lengths[0]; sum < LEFT_AT_AN_END * total; sum += lengths[from]) from++;
+  let to = SPEED_STEPS;
+  for (let sum = lengths[to - 1]; sum < LEFT_AT_AN_END * total; sum += lengths[to - 1]) to--;
+  const isNarrow = to - from < NARROWEST * to;
+  return { from: isNarrow ? 0 : from / SPEED_STEPS, to: to / SPEED_STEPS };
 };

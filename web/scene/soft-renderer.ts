@@ -11,7 +11,6 @@
 import { bytesFromHex, RAMP_SIZE, rampBytes } from "./color-map.js";
 import {
   ASKED_COLOR,
-  GHOST_COLOR,
   INK_COLOR,
   lineWidthPx,
   pictureSize,
@@ -24,6 +23,7 @@ import {
   type SceneRenderer,
 } from "./renderer.js";
 import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT } from "./pieces.js";
+import { screenMap } from "./view.js";
 import {
   cutOffS,
   drawSome,
@@ -115,9 +115,20 @@ class SoftRenderer implements SceneRenderer {
     const shorts = new Uint16Array(pieces.bytes);
     const look = lookOf(frame, style);
     const brush = new Brush(this.image);
-    const scale = frame.view.scale * frame.ratio;
-    const offsetX = frame.view.offsetX * frame.ratio;
-    const offsetY = frame.view.offsetY * frame.ratio;
+    const { view, ratio } = frame;
+    const {
+      a,
+      b,
+      c,
+      d,
+      e: left,
+      f: top,
+    } = screenMap({
+      ...view,
+      scale: view.scale * ratio,
+      offsetX: view.offsetX * ratio,
+      offsetY: view.offsetY * ratio,
+    });
     const untilS = cutOffS(frame, style);
     for (let i = from; i < to; i++) {
       const f = i * PIECE_FLOATS;
@@ -137,11 +148,15 @@ class SoftRenderer implements SceneRenderer {
       } else {
         brush.setPlain(look.colors[layer] ?? look.colors[0]);
       }
+      const x0 = floats[f];
+      const y0 = floats[f + 1];
+      const x1 = x0 + part * (floats[f + 2] - x0);
+      const y1 = y0 + part * (floats[f + 3] - y0);
       brush.draw(
-        floats[f] * scale + offsetX,
-        floats[f + 1] * scale + offsetY,
-        (floats[f] + part * (floats[f + 2] - floats[f])) * scale + offsetX,
-        (floats[f + 1] + part * (floats[f + 3] - floats[f + 1])) * scale + offsetY,
+        a * x0 + c * y0 + left,
+        b * x0 + d * y0 + top,
+        a * x1 + c * y1 + left,
+        b * x1 + d * y1 + top,
       );
     }
   }
@@ -158,7 +173,7 @@ const lookOf = (frame: Frame, style: PieceStyle): Look => {
   }
   const widthsMm = frame.layerWidthsMm.length > 0 ? frame.layerWidthsMm : [0];
   const reaches = widthsMm.map((mm) => reachOf(lineWidthPx(frame, mm)));
-  if (style === "ghost") return { by: null, colors: [bytesFromHex(GHOST_COLOR)], alpha: 1, reaches };
+  if (style === "ghost") return { by: null, colors: [bytesFromHex(frame.ghostColor)], alpha: 1, reaches };
   if (frame.colorBy !== "layer") return { by: frame.colorBy, colors: [], alpha: 1, reaches };
   const colors = frame.layerColors.length > 0 ? frame.layerColors : [INK_COLOR];
   return { by: null, colors: colors.map(bytesFromHex), alpha: 1, reaches };

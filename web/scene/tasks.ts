@@ -3,6 +3,7 @@ import { coarsePieces } from "./coarse.js";
 import { lineWidthPx, type Detail, type Frame, type Picture } from "./renderer.js";
 import { type Pieces, boxOfPieces } from "./pieces.js";
 import { piecesBefore } from "./scene.js";
+import { mmFromScreen } from "./view.js";
 
 export interface Boxed {
   readonly pieces: Pieces;
@@ -130,10 +131,9 @@ export const rangesInSight = (
   { view, width, height }: Pick<Frame, "view" | "width" | "height">,
   reachPx: number,
 ): PieceRange[] => {
-  const x0 = (-reachPx - view.offsetX) / view.scale;
-  const y0 = (-reachPx - view.offsetY) / view.scale;
-  const x1 = (width + reachPx - view.offsetX) / view.scale;
-  const y1 = (height + reachPx - view.offsetY) / view.scale;
+  const [ax, ay] = mmFromScreen(view, -reachPx, -reachPx);
+  const [bx, by] = mmFromScreen(view, width + reachPx, height + reachPx);
+  const [x0, y0, x1, y1] = [Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by)];
   const ranges: [number, number][] = [];
   if (from >= to) return ranges;
   for (let at = Math.floor(from / piecesABox); at * piecesABox < to; at++) {

@@ -23,6 +23,8 @@ const viewSchema = z.object({
   viewMode: z.string().max(50),
   showGraph: z.boolean(),
   theme: z.enum(THEMES),
+  /** How far the sheet's picture is turned clockwise, in quarters. */
+  deskTurn: z.number().int().min(0).max(3),
   /** The unit of lengths in fields and on rulers. */
   lengthUnit: z.enum(LENGTH_UNITS),
   /** Ids of the open groups of settings. */
@@ -44,6 +46,7 @@ export const DEFAULT_VIEW: ViewSettings = {
   viewMode: "ink",
   showGraph: false,
   theme: "auto",
+  deskTurn: 0,
   lengthUnit: "mm",
   openGroups: [],
   cameraUrl: "",

@@ -42,7 +42,7 @@ export const ActionButton = (props: ActionButtonProps) => {
   return (
     <Button title={hint} {...all}>
       {icon && <Icon name={icon} />}
-      {label}
+      {icon ? <span>{label}</span> : label}
     </Button>
   );
 };

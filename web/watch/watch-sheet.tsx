@@ -44,7 +44,7 @@ const penOf = (state: PageState, glide: PenGlide): ShownPen | null => {
 
 /** Without the machine's reach, because a running plot is within it. */
 const watchedDesk = (state: PageState): Desk => ({
-  ...deskOf(settingsOf(state), state.view.lengthUnit),
+  ...deskOf(settingsOf(state), state.view),
   reach: null,
 });
 
@@ -55,7 +55,8 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     stage.setScene(planned?.scene ?? null, planned?.picture ?? null);
     followPen(glide, state, before, performance.now());
     stage.setPen(penOf(state, glide));
-    if (!before || settingsOf(state) !== settingsOf(before)) stage.setDesk(watchedDesk(state));
+    if (!before || settingsOf(state) !== settingsOf(before) || state.view !== before.view)
+      stage.setDesk(watchedDesk(state));
     if (state.watchPlan !== before?.watchPlan || state.live !== before?.live || state.jobs !== before.jobs) {
       stage.setLook(lookOf(state));
     }

@@ -62,6 +62,62 @@ async function placeAt(x: number, y: number, width: number, angle = 0): Promise<
 const rounded = (values: object): number[] =>
   Object.values(values).map((mm: number) => Math.round(mm * 100) / 100);
 
+describe("on a turned desk", () => {
+  const turnDesk = () => test.page.getByRole("button", { name: "Turn the desk" }).click();
+
+  it("the drawing follows pointer and keys on the screen, and only the picture is turned", async () => {
+    const { page } = test;
+    await page.getByRole("button", { name: "Place the drawing by hand" }).click();
+    await test.field("From the left").waitFor();
+    await placeAt(50, 60, 90);
+    const box = await test.queuedBox();
+    await turnDesk();
+    expect(await test.queuedBox()).toEqual(box);
+    const paper = await test.onScreen("paper");
+    const pxPerMm = (paper.bottom - paper.top) / 297;
+    expect((paper.right - paper.left) / pxPerMm).toBeCloseTo(210, -1);
+    // Home is at the upper right: x goes down, y to the left.
+    const before = await test.onScreen("ink");
+    expect(Math.abs((before.top - paper.top) / pxPerMm - 50)).toBeLessThan(4);
+    expect(Math.abs((paper.right - before.right) / pxPerMm - 60)).toBeLessThan(4);
+    const [x, y] = [paper.right - 80 * pxPerMm, paper.top + 105 * pxPerMm];
+    await drag([x, y], [x + 41, y - 23], true);
+    const after = await test.onScreen("ink");
+    expect(Math.abs(after.left - before.left - 41)).toBeLessThanOrEqual(2);
+    expect(Math.abs(after.top - before.top + 23)).toBeLessThanOrEqual(2);
+    const moved = await test.queuedBox();
+    expect(Math.abs(moved.x0 - box.x0 + 23 / pxPerMm)).toBeLessThan(0.3);
+    expect(Math.abs(moved.y0 - box.y0 + 41 / pxPerMm)).toBeLessThan(0.3);
+    await page.locator(".stage").focus();
+    for (const key of ["ArrowRight", "ArrowDown", "ArrowDown"]) await page.keyboard.press(key);
+    await test.planned();
+    const nudged = await test.queuedBox();
+    expect(rounded({ x: nudged.x0 - moved.x0, y: nudged.y0 - moved.y0 })).toEqual([2, -1]);
+  });
+
+  it("a stroke is found under the pointer", async () => {
+    const { left, top, right, bottom } = await test.onScreen("ink");
+    // The cross of the drawing.
+    await test.page.mouse.move((left + right) / 2, (top + bottom) / 2);
+    await test.page.getByRole("tooltip").waitFor();
+    await test.page.mouse.move(left + (right - left) / 2, top + 3 * ((bottom - top) / 8));
+    await test.page.getByRole("tooltip").waitFor({ state: "detached" });
+  });
+
+  it("is remembered, and stands as before after three more turns", async () => {
+    await test.page.waitForTimeout(600);
+    await test.page.reload();
+    await test.panel("Paper");
+    const { left, top, right, bottom } = await test.onScreen("paper");
+    expect(bottom - top).toBeGreaterThan(right - left);
+    for (let k = 0; k < 3; k++) await turnDesk();
+    const again = await test.onScreen("paper");
+    expect(again.right - again.left).toBeGreaterThan(again.bottom - again.top);
+    await test.page.getByRole("button", { name: "Place the drawing by hand" }).click();
+    await test.planned();
+  });
+});
+
 describe("placing the drawing", () => {
   it("shows handles around it at the click of a button, without moving it", async () => {
     const before = await test.queuedBox();

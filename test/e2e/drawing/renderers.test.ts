@@ -62,12 +62,17 @@ const WHOLE: Frame = {
   showTravel: false,
   layerColors: ["#c02020", "#1050b0"],
   layerWidthsMm: [0.35, 0.35],
+  ghostColor: "#dcdad4",
   untilS: null,
 };
 const FRAMES: readonly (readonly [string, Frame])[] = [
   ["coloured by speed", WHOLE],
   ["half drawn, with the pen-up moves", { ...WHOLE, colorBy: "time", showTravel: true, untilS: totalS / 2 }],
   ["in pens of different widths", { ...WHOLE, colorBy: "layer", layerWidthsMm: [0.3, 1.2] }],
+  [
+    "on a turned desk",
+    { ...WHOLE, view: { scale: 3, offsetX: 260.3, offsetY: 0.4, turn: 1 }, untilS: totalS / 2 },
+  ],
   ["in lines thin enough for a dense drawing", { ...WHOLE, layerWidthsMm: [0.1, 0.1], lineGapMm: 0.3 }],
   [
     "close up, on a fine screen",
@@ -160,6 +165,23 @@ describe("without a graphics card", () => {
     const [gl, soft] = [await pixelsOf("gl", frame, 1e9), await pixelsOf("soft", frame, 1e9)];
     expect(soft).toHaveLength(gl.length);
     const apart = Array.from(gl, (value, i) => Math.abs(value - soft[i]));
+    expect(apart.reduce((sum, d) => sum + d, 0) / apart.length).toBeLessThan(0.5);
+    expect(apart.filter((d) => d > 24).length / apart.length).toBeLessThan(0.002);
+  });
+
+  it("the picture of a turned desk is the picture, turned", async () => {
+    const [width, height] = [270, 250];
+    const upright: Frame = { ...WHOLE, colorBy: "layer", view: { scale: 3, offsetX: 4, offsetY: 7 } };
+    const view = { scale: 3, offsetX: height - 7, offsetY: 4, turn: 1 };
+    const turned: Frame = { ...upright, width: height, height: width, view };
+    const [before, after] = [await pixelsOf("soft", upright, 1e9), await pixelsOf("soft", turned, 1e9)];
+    const back = Uint8Array.from(before, (_, k) => {
+      const x = (k >> 2) % width;
+      const y = Math.floor((k >> 2) / width);
+      return after[(x * height + (height - 1 - y)) * 4 + (k & 3)];
+    });
+    expect(inkCount(before)).toBeGreaterThan(5_000);
+    const apart = Array.from(back, (value, i) => Math.abs(value - before[i]));
     expect(apart.reduce((sum, d) => sum + d, 0) / apart.length).toBeLessThan(0.5);
     expect(apart.filter((d) => d > 24).length / apart.length).toBeLessThan(0.002);
   });

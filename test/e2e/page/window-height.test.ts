@@ -80,6 +80,17 @@ describe("the sheet", () => {
     expect(await sheetShare()).toBeGreaterThan(0.85);
   });
 
+  it("fills as much of it with the desk turned", async () => {
+    const turn = test.page.getByRole("button", { name: "Turn the desk" });
+    for (const isUpright of [true, false, true, false]) {
+      await turn.click();
+      expect(await canvasShare()).toBeGreaterThan(0.7);
+      expect(await sheetShare()).toBeGreaterThan(0.85);
+      const { left, top, right, bottom } = await test.onScreen("paper");
+      expect(bottom - top > right - left).toBe(isUpright);
+    }
+  });
+
   it("has at least half of a phone's", async () => {
     await test.page.setViewportSize({ width: 390, height: 844 });
     expect(await canvasShare()).toBeGreaterThan(0.5);

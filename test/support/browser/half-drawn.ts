@@ -2,10 +2,11 @@
 import type { Page } from "playwright-core";
 import { expect } from "vitest";
 import type { Job } from "../../../src/schema/index.js";
-import { GHOST_COLOR } from "../../../web/scene/renderer.js";
 import { colorCounts, statusCard, waitForPicture } from "./page-actions.js";
 
 const LINE_COLOR = "#1040c0";
+/** `--desk-ghost` of the light theme. */
+const GHOST_COLOR = "#dcdad4";
 /** So that a line covers whole pixels of the screen. */
 export const SHARP = { deviceScaleFactor: 2 };
 

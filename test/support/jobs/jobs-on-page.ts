@@ -17,5 +17,6 @@ export const makeFrame = (offsetX: number): Frame => ({
   showTravel: false,
   layerColors: [],
   layerWidthsMm: [],
+  ghostColor: "#dcdad4",
   untilS: null,
 });

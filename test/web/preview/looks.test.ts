@@ -3,6 +3,8 @@ import { renderToStaticMarkup } from "react-dom/server";
 import { describe, expect, it } from "vitest";
 import { rampColor } from "../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
+import { PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT } from "../../../web/scene/pieces.js";
+import type { Scene } from "../../../web/scene/scene.js";
 import { VIEW_MODES, viewModeOf, type ModeInput, type ViewMode } from "../../../web/preview/view-modes.js";
 import { DEFAULT_VIEW } from "../../../web/state/persist.js";
 import type { PageState } from "../../../web/state/store.js";
@@ -89,12 +91,29 @@ describe("the view modes", () => {
     expect(namesIn("ink")).toEqual([`${RED}, 1 mm`, `${RED}, 0.1 mm`]);
   });
 
-  it("Speed has a legend from rest to the top speed", () => {
-    const shown = { planned: { ...planned(), scene: { topDrawMmPerS: 48 } } as Planned, settings };
+  it("Speed has a legend over the speeds of most of the ink", () => {
+    // 3 mm at rest, 50 mm at a quarter of the top speed, 50 mm at three quarters of it, 2 mm at the top.
+    const lines = [
+      [3, 0],
+      [50, 64 / 256],
+      [50, 191.5 / 256],
+      [2, 1],
+    ] as const;
+    const bytes = new ArrayBuffer(lines.length * PIECE_BYTES);
+    lines.forEach(([mm, speed], i) => {
+      new Float32Array(bytes).set([0, 0, mm, 0], i * PIECE_FLOATS);
+      const value = Math.round(65_535 * speed);
+      new Uint16Array(bytes).set([value, value], i * PIECE_SHORTS + VALUE_SHORT);
+    });
+    const none = { count: 0, bytes: new ArrayBuffer(0) };
+    const scene = { draw: { count: lines.length, bytes }, travel: none, totalS: 1, topDrawMmPerS: 64 };
+    const shown = { planned: { ...planned(), scene: scene as unknown as Scene } as Planned, settings };
     const html = renderToStaticMarkup(createElement(modeOf("speed").Legend, shown));
     const stops = /data-stops="([^"]+)"/.exec(html)![1].replaceAll("&quot;", '"');
     const scale = JSON.parse(stops) as { mmPerS: number; color: string }[];
-    expect(scale.map(({ mmPerS }) => mmPerS)).toEqual(Array.from({ length: 17 }, (_, i) => 3 * i));
+    expect(scale.map(({ mmPerS }) => mmPerS)).toEqual(Array.from({ length: 17 }, (_, i) => 16 + 2 * i));
+    const labels = [...html.matchAll(/<span>([^<]*\d)<\/span>/g)].map(([, label]) => label);
+    expect(labels).toEqual(["≤ 16", "24", "32", "40", "≥ 48"]);
     expect(scale[0].color).toBe(rampColor(0));
     expect(scale[16].color).toBe(rampColor(1));
   });

@@ -12,12 +12,20 @@ import { hoverAt } from "../../../web/scene/hover.js";
 import type { Planned } from "../../../web/worker/protocol.js";
 import {
   LAYER_SHORT,
+  PIECE_BYTES,
   PIECE_FLOATS,
   PIECE_SHORTS,
   VALUE_SHORT,
   type Pieces,
 } from "../../../web/scene/pieces.js";
-import { buildScene, piecesBefore, SLOWEST_TIMES, withTimes } from "../../../web/scene/scene.js";
+import {
+  buildScene,
+  piecesBefore,
+  SLOWEST_TIMES,
+  usualSpeeds,
+  withSpeeds,
+  withTimes,
+} from "../../../web/scene/scene.js";
 import { penMoveColumns } from "../../../src/plan/pen/pen-moves.js";
 
 const strokeSet = (...strokes: (readonly number[])[]): StrokeSet => ({
@@ -198,6 +206,35 @@ describe("one stroke of a plan", () => {
   it("is a point for a dot, and nothing beyond the last", () => {
     expect([...strokeFigures({ scene, trajectory }, 2)!.points]).toEqual([80, 80, 80, 80]);
     expect(strokeFigures({ scene, trajectory }, 3)).toBeNull();
+  });
+});
+
+describe("the scene of the view of speed", () => {
+  it("has the same pieces, with their speeds within the range of most of the ink", () => {
+    const range = usualSpeeds(scene);
+    expect(range.from).toBeLessThan(range.to);
+    const shown = withSpeeds(scene, range);
+    const [speeds, values] = [new Uint16Array(scene.draw.bytes), new Uint16Array(shown.draw.bytes)];
+    for (let i = 0; i < speeds.length; i++) {
+      const part = i % PIECE_SHORTS;
+      const isValue = part === VALUE_SHORT || part === VALUE_SHORT + 1;
+      const share = (speeds[i] / 65_535 - range.from) / (range.to - range.from);
+      if (isValue) expect(values[i] / 65_535).toBeCloseTo(Math.min(1, Math.max(0, share)), 4);
+      else expect(values[i]).toBe(speeds[i]);
+    }
+  });
+
+  it("begins at rest if nearly all is drawn at one speed, and has a range without ink", () => {
+    const even = (count: number): Pieces => {
+      const bytes = new ArrayBuffer(count * PIECE_BYTES);
+      for (let i = 0; i < count; i++) {
+        new Float32Array(bytes).set([0, 0, 1, 0], i * PIECE_FLOATS);
+        new Uint16Array(bytes).set([65_535, 65_535], i * PIECE_SHORTS + VALUE_SHORT);
+      }
+      return { count, bytes };
+    };
+    expect(usualSpeeds({ draw: even(20) })).toEqual({ from: 0, to: 1 });
+    expect(usualSpeeds({ draw: even(0) })).toEqual({ from: 0, to: 1 });
   });
 });
 

@@ -35,9 +35,9 @@ export const Ramp = ({ title, unit, labels }: RampProps) => (
 
 const LABELS = 5;
 
-/** Numbers from 0 to `top`, evenly spaced. */
-export const scaleLabels = (top: number, digits: number): string[] =>
-  Array.from({ length: LABELS }, (_, i) => formatNumber((top * i) / (LABELS - 1), digits));
+/** Evenly spaced numbers. */
+export const scaleLabels = (from: number, to: number, digits: number): string[] =>
+  Array.from({ length: LABELS }, (_, i) => formatNumber(from + ((to - from) * i) / (LABELS - 1), digits));
 
 interface LegendEntry {
   readonly color: string;

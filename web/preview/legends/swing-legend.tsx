@@ -47,7 +47,7 @@ export const SwingLegend = ({ planned }: { planned: Planned }) => {
 };
 
 const Scale = ({ result: { error, topMm } }: { result: NonNullable<Swing["result"]> }) => {
-  const labels = scaleLabels(topMm, topMm < 0.2 ? 3 : 2);
+  const labels = scaleLabels(0, topMm, topMm < 0.2 ? 3 : 2);
   const last = labels.length - 1;
   if (error.maxMm > topMm) labels[last] = words.orMore(labels[last]);
   return (

@@ -6,7 +6,7 @@ import { rampColor } from "../../../src/internal.js";
 import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "../../scene/pieces.js";
 import { lineWidthPx, type Frame } from "../../scene/renderer.js";
 import { piecesBefore } from "../../scene/scene.js";
-import type { Size, View } from "../../scene/view.js";
+import { screenMap, screenPoint, type Size, type View } from "../../scene/view.js";
 import { RULER_PX } from "../overlay.js";
 import type { PenPlace } from "./pen-glide.js";
 
@@ -63,8 +63,7 @@ export class PenLayer {
     const step = Math.max(0, nowMs - this.lastMs) / LIFT_MS;
     this.lift += Math.max(-step, Math.min(step, wanted - this.lift));
     this.lastMs = nowMs;
-    const x = view.offsetX + place.xMm * view.scale;
-    const y = view.offsetY + place.yMm * view.scale;
+    const [x, y] = screenPoint(view, place.xMm, place.yMm);
     this.reach(x, y, PEN_REACH_PX);
     paintPen(context, x, y, color, this.lift);
     context.restore();
@@ -100,7 +99,7 @@ export class PenLayer {
   private paintInk(context: CanvasRenderingContext2D, { pieces, totalS, fromS, toS, frame }: FreshInk): void {
     const floats = new Float32Array(pieces.bytes);
     const shorts = new Uint16Array(pieces.bytes);
-    const { view } = frame;
+    const { a, b, c, d, e, f } = screenMap(frame.view);
     context.lineCap = "round";
     const last = piecesBefore(pieces, toS);
     for (let i = Math.max(0, piecesBefore(pieces, fromS) - 1); i < last; i++) {
@@ -110,8 +109,8 @@ export class PenLayer {
         endS > beginS ? Math.min(1, (s - beginS) / (endS - beginS)) : 1;
       const [from, to] = [Math.max(0, shareAt(fromS)), shareAt(toS)];
       if (endS > beginS && to <= from) continue;
-      const x = (share: number): number => view.offsetX + (ax + share * (bx - ax)) * view.scale;
-      const y = (share: number): number => view.offsetY + (ay + share * (by - ay)) * view.scale;
+      const x = (share: number): number => a * (ax + share * (bx - ax)) + c * (ay + share * (by - ay)) + e;
+      const y = (share: number): number => b * (ax + share * (bx - ax)) + d * (ay + share * (by - ay)) + f;
       const widthPx = lineWidthPx(frame, frame.layerWidthsMm[layer] ?? 0);
       context.beginPath();
       context.moveTo(x(from), y(from));
