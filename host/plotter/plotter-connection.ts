@@ -339,7 +339,10 @@ export class PlotterConnection {
     this.trouble = error;
     if (this.machine) this.lostAtS = this.clock.nowS();
     this.supply.stop();
-    if (this.machine) this.penBefore = { penUp: this.machine.penMoving ? null : this.machine.penUp };
+    if (this.machine) {
+      const { penMoving, penUp, memory = null } = this.machine;
+      this.penBefore = { penUp: penMoving ? null : penUp, memory };
+    }
     this.machine = null;
     this.connection?.machine.close().catch(() => undefined);
     this.connection = null;

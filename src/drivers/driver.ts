@@ -89,9 +89,12 @@ export interface VirtualMachine {
   close(): void;
 }
 
-/** The pen when a connection was lost; null: it may have been on the paper. */
+/** A machine when its connection was lost. */
 export interface PenBefore {
+  /** Null: the pen may have been on the paper. */
   readonly penUp: boolean | null;
+  /** Its `memory`. Left out or null: it had none. */
+  readonly memory?: object | null;
 }
 
 /** One connected machine: its motion, its runs, and the parts that it has. Positions are mm from home; null if unknown. */
@@ -171,6 +174,8 @@ interface MachineParts {
   readonly foundMidPlot?: { readonly penUp: boolean } | null;
   /** A servo that moves the pen. */
   readonly servo?: ServoPart;
+  /** What this machine itself does not keep, for the next connection to it. Only its driver reads the content. */
+  readonly memory?: object | null;
   /** Measures the motors' supply. */
   readonly supply?: SupplyPart;
   /** Asks a machine without `supply` for anything, to notice if it no longer answers. */

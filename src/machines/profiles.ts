@@ -55,6 +55,47 @@ const upgraded = <Id extends string>(
 const EGG_STEPS_PER_TURN = 3_200;
 const EGG_TURN_MM = Math.PI * 40;
 
+/**
+ * Grbl machines. Theirs are the figures for the preview; plans follow the connected Grbl's own settings. DrawCore counts x and
+ * y backwards and exchanged, and its Z downwards.
+ */
+const DRAWCORE = {
+  kind: "grbl",
+  maxSpeedMmPerS: 250,
+  accelMmPerS2: 3_000,
+  maxSpeedYMmPerS: 200,
+  junctionMm: 0.01,
+  penUpZMm: 0.5,
+  penDownZMm: 5,
+  penMinZMm: 0,
+  penMaxZMm: 10,
+  penSpeedMmPerS: 83.333,
+  penAccelMmPerS2: 3_000,
+  penWaitMs: 100,
+};
+const GENERIC_GRBL = { kind: "grbl", maxSpeedMmPerS: 100, accelMmPerS2: 500, junctionMm: 0.01 };
+const GRBL_SERVO = { ...GENERIC_GRBL, penUpS: 600, penDownS: 300 };
+const GRBL_Z = {
+  ...GENERIC_GRBL,
+  penUpZMm: 5,
+  penDownZMm: 0,
+  penSpeedMmPerS: 20,
+  penAccelMmPerS2: 200,
+};
+
+const idraw = <Id extends string>(id: Id, name: string, widthMm: number, heightMm: number): Named<Id> => ({
+  id,
+  name,
+  widthMm,
+  heightMm,
+  stepsPerMm: 100,
+  motors: "direct",
+  swapAxes: true,
+  flipX: true,
+  flipY: true,
+  controller: DRAWCORE,
+});
+
 const BUILT_IN = [
   axidraw("axidraw-v3", "AxiDraw V3", 300, 218),
   axidraw("axidraw-v3-a3", "AxiDraw V3/A3", 430, 297),
@@ -91,6 +132,40 @@ const BUILT_IN = [
     motors: "direct",
     penServo: HOBBY_SERVO,
     controller: ON_RB1,
+  },
+  idraw("idraw-h-a4", "iDraw H A4", 300, 210),
+  idraw("idraw-h-a3", "iDraw H A3", 430, 297),
+  idraw("idraw-2-a4", "iDraw 2.0 A4", 300, 210),
+  idraw("idraw-2-a3", "iDraw 2.0 A3", 430, 297),
+  {
+    id: "grbl-servo",
+    name: "Grbl with a pen servo",
+    widthMm: 300,
+    heightMm: 210,
+    stepsPerMm: 80,
+    motors: "direct",
+    penServo: HOBBY_SERVO,
+    controller: GRBL_SERVO,
+  },
+  {
+    id: "grbl-z",
+    name: "Grbl with a Z axis",
+    widthMm: 300,
+    heightMm: 210,
+    stepsPerMm: 80,
+    motors: "direct",
+    controller: GRBL_Z,
+  },
+  // A Grbl that is built for CoreXY mixes the motors by itself.
+  {
+    id: "grbl-corexy",
+    name: "Grbl CoreXY with a pen servo",
+    widthMm: 300,
+    heightMm: 210,
+    stepsPerMm: 80,
+    motors: "direct",
+    penServo: HOBBY_SERVO,
+    controller: GRBL_SERVO,
   },
 ] as const satisfies readonly MachineProfile[];
 

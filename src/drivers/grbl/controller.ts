@@ -4,6 +4,7 @@ import { GrblMachine } from "./machine/grbl-machine.js";
 import { GrblSession } from "./machine/session.js";
 import { GRBL_FIELDS } from "./model/grbl-controller.js";
 import { liftFault } from "./model/pen-lift.js";
+import { isOwnVersion } from "./protocol.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
 import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
@@ -14,7 +15,7 @@ export const description: ControllerDescription = {
   usbIds: [],
   // The plan does not depend on the version.
   firmware: {
-    isOwn: (firmware) => firmware.startsWith("Grbl"),
+    isOwn: isOwnVersion,
     isPlannedAlike: () => true,
     advice: () => null,
   },

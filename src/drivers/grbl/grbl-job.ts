@@ -11,7 +11,7 @@ import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from
 import { axisLimits, dwellS, grblOf } from "./model/grbl-controller.js";
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
 import { number, penLiftOf, waitLine, type PenLift } from "./model/pen-lift.js";
-import type { Axes, GrblAxisLimits } from "./model/planner.js";
+import { QUEUE_MOVES, type Axes, type GrblAxisLimits } from "./model/planner.js";
 
 /** Lines of G-code. The reply to the last one comes when everything is done. */
 export interface GrblCommands extends MachineCommands {
@@ -24,10 +24,15 @@ export function grblCommandsOf(commands: MachineCommands): GrblCommands {
   return commands as GrblCommands;
 }
 
-/** The state of a connected Grbl (`MachineState`): its work position, and the limits that it has been set to. */
+/** The state of a connected Grbl (`MachineState`). */
 export interface GrblState {
+  /** Its position, mm from home. */
   readonly at: Axes;
+  /** Home in the Grbl's work coordinates, which belong to the user; Z: where the profile's Z is 0. */
+  readonly zero: Axes;
+  /** Its own limits. */
   readonly limits: GrblAxisLimits;
+  readonly queueMoves: number;
 }
 
 /** mm, absolute coordinates, mm/min. Sent again after a reset, which may change these modes. */
@@ -41,9 +46,13 @@ export function planGrblJob(
   machine: MachineProfile,
   options: DriverPlanOptions,
 ): MachineJob<GrblCommands> {
-  const { limits = axisLimits(grblOf(machine)) } = (options.board ?? {}) as Partial<GrblState>;
-  const lift = penLiftOf(machine, limits);
-  const runs = new GrblRuns(machine, limits);
+  const {
+    limits = axisLimits(grblOf(machine)),
+    zero = [0, 0, 0],
+    queueMoves = QUEUE_MOVES,
+  } = (options.board ?? {}) as Partial<GrblState>;
+  const lift = penLiftOf(machine, limits, zero[2]);
+  const runs = new GrblRuns(machine, limits, queueMoves);
   const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, penAtRest(pen), {
     servo: lift.servo,
     from: options.from ?? undefined,
@@ -59,7 +68,7 @@ export function planGrblJob(
   });
   let written: GrblCommands | null = null;
   const commands = (): GrblCommands =>
-    (written ??= writeCommands(trajectory, runs.runs, lift, {
+    (written ??= writeCommands(trajectory, runs.runs, lift, zero, {
       heightPct: pen.upPct,
       isUp: !options.liftFirst,
       downPct: pen.downPct,
@@ -91,6 +100,7 @@ function writeCommands(
   trajectory: Trajectory,
   runs: readonly (readonly SentMove[])[],
   lift: PenLift,
+  zero: Axes,
   start: PenAtStart,
 ): GrblCommands {
   const lines: string[] = [];
@@ -115,7 +125,8 @@ function writeCommands(
     let feed = 0;
     const moves = runs[run] ?? [];
     for (const move of moves) {
-      const { x, y, startS } = move;
+      const [x, y] = [move.x + zero[0], move.y + zero[1]];
+      const { startS } = move;
       add(`G1X${number(x)}Y${number(y)}${move.feed === feed ? "" : `F${number(move.feed)}`}`, startS);
       feed = move.feed;
     }

@@ -18,15 +18,37 @@ export function servoSignalOf(modes: string): number | null {
   return signal === undefined ? null : Number(signal);
 }
 
-export const isGreeting = (line: string): boolean => /^Grbl(HAL)? /.test(line);
+/** Grbl and its children: plain, grblHAL, FluidNC and DrawCore. */
+const GREETING = /^(?:Grbl(?:HAL)? [\w.]|DrawCore V)/i;
 
-/** The version in a greeting or in the reply to `$I`, such as "Grbl 1.1h"; null if the line has none. */
+export const isGreeting = (line: string): boolean => GREETING.test(line);
+
+/** Whether a version names one of them. */
+export const isOwnVersion = (version: string): boolean => /^(Grbl|grblHAL|FluidNC|DrawCore) /.test(version);
+
+/**
+ * The version in a greeting or in the reply to `$I`: "Grbl 1.1h", "grblHAL 1.1f", "FluidNC 3.7.16", "DrawCore 2.09"; null if
+ * the line has none.
+ */
 export function versionOf(line: string): string | null {
-  const match = /^Grbl(?:HAL)? ([\w.]+)/.exec(line) ?? /^\[VER:([\w.]*[a-z\d])/.exec(line);
-  if (!match) return null;
-  // Drop the date of "1.1h.20190830".
-  return `Grbl ${match[1].replace(/\.\d{6,}$/, "")}`;
+  const child = /\b(FluidNC|DrawCore) v?(\d[\w.]*)/i.exec(line);
+  if (child && (isGreeting(line) || line.startsWith("[VER:"))) {
+    return `${child[1].toLowerCase() === "fluidnc" ? "FluidNC" : "DrawCore"} ${withoutDate(child[2])}`;
+  }
+  const hal = /^GrblHAL ([\w.]+)/i.exec(line);
+  if (hal) return `grblHAL ${withoutDate(hal[1])}`;
+  // 0.9 reports its version without a name.
+  const plain =
+    /^Grbl ([\w.]+)/.exec(line) ?? /^\[VER:([\w.]*[a-z\d])/.exec(line) ?? /^\[(0\.\d\w?\.\d{6,}):/.exec(line);
+  return plain && `Grbl ${withoutDate(plain[1])}`;
 }
+
+/** Drops the date of "1.1h.20190830". */
+const withoutDate = (version: string): string => version.replace(/\.\d{6,}$/, "");
+
+/** Versions before 1.1 have more blocks than their successors, and say so nowhere. */
+export const isOldVersion = (version: string): boolean => version.startsWith("Grbl 0.");
+export const OLD_QUEUE_MOVES = 17;
 
 /** The queue of moves and the receive buffer given by `[OPT:V,15,128]`; null if there are none. */
 export function buffersOf(line: string): { queueMoves: number; rxBytes: number } | null {
@@ -34,8 +56,11 @@ export function buffersOf(line: string): { queueMoves: number; rxBytes: number }
   return match && { queueMoves: Number(match[1]), rxBytes: Number(match[2]) };
 }
 
+/** A line of the reply to `$I`, whose version is that of the Grbl from which grblHAL comes. */
+export const HAL_FIRMWARE = "[FIRMWARE:grblHAL]";
+
 export interface Status {
-  /** "Idle", "Run", "Hold:0" … */
+  /** "Idle", "Run", "Hold:0" …; "Hold" of version 0.9, which brakes or stands. */
   readonly state: string;
   /** Work position, mm. */
   readonly at: Axes;
@@ -53,20 +78,36 @@ export const isLocked = (state: string): boolean => state.startsWith("Alarm");
 
 /** A status report that arrived whole. */
 const REPORT = /^<([^|<>]+)\|[^<>]*>$/;
+/** The same of version 0.9. */
+const OLD_REPORT = /^<([A-Z][a-z]+),([^|<>]*)>$/;
 
-export const isReport = (line: string): boolean => REPORT.test(line);
+export const isReport = (line: string): boolean => REPORT.test(line) || OLD_REPORT.test(line);
 
 /** Work offset of a report, in the board's units; not every report has one. */
-export const offsetOf = (line: string): Axes | null => (isReport(line) ? axesOf(line, "WCO", 1) : null);
+export function offsetOf(line: string): Axes | null {
+  const old = OLD_REPORT.test(line) ? statusOf(line, [0, 0, 0], 1) : null;
+  if (old) return difference(old.machineAt, old.at);
+  return REPORT.test(line) ? axesOf(line, "WCO", 1) : null;
+}
 
 /** A status report; null for another line, or a damaged one. `offset`: the last reported work offset, mm. */
 export function statusOf(line: string, offset: Axes, mmPerUnit: number): Status | null {
+  const old = OLD_REPORT.exec(line);
+  if (old) return oldStatusOf(old[1], old[2], mmPerUnit);
   const state = REPORT.exec(line)?.[1];
   if (state === undefined) return null;
   const work = axesOf(line, "WPos", mmPerUnit);
   if (work) return { state, at: work, machineAt: sum(work, offset) };
   const machineAt = axesOf(line, "MPos", mmPerUnit);
   return machineAt && { state, at: difference(machineAt, offset), machineAt };
+}
+
+/** "MPos:0.000,0.000,0.000,WPos:0.000,0.000,0.000": version 0.9 reports both, and so its work offset. */
+function oldStatusOf(state: string, fields: string, mmPerUnit: number): Status | null {
+  const report = `|${fields.replace(",WPos", "|WPos")},`;
+  const machineAt = axesOf(report, "MPos", mmPerUnit);
+  const at = axesOf(report, "WPos", mmPerUnit);
+  return machineAt && at && { state, at, machineAt };
 }
 
 function axesOf(report: string, name: string, mmPerUnit: number): Axes | null {

@@ -1,6 +1,5 @@
 /**
- * One connected Grbl: the position of its carriage and pen, and the operations that move them. Its work coordinates are
- * mm from home. If the position is unknown, the carriage is assumed to be at home.
+ * One connected Grbl: the position of its carriage and pen, and the operations that move them. If the position is unknown, the carriage is assumed to be at home.
  */
 import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
@@ -21,8 +20,8 @@ import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-j
 import { MoveSignal, moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
 import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, type GrblState } from "../grbl-job.js";
-import { number, penLiftOf, waitLine, type PenLift } from "../model/pen-lift.js";
-import type { Axes } from "../model/planner.js";
+import { penLiftOf, waitLine, type PenLift } from "../model/pen-lift.js";
+import { difference, type Axes } from "../model/planner.js";
 import { isLocked, locked, NOT_LIFTED, servoSignalOf, type Status } from "../protocol.js";
 import { whyRefused } from "../console-lines.js";
 import { GrblPlayback } from "./grbl-playback.js";
@@ -31,14 +30,17 @@ import type { GrblSession } from "./session.js";
 
 /** Allowance for the connection, the board and this computer. */
 const STOP_MS = 30;
-/** Makes the current position home. It stays home after a reset. */
-const SET_HOME = "G10L20P1X0Y0";
 /** Share of the pen's travel below its lowest height up to which a height counts as one of the pen's. */
 const BELOW = 0.25;
 /** A share of the pen's travel from which the pen counts as up. */
 const UP = 0.99;
 /** The longest way of a pen, whose height is unknown. */
 const WHOLE_PCT = 100;
+
+interface GrblMemory {
+  readonly home: Axes | null;
+  readonly penZeroMm: number | null;
+}
 
 export class GrblMachine implements Machine {
   readonly console = { send: (line: string): Promise<ConsoleAnswer> => this.sendLine(line) };
@@ -50,8 +52,15 @@ export class GrblMachine implements Machine {
   note: string | null = null;
   /** Where the pen is or goes to, percent; null: unknown. */
   private heightPct: number | null = null;
-  /** Work position, mm; null if its origin is unknown. */
-  private at: Axes | null = null;
+  foundMidPlot: { readonly penUp: boolean } | null = null;
+  /**
+   * Home in machine coordinates, mm; null: unknown. It is kept here and not in the Grbl, whose work offsets are the user's.
+   */
+  private home: Axes | null = null;
+  /** Where the profile's Z is 0, in machine coordinates; null: where the Grbl's own is. */
+  private penZeroMm: number | null = null;
+  /** Where it rested last, in machine coordinates. */
+  private machineAt: Axes = [0, 0, 0];
   /** That of the latest settings. */
   private profile: MachineProfile | null = null;
   private isAsleep = false;
@@ -74,12 +83,18 @@ export class GrblMachine implements Machine {
   }
 
   get state(): MachineState | null {
-    return this.at && this.profile && this.stateAt(this.at, this.profile);
+    return this.home && this.profile && this.stateFrom(this.home, this.profile);
+  }
+
+  get memory(): GrblMemory {
+    return { home: this.home, penZeroMm: this.penZeroMm };
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
     const { stepsPerMm } = profile;
-    return this.at && positionFromMotors(profile, this.at[0] * stepsPerMm, this.at[1] * stepsPerMm);
+    if (!this.home) return null;
+    const [x, y] = difference(this.machineAt, this.home);
+    return positionFromMotors(profile, x * stepsPerMm, y * stepsPerMm);
   }
 
   /** Stops motion that was left, reads the Grbl's settings, and lifts the pen if it may be on the paper. */
@@ -94,9 +109,11 @@ export class GrblMachine implements Machine {
     await session.readSettings();
     this.note = session.settings.slowerThan(this.profile);
     await session.tryCheck();
+    await session.readOffset();
     // Again, because only now the units are known.
     const status = await session.status();
     await this.recovered(status);
+    if (!hasRestarted(status) && !isLocked(status.state)) this.remember(before);
     if (!this.isLocked) await this.liftLeft(status, settings, before);
   }
 
@@ -107,17 +124,17 @@ export class GrblMachine implements Machine {
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
     await this.mustBeUnlocked();
-    const at = this.at ?? (await this.homeIsHere());
+    const home = this.home ?? (await this.homeIsHere());
     this.motorsOn = true;
     this.options.events.changed();
-    return this.stateAt(at, this.profile);
+    return this.stateFrom(home, this.profile);
   }
 
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
     const profile = machineOf(settings);
     const { upPct, downPct, extraLiftMs, extraDropMs } = settings.pen;
     const pct = heightPct ?? (up ? upPct : downPct);
-    const lift = penLiftOf(profile, this.session.settings.limitsFor(profile));
+    const lift = this.liftOf(profile);
     if (this.isAsleep) await this.prepareMotors(settings);
     await this.mustBeUnlocked();
     const byPct = this.heightPct === null ? WHOLE_PCT : Math.abs(pct - this.heightPct);
@@ -176,7 +193,7 @@ export class GrblMachine implements Machine {
 
   /** Called after a job has been played to its end. */
   async arrived(): Promise<void> {
-    this.at = (await this.session.status()).at;
+    this.machineAt = (await this.session.status()).machineAt;
     this.penUp = true;
     // Each layer may have its own.
     this.heightPct = null;
@@ -196,7 +213,7 @@ export class GrblMachine implements Machine {
   }
 
   forgetPosition(): Promise<void> {
-    this.at = null;
+    this.home = this.foundMidPlot = null;
     this.options.events.changed();
     return Promise.resolve();
   }
@@ -265,7 +282,7 @@ export class GrblMachine implements Machine {
   stream(commands: GrblCommands): LineStream {
     this.session.settings.mustPerform(commands.lines, this.session.offset);
     this.motorsOn = true;
-    this.penUp = this.heightPct = null;
+    this.penUp = this.heightPct = this.foundMidPlot = null;
     return new LineStream(this.session, commands, this.clock, () => this.options.events.buttonPressed());
   }
 
@@ -274,7 +291,7 @@ export class GrblMachine implements Machine {
    */
   async recover(stream: LineStream, settings: MachineSettings, penUp: boolean): Promise<void> {
     const status = await stream.cleared();
-    if (stream.isBroken) this.at = null;
+    if (stream.isBroken) this.home = null;
     await this.recovered(status);
     // Its greeting may have been lost.
     if (!this.isLocked && hasRestarted(status)) await this.setHeight(penUp, settings);
@@ -286,9 +303,9 @@ export class GrblMachine implements Machine {
   }
 
   /** Call after a reset: restores the modes that the lines need, and takes over the reported position. */
-  private async recovered({ state, at }: Status, mayUnlock = this.mayUnlock): Promise<void> {
+  private async recovered({ state, machineAt }: Status, mayUnlock = this.mayUnlock): Promise<void> {
     this.penUp = this.heightPct = null;
-    if (this.at) this.at = at;
+    this.machineAt = machineAt;
     this.isLocked = isLocked(state) && !mayUnlock;
     this.options.events.changed();
     if (this.isLocked) return;
@@ -309,7 +326,7 @@ export class GrblMachine implements Machine {
    * because it is probably up.
    */
   private async liftLeft(status: Status, settings: MachineSettings, before: PenBefore | null): Promise<void> {
-    const lift = penLiftOf(machineOf(settings));
+    const lift = this.liftOf(machineOf(settings));
     const { upPct, downPct } = settings.pen;
     if (lift.kind === "z" && hasRestarted(status)) {
       // It counts from 0 wherever the pen is, so the pen is lifted by its travel.
@@ -322,6 +339,7 @@ export class GrblMachine implements Machine {
     }
     const pct = this.keptHeightPct(lift, status);
     const share = pct === null ? null : (pct - downPct) / (upPct - downPct);
+    if (this.home) this.foundMidPlot = { penUp: share === null ? before?.penUp === true : share > UP };
     if (share !== null && share > UP) this.penUp = true;
     else if (before || (share !== null && (lift.kind === "servo" || share > -BELOW))) {
       await this.movePen(true, settings);
@@ -340,20 +358,43 @@ export class GrblMachine implements Machine {
     const lift = penLiftOf(machineOf(settings));
     if (lift.kind !== "z") return;
     const { upPct, downPct } = settings.pen;
-    await this.session.sendSurely(`G10L20P1Z${number(lift.valueAt(penUp ? upPct : downPct))}`);
+    this.penZeroMm = (await this.session.status()).machineAt[2] - lift.valueAt(penUp ? upPct : downPct);
   }
 
-  private stateAt(at: Axes, profile: MachineProfile): GrblState {
-    return { at, limits: this.session.settings.limitsFor(profile) };
+  private liftOf(profile: MachineProfile): PenLift {
+    return penLiftOf(profile, this.session.settings.limitsFor(profile), this.zeroFrom(this.home)[2]);
+  }
+
+  /** Home and the pen's zero in work coordinates. */
+  private zeroFrom(home: Axes | null): Axes {
+    const { offset } = this.session;
+    const [x, y] = home ?? offset;
+    return difference([x, y, this.penZeroMm ?? offset[2]], offset);
+  }
+
+  private stateFrom(home: Axes, profile: MachineProfile): GrblState {
+    return {
+      at: difference(this.machineAt, home),
+      zero: this.zeroFrom(home),
+      limits: this.session.settings.limitsFor(profile),
+      queueMoves: this.session.queueMoves,
+    };
+  }
+
+  /** A Grbl that was not restarted still counts from the same place. */
+  private remember(before: PenBefore | null): void {
+    const { home, penZeroMm } = (before?.memory ?? { home: null, penZeroMm: null }) as GrblMemory;
+    this.home = home;
+    this.penZeroMm = penZeroMm;
+    this.options.events.changed();
   }
 
   private async homeIsHere(): Promise<Axes> {
-    await this.session.sendSurely(SET_HOME);
-    // Reads the new offset.
-    await this.session.status();
-    this.at = [0, 0, 0];
+    const { machineAt } = await this.session.status();
+    this.home = this.machineAt = machineAt;
+    this.foundMidPlot = null;
     this.options.events.changed();
-    return this.at;
+    return machineAt;
   }
 }
 

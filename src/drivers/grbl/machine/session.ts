@@ -17,14 +17,17 @@ import {
   alarm,
   buffersOf,
   CHECK,
+  HAL_FIRMWARE,
   isGreeting,
   isHeld,
   isLocked,
   isMoving,
+  isOldVersion,
   isReport,
   MODES_REPORT,
   NOW,
   offsetOf,
+  OLD_QUEUE_MOVES,
   outOfStep,
   refusal,
   boardRestartedError,
@@ -66,8 +69,9 @@ const SLOW_S = 30;
 const SPARE_BYTES = 32;
 const REFUSED_TRIES = 10;
 const REST_TRIES = 200;
+const OFFSET_TRIES = 35;
 const REST_POLL_S = 0.05;
-const POLL_S = 0.5;
+const POLL_S = 0.2;
 /** Reported by a reset during motion. */
 const RESET_ALARM = 3;
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
@@ -92,8 +96,8 @@ export class GrblSession implements LineProtocol {
   private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
   private sentBytes = 0;
   private sent: SentLine[] = [];
-  /** Work zero in machine coordinates, in the board's units, which may be known only later. */
-  private reportedOffset: Axes = [0, 0, 0];
+  /** Work zero in machine coordinates, in the board's units, which may be known only later. Null: not yet reported. */
+  private reportedOffset: Axes | null = null;
   private statusWaiters: ((status: Status) => void)[] = [];
   private greetingWaiters: (() => void)[] = [];
   private failures: ((error: PlotwrightError) => void)[] = [];
@@ -165,7 +169,7 @@ export class GrblSession implements LineProtocol {
   /** Work zero in machine coordinates, mm. */
   get offset(): Axes {
     const { mmPerUnit } = this.settings;
-    const [x, y, z] = this.reportedOffset;
+    const [x, y, z] = this.reportedOffset ?? [0, 0, 0];
     return [x * mmPerUnit, y * mmPerUnit, z * mmPerUnit];
   }
 
@@ -219,6 +223,11 @@ export class GrblSession implements LineProtocol {
     await this.attempt("$$");
   }
 
+  /** Asks until it reports its work offset, as it does at least once in 30 reports. One that never does has none. */
+  async readOffset(): Promise<void> {
+    for (let i = 0; i < OFFSET_TRIES && this.reportedOffset === null; i++) await this.status();
+  }
+
   /** Finds out whether the board knows the command of a check. */
   async tryCheck(): Promise<void> {
     const entryCount = this.log.count;
@@ -229,8 +238,13 @@ export class GrblSession implements LineProtocol {
   /** Brakes along the path. Resolves at rest, or when it has waited long enough. */
   async brake(): Promise<void> {
     this.now(NOW.hold);
+    let before: Status | null = null;
     for (let i = 0; i < REST_TRIES && !this.resetting; i++) {
-      if (!isMoving((await this.status()).state)) return;
+      const status = await this.status();
+      // Version 0.9 does not say whether it still brakes.
+      const stands = status.state !== "Hold" || (before !== null && isSamePlace(before, status));
+      if (stands && !isMoving(status.state)) return;
+      before = status;
       await delay(this.clock, REST_POLL_S);
     }
   }
@@ -299,10 +313,12 @@ export class GrblSession implements LineProtocol {
     this.reportedOffset = offsetOf(line) ?? this.reportedOffset;
     const status = statusOf(line, this.offset, this.settings.mmPerUnit);
     if (status) return this.reported(status);
-    this.version = versionOf(line) ?? this.version;
+    this.takeVersion(versionOf(line));
     this.buffers = buffersOf(line) ?? this.buffers;
+    if (line === HAL_FIRMWARE) this.version = this.version?.replace(/^Grbl /, "grblHAL ") ?? null;
     this.settings.take(line);
-    const alarmed = /^ALARM:(\d+)/.exec(line);
+    // Version 0.9 writes words instead of a number.
+    const alarmed = /^ALARM: ?(\d*)/.exec(line);
     if (line === "ok") this.settleFirst(null);
     // Old versions write words instead of a number.
     else if (line.startsWith("error:")) this.settleFirst(line);
@@ -310,8 +326,9 @@ export class GrblSession implements LineProtocol {
       this.modes = line;
       this.checkReported();
     } else if (alarmed) {
-      const code = Number(alarmed[1]);
-      if (code === RESET_ALARM && this.greetingWaiters.length > 0) this.isLockOurs = true;
+      const code = alarmed[1] === "" ? null : Number(alarmed[1]);
+      const isOurs = code === RESET_ALARM || line.includes("Abort during cycle");
+      if (isOurs && this.greetingWaiters.length > 0) this.isLockOurs = true;
       else this.broken(alarm(code));
     } else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);
@@ -320,10 +337,17 @@ export class GrblSession implements LineProtocol {
     }
   }
 
+  /** A child's greeting names it; its reply to `$I` may only have the number of the Grbl from which it comes. */
+  private takeVersion(version: string | null): void {
+    if (version === null || (this.version !== null && version.startsWith("Grbl 1."))) return;
+    this.version = version;
+    if (isOldVersion(version)) this.buffers = { queueMoves: OLD_QUEUE_MOVES, rxBytes: RX_BYTES };
+  }
+
   private reported(status: Status): void {
     const before = this.lastStatus;
     this.lastStatus = status;
-    const hasMoved = before === null || status.at.some((mm, axis) => mm !== before.at[axis]);
+    const hasMoved = before === null || !isSamePlace(before, status);
     if (hasMoved) this.progressS = this.clock.nowS();
     const isSlow = isMoving(status.state) && this.clock.nowS() - this.progressS < SLOW_S;
     if (hasMoved || isSlow) this.expectAnswer();
@@ -405,5 +429,7 @@ export class GrblSession implements LineProtocol {
     for (const failed of this.failures.splice(0)) failed(error);
   }
 }
+
+const isSamePlace = (a: Status, b: Status): boolean => a.at.every((mm, axis) => mm === b.at[axis]);
 
 const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The machine was stopped.");

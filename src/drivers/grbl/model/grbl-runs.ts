@@ -34,6 +34,7 @@ export class GrblRuns implements RunPlanner {
   constructor(
     private readonly machine: MachineProfile,
     private readonly limits: GrblAxisLimits,
+    private readonly queueMoves: number,
   ) {}
 
   write(path: RunPath, limits: RunLimits, out: BlockColumns): void {
@@ -59,7 +60,7 @@ export class GrblRuns implements RunPlanner {
       feeds.push(feed);
       points.push(to);
     }
-    const speeds2 = plannedSpeeds2(moves);
+    const speeds2 = plannedSpeeds2(moves, this.queueMoves);
     const straight = newStraight();
     moves.forEach((move, i) => {
       const [from, to] = [points[i], points[i + 1]];

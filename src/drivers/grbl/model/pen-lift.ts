@@ -79,8 +79,11 @@ export function liftFault(controller: Controller): { field: string; message: str
   return null;
 }
 
-/** Throws `bad-setting` for a profile that does not describe one. `limits`: those of the Grbl itself, if known. */
-export function penLiftOf(machine: MachineProfile, limits?: GrblAxisLimits): PenLift {
+/**
+ * Throws `bad-setting` for a profile that does not describe one. `limits`: those of the Grbl itself, if known; `zShiftMm`:
+ * where the profile's Z is 0.
+ */
+export function penLiftOf(machine: MachineProfile, limits?: GrblAxisLimits, zShiftMm = 0): PenLift {
   const grbl = grblOf(machine);
   const fault = liftFault(grbl);
   if (fault) {
@@ -99,11 +102,11 @@ export function penLiftOf(machine: MachineProfile, limits?: GrblAxisLimits): Pen
     return {
       kind: "z",
       servo: AT_ONCE,
-      lines: (_, pct) => [`G1Z${number(scale.at(pct))}F${number(60 * grbl.penSpeedMmPerS!)}`],
+      lines: (_, pct) => [`G1Z${number(scale.at(pct) + zShiftMm)}F${number(60 * grbl.penSpeedMmPerS!)}`],
       moveS: (fromPct, toPct) => moveTimeS(Math.abs(scale.at(toPct) - scale.at(fromPct)), speed, accel),
       waitS,
       valueAt: (pct) => scale.at(pct),
-      pctOf: (zMm) => scale.pctOf(zMm),
+      pctOf: (zMm) => scale.pctOf(zMm - zShiftMm),
     };
   }
   if (given(penUpS)) {

@@ -30,7 +30,7 @@ export interface Move {
   readonly maxEntry2: number;
 }
 
-/** Max moves in the queue, including the running one. */
+/** Max moves in the queue of an Arduino, including the running one. */
 export const QUEUE_MOVES = 15;
 
 /** A corner with a greater cosine than this counts as straight, or as a reversal. */
@@ -87,11 +87,11 @@ export function exitLimit2(moves: readonly Move[], i: number, end: number): numb
  * Speed² at the start of each move and at the end of the last one, from rest to rest, with a queue that is
  * always full.
  */
-export function plannedSpeeds2(moves: readonly Move[]): Float64Array {
+export function plannedSpeeds2(moves: readonly Move[], queueMoves: number): Float64Array {
   const speeds2 = new Float64Array(moves.length + 1);
   for (let i = 0; i < moves.length; i++) {
     const { accel, lengthMm } = moves[i];
-    const limit2 = exitLimit2(moves, i, Math.min(moves.length, i + QUEUE_MOVES));
+    const limit2 = exitLimit2(moves, i, Math.min(moves.length, i + queueMoves));
     speeds2[i + 1] = Math.min(limit2, speeds2[i] + 2 * accel * lengthMm);
   }
   return speeds2;

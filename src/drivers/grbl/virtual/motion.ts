@@ -1,6 +1,6 @@
 /** The move queue of the virtual Grbl, and the axes that perform it over time. */
 import type { GrblAxisLimits, Axes, Move } from "../model/planner.js";
-import { exitLimit2, moveOf, QUEUE_MOVES } from "../model/planner.js";
+import { exitLimit2, moveOf } from "../model/planner.js";
 
 /** A piece of constant acceleration. */
 interface Phase {
@@ -25,13 +25,14 @@ export class GrblMotion {
   private isHolding = false;
 
   constructor(
+    private readonly queueMoves: number,
     private readonly limits: () => GrblAxisLimits,
     private readonly onSteps: (at: Axes) => Axes,
     private readonly arrived: (at: Axes) => void,
   ) {}
 
   get isFull(): boolean {
-    return this.moves.length >= QUEUE_MOVES;
+    return this.moves.length >= this.queueMoves;
   }
 
   get isEmpty(): boolean {
@@ -43,7 +44,7 @@ export class GrblMotion {
   }
 
   get freeCount(): number {
-    return QUEUE_MOVES - this.moves.length;
+    return this.queueMoves - this.moves.length;
   }
 
   get end(): Axes {

@@ -9,30 +9,22 @@ import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Transport } from "../../transport.js";
 import { dwellS } from "../model/grbl-controller.js";
-import { difference, QUEUE_MOVES, sum, type Axes } from "../model/planner.js";
-import { RX_BYTES } from "../protocol.js";
+import { difference, sum, type Axes } from "../model/planner.js";
 import { VirtualLink } from "../../virtual-link.js";
 import { ERROR, wordsOf } from "./gcode-words.js";
 import { GrblMotion } from "./motion.js";
 import { Ink, VirtualPen } from "./virtual-pen.js";
-import { VirtualSettings, type LineFault, type VirtualGrblOptions } from "./virtual-settings.js";
+import {
+  VirtualSettings,
+  type LineFault,
+  type VirtualGrblOptions,
+  type VirtualGrblState,
+} from "./virtual-settings.js";
 
-const VERSION = "1.1h";
+/** The work offset is in every 10th report at rest, and every 30th in motion. */
+const OFFSET_EVERY = { rest: 10, motion: 30 };
 /** How long Grbl waits for more lines before it starts with a queue that is not full. */
 const START_S = 0.005;
-interface VirtualGrblState {
-  readonly state: string;
-  readonly xMm: number;
-  readonly yMm: number;
-  /** The pen's real height, from that of the first start. */
-  readonly zMm: number;
-  readonly penUp: boolean;
-  /** Motions that began while the pen's servo was still on its way. */
-  readonly earlyCount: number;
-  /** Characters that arrived when the buffer was full: a real Grbl loses them silently. */
-  readonly lostCount: number;
-}
-
 export class VirtualGrbl implements VirtualMachine {
   private readonly settings: VirtualSettings;
   private readonly motion: GrblMotion;
@@ -56,7 +48,10 @@ export class VirtualGrbl implements VirtualMachine {
   private offset: Axes = [0, 0, 0];
   /** Where the machine coordinates begin since the last start, mm from where they began at the first. */
   private origin: Axes = [0, 0, 0];
-  private isOffsetReported = false;
+  /** Reports until the next one with the work offset. */
+  private offsetDue = 0;
+  /** A grblHAL refuses all G-code after an error. */
+  private refusal = 0;
   /** Machine seconds at which the running G4 ends; null: none is running. */
   private waitUntilS: number | null = null;
   private afterWait: () => void = () => undefined;
@@ -77,6 +72,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.settings = new VirtualSettings(machine, board);
     this.pen = new VirtualPen(machine);
     this.motion = new GrblMotion(
+      this.settings.face.queueMoves,
       () => this.settings.limits,
       (at) => this.onSteps(at),
       () => this.ink.arrived(),
@@ -114,6 +110,14 @@ export class VirtualGrbl implements VirtualMachine {
     this.schedule();
   }
 
+  /** As if the carriage was pushed by hand back to where it stood at the first start, which the Grbl does not notice. */
+  pushHome(): void {
+    this.catchUp();
+    const [x, y] = this.motion.at;
+    this.origin = [-x, -y, this.origin[2]];
+    this.ink.begin(false);
+  }
+
   /** As if it has hit a limit switch: it stops, and answers nothing until it is reset. */
   hitSwitch(): void {
     this.catchUp();
@@ -141,15 +145,9 @@ export class VirtualGrbl implements VirtualMachine {
   state(): VirtualGrblState {
     this.catchUp();
     const { x: xMm, y: yMm } = this.onPage;
-    const pen = { zMm: this.zMm, penUp: !this.isPenDown };
-    return {
-      state: this.stateName(),
-      xMm,
-      yMm,
-      ...pen,
-      earlyCount: this.earlyCount,
-      lostCount: this.lostCount,
-    };
+    const pen = { zMm: this.zMm, penUp: !this.isPenDown, offsetMm: this.offset };
+    const { earlyCount, lostCount } = this;
+    return { state: this.stateName(), xMm, yMm, ...pen, earlyCount, lostCount };
   }
 
   drawn(): DrawnPolyline[] {
@@ -186,7 +184,7 @@ export class VirtualGrbl implements VirtualMachine {
       if (answer === null) break;
       if (answer === 0) this.pen.executed(line.toUpperCase(), this.nowS);
       this.received = this.received.slice(end + 1);
-      this.answer(answer === 0 ? "ok" : `error:${answer}`);
+      this.answer(answer === 0 ? "ok" : this.settings.face.error(answer));
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
       this.startDueS ??= this.nowS + START_S;
@@ -230,8 +228,15 @@ export class VirtualGrbl implements VirtualMachine {
 
   /** Returns 0 if the line is done or queued, an error code if it is refused, null if it has to wait. */
   private perform(line: string): number | null {
+    if (line === "" || line.startsWith("$")) this.refusal = 0;
     if (line === "") return 0;
-    if (this.settings.takes("refused")) return ERROR.unknown;
+    if (this.refusal !== 0) return this.refusal;
+    const answer = this.settings.takes("refused") ? ERROR.unknown : this.performLine(line);
+    if (answer !== null && this.settings.face.refusesOn) this.refusal = answer;
+    return answer;
+  }
+
+  private performLine(line: string): number | null {
     if (line.startsWith("$")) return this.system(line);
     if (this.isLocked) return ERROR.locked;
     const block = wordsOf(line);
@@ -246,10 +251,10 @@ export class VirtualGrbl implements VirtualMachine {
   private system(line: string): number {
     const isAtRest = this.motion.isEmpty || this.isLocked;
     const [, number, value] = /^\$(\d+)=(-?[\d.]+)$/.exec(line) ?? [];
+    const { face } = this.settings;
     if (line === "$G") {
-      this.reply(
-        `[GC:${this.isRapid ? "G0" : "G1"} G54 G17 G21 G90 G94 ${this.spindle} M9 T0 F${this.feed} S${this.spindleSpeed}]`,
-      );
+      const modes = `${this.isRapid ? "G0" : "G1"} G54 G17 G21 G90 G94 ${this.spindle} M9 T0`;
+      this.reply(face.modes(`${modes} F${this.feed} S${this.spindleSpeed}`));
     } else if (line === "$")
       this.reply("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]");
     else if (line === "$X") {
@@ -259,12 +264,11 @@ export class VirtualGrbl implements VirtualMachine {
       return ERROR.dollar;
     } else if (!isAtRest) return ERROR.busy;
     else if (line === "$I") {
-      this.reply(`[VER:${VERSION}.20190830:]`);
-      this.reply(`[OPT:V,${QUEUE_MOVES},${RX_BYTES}]`);
+      for (const info of face.info) this.reply(info);
     } else if (line === "$$") for (const setting of this.settings.list()) this.reply(setting);
     else if (line === "$SLP") this.isAsleep = true;
     else {
-      this.isOffsetReported = false;
+      this.offsetDue = 0;
       return this.settings.set(Number(number), Number(value)) ? 0 : ERROR.dollar;
     }
     return 0;
@@ -307,7 +311,7 @@ export class VirtualGrbl implements VirtualMachine {
     const set = (i: 0 | 1 | 2, letter: string): number =>
       words.has(letter) ? at[i] - (words.get(letter) ?? 0) : this.offset[i];
     this.offset = [set(0, "X"), set(1, "Y"), set(2, "Z")];
-    this.isOffsetReported = false;
+    this.offsetDue = 0;
     this.ink.begin(false);
     return 0;
   }
@@ -358,7 +362,7 @@ export class VirtualGrbl implements VirtualMachine {
 
   private reset(): void {
     if (this.motion.isMoving) {
-      this.reply("ALARM:3");
+      this.reply(this.settings.face.alarm(3));
       this.isLocked = true;
     }
     // The motors were off, so the carriage may have been pushed.
@@ -371,33 +375,40 @@ export class VirtualGrbl implements VirtualMachine {
     this.motion.stop();
     this.waitUntilS = this.startDueS = null;
     this.isLocked = this.isDeaf = true;
-    this.reply(`ALARM:${code}`);
+    this.reply(this.settings.face.alarm(code));
     this.reply("[MSG:Reset to continue]");
   }
 
   private begin(): void {
     this.motion.stop();
     this.received = "";
+    this.refusal = 0;
     this.isHeld = this.isAsleep = this.isDeaf = false;
     this.waitUntilS = this.startDueS = null;
     this.feed = 0;
     this.isRapid = true;
     this.spindle = "M5";
     this.spindleSpeed = 0;
-    this.isOffsetReported = false;
-    this.reply(`Grbl ${VERSION} ['$' for help]`);
+    this.offsetDue = 0;
+    this.reply(this.settings.face.greeting);
     if (this.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
   }
 
   private report(): void {
     if (this.isDeaf) return;
     const { settings } = this;
-    const offset = this.isOffsetReported ? "" : `|WCO:${settings.reported(this.offset)}`;
-    this.isOffsetReported = true;
-    const free = `${this.motion.freeCount},${settings.rxBytes - this.received.length}`;
-    const feed = Math.round(60 * this.motion.speedMmPerS);
-    const at = settings.reported(this.motion.at);
-    this.reply(`<${this.stateName()}|MPos:${at}|Bf:${free}|FS:${feed},0${offset}>`);
+    const { at } = this.motion;
+    const hasOffset = this.offsetDue === 0;
+    this.offsetDue = hasOffset ? OFFSET_EVERY[this.motion.isEmpty ? "rest" : "motion"] : this.offsetDue - 1;
+    const report = settings.face.report({
+      state: this.stateName(),
+      machineAt: settings.reported(at),
+      workAt: settings.reported(difference(at, this.offset)),
+      offset: hasOffset ? settings.reported(this.offset) : null,
+      free: `${this.motion.freeCount},${settings.rxBytes - this.received.length}`,
+      feed: Math.round(60 * this.motion.speedMmPerS),
+    });
+    this.reply(report);
   }
 
   private stateName(): string {
@@ -420,10 +431,6 @@ export class VirtualGrbl implements VirtualMachine {
     this.link?.deliver(asciiBytes(`${line}\r\n`));
   }
 
-  private workAt(): Axes {
-    return difference(this.motion.at, this.offset);
-  }
-
   private get zMm(): number {
     return this.origin[2] + this.motion.at[2];
   }
@@ -434,7 +441,7 @@ export class VirtualGrbl implements VirtualMachine {
 
   private get onPage(): { x: number; y: number } {
     const { machine } = this.options;
-    const [x, y] = this.workAt();
+    const [x, y] = sum(this.origin, this.motion.at);
     return positionFromMotors(machine, x * machine.stepsPerMm, y * machine.stepsPerMm);
   }
 }

@@ -1,14 +1,31 @@
-/** What differs from one virtual Grbl to another: its own settings, its receive buffer, and faults of the connection. */
+/** What differs from one virtual Grbl to another: its own settings, its receive buffer, faults; and what a test sees of it. */
 import type { MachineProfile } from "../../../machines/profile.js";
 import { axisLimits, grblOf } from "../model/grbl-controller.js";
 import type { Axes, GrblAxisLimits } from "../model/planner.js";
-import { RX_BYTES } from "../protocol.js";
+import { faceOf, type Face, type FaceName } from "./faces.js";
 
 export interface VirtualGrblOptions {
-  /** Characters that its receive buffer really holds; it always reports 128. */
+  /** Which of Grbl's children it is; default: Grbl 1.1. */
+  readonly face?: FaceName;
+  /** Characters that its receive buffer really holds; default: as many as it reports. */
   readonly rxBytes?: number;
   /** Settings by number, where they differ from the machine's profile: { 110: 3000 } is $110=3000. */
   readonly settings?: Readonly<Record<number, number>>;
+}
+
+export interface VirtualGrblState {
+  readonly state: string;
+  /** The real position, from that of the first start. */
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly zMm: number;
+  readonly penUp: boolean;
+  /** Its work offset, in the machine coordinates since its last start. */
+  readonly offsetMm: Axes;
+  /** Motions that began while the pen's servo was still on its way. */
+  readonly earlyCount: number;
+  /** Characters that arrived when the buffer was full: a real Grbl loses them silently. */
+  readonly lostCount: number;
 }
 
 /**
@@ -18,12 +35,14 @@ export interface VirtualGrblOptions {
 export type LineFault = "reply-lost" | "reply-doubled" | "reply-damaged" | "line-end-lost" | "refused";
 
 export class VirtualSettings {
+  readonly face: Face;
   readonly rxBytes: number;
   private readonly settings = new Map<number, number>();
   private readonly faults = new Map<LineFault, number>();
 
-  constructor(machine: MachineProfile, { rxBytes = RX_BYTES, settings = {} }: VirtualGrblOptions) {
-    this.rxBytes = rxBytes;
+  constructor(machine: MachineProfile, { face = "1.1", rxBytes, settings = {} }: VirtualGrblOptions) {
+    this.face = faceOf(face);
+    this.rxBytes = rxBytes ?? this.face.rxBytes;
     const { speed, accel, junctionMm } = axisLimits(grblOf(machine));
     const finite = (value: number, other: number): number => (Number.isFinite(value) ? value : other);
     const { stepsPerMm, widthMm, heightMm } = machine;

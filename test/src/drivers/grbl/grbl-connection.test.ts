@@ -70,6 +70,7 @@ async function plotDisturbed(
   if (typeof first === "string") {
     // A lost connection is made again.
     await world.advance(8);
+    if (driver.state.xMm === null) board.pushHome();
     const from = entries.at(-1)!.place;
     const rest = await begin(new LocalPlanner(DRAWING), { from, held: false, journal });
     expect(await within(rest.finished)).toEqual({ kind: "done" });

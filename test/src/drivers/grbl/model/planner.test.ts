@@ -52,7 +52,7 @@ describe("the planner", () => {
     for (let i = 0; i < 400; i++) {
       moves.push(moveOf([i / 10, 0, 0], [(i + 1) / 10, 0, 0], 100, limitsOf(1_000), moves[i - 1] ?? null));
     }
-    expect(Math.sqrt(plannedSpeeds2(moves)[200])).toBeCloseTo(52.915, 3);
+    expect(Math.sqrt(plannedSpeeds2(moves, 15)[200])).toBeCloseTo(52.915, 3);
   });
 });
 

@@ -1,0 +1,100 @@
+/** How Grbl and its children differ in what they say: greetings, reports and refusals. */
+import { QUEUE_MOVES } from "../model/planner.js";
+import { RX_BYTES } from "../protocol.js";
+
+export const FACES = ["1.1", "0.9", "grblHAL", "FluidNC", "DrawCore"] as const;
+export type FaceName = (typeof FACES)[number];
+
+/** What a status report tells; positions as text, in the board's unit. */
+export interface Reported {
+  /** "Hold:0" … */
+  readonly state: string;
+  readonly machineAt: string;
+  readonly workAt: string;
+  /** The work offset, if this report has it. */
+  readonly offset: string | null;
+  /** Blocks and characters that are free. */
+  readonly free: string;
+  readonly feed: number;
+}
+
+export interface Face {
+  readonly greeting: string;
+  /** The answer to `$I`. */
+  readonly info: readonly string[];
+  readonly queueMoves: number;
+  readonly rxBytes: number;
+  /** The answer to `$G`. */
+  modes(words: string): string;
+  report(status: Reported): string;
+  /** A refused line and an alarm; version 0.9 uses words. */
+  error(code: number): string;
+  alarm(code: number): string;
+  /** After a refused line it refuses all G-code with the same error up to an empty line or a reset. */
+  readonly refusesOn: boolean;
+}
+
+const ARDUINO: Face = {
+  greeting: "Grbl 1.1h ['$' for help]",
+  info: ["[VER:1.1h.20190830:]", `[OPT:V,${QUEUE_MOVES},${RX_BYTES}]`],
+  queueMoves: QUEUE_MOVES,
+  rxBytes: RX_BYTES,
+  modes: (words) => `[GC:${words}]`,
+  report: ({ state, machineAt, free, feed, offset }) =>
+    `<${state}|MPos:${machineAt}|Bf:${free}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
+  error: (code) => `error:${code}`,
+  alarm: (code) => `ALARM:${code}`,
+  refusesOn: false,
+};
+
+const OLD_ERRORS: Readonly<Record<number, string>> = { 9: "Alarm lock", 20: "Unsupported command" };
+const OLD_ALARMS: Readonly<Record<number, string>> = {
+  1: "Hard limit",
+  2: "Soft limit",
+  3: "Abort during cycle",
+};
+const HAL_QUEUE = 100;
+const HAL_RX_BYTES = 1_024;
+
+export const faceOf = (name: FaceName): Face => TABLE[name];
+
+const TABLE: Readonly<Record<FaceName, Face>> = {
+  "1.1": ARDUINO,
+  "0.9": {
+    ...ARDUINO,
+    greeting: "Grbl 0.9j ['$' for help]",
+    info: ["[0.9j.20160303:]"],
+    queueMoves: 17,
+    rxBytes: 127,
+    modes: (words) => `[${words}]`,
+    report: ({ state, machineAt, workAt }) => `<${state.split(":")[0]},MPos:${machineAt},WPos:${workAt}>`,
+    error: (code) => `error: ${OLD_ERRORS[code] ?? `Invalid gcode ID:${code}`}`,
+    alarm: (code) => `ALARM: ${OLD_ALARMS[code] ?? "Probe fail"}`,
+  },
+  grblHAL: {
+    ...ARDUINO,
+    greeting: "GrblHAL 1.1f ['$' or '$HELP' for help]",
+    info: [
+      "[VER:1.1f.20240101:]",
+      `[OPT:VNM,${HAL_QUEUE},${HAL_RX_BYTES},3,0]`,
+      "[AXS:3:XYZ]",
+      "[FIRMWARE:grblHAL]",
+    ],
+    queueMoves: HAL_QUEUE,
+    rxBytes: HAL_RX_BYTES,
+    refusesOn: true,
+  },
+  FluidNC: {
+    ...ARDUINO,
+    greeting: "Grbl 3.7 [FluidNC v3.7.16 (wifi) '$' for help]",
+    info: ["[VER:3.7 FluidNC v3.7.16:]", "[OPT:MPHS]", "[MSG: Machine: Plotter]"],
+    report: ({ state, machineAt, feed, offset }) =>
+      `<${state}|MPos:${machineAt}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
+  },
+  DrawCore: {
+    ...ARDUINO,
+    greeting: "Grbl 1.1h DrawCore V2.09 ['$' for help]",
+    report: ({ state, workAt, free, feed, offset }) =>
+      `<${state}|WPos:${workAt}|Bf:${free}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
+  },
+};
