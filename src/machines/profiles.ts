@@ -139,7 +139,7 @@ const BUILT_IN = [
   idraw("idraw-2-a3", "iDraw 2.0 A3", 430, 297),
   {
     id: "grbl-servo",
-    name: "Grbl with a pen servo",
+    name: "Plotter with Grbl and a pen servo",
     widthMm: 300,
     heightMm: 210,
     stepsPerMm: 80,
@@ -149,7 +149,7 @@ const BUILT_IN = [
   },
   {
     id: "grbl-z",
-    name: "Grbl with a Z axis",
+    name: "Plotter with Grbl and a Z axis",
     widthMm: 300,
     heightMm: 210,
     stepsPerMm: 80,
@@ -159,7 +159,7 @@ const BUILT_IN = [
   // A Grbl that is built for CoreXY mixes the motors by itself.
   {
     id: "grbl-corexy",
-    name: "Grbl CoreXY with a pen servo",
+    name: "CoreXY with Grbl and a pen servo",
     widthMm: 300,
     heightMm: 210,
     stepsPerMm: 80,
