@@ -206,6 +206,12 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await import("./settings-command.js")).declareSettings,
   },
   {
+    name: "inkscape",
+    about: "add an extension to Inkscape that sends drawings to a running server",
+    examples: ["plotwright inkscape install", "plotwright inkscape uninstall"],
+    load: async () => (await import("./inkscape-command.js")).declareInkscape,
+  },
+  {
     name: "mcp",
     about: "let an AI assistant plan drawings and use a running server's queue (Model Context Protocol)",
     examples: ["plotwright mcp", "plotwright mcp --url http://127.0.0.1:9080"],
@@ -219,7 +225,7 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "service",
-    about: "run the server as a systemd service",
+    about: "run the server as a service of systemd (Linux) or launchd (macOS)",
     examples: ["plotwright service install --print -- --port 9381", "plotwright service status"],
     load: async () => (await server()).declareService,
   },

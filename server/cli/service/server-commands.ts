@@ -3,7 +3,8 @@ import { Command, Option } from "commander";
 import { PlotwrightError } from "../../../src/index.js";
 import { addData, addPort, hostNames, origins, port, positive, springs, type Declare } from "../options.js";
 import type { ServeCommandOptions } from "./serve.js";
-import { installService, serviceStatus, uninstallService, type ServiceOptions } from "./service.js";
+import { installService, serviceStatus, uninstallService } from "./service.js";
+import type { ServiceOptions } from "./service-manager.js";
 import { OPERATIONS, requestOf } from "../../../src/schema/index.js";
 import { defaultDataDir } from "../../storage/data-dir.js";
 import { bundleText, readLog } from "../../storage/log-book.js";
@@ -31,10 +32,10 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
       .description(about)
       .copyInheritedSettings(service)
       .option("--system", "for the whole computer, started at boot; needs root");
-  sub("install", "write the unit and start it; options of serve after --")
+  sub("install", "write the service and start it; options of serve after --")
     .argument("[serve-options...]")
     .option("--user <name>", "with --system: the user that runs the server")
-    .option("--print", "print the unit without writing it")
+    .option("--print", "print the service without writing it")
     .action(async (serveArgs: string[], options: ServiceOptions) => {
       if (options.user !== undefined && options.system !== true) {
         throw new PlotwrightError("bad-setting", "--user: add --system; without it the service runs as you.");
@@ -44,7 +45,7 @@ export const declareService: Declare = (service, { io, setExitCode }) => {
       const server = serve.parse(serveArgs, { from: "user" }).opts<ServeCommandOptions>();
       await installService(options, { ...server, args: serveArgs }, io);
     });
-  sub("uninstall", "stop it and remove the unit").action((options: ServiceOptions) =>
+  sub("uninstall", "stop it and remove the service").action((options: ServiceOptions) =>
     uninstallService(options, io),
   );
   sub("status", "report whether it runs").action((options: ServiceOptions) =>

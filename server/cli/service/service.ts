@@ -1,25 +1,24 @@
 /**
- * `plotwright service`: runs the server as a systemd service, for example on a Raspberry Pi: for one user, or
- * with --system for the whole computer.
+ * `plotwright service`: runs the server as a service of systemd or launchd, for example on a Raspberry Pi or a Mac mini: for one
+ * user, or with --system for the whole computer.
  */
 import { spawnSync } from "node:child_process";
 import { chmodSync, existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { connect } from "node:net";
 import { homedir } from "node:os";
-import { dirname, join, resolve } from "node:path";
+import { dirname } from "node:path";
 import { PlotwrightError } from "../../../src/index.js";
 import { packagePath } from "../../storage/package-files.js";
 import { fileFault } from "../../storage/file-fault.js";
 import type { CliIo } from "../io.js";
-
-export interface ServiceOptions {
-  /** For the whole computer, started at boot; needs root. */
-  readonly system?: boolean;
-  /** The user that runs the server, with `system`. Default: the user who called sudo. */
-  readonly user?: string;
-  /** Only print what would be written. */
-  readonly print?: boolean;
-}
+import { launchd } from "./launchd.js";
+import {
+  splitSecrets,
+  type ServiceHost,
+  type ServiceManager,
+  type ServiceOptions,
+} from "./service-manager.js";
+import { systemd } from "./systemd.js";
 
 /** Options of the server that the service runs. */
 export interface ServiceServer {
@@ -28,43 +27,6 @@ export interface ServiceServer {
   readonly port: number;
   readonly host?: string;
 }
-
-interface CommandResult {
-  readonly code: number;
-  readonly text: string;
-}
-
-/** The parts of the computer that the command uses, as an interface for tests. */
-export interface ServiceHost {
-  readonly platform: NodeJS.Platform;
-  readonly env: NodeJS.ProcessEnv;
-  readonly home: string;
-  readonly isRoot: boolean;
-  /** Folder of the system's units. */
-  readonly systemDir: string;
-  /** The running program: node and its script. */
-  readonly node: string;
-  readonly script: string;
-  readonly run: (command: string, args: readonly string[]) => CommandResult;
-  /** Whether a program listens on the port. */
-  readonly isListening: (host: string, port: number) => Promise<boolean>;
-  readonly wait: (ms: number) => Promise<void>;
-}
-
-const UNIT = "plotwright.service";
-/** The groups that serial ports belong to: uucp on Arch. Debian has both, and uses dialout. */
-const SERIAL_GROUPS = ["dialout", "uucp"];
-/** Options of `serve` whose value is a path. */
-const PATH_OPTIONS = ["--data", "--watch", "--cert", "--key"];
-/**
- * Options of `serve` whose value may contain a password, and the environment variable that `serve` reads instead. Everyone
- * on this computer can read a process's options in process lists and in `systemctl show`, so these values are in an
- * EnvironmentFile.
- */
-const SECRET_OPTIONS: Readonly<Record<string, string>> = {
-  "--shared-queue": "PLOTWRIGHT_SHARED_QUEUE",
-  "--mqtt": "PLOTWRIGHT_MQTT",
-};
 
 /** How long a server may take to start, on a slow computer, and how often its port is tried meanwhile. */
 const START_MS = 20_000;
@@ -76,7 +38,8 @@ function thisHost(): ServiceHost {
     env: process.env,
     home: homedir(),
     isRoot: process.getuid?.() === 0,
-    systemDir: "/etc/systemd/system",
+    uid: process.getuid?.() ?? 0,
+    systemDir: process.platform === "darwin" ? "/Library/LaunchDaemons" : "/etc/systemd/system",
     node: process.execPath,
     script: packagePath("dist/server/main.js"),
     run: (command, args) => {
@@ -101,6 +64,9 @@ export function isListening(host: string, port: number): Promise<boolean> {
   });
 }
 
+const managerOf = (options: ServiceOptions, host: ServiceHost): ServiceManager =>
+  host.platform === "darwin" ? launchd(options, host) : systemd(options, host);
+
 /** Throws `conflict` if another program has the port, `disconnected` if the server does not answer in time. */
 export async function installService(
   options: ServiceOptions,
@@ -108,35 +74,32 @@ export async function installService(
   io: CliIo,
   host: ServiceHost = thisHost(),
 ): Promise<void> {
-  const unit = unitText(options, server.args, host);
-  const secrets = secretsText(server.args);
-  const path = unitPath(options, host);
-  const secretsPath = secretsPathOf(options, host);
+  const manager = managerOf(options, host);
+  const { path, secretsPath } = manager;
+  const text = manager.text(server.args);
+  const { secrets } = splitSecrets(server.args);
+  const secretsText = [...secrets].map(([name, value]) => manager.secretLine(name, value)).join("");
   if (options.print === true) {
-    io.out(`# ${path}\n${unit}`);
-    if (secrets !== "") io.out(`# ${secretsPath}\n${secrets.replace(/=.*$/gm, "=…")}`);
+    io.out(`# ${path}\n${text}`);
+    if (secretsText !== "") io.out(`# ${secretsPath}\n${secretsText.replace(/=.*$/gm, "=…")}`);
     return;
   }
-  mustHaveSystemd(options, host);
+  mustHaveManager(options, host);
   if (host.script.includes("/_npx/")) {
     throw new PlotwrightError(
       "bad-setting",
       "npx keeps programs only for a while. Install plotwright first: npm install -g plotwright.",
     );
   }
-  await mustBeFree(options, server, host);
-  if (secrets === "") rmSync(secretsPath, { force: true });
-  else writePrivate(secretsPath, secrets);
-  writePrivate(path, unit);
-  systemctl(options, host, ["daemon-reload"]);
-  systemctl(options, host, ["enable", UNIT]);
-  // Restart, not start: a running server must use the new unit.
-  systemctl(options, host, ["restart", UNIT]);
+  await mustBeFree(manager, server, host);
+  if (secretsText === "") rmSync(secretsPath, { force: true });
+  else writePrivate(secretsPath, secretsText);
+  writePrivate(path, text);
+  await manager.start();
   io.out(`${path} is written.\n`);
-  if (options.system !== true && host.run("loginctl", ["enable-linger"]).code !== 0) {
-    io.err("It runs only while you are logged in. To change that: sudo loginctl enable-linger $USER\n");
-  }
-  await mustRun(options, server, host);
+  const hint = manager.loginHint();
+  if (hint !== null) io.err(`${hint}\n`);
+  await mustRun(manager, server, host);
   const state = server.port === 0 ? "was started" : `runs on port ${server.port}`;
   io.out(`The server ${state}. It starts again by itself.\n`);
 }
@@ -153,183 +116,71 @@ function writePrivate(path: string, text: string): void {
 }
 
 /** Another program on the port would look like the server. */
-async function mustBeFree(options: ServiceOptions, server: ServiceServer, host: ServiceHost): Promise<void> {
+async function mustBeFree(manager: ServiceManager, server: ServiceServer, host: ServiceHost): Promise<void> {
   const { port } = server;
   // A service that runs already has the port itself, and is restarted.
-  if (port === 0 || isActive(options, host) || !(await host.isListening(hostOf(server), port))) return;
+  if (port === 0 || manager.isActive() || !(await host.isListening(hostOf(server), port))) return;
   throw new PlotwrightError(
     "conflict",
     `Another program has port ${port}, perhaps a plotwright server in a terminal. Stop it, or choose another port: plotwright service install -- --port 9381.`,
   );
 }
 
-/** Waits until the server listens. Port 0 is any free port, so then only systemd is asked. */
-async function mustRun(options: ServiceOptions, server: ServiceServer, host: ServiceHost): Promise<void> {
+/** Waits until the server listens. Port 0 is any free port, so then only the manager is asked. */
+async function mustRun(manager: ServiceManager, server: ServiceServer, host: ServiceHost): Promise<void> {
   const { port } = server;
   for (let ms = 0; ms < START_MS; ms += TRY_EVERY_MS) {
     await host.wait(TRY_EVERY_MS);
-    if (!isActive(options, host)) break;
+    if (!manager.isActive()) break;
     if (port === 0 || (await host.isListening(hostOf(server), port))) return;
   }
-  const user = options.system === true ? "" : "--user ";
   throw new PlotwrightError(
     "disconnected",
-    `The service is installed, but its server ${isActive(options, host) ? `does not answer on port ${port} yet` : "has ended"}. Its log says why: journalctl ${user}-u ${UNIT}`,
+    `The service is installed, but its server ${manager.isActive() ? `does not answer on port ${port} yet` : "has ended"}. Its log says why: ${manager.logCommand}`,
   );
 }
 
 const hostOf = ({ host }: ServiceServer): string => host ?? "127.0.0.1";
 
-/** Whether systemd has started the server, and it has not ended since. */
-const isActive = (options: ServiceOptions, host: ServiceHost): boolean =>
-  host.run("systemctl", [...scope(options), "is-active", "--quiet", UNIT]).code === 0;
-
 export function uninstallService(options: ServiceOptions, io: CliIo, host: ServiceHost = thisHost()): void {
-  const path = unitPath(options, host);
+  const manager = managerOf(options, host);
+  const { path, secretsPath } = manager;
   if (!existsSync(path)) {
     throw new PlotwrightError("not-found", `There is no ${path}, so no service is installed.`);
   }
-  mustHaveSystemd(options, host);
-  // Remove the unit even if the server is not running.
-  host.run("systemctl", [...scope(options), "disable", "--now", UNIT]);
+  mustHaveManager(options, host);
+  // Remove the files even if the server is not running.
+  manager.stop();
   rmSync(path);
-  rmSync(secretsPathOf(options, host), { force: true });
-  systemctl(options, host, ["daemon-reload"]);
+  rmSync(secretsPath, { force: true });
+  manager.forget();
   io.out(`${path} is removed. Jobs and settings are kept.\n`);
 }
 
 /** 0 if it runs, otherwise 3, as systemctl returns. */
 export function serviceStatus(options: ServiceOptions, io: CliIo, host: ServiceHost = thisHost()): number {
-  const path = unitPath(options, host);
-  if (!existsSync(path)) {
-    io.out(`not installed (no ${path})\n`);
+  const manager = managerOf(options, host);
+  if (!existsSync(manager.path)) {
+    io.out(`not installed (no ${manager.path})\n`);
     return 3;
   }
-  const { code, text } = host.run("systemctl", [
-    ...scope(options),
-    "status",
-    "--no-pager",
-    "--lines=10",
-    UNIT,
-  ]);
+  const { code, text } = manager.status();
   io.out(text);
   return code === 0 ? 0 : 3;
 }
 
-export function unitText(options: ServiceOptions, serveArgs: readonly string[], host: ServiceHost): string {
-  const isSystem = options.system === true;
-  const { open, secrets } = splitSecrets(serveArgs);
-  const args = [host.node, host.script, "serve", ...wholePaths(open)];
-  return [
-    "[Unit]",
-    "Description=plotwright, the pen plotter's server",
-    ...(isSystem ? ["Wants=network-online.target", "After=network-online.target"] : []),
-    "",
-    "[Service]",
-    // With the default, simple, a restart succeeds even if the user or node does not exist.
-    "Type=exec",
-    `ExecStart=${args.map(quoted).join(" ")}`,
-    // Not quoted: systemd takes the rest of the line as the path.
-    ...(secrets.size > 0 ? [`EnvironmentFile=${secretsPathOf(options, host).replace(/%/g, "%%")}`] : []),
-    ...(isSystem ? [`User=${userOf(options, host)}`, ...serialGroupLine(host)] : []),
-    "Restart=on-failure",
-    "RestartSec=3",
-    "# The pen is lifted and the carriage goes home before the server ends; a held plot stays where it is.",
-    "TimeoutStopSec=60",
-    "NoNewPrivileges=yes",
-    "",
-    "[Install]",
-    `WantedBy=${isSystem ? "multi-user.target" : "default.target"}`,
-    "",
-  ].join("\n");
-}
-
-/** `secrets`: by environment variable; as for commander, the last of an option counts. */
-function splitSecrets(args: readonly string[]): {
-  open: readonly string[];
-  secrets: ReadonlyMap<string, string>;
-} {
-  const open: string[] = [];
-  const secrets = new Map<string, string>();
-  for (let i = 0; i < args.length; i++) {
-    const arg = args[i] ?? "";
-    const [name = "", ...value] = arg.split("=");
-    const variable = SECRET_OPTIONS[name];
-    if (variable === undefined) open.push(arg);
-    else secrets.set(variable, value.length > 0 ? value.join("=") : (args[++i] ?? ""));
-  }
-  return { open, secrets };
-}
-
-/** The text of the EnvironmentFile, with the characters escaped that systemd interprets; "" if nothing is secret. */
-const secretsText = (args: readonly string[]): string =>
-  [...splitSecrets(args).secrets]
-    .map(([name, value]) => `${name}="${value.replace(/[\\"`$]/g, "\\$&")}"\n`)
-    .join("");
-
-const secretsPathOf = (options: ServiceOptions, host: ServiceHost): string =>
-  unitPath(options, host).replace(/\.service$/, ".env");
-
-/** Left out if this computer has neither group: systemd would not start the server. */
-function serialGroupLine({ run }: ServiceHost): string[] {
-  // Not /etc/group: getent finds the groups that systemd finds, also those kept elsewhere, as Fedora Atomic does.
-  const group = serialGroup(run("getent", ["group", ...SERIAL_GROUPS]).text);
-  return group === undefined ? [] : [`SupplementaryGroups=${group}`];
-}
-
-/** `groups`: lines as in /etc/group. */
-export const serialGroup = (groups: string): string | undefined =>
-  SERIAL_GROUPS.find((name) => groups.split("\n").some((line) => line.startsWith(`${name}:`)));
-
-function unitPath({ system }: ServiceOptions, { systemDir, env, home }: ServiceHost): string {
-  if (system === true) return join(systemDir, UNIT);
-  const config = env["XDG_CONFIG_HOME"];
-  const base = config !== undefined && config !== "" ? config : join(home, ".config");
-  return join(base, "systemd", "user", UNIT);
-}
-
-/** Never root: a server on a network needs only its files and its port. */
-function userOf({ user }: ServiceOptions, { env }: ServiceHost): string {
-  const name = user ?? env["SUDO_USER"] ?? "";
-  if (name === "" || name === "root" || !/^[a-z_][a-z0-9_.-]*$/i.test(name)) {
+function mustHaveManager({ system }: ServiceOptions, { platform, isRoot }: ServiceHost): void {
+  if (platform !== "linux" && platform !== "darwin") {
     throw new PlotwrightError(
       "bad-setting",
-      "The server must not run as root: give its user with --user NAME.",
+      "Services are set up by systemd on Linux and by launchd on macOS. This system has neither.",
     );
   }
-  return name;
-}
-
-function wholePaths(args: readonly string[]): string[] {
-  return args.map((arg, index) => {
-    const [name = "", ...value] = arg.split("=");
-    if (PATH_OPTIONS.includes(name) && value.length > 0) return `${name}=${resolve(value.join("="))}`;
-    return PATH_OPTIONS.includes(args[index - 1] ?? "") ? resolve(arg) : arg;
-  });
-}
-
-/** Quoted for systemd, with its special % and $ escaped. */
-function quoted(arg: string): string {
-  const text = arg.replace(/[\\"]/g, "\\$&").replace(/%/g, "%%").replace(/\$/g, "$$$$").replace(/\n/g, "\\n");
-  return /^[\w@+=:,./-]+$/.test(arg) ? text : `"${text}"`;
-}
-
-const scope = ({ system }: ServiceOptions): string[] => (system === true ? [] : ["--user"]);
-
-function systemctl(options: ServiceOptions, host: ServiceHost, args: readonly string[]): void {
-  const { code, text } = host.run("systemctl", [...scope(options), ...args]);
-  if (code === 0) return;
-  throw new PlotwrightError(
-    "bad-setting",
-    `systemctl ${args.join(" ")} failed: ${text.trim() === "" ? `code ${code}` : text.trim()}`,
-  );
-}
-
-function mustHaveSystemd({ system }: ServiceOptions, { platform, isRoot }: ServiceHost): void {
-  if (platform !== "linux") {
-    throw new PlotwrightError("bad-setting", "Services are set up by systemd, which only Linux has.");
-  }
   if (system === true && !isRoot) {
-    throw new PlotwrightError("not-allowed", "--system writes to /etc: run it with sudo, or leave it out.");
+    const where = platform === "darwin" ? "/Library" : "/etc";
+    throw new PlotwrightError(
+      "not-allowed",
+      `--system writes to ${where}: run it with sudo, or leave it out.`,
+    );
   }
 }

@@ -1,4 +1,5 @@
-/** The systemd service and the logs, on a simulated computer that only records its commands. */
+/** The services of systemd and launchd, and the logs, on a simulated computer that only records its commands. */
+import { spawnSync } from "node:child_process";
 import { chmodSync, existsSync, readFileSync, statSync } from "node:fs";
 import { createServer, type AddressInfo } from "node:net";
 import { homedir } from "node:os";
@@ -10,13 +11,12 @@ import { runLogs } from "../../../server/cli/service/server-commands.js";
 import {
   installService,
   isListening,
-  serialGroup,
   serviceStatus,
   uninstallService,
-  unitText,
-  type ServiceHost,
   type ServiceServer,
 } from "../../../server/cli/service/service.js";
+import type { ServiceHost } from "../../../server/cli/service/service-manager.js";
+import { serialGroup, unitText } from "../../../server/cli/service/systemd.js";
 import { LogBook, readLog, withoutSecrets } from "../../../server/storage/log-book.js";
 import { folderOfTest } from "../../support/processes/folders.js";
 
@@ -51,6 +51,7 @@ const host = (more: Partial<ServiceHost> = {}): ServiceHost => ({
   env: {},
   home,
   isRoot: false,
+  uid: 501,
   systemDir: join(home, "etc"),
   node: "/usr/bin/node",
   script: "/usr/lib/node_modules/plotwright/dist/server/main.js",
@@ -195,7 +196,7 @@ describe("plotwright service", () => {
   it("explains if there is no systemd, or if it refuses", async () => {
     const install = (more: Partial<ServiceHost> = {}): Promise<void> =>
       installService({}, serve(), io, host(more));
-    await expect(install({ platform: "darwin" })).rejects.toThrow("only Linux has");
+    await expect(install({ platform: "win32" })).rejects.toThrow("This system has neither");
     await expect(install({ script: "/home/a/.npm/_npx/1/main.js" })).rejects.toThrow("npm install -g");
     failing = "enable";
     await expect(install()).rejects.toThrow("systemctl enable plotwright.service failed: no bus");
@@ -311,4 +312,123 @@ describe("the logs", () => {
     book.write("x");
     await expect(book.written()).resolves.toBeUndefined();
   });
+});
+
+describe("the service of launchd", () => {
+  /** A Mac whose launchd loads what it is told to; the service before needs a while to end. */
+  function mac({ isRoot = false, endsAfter = 0 } = {}) {
+    const state = { loaded: false, ending: 0 };
+    const computer = host({
+      platform: "darwin",
+      isRoot,
+      systemDir: join(home, "LaunchDaemons"),
+      env: isRoot ? { SUDO_USER: "ada" } : {},
+      run: (command, args) => {
+        asked.push(`${command} ${args.join(" ")}`);
+        const [verb] = args;
+        if (verb === "bootout") state.ending = endsAfter + 1;
+        if (verb === "print" && state.ending > 0 && --state.ending === 0) state.loaded = false;
+        if (verb === "bootstrap" && state.loaded) return { code: 5, text: "Bootstrap failed: 5" };
+        if (verb === "bootstrap") state.loaded = true;
+        if (verb !== "print") return { code: 0, text: "" };
+        const text =
+          "gui/501/plotwright.server = {\n\tpath = /x\n\tstate = running\n\tpid = 77\n\tx = y\n}\n";
+        return state.loaded ? { code: 0, text } : { code: 113, text: "Could not find service" };
+      },
+    });
+    return { computer, state };
+  }
+  const agent = (): string => join(home, "Library", "LaunchAgents", "plotwright.server.plist");
+
+  it("is an agent that starts at login, restarts after a failure and has time to lift the pen", async () => {
+    answering = () => true;
+    const { computer } = mac();
+    await installService({}, serve("--lan", "--watch", "plots & <more>"), io, {
+      ...computer,
+      isListening: freeFirst(),
+    });
+    const plist = readFileSync(agent(), "utf8");
+    expect(plist).toContain("<key>KeepAlive</key><dict><key>SuccessfulExit</key><false/></dict>");
+    expect(plist).toContain("<key>ExitTimeOut</key><integer>60</integer>");
+    const args = [...plist.matchAll(/^ {4}<string>(.*)<\/string>$/gm)].map(([, arg]) => arg);
+    expect(args.slice(0, 4)).toEqual([
+      "/usr/bin/node",
+      "/usr/lib/node_modules/plotwright/dist/server/main.js",
+      "serve",
+      "--lan",
+    ]);
+    expect(args[5]).toMatch(/^\/.*\/plots &amp; &lt;more&gt;$/);
+    expect(asked.filter((one) => /enable|boot/.test(one))).toEqual([
+      "launchctl enable gui/501/plotwright.server",
+      `launchctl bootstrap gui/501 ${agent()}`,
+    ]);
+    expect(out).toContain("runs on port");
+    expect(out).toContain("It runs while you are logged in.");
+  });
+
+  it("waits until the service before has ended, which may take a minute, and then starts the new one", async () => {
+    const { computer, state } = mac({ endsAfter: 5 });
+    state.loaded = true;
+    await installService({}, serve("--lan"), io, computer);
+    expect(asked.findIndex((one) => one.includes("bootout"))).toBeLessThan(
+      asked.findIndex((one) => one.includes("bootstrap")),
+    );
+    expect(waitedMs).toBeGreaterThanOrEqual(4_000);
+    expect(state.loaded).toBe(true);
+  });
+
+  it("is a daemon of the whole computer with --system, which runs as the user, not as root", async () => {
+    const { computer } = mac({ isRoot: true });
+    await installService({ system: true }, serve("--mqtt", "mqtt://a:s3cret'@b"), io, {
+      ...computer,
+      isListening: freeFirst(),
+    });
+    const path = join(home, "LaunchDaemons", "plotwright.server.plist");
+    const plist = readFileSync(path, "utf8");
+    expect(plist).toContain("<key>UserName</key><string>ada</string>");
+    expect(plist).not.toContain("s3cret");
+    const secrets = path.replace(".plist", ".env");
+    expect(plist).toContain(`<string>--env-file=${secrets}</string>`);
+    expect(readFileSync(secrets, "utf8")).toBe(`PLOTWRIGHT_MQTT="mqtt://a:s3cret'@b"\n`);
+    expect(statSync(secrets).mode & 0o777).toBe(0o600);
+    expect(asked).toContain(`chown ada ${secrets}`);
+    expect(asked).toContain(`launchctl bootstrap system ${path}`);
+  });
+
+  it.each(["plain", "with'quote", 'with"quote', "back\\slash'x", "`tick'"])(
+    "gives Node the secret %s unchanged",
+    async (secret) => {
+      const { computer } = mac();
+      await installService({}, serve("--mqtt", `mqtt://${secret}`), io, {
+        ...computer,
+        isListening: freeFirst(),
+      });
+      const file = agent().replace(".plist", ".env");
+      const program = "console.log(process.env.PLOTWRIGHT_MQTT)";
+      const { stdout } = spawnSync(process.execPath, [`--env-file=${file}`, "-e", program], {
+        encoding: "utf8",
+      });
+      expect(stdout).toBe(`mqtt://${secret}\n`);
+    },
+  );
+
+  it("shows whether it runs, and goes with all its files", async () => {
+    const { computer, state } = mac();
+    await installService({}, serve("--mqtt", "mqtt://a:b@c"), io, { ...computer, isListening: freeFirst() });
+    out = "";
+    expect(serviceStatus({}, io, computer)).toBe(0);
+    expect(out).toMatch(/^path = \/x\nstate = running\npid = 77\nlog: .*plotwright\.log\n$/);
+    state.loaded = false;
+    expect(serviceStatus({}, io, computer)).toBe(3);
+    uninstallService({}, io, computer);
+    expect(existsSync(agent())).toBe(false);
+    expect(existsSync(agent().replace(".plist", ".env"))).toBe(false);
+    expect(serviceStatus({}, io, computer)).toBe(3);
+  });
+
+  /** The port is free before the server has started. */
+  function freeFirst(): ServiceHost["isListening"] {
+    let count = 0;
+    return () => Promise.resolve(count++ > 0);
+  }
 });
