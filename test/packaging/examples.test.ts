@@ -22,18 +22,18 @@ import { startServerProcess, type ServerProcess } from "../support/processes/ser
 
 /**
  * Without the references that are generated: they have signatures instead of examples, and test/server/cli/reference.test.ts
- * runs the commands in the generated part of docs/cli.md.
+ * runs the commands in the generated part of docs/cli.md. recipes.test.ts runs the recipes.
  */
-const GENERATED = ["library-reference.md", "http-reference.md", "cli.md"];
+const TESTED_ELSEWHERE = ["library-reference.md", "http-reference.md", "cli.md", "recipes.md"];
 const DOCUMENTS = [
   "README.md",
   "CONTRIBUTING.md",
   ...readdirSync(path.join(ROOT, "docs"))
-    .filter((name) => name.endsWith(".md") && !GENERATED.includes(name))
+    .filter((name) => name.endsWith(".md") && !TESTED_ELSEWHERE.includes(name))
     .map((name) => `docs/${name}`),
 ];
 /** A new example that is not run is a decision: change this number with it. */
-const NO_RUN_COUNT = 44;
+const NO_RUN_COUNT = 45;
 /** For the commands: large enough for every option in them, and plotted in a moment. */
 const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40"><path d="M5 5H50V30" fill="none" stroke="#000"/></svg>`;
 
@@ -123,11 +123,11 @@ describe("the examples of the documents", () => {
     expect(allExamples.length - run.length).toBe(NO_RUN_COUNT);
   });
 
-  it("are in ts, js, sh or JSON", () => {
+  it("are in ts, js, sh, JSON or Python", () => {
     const languages = DOCUMENTS.flatMap((document) =>
       [...readFileSync(path.join(ROOT, document), "utf8").matchAll(/^ *```(\S+)/gm)].map((match) => match[1]),
     );
-    expect([...new Set(languages)].sort()).toEqual(["js", "json", "sh", "ts"]);
+    expect([...new Set(languages)].sort()).toEqual(["js", "json", "python", "sh", "ts"]);
   });
 
   it("have a name of its own for each JSON file", () => {

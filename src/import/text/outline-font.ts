@@ -28,10 +28,10 @@ const BOLD_WEIGHT = 600;
  * Opens a font file (TrueType, OpenType, WOFF), for `ImportOptions.font`. The font library is loaded by the first call,
  * because loading takes as long as importing thousands of lines.
  *
- * @throws PlotwrightError "bad-file" if the bytes are not a font
+ * @throws PlotwrightError "bad-file" if the bytes are not a font, "bad-setting" if the package fontkit is not installed
  */
 export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
-  const { create } = await import("fontkit");
+  const { create } = await fontLibrary();
   return readable(() => {
     const opened = create(bytes);
     const font = "fonts" in opened ? opened.fonts[0] : opened;
@@ -46,6 +46,18 @@ export async function openOutlineFont(bytes: Uint8Array): Promise<TextFont> {
       layout: (text, style) => readable(() => layOut(font, text, style)),
     };
   });
+}
+
+/** Missing where only `plotwright-plan` is installed. */
+async function fontLibrary(): Promise<typeof import("fontkit")> {
+  try {
+    return await import("fontkit");
+  } catch (cause) {
+    if ((cause as { readonly code?: unknown }).code !== "ERR_MODULE_NOT_FOUND") throw cause;
+    throw new PlotwrightError("bad-setting", "A font file needs the package fontkit: npm install fontkit.", {
+      cause,
+    });
+  }
 }
 
 /** What `read` returns; whatever the font library throws about damaged bytes becomes "bad-file". */
