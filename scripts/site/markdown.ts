@@ -4,6 +4,7 @@ import highlight from "highlight.js/lib/core";
 import bash from "highlight.js/lib/languages/bash";
 import javascript from "highlight.js/lib/languages/javascript";
 import json from "highlight.js/lib/languages/json";
+import python from "highlight.js/lib/languages/python";
 import typescript from "highlight.js/lib/languages/typescript";
 import { Marked, type Tokens } from "marked";
 import { PAGES, type DocPage } from "./pages.js";
@@ -12,6 +13,7 @@ highlight.registerLanguage("ts", typescript);
 highlight.registerLanguage("js", javascript);
 highlight.registerLanguage("sh", bash);
 highlight.registerLanguage("json", json);
+highlight.registerLanguage("python", python);
 
 export interface Heading {
   readonly depth: number;

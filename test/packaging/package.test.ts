@@ -58,7 +58,7 @@ describe("the installed package", () => {
     expect(readdirSync(installed).sort()).toEqual(
       [
         ...["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md", "SECURITY.md"],
-        ...["dist", "docs", "package.json", "samples"],
+        ...["dist", "docs", "inkscape", "package.json", "samples"],
       ].sort(),
     );
     expect(readdirSync(path.join(installed, "dist")).sort()).toEqual([

@@ -104,6 +104,8 @@ function additionsOf(command: string, args: readonly string[] = []): string[] {
     case "follow":
     case "mcp":
       return ["--url", server.url];
+    case "inkscape":
+      return ["--folder", join(folder, "extensions")];
     case "board":
       return ["--pty", join(folder, "plotter")];
     default:

@@ -18,6 +18,8 @@ interface ServerProcessOptions {
   /** Board seconds per second on the virtual board. */
   readonly virtualSpeed?: number;
   readonly args?: readonly string[];
+  /** Besides those of this process. */
+  readonly env?: NodeJS.ProcessEnv;
 }
 
 /** Rejects with the server's output if it ends before it listens. */
@@ -26,6 +28,7 @@ export async function startServerProcess(options: ServerProcessOptions): Promise
   args.push("--virtual-speed", String(options.virtualSpeed ?? 20), ...(options.args ?? []));
   const child = spawn(process.execPath, [path.join(ROOT, "dist/server/main.js"), "serve", ...args], {
     stdio: ["ignore", "pipe", "pipe"],
+    env: { ...process.env, ...options.env },
   });
   let output = "";
   const url = await new Promise<string>((resolve, reject) => {
