@@ -46,6 +46,8 @@ const vitestConfig = {
   test: {
     include: area.tests.map((folder) => `${folder}/**/*.test.ts`),
     setupFiles: ["test/support/runs/fixed-seed.ts"],
+    // Most changes show in the first cases.
+    env: { PLOTWRIGHT_MOST_CASES: "10" },
     testTimeout: 60_000,
   },
 };

@@ -3,6 +3,7 @@ import fc from "fast-check";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { folderOfTest } from "../../support/processes/folders.js";
 import { openQueueIn, settled, type OpenQueue } from "../../support/jobs/open-queue.js";
+import { cases } from "../../support/runs/full-run.js";
 
 let dir: string;
 let parts: OpenQueue;
@@ -85,7 +86,7 @@ describe("the queue", () => {
           );
         }
       }),
-      { numRuns: 40 },
+      { numRuns: cases(40) },
     );
   });
 });

@@ -4,6 +4,7 @@ import { DEFAULT_MOTION, DEFAULT_PEN, plan, stateAt, type Trajectory } from "../
 import { timedPen } from "../../../src/plan/pen/pen-times.js";
 import { comeToRest } from "../../../src/internal.js";
 import { arbitraryGridStroke, strokeSetOf, type Point } from "../../support/drawings/arbitraries.js";
+import { cases } from "../../support/runs/full-run.js";
 import { NearStroke } from "../../support/trajectories/trajectory-checks.js";
 
 /** The maximum speed on a curve: the drawing speed is never the limit. */
@@ -77,7 +78,7 @@ describe("a stop in the middle of a plan", () => {
           }
         },
       ),
-      { numRuns: 150 },
+      { numRuns: cases(150) },
     );
   });
 });

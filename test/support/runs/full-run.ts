@@ -4,8 +4,12 @@
  */
 export const IS_FULL = process.env["PLOTWRIGHT_FULL"] === "1";
 
+/** No test does more cases than this. `npm run test:mutate` sets it, because it runs each test thousands of times. */
+const MOST = Number(process.env["PLOTWRIGHT_MOST_CASES"] ?? Infinity);
+
 /** Number of cases for a property: `full` in the full run, otherwise at most `short`. */
-export const cases = (full = 1_000, short = 150): number => (IS_FULL ? full : Math.min(full, short));
+export const cases = (full = 1_000, short = 150): number =>
+  Math.min(MOST, IS_FULL ? full : Math.min(full, short));
 
 /** The same for a loop whose count can also be set by the environment variable `name`. */
 export const countFor = (name: string, full: number, short: number): number =>

@@ -4,6 +4,7 @@ import { DEFAULT_PEN, machineById, plan } from "../../../../../src/index.js";
 import { MOTION_MODES } from "../../../../../src/internal.js";
 import { strokeSetOf, type Point } from "../../../../support/drawings/arbitraries.js";
 import { FastBoard } from "../../../../support/plots/virtual-plots.js";
+import { cases } from "../../../../support/runs/full-run.js";
 
 const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
 
@@ -43,7 +44,7 @@ describe("a compiled plan on the virtual board", () => {
             expect(fast.board.state()).toMatchObject({ steps1: 0, steps2: 0 });
           },
         ),
-        { numRuns: 40 },
+        { numRuns: cases(40) },
       );
     });
   }

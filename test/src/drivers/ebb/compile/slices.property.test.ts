@@ -4,6 +4,7 @@ import { commandLine, compile, DEFAULT_PEN, machineById, plan, stateAt } from ".
 import { MOTION_MODES, PEN_OVERLAPS } from "../../../../../src/internal.js";
 import { motor1FromXy, motor2FromXy } from "../../../../../src/machines/motors.js";
 import { strokeSetOf, type Point } from "../../../../support/drawings/arbitraries.js";
+import { cases } from "../../../../support/runs/full-run.js";
 
 const real = (min: number, max: number) => fc.double({ min, max, noNaN: true });
 const machine = machineById("axidraw-v3");
@@ -53,7 +54,7 @@ describe("slices of any plan", () => {
         }
         expect([steps1, steps2]).toEqual([0, 0]);
       }),
-      { numRuns: 100 },
+      { numRuns: cases(100) },
     );
   });
 });
