@@ -10,6 +10,10 @@ import {
   type PenSettings,
   type Trajectory,
 } from "../../../src/index.js";
+import { MotionCommands } from "../../../src/drivers/ebb/model/motion-commands.js";
+import { RunningMove } from "../../../src/drivers/ebb/model/orders.js";
+import { Parameters } from "../../../src/drivers/ebb/model/parameters.js";
+import type { FirmwareFeatures } from "../../../src/drivers/ebb/protocol/firmware.js";
 import type { BoardState, Springs } from "../../../src/internal.js";
 
 /** A clock that stands still: a board of infinite speed does not need it. */
@@ -72,4 +76,23 @@ export class FastBoard {
     }
     return { boardS: this.board.state().boardS - before, firstWrong };
   }
+}
+
+/** What both motors do during a command SM, LM, LT or T3, from the state of their accumulators; null: they wait. */
+export function execute(
+  line: string,
+  features: FirmwareFeatures,
+  acc1: number,
+  acc2: number,
+): RunningMove | null {
+  const [name] = line.split(",");
+  const commands = new MotionCommands(features, () => false);
+  const parameters = new Parameters(line.slice(name.length));
+  const [order] =
+    name === "SM"
+      ? commands.slow(parameters, false)
+      : name === "LM"
+        ? commands.stepped(parameters, false)
+        : commands.timed(parameters, name === "T3");
+  return order.kind === "move" ? RunningMove.begin(order, features, acc1, acc2) : null;
 }

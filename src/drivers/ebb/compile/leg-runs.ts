@@ -177,7 +177,9 @@ export class LegRuns implements RunCommandWriter {
     const { minTicks } = this.writer;
     if (!this.trajectory.planned) return Infinity;
     const from = Math.max(soonest - 1, end - this.turnTicks);
-    return this.turnBetween(from, Math.min(end + minTicks, runEnd - minTicks), block);
+    const turn = this.turnBetween(from, Math.min(end + minTicks, runEnd - minTicks), block);
+    // A long leg that takes in the beginning of the next block leaves the line. So a short leg leads to the turn.
+    return turn > end && turn - soonest >= 5 * minTicks ? turn - minTicks : turn;
   }
 
   /** The first tick in (from, to] at which a motor reverses; Infinity if none does. Searched from `block` on. */
