@@ -29,6 +29,7 @@ const TITLES: Readonly<Record<OperationGroup, string>> = {
   operator: "Operator, pairing and logs",
   access: "Access",
   webhooks: "Webhooks",
+  cameras: "Cameras",
   sharedJobs: "Shared queue",
 };
 
@@ -88,6 +89,7 @@ function operationText(one: Operation, writer: TypeWriter): string {
     parts.push(writer.inWords("Body", body), fields);
   } else if (body !== undefined) parts.push(writer.inWords("Body", body));
   if (answer === "text" || answer === "file") parts.push(`Response ${status}: plain text.`);
+  else if (answer === "picture") parts.push(`Response ${status}: a picture (JPEG, PNG or WebP).`);
   else if (answer === "events") parts.push(`Response ${status}: a stream of ${writer.link("ServerEvent")}.`);
   else parts.push(writer.inWords(`Response ${status}`, answer));
   return parts.join("\n\n");

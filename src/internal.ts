@@ -124,7 +124,7 @@ export { PositionTimes } from "./position/on-plan.js";
 export { timesByLayer, type LayerTimes, type TimesByKind, type TrajectoryStats } from "./plan/stats.js";
 export { lowerAheadMm } from "./plan/pen/pen-flight.js";
 export { liftTime, dropTime, penOfLayer, timedPen } from "./plan/pen/pen-times.js";
-export { speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
+export { penOfStroke, speedOfCode, withLayerCodes } from "./plan/coded-layers.js";
 export {
   motionForSprings,
   motionOfQuality,

@@ -83,7 +83,9 @@ const jobOperations = ({ queue, uploads, storeText }: HostParts) =>
     "emergency-stop": (id) => queue.plots.emergencyStop(id),
     change: (id, change) => queue.change(id, change),
     place: (id, by) => queue.plots.movePlace(id, by),
+    placeAfter: (id, by) => queue.plots.placeAfter(id, by),
     "check-place": (id) => queue.plots.checkPlace(id),
+    pen: (id, { up }) => queue.plots.movePen(id, up),
     duplicate: (id) => queue.duplicate(id),
     remove: (id, { submitter }) => {
       if (submitter !== undefined) mustNotHaveBegun(queue.get(id));

@@ -18,6 +18,7 @@ import {
   type Playback,
   type MachineState,
   machineOf,
+  penOfStroke,
   PositionTimes,
   strokeCount,
 } from "../../src/internal.js";
@@ -62,8 +63,8 @@ export class MachinePlot implements RunningPlot {
   private whole: Promise<PositionTimes> | null = null;
   private planningS = 0;
   private changing: Promise<void> | null = null;
-  /** Moves to the hold place; nothing else may move until they have finished. */
-  private checking: Promise<void> = Promise.resolve();
+  /** The user's moves while it is held; nothing else may move until they have finished. */
+  private moving: Promise<void> = Promise.resolve();
   private wakeHold: (() => void) | null = null;
   private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
   /** The carriage stays where it is until the next request: after an emergency stop, or when a held plot is left. */
@@ -176,6 +177,8 @@ export class MachinePlot implements RunningPlot {
 
   async change(change: PlotChange): Promise<void> {
     this.settings.change(change);
+    // The pen that stands on the paper follows a change of its height.
+    if (change.pen && this.held && this.machine.penUp === false) await this.movePenAtHold(false);
     // Changes run one after the other; the last one plans with all requested changes.
     const before = this.changing ?? Promise.resolve();
     this.changing = before.catch(() => undefined).then(() => this.changeInMotion());
@@ -186,7 +189,8 @@ export class MachinePlot implements RunningPlot {
     readonly strokes?: number | undefined;
     readonly mm?: number | undefined;
   }): StrokePosition {
-    this.holdPlace = movedPosition(this.strokes, this.heldPlace(), by);
+    const { stroke, alongMm } = this.placeAfter(by);
+    this.holdPlace = { stroke, alongMm };
     this.stops.moved(this.holdPlace);
     const wait = this.stops.due(this.holdPlace);
     const moved = this.stream.progress.movedTo(this.holdPlace, this.reports.initialProgress());
@@ -196,18 +200,37 @@ export class MachinePlot implements RunningPlot {
     return this.holdPlace;
   }
 
+  placeAfter(by: { readonly strokes?: number | undefined; readonly mm?: number | undefined }) {
+    const place = movedPosition(this.strokes, this.heldPlace(), by);
+    return { ...place, ...pointAt(this.strokes, place) };
+  }
+
   async checkHoldPlace(): Promise<void> {
     const { x, y } = pointAt(this.strokes, this.heldPlace());
-    const { stopSignal } = this.machine;
-    const check = this.checking.then(() => {
-      stopSignal.throwIfAborted();
-      return this.machine.moveTo(x, y, this.settings.current);
+    await this.moveAtHold(() => this.machine.moveTo(x, y, this.settings.current));
+  }
+
+  async movePenAtHold(up: boolean): Promise<void> {
+    const { stroke } = this.heldPlace();
+    await this.moveAtHold(() => {
+      const { current } = this.settings;
+      const { upPct, downPct } = penOfStroke(current, this.strokes, stroke);
+      return this.machine.movePen(up, current, up ? upPct : downPct);
     });
-    this.checking = check.catch((error: unknown) => {
+  }
+
+  /** One move after the other. None begins after an emergency stop that came in between. */
+  private async moveAtHold(move: () => Promise<void>): Promise<void> {
+    const { stopSignal } = this.machine;
+    const moved = this.moving.then(() => {
+      stopSignal.throwIfAborted();
+      return move();
+    });
+    this.moving = moved.catch((error: unknown) => {
       // The plot cannot resume from a lost position.
       if (!this.machine.state && error instanceof PlotwrightError) this.fail(error);
     });
-    await check;
+    await moved;
   }
 
   private heldPlace(): StrokePosition {
@@ -377,18 +400,20 @@ export class MachinePlot implements RunningPlot {
       });
     }
     this.wakeHold = null;
-    await this.untilChecked();
+    await this.untilMoved();
     if (this.failure) throw this.failure;
+    // A new pen may stand on the paper.
+    if (this.machine.penUp === false) await this.machine.movePen(true, this.settings.current);
     if (this.requested === "run") this.stops.answer(this.holdPlace);
     this.setHeld(false, null);
   }
 
-  private async untilChecked(): Promise<void> {
+  private async untilMoved(): Promise<void> {
     let last: Promise<void>;
     do {
-      last = this.checking;
+      last = this.moving;
       await last;
-    } while (last !== this.checking);
+    } while (last !== this.moving);
   }
 
   /** Handles a stop after everything was drawn, on the way home. */

@@ -114,8 +114,15 @@ export interface RunningPlot extends PlotControl {
     readonly strokes?: number | undefined;
     readonly mm?: number | undefined;
   }): StrokePosition;
+  /** While held: where such a move would lead, and the point of the drawing there, mm. */
+  placeAfter(by: {
+    readonly strokes?: number | undefined;
+    readonly mm?: number | undefined;
+  }): StrokePosition & { readonly x: number; readonly y: number };
   /** While held: moves to the hold point with the pen up, so that the user can check it. */
   checkHoldPlace(): Promise<void>;
+  /** While held: lifts the pen, or lowers it to the height of the layer that comes next. It is lifted before anything moves. */
+  movePenAtHold(up: boolean): Promise<void>;
 }
 
 /**

@@ -231,6 +231,7 @@ export class JobQueue {
       throw new PlotwrightError("conflict", `"${job.name}" is ${job.state}. Cancel it before removing it.`);
     }
     const unused = this.jobs.remove(id);
+    this.parts.onRemoved?.(id);
     if (unused !== null) await this.discard(unused);
   }
 

@@ -2,7 +2,7 @@
  * The state machine of a job (diagram: src/schema/job.ts), as one pure function: (job, event) -> job; throws `conflict`.
  * The queue applies, stores and announces the result. And the first state of a new job.
  */
-import { PlotwrightError, type ErrorCode } from "../../src/index.js";
+import { PlotwrightError, type ErrorCode, type StrokePosition } from "../../src/index.js";
 import type { Job, JobPlace, JobState } from "../../src/schema/index.js";
 
 export type JobEvent =
@@ -66,6 +66,9 @@ export function queuedJob(
     endedAt: null,
   };
 }
+
+/** A place as a job has it. */
+export const jobPlace = ({ stroke, alongMm }: StrokePosition): JobPlace => ({ strokeIndex: stroke, alongMm });
 
 /** Whether the job is being plotted, or held on the plotter. */
 export const isOnPlotter = ({ state }: Job): boolean => state === "plotting" || state === "paused";

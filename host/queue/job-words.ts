@@ -1,6 +1,6 @@
 /** What a job's message says about a plot that was held or interrupted. */
 import { findsHome, homeAgain, machineOf } from "../../src/internal.js";
-import type { Job, PlotWait } from "../../src/schema/index.js";
+import type { Job, PlotWait, Plotter } from "../../src/schema/index.js";
 import { OTHER_BOARD } from "../plotter/board-id.js";
 
 export const SERVER_STOPPED =
@@ -9,11 +9,14 @@ export const SERVER_STOPPED =
 export const penWords = ({ penName, layerName }: PlotWait): string =>
   penName === null ? `Put in the pen for "${layerName}".` : `Put in "${penName}" for "${layerName}".`;
 
-/** After an emergency stop. */
-export const stoppedWords = (isPositionKnown: boolean): string =>
-  isPositionKnown
-    ? "Stopped at once, and the pen was lifted. The board still knows its position, so the plot can be resumed. The line may have a small mark there."
-    : "Stopped at once, and the pen was lifted. The board does not know where it stopped.";
+/** What a job has after an emergency stop of its plotter. */
+export const stoppedJob = ({ xMm }: Pick<Plotter, "xMm">): Pick<Job, "stopped" | "message"> => ({
+  stopped: true,
+  message:
+    xMm === null
+      ? "Stopped at once, and the pen was lifted. The board does not know where it stopped."
+      : "Stopped at once, and the pen was lifted. The board still knows its position, so the plot can be resumed. The line may have a small mark there.",
+});
 
 /** For a job that is continued: whether its board knows its position, or is another one. */
 export function recoveredWords(

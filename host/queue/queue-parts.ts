@@ -30,6 +30,8 @@ export interface JobHooks {
   readonly afterChange?: (() => void) | undefined;
   /** Called many times a second while a job is plotted. Never throws. */
   readonly onProgress?: ((job: Job) => void) | undefined;
+  /** Called after a job was removed. Never throws. */
+  readonly onRemoved?: ((jobId: string) => void) | undefined;
   /** With a shared queue: ensures that no other server plots the same job. */
   readonly claims?: Claims | undefined;
 }

@@ -10,6 +10,7 @@ import {
   type JobChange,
   type JobPlace,
   type MovePlace,
+  type PlaceOnPaper,
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard } from "../plotter/board-id.js";
@@ -25,11 +26,11 @@ import type {
 import { isDiskFault } from "../disk-fault.js";
 import type { JobList } from "./job-list.js";
 import type { SettingsOfJobs } from "./job-settings.js";
-import { applyJobEvent, canContinue, isOnPlotter } from "./job-states.js";
+import { applyJobEvent, canContinue, isOnPlotter, jobPlace } from "./job-states.js";
 import { findPlotter, mustBeIdle } from "./find-plotter.js";
 import type { QueueParts } from "./queue-parts.js";
 import { MotionTimer } from "./expected-time.js";
-import { penWords, recoveredWords, SERVER_STOPPED, stoppedWords } from "./job-words.js";
+import { penWords, recoveredWords, SERVER_STOPPED, stoppedJob } from "./job-words.js";
 
 interface Running {
   readonly job: Job;
@@ -56,13 +57,11 @@ type PlotEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
 export class RunningPlots {
   /** By plotter id. */
   private readonly running = new Map<string, Running>();
-  private closing = false;
+  /** No plot begins any more. */
+  isClosing = false;
   private lastFault: string | null = null;
 
-  /**
-   * A job that was plotting when the server ended becomes interrupted. `done` is called for each completed
-   * plot.
-   */
+  /** A job that was plotting when the server ended becomes interrupted. `done`: called for each completed plot. */
   constructor(
     private readonly parts: QueueParts,
     private readonly jobs: JobList,
@@ -78,10 +77,6 @@ export class RunningPlots {
 
   isBusy(plotterId: string): boolean {
     return this.running.has(plotterId);
-  }
-
-  get isClosing(): boolean {
-    return this.closing;
   }
 
   /** Throws the errors that `start` would throw. */
@@ -141,7 +136,8 @@ export class RunningPlots {
     await running.run.emergencyStop();
     const job = this.jobs.get(id);
     // A paused plot was held already.
-    return job.state === "paused" && !job.stopped ? this.jobs.save({ ...job, ...stopOf(running) }) : job;
+    if (job.state !== "paused" || job.stopped) return job;
+    return this.jobs.save({ ...job, ...stoppedJob(running.plotter.snapshot()) });
   }
 
   /** Moves the place from which a held job will resume. */
@@ -150,9 +146,23 @@ export class RunningPlots {
     return this.jobs.save({ ...this.jobs.get(id), place: jobPlace(place) });
   }
 
+  /** Where such a move would lead. */
+  placeAfter(id: string, by: MovePlace): PlaceOnPaper {
+    const { x, y, ...place } = this.liveRun(id, ["paused"], "moved along").placeAfter(by);
+    return { ...jobPlace(place), xMm: x, yMm: y };
+  }
+
   /** Travels to the place of a held job with the pen up. */
   async checkPlace(id: string): Promise<Job> {
     await this.liveRun(id, ["paused"], "checked").checkHoldPlace();
+    return this.jobs.get(id);
+  }
+
+  /** Lifts or lowers the pen of a job that waits for another one, so that this can be set on the paper. */
+  async movePen(id: string, up: boolean): Promise<Job> {
+    const { name, wait } = this.jobs.get(id);
+    if (!wait) throw new PlotwrightError("conflict", `"${name}" does not wait for another pen.`);
+    await this.liveRun(id, ["paused"], "given another pen").movePenAtHold(up);
     return this.jobs.get(id);
   }
 
@@ -183,7 +193,7 @@ export class RunningPlots {
    * where it is: it must not move until the user resumes it.
    */
   async close(): Promise<void> {
-    this.closing = true;
+    this.isClosing = true;
     const running = [...this.running.values()];
     for (const one of running) this.leave(one);
     await Promise.all(running.map(({ finished }) => finished));
@@ -286,9 +296,7 @@ export class RunningPlots {
     });
   }
 
-  /**
-   * Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed.
-   */
+  /** Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed. */
   private saveJournal(id: string, entry: Pick<JournalEntry, "place" | "received">): void {
     const { progress, elapsedS, remainingS } = this.jobs.get(id);
     this.parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
@@ -327,7 +335,7 @@ export class RunningPlots {
       running?.timer.hold(this.parts.nowIso());
       const waitsFor = wait ?? job.wait;
       const message = waitsFor === null ? null : penWords(waitsFor);
-      const why = running?.isStopped === true ? stopOf(running) : { message };
+      const why = running?.isStopped === true ? stoppedJob(running.plotter.snapshot()) : { message };
       this.jobs.apply(id, { type: "hold" }, { place: this.holdPlace(running), wait: waitsFor, ...why });
     } else if (held && job.state === "paused") {
       // A recovered job: only now has the board reported where it stopped.
@@ -425,7 +433,7 @@ export class RunningPlots {
 
   /** The job's plotter; throws unless it is connected and has no other job. */
   private freePlotter(id: string): PlotterPort {
-    if (this.closing) throw new PlotwrightError("conflict", "plotwright is stopping.");
+    if (this.isClosing) throw new PlotwrightError("conflict", "plotwright is stopping.");
     const plotter = findPlotter(this.parts.plotters, this.jobs.get(id).plotterId);
     const other = this.running.get(plotter.id);
     if (other !== undefined && other.job.id !== id) {
@@ -438,11 +446,3 @@ export class RunningPlots {
     return plotter;
   }
 }
-
-/** What a job has after an emergency stop. */
-const stopOf = ({ plotter }: Running): Pick<Job, "stopped" | "message"> => ({
-  stopped: true,
-  message: stoppedWords(plotter.snapshot().xMm !== null),
-});
-
-const jobPlace = ({ stroke, alongMm }: StrokePosition): JobPlace => ({ strokeIndex: stroke, alongMm });

@@ -173,7 +173,7 @@ async function openParts(
   });
   closing.add("the plotters", () => registry.close());
   const plotters = registry.ports;
-  const core = { store, plotters, log };
+  const core = { store, plotters, log, dataDir };
   const plugins = await loadPlugins(options, core);
   const queue = new JobQueue({
     store,

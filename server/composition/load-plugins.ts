@@ -11,6 +11,8 @@ export async function loadPlugins(options: ServerOptions, core: PluginCore): Pro
     const { webhooksPlugin } = await import("../plugins/webhooks/plugin.js");
     plugins.push(webhooksPlugin(core));
   }
+  const { cameraPlugin } = await import("../plugins/camera/plugin.js");
+  plugins.push(cameraPlugin(core));
   if (watchDir !== undefined) {
     const { watchFolderPlugin } = await import("../plugins/watch-folder/plugin.js");
     plugins.push(watchFolderPlugin(watchDir));
@@ -37,6 +39,7 @@ export function jobHooksOf(plugins: readonly ServerPlugin[], { store }: PluginCo
   return {
     withChange: (before, after) => hooks.forEach((hook) => hook.withChange?.(before, after)),
     afterChange: () => hooks.forEach((hook) => hook.afterChange?.()),
+    onRemoved: (jobId) => hooks.forEach((hook) => hook.onRemoved?.(jobId)),
     onProgress: (job) => hooks.forEach((hook) => hook.onProgress?.(job)),
     claims: hooks.find(({ claims }) => claims !== undefined)?.claims ?? claimsWithoutSharing(store),
   };

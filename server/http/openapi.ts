@@ -4,6 +4,7 @@ import * as schemaEntry from "../../src/schema/index.js";
 import {
   API_PATH,
   apiErrorSchema,
+  PICTURE_TYPES,
   maySubmitterPerform,
   serverEventSchema,
   type Operation,
@@ -133,6 +134,7 @@ function requestBody(
 
 function answerContent(answer: Operation["answer"], components: Components): object {
   if (answer === "text" || answer === "file") return { "text/plain": { schema: { type: "string" } } };
+  if (answer === "picture") return Object.fromEntries(Object.values(PICTURE_TYPES).map((type) => [type, {}]));
   if (answer === "events") return { "text/event-stream": { schema: components.schemaOf(serverEventSchema) } };
   return components.json(answer);
 }

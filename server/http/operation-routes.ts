@@ -5,11 +5,13 @@ import {
   API_PATH,
   JOB_PATH,
   OPERATIONS,
+  PICTURE_TYPES,
   type Operation,
   type OperationGroup,
   type OperationHandlers,
   type OperationTable,
   type Submitter,
+  pictureKindOf,
 } from "../../src/schema/index.js";
 import { performOperation } from "../../host/operations/host-operations.js";
 import type { Requester } from "../../host/planning/lane.js";
@@ -91,9 +93,18 @@ const performer =
     const sent: unknown = one.query === undefined ? request.body : request.query;
     const answer = await performOperation(one, handler, { id, sent }, requesterOf(request, response));
     if (one.attachment !== undefined) response.attachment(one.attachment.replace(":id", id ?? ""));
-    if (one.answer === "text") response.type("text/plain; charset=utf-8").send(answer);
+    if (one.answer === "picture") sendPicture(response, answer as ArrayBuffer);
+    else if (one.answer === "text") response.type("text/plain; charset=utf-8").send(answer);
     else sendJson(response, one, answer);
   };
+
+/** A picture that is kept never changes. */
+function sendPicture(response: Response, picture: ArrayBuffer): void {
+  const bytes = Buffer.from(picture);
+  const kind = pictureKindOf(bytes);
+  response.type(kind === null ? "application/octet-stream" : PICTURE_TYPES[kind]);
+  response.set("Cache-Control", "private, max-age=86400, immutable").send(bytes);
+}
 
 /** The answer to a new item says where it is, if there is an operation that returns it. */
 function sendJson(response: Response, { path, status }: Operation, answer: unknown): void {

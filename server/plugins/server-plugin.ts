@@ -43,6 +43,8 @@ export interface PluginCore {
   /** By id; plotters may be added and removed while the server runs. */
   readonly plotters: ReadonlyMap<string, PlotterPort>;
   readonly log: (line: string) => void;
+  /** The server's folder for its data. */
+  readonly dataDir: string;
 }
 
 export interface PluginHost extends PluginCore {

@@ -10,7 +10,7 @@
  * Scale of +s: speed_lim_xy_hr and its use in AxiDraw's axidraw_conf.py and axidraw.py.
  */
 import { MM_PER_INCH } from "../units.js";
-import { settingsIdOf, type StrokeLayer } from "../drawing/stroke-set.js";
+import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../drawing/stroke-set.js";
 import { parseLayerName, type LayerCodes } from "../prepare/layers/layer-codes.js";
 import { penOfLayer } from "./pen/pen-times.js";
 import type { LayerMotion, MotionSettings } from "../settings/motion.js";
@@ -52,6 +52,15 @@ export function withLayerCodes<S extends { readonly motion: MotionSettings; read
     motion: { ...settings.motion, layers: { ...settings.motion.layers, ...motionLayers } },
     pen: { ...settings.pen, layers: { ...settings.pen.layers, ...penLayers } },
   };
+}
+
+/** The pen settings with which a stroke is drawn. */
+export function penOfStroke(
+  { pen, motion }: { readonly pen: PenSettings; readonly motion: MotionSettings },
+  { layer, layers }: StrokeSet,
+  stroke: number,
+): PenSettings {
+  return penOfLayer(withLayerCodes({ pen, motion }, layers).pen, settingsIdOf(layers[layer[stroke]]));
 }
 
 function penOfCodes(pen: PenSettings, id: string, { penDownPct, delayMs }: LayerCodes): LayerPen | null {

@@ -78,6 +78,20 @@ export const movePlaceSchema = z
   .partial();
 export type MovePlace = z.infer<typeof movePlaceSchema>;
 
+/** As a query, which has texts. */
+export const placeRequestSchema = z
+  .object({
+    strokes: z.coerce.number().int().min(-1_000_000).max(1_000_000),
+    mm: z.coerce.number().min(-1e7).max(1e7),
+  })
+  .partial();
+/** A place, and the point of the drawing there, mm from home. */
+export const placeOnPaperSchema = jobPlaceSchema.extend({ xMm: z.number(), yMm: z.number() });
+export type PlaceOnPaper = z.infer<typeof placeOnPaperSchema>;
+
+/** Of a job that waits for another pen. */
+export const jobPenSchema = z.object({ up: z.boolean() });
+
 export const penRequestSchema = z.object({
   up: z.boolean(),
   heightPct: z.number().min(0).max(100).optional(),

@@ -6,6 +6,7 @@ export * from "./given-settings.js";
 export * from "./plotter-settings.js";
 export * from "./job.js";
 export * from "./api.js";
+export * from "./camera.js";
 export * from "./sharing.js";
 export * from "./machine.js";
 export * from "./hand-moves.js";

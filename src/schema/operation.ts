@@ -31,8 +31,8 @@ export interface Operation {
   readonly path: string;
   /** For the OpenAPI document and docs/http-reference.md. */
   readonly about: string;
-  /** "file": the content of a file; "text": plain text. */
-  readonly answer: ZodType | "text" | "file" | "events";
+  /** "file": the content of a drawing; "picture": that of a picture; "text": plain text. */
+  readonly answer: ZodType | "text" | "file" | "picture" | "events";
   readonly status: 200 | 201;
   readonly role: OperationRole;
   readonly body?: ZodType | "file";
@@ -102,7 +102,9 @@ type AnswerOf<One> = One extends { readonly answer: infer Answer }
     ? z.output<Answer>
     : Answer extends "file"
       ? FileContent
-      : string
+      : Answer extends "picture"
+        ? ArrayBuffer
+        : string
   : never;
 
 /** Calls an operation: with the id in its path, then its body or query. */

@@ -22,12 +22,15 @@ import {
   historyRequestSchema,
   jobChangeSchema,
   jobPageSchema,
+  jobPenSchema,
   jobPatchSchema,
   moveJobSchema,
   movePlaceSchema,
   newJobSchema,
   operatorSchema,
   penRequestSchema,
+  placeOnPaperSchema,
+  placeRequestSchema,
   plotterSchema,
   queueSettingsSchema,
   snapshotSchema,
@@ -42,6 +45,7 @@ import {
   squareRequestSchema,
   moveToRequestSchema,
 } from "./hand-moves.js";
+import { cameraSchema, cameraStateSchema, keptPicturesSchema, pictureRequestSchema } from "./camera.js";
 import { jobSchema } from "./job.js";
 import { machineListSchema, machineProfileSchema } from "./machine.js";
 import { operation, type ClientOf, type HandlersOf } from "./operation.js";
@@ -156,7 +160,21 @@ export const OPERATIONS = {
       jobSchema,
       { body: movePlaceSchema, ...CHANGE },
     ),
+    placeAfter: operation(
+      "get",
+      "/jobs/:id/place",
+      "Returns where moving that place by ?strokes= and ?mm= would lead, and where that is on the paper",
+      placeOnPaperSchema,
+      { query: placeRequestSchema, role: "watch" },
+    ),
     "check-place": action("check-place", "Moves to the place where a paused job resumes, with the pen up"),
+    pen: operation(
+      "post",
+      "/jobs/:id/pen",
+      "Lifts or lowers the pen of a job that waits for another pen, so that the new one can be set on the paper",
+      jobSchema,
+      { body: jobPenSchema, ...CHANGE },
+    ),
     duplicate: operation("post", "/jobs/:id/duplicate", "Queues a copy of a job", jobSchema, {
       status: 201,
       ...SUBMIT,
@@ -344,6 +362,38 @@ export const OPERATIONS = {
       { body: newWebhookSchema, status: 201 },
     ),
     remove: operation("delete", "/webhooks/:id", "Removes a webhook", okSchema),
+  },
+
+  cameras: {
+    get: operation(
+      "get",
+      "/plotters/:id/camera",
+      "Returns the camera that the server reads while this plotter plots, with its address",
+      cameraStateSchema,
+      { role: "operate" },
+    ),
+    set: operation(
+      "put",
+      "/plotters/:id/camera",
+      "Sets that camera, and tries it: the server keeps a picture every few seconds of a plot",
+      cameraStateSchema,
+      { body: cameraSchema },
+    ),
+    remove: operation(
+      "delete",
+      "/plotters/:id/camera",
+      "Removes that camera; pictures that were taken stay with their jobs",
+      okSchema,
+    ),
+    pictures: operation(
+      "get",
+      "/jobs/:id/pictures",
+      "Lists the pictures that were taken while a job was plotted, oldest first",
+      keptPicturesSchema,
+    ),
+    picture: operation("get", "/jobs/:id/picture", "Returns one of these pictures: ?at=TIME", "picture", {
+      query: pictureRequestSchema,
+    }),
   },
 
   sharedJobs: {

@@ -161,5 +161,9 @@ export const penWaitText = {
   putForLayer: (layer: string) => `Put in the pen for “${layer}”`,
   layer: (layer: string) => `for the layer “${layer}”`,
   hint: "The pen is up. Continue when the new pen is fixed.",
+  downHint: "The pen is down: set the new pen on the paper and fix it. It lifts before the plot continues.",
+  moves: "Set the new pen on the paper",
+  up: "Pen up",
+  down: "Pen down",
   watcherHint: "The pen is up. Another device continues the plot.",
 };

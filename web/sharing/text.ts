@@ -92,6 +92,7 @@ export const sharingText = {
   addHook: "Add the address",
   removeHookNamed: (name: string) => `Remove ${name}`,
   camera: "Camera",
+  cameraShown: "Shown on this page",
   cameraHint:
     "A picture of the plotter from a network camera: a stream (MJPEG) or a still picture. Stored in this browser.",
   cameraUrl: "Address of the picture",
@@ -100,6 +101,15 @@ export const sharingText = {
   cameraStream: "Stream",
   cameraShow: "Show",
   cameraOff: "No camera",
+  picturesOf: (plotter: string) => `Kept with each plot of ${plotter}`,
+  picturesHint:
+    "The server reads this camera while it plots, and keeps up to 240 pictures with each job: a timelapse of the finished plot. Only operators see the address.",
+  picturesUrl: "Address that the server reads",
+  picturesEvery: "A picture every",
+  picturesKeep: "Keep pictures",
+  picturesOff: "Keep no pictures",
+  picturesTrying: "Trying the camera…",
+  picturesWork: "The camera works.",
   cameraAlt: "What the camera sees",
   cameraFailed: "No picture from the camera. Is its address right, and can this device reach it?",
 };

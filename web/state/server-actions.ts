@@ -135,6 +135,7 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
       return changeJob(job.id, { pen: { ...penOf(store.getState(), job), ...part } });
     },
     movePlace: (id: string, move: MovePlace) => attempt(`place ${id}`, () => backend.jobs.place(id, move)),
+    moveJobPen: (id: string, up: boolean) => attempt(`pen ${id}`, () => backend.jobs.pen(id, { up })),
     moveJob: (id: string, beforeId: string | null) =>
       attempt(`move ${id}`, () => backend.jobs.move(id, { beforeId })),
     duplicateJob: (id: string) => attempt(`duplicate ${id}`, () => backend.jobs.duplicate(id)),

@@ -1,8 +1,9 @@
-import { withOffs, type Job, type PlotSettings } from "../../src/schema/index.js";
+import { useEffect, useState } from "react";
+import { withOffs, type Job, type MovePlace, type PlotSettings } from "../../src/schema/index.js";
 import { KeepHeights, NudgeJob } from "../plotter/hand/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
-import { activeJob, mayOperate, penOf, penWait } from "../state/store.js";
-import { useActions, usePageState } from "../state/use-store.js";
+import { activeJob, mayOperate, penOf, penWait, type PageState } from "../state/store.js";
+import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/fields/choice.js";
 import { formatCount, formatNumber } from "../ui/format.js";
@@ -19,6 +20,12 @@ import {
 } from "../../src/internal.js";
 
 const STEP_MM = 10;
+const MOVES = [
+  [words.strokeBack, { strokes: -1 }],
+  [words.strokeOn, { strokes: 1 }],
+  [words.mmBack, { mm: -STEP_MM }],
+  [words.mmOn, { mm: STEP_MM }],
+] as const;
 const SPEED_PERCENTS: readonly number[] = [25, 50, 75, 90, 100, 110, 125, 150, 200];
 
 /** Changes of the running plot: pen heights, speed, and where a paused plot resumes. */
@@ -41,29 +48,58 @@ export const Adjust = () => {
 /** Changes where a paused plot resumes: moves the place back and forward, and sends the raised pen there. */
 const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place"]> }) => {
   const { movePlace, actOnJob } = useActions();
-  const moves = [
-    [words.strokeBack, { strokes: -1 }],
-    [words.strokeOn, { strokes: 1 }],
-    [words.mmBack, { mm: -STEP_MM }],
-    [words.mmOn, { mm: STEP_MM }],
-  ] as const;
+  const marking = usePlaceMark(job.id, place);
   return (
     <div className="place" role="group" aria-label={words.placeMoves}>
       <p className="note">
         {words.place(formatCount(place.strokeIndex + 1), formatNumber(place.alongMm, 1))}
       </p>
       <div className="button-grid">
-        {moves.map(([label, move]) => (
-          <Button key={label} kind="small" onClick={() => void movePlace(job.id, move)}>
+        {MOVES.map(([label, move]) => (
+          <Button key={label} kind="small" {...marking(move)} onClick={() => void movePlace(job.id, move)}>
             {label}
           </Button>
         ))}
       </div>
-      <Button kind="small" onClick={() => void actOnJob(job.id, "check-place")}>
+      <Button kind="small" {...marking(HERE)} onClick={() => void actOnJob(job.id, "check-place")}>
         {words.checkPlace}
       </Button>
     </div>
   );
+};
+
+/** A move that stays where it is. */
+const HERE: MovePlace = {};
+
+/** For a button: while it is pointed at or has the focus, the sheet shows where it leads. */
+const usePlaceMark = (jobId: string, { strokeIndex, alongMm }: NonNullable<Job["place"]>) => {
+  const { jobs } = useBackend();
+  const store = usePageStore();
+  const [by, setBy] = useState<MovePlace | null>(null);
+  useEffect(() => {
+    let isCurrent = true;
+    const show = (placeMark: PageState["placeMark"]): void => {
+      if (isCurrent) store.setState({ placeMark });
+    };
+    if (by === null) show(null);
+    else
+      jobs.placeAfter(jobId, by).then(
+        ({ xMm, yMm }) => show({ xMm, yMm }),
+        // It goes on meanwhile, or the server is gone.
+        () => show(null),
+      );
+    return () => {
+      isCurrent = false;
+    };
+  }, [jobs, store, jobId, by, strokeIndex, alongMm]);
+  useEffect(() => () => store.setState({ placeMark: null }), [store]);
+  const end = (): void => setBy(null);
+  return (move: MovePlace) => ({
+    onPointerEnter: () => setBy(move),
+    onFocus: () => setBy(move),
+    onPointerLeave: end,
+    onBlur: end,
+  });
 };
 
 /** Changes that are possible while it plots or is paused. */

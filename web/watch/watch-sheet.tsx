@@ -1,7 +1,7 @@
 import type { Desk } from "../preview/backdrop.js";
 import { ZoomTools } from "../preview/preview-tools.js";
 import { Sheet, type SheetKind } from "../preview/sheet.js";
-import type { ShownPen, Stage } from "../preview/stage.js";
+import type { OverlayPainter, ShownPen, Stage } from "../preview/stage.js";
 import { previewText } from "../preview/text.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
@@ -60,11 +60,39 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     if (state.watchPlan !== before?.watchPlan || state.live !== before?.live || state.jobs !== before.jobs) {
       stage.setLook(lookOf(state));
     }
+    if (state.placeMark !== before?.placeMark) stage.setPainter(placePainter(state), null);
     if (state.view.theme !== before?.view.theme) stage.recolor();
   };
   show(store.getState(), null);
   return store.subscribe(show);
 };
+
+const MARK_PX = 9;
+/** The dark ring and the light ones beside it are seen on any ink. */
+const RINGS = [
+  ["#ffffff", 6],
+  ["#1450ff", 2.5],
+] as const;
+
+/** Marks where a button would move the place of the paused plot. */
+const placePainter =
+  ({ placeMark }: PageState): OverlayPainter =>
+  (context, view) => {
+    if (!placeMark) return;
+    const x = view.offsetX + placeMark.xMm * view.scale;
+    const y = view.offsetY + placeMark.yMm * view.scale;
+    for (const [color, widthPx] of RINGS) {
+      context.beginPath();
+      context.arc(x, y, MARK_PX, 0, 2 * Math.PI);
+      context.strokeStyle = color;
+      context.lineWidth = widthPx;
+      context.stroke();
+    }
+    context.beginPath();
+    context.arc(x, y, 2.5, 0, 2 * Math.PI);
+    context.fillStyle = "#1450ff";
+    context.fill();
+  };
 
 /** Nothing on this sheet can be moved or selected. */
 const WATCHED: SheetKind = {

@@ -7,15 +7,19 @@ import { stateOf } from "../queue/job-head.js";
 import { StatusCard } from "./status-card.js";
 import { watchText as words } from "./text.js";
 import { WatchSheet } from "./watch-sheet.js";
-import type { Job } from "../../src/schema/index.js";
+import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { openPlanner, type Planner } from "../worker/planner.js";
 import type { Planned } from "../worker/protocol.js";
+import { lazyPart } from "../ui/lazy-part.js";
 import "./watch.css";
+
+const Timelapse = lazyPart(async () => (await import("./timelapse.js")).Timelapse);
 
 /** The running plot, or the last one: its progress and its sheet. */
 export const Watch = () => {
   const job = usePageState(watchedJob);
+  const hasPictures = useBackend().features.sharing;
   usePlan();
   return (
     <section className="watch" aria-label={words.status} data-state={job && stateOf(job)}>
@@ -23,6 +27,7 @@ export const Watch = () => {
       <div className="watch-area">
         <WatchSheet />
         <Notices />
+        {job && hasPictures && ENDED_STATES.includes(job.state) && <Timelapse job={job} />}
       </div>
     </section>
   );

@@ -39,11 +39,13 @@ describe("the page's fields", () => {
     const { page } = test;
     await page.keyboard.press("Control+k");
     await page.getByRole("combobox", { name: "Search for anything" }).waitFor();
-    expect(await page.getByRole("combobox", { name: "Search for anything" }).getAttribute("spellcheck")).toBe("false");
+    expect(await page.getByRole("combobox", { name: "Search for anything" }).getAttribute("spellcheck")).toBe(
+      "false",
+    );
     await page.keyboard.type("console");
     await page.getByRole("dialog").getByRole("option").first().waitFor();
     await page.keyboard.press("Enter");
-    const line = page.getByRole("dialog", { name: "Console" }).getByLabel("Command");
+    const line = page.getByRole("dialog", { name: "Console" }).getByRole("textbox", { name: "Command" });
     await line.waitFor();
     // The close event of the first dialog comes later.
     await page.waitForTimeout(300);

@@ -2,7 +2,7 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Job } from "../../../src/schema/index.js";
 import { combOf, expectPartlyDrawn, expectShareOnCanvas, SHARP } from "../../support/browser/half-drawn.js";
-import { historyPanel, openView, plotBar } from "../../support/browser/page-actions.js";
+import { historyPanel, openView, plotBar, statusCard } from "../../support/browser/page-actions.js";
 import { PageTest } from "../../support/browser/page-test.js";
 
 const LIMIT_MS = 120_000;
@@ -28,6 +28,25 @@ describe("a plot that waits for a pen", () => {
     await expectPartlyDrawn(test.page, await theJob(), WAITS);
     await test.page.reload();
     await expectPartlyDrawn(test.page, await theJob(), WAITS);
+  });
+
+  it("sets the new pen on the paper and lifts it again, by buttons that say how it is", async () => {
+    const { page } = test;
+    const button = (name: string) => statusCard(page).getByRole("button", { name, exact: true });
+    const isUp = async (): Promise<unknown> => {
+      const state: unknown = await (await page.request.get(`${test.server.url}/api/v1/state`)).json();
+      return (state as { plotters: { penUp: boolean }[] }).plotters[0].penUp;
+    };
+    for (const [name, other, up] of [
+      ["Pen down", "Pen up", false],
+      ["Pen up", "Pen down", true],
+    ] as const) {
+      await button(name).click();
+      await expect.poll(isUp).toBe(up);
+      await expect.poll(() => button(name).getAttribute("aria-pressed")).toBe("true");
+      expect(await button(other).getAttribute("aria-pressed")).toBe("false");
+    }
+    expect((await theJob()).wait?.layerName).toContain("Red");
   });
 });
 

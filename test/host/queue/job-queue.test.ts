@@ -194,6 +194,21 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("done");
   });
 
+  it("moves the pen of a job only while it waits for another one", async () => {
+    const { id, run } = await plotting();
+    await expect(queue.plots.movePen(id, false)).rejects.toThrow("does not wait for another pen");
+    run.held(true);
+    await expect(queue.plots.movePen(id, false)).rejects.toThrow("does not wait for another pen");
+    run.held(false);
+    run.held(true, { kind: "pen", layerName: "Ink", penName: "Black", color: null });
+    expect(await queue.plots.movePen(id, false)).toMatchObject({ id, state: "paused" });
+    await queue.plots.movePen(id, true);
+    expect(run.asked).toEqual(["pen down", "pen up"]);
+    run.end({ kind: "cancelled" });
+    await settled();
+    await expect(queue.plots.movePen(id, false)).rejects.toThrow(/so it can't be given another pen now/);
+  });
+
   it("starts at the requested place, paused there until it is resumed", async () => {
     const from = { strokeIndex: 1, alongMm: 0 };
     const { id, place } = await add("fern", { from });

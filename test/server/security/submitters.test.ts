@@ -53,6 +53,8 @@ const ALLOWED = [
   "post /jobs",
   "get /jobs/:id",
   "get /jobs/:id/drawing",
+  "get /jobs/:id/pictures",
+  "get /jobs/:id/picture",
   "patch /jobs/:id",
   "post /jobs/:id/pause",
   "post /jobs/:id/cancel",

@@ -74,8 +74,24 @@ export class LedRun implements RunningPlot {
     return this.holdPlace;
   }
 
+  placeAfter({
+    strokes = 0,
+    mm = 0,
+  }: {
+    readonly strokes?: number | undefined;
+    readonly mm?: number | undefined;
+  }) {
+    const { stroke = 0, alongMm = 0 } = this.holdPlace ?? {};
+    return { stroke: stroke + strokes, alongMm: alongMm + mm, x: 10, y: 20 };
+  }
+
   checkHoldPlace(): Promise<void> {
     this.asked.push("check place");
+    return Promise.resolve();
+  }
+
+  movePenAtHold(up: boolean): Promise<void> {
+    this.asked.push(up ? "pen up" : "pen down");
     return Promise.resolve();
   }
 

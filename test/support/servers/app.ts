@@ -18,6 +18,7 @@ import { pairingLinks } from "../../../server/security/network.js";
 import type { FoundBoard } from "../../../server/serial/find-boards.js";
 import { Webhooks } from "../../../server/plugins/webhooks/webhooks.js";
 import { webhookOperations } from "../../../server/plugins/webhooks/plugin.js";
+import { cameraPlugin } from "../../../server/plugins/camera/plugin.js";
 import { WebhookStore } from "../../../server/plugins/webhooks/webhook-store.js";
 import type { Operation, ServerEvent } from "../../../src/schema/index.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
@@ -102,6 +103,8 @@ export async function startApp(
     log,
     pausesS: [0, 0, 0],
   });
+  const core = { store, plotters, log, dataDir: dir };
+  const camera = cameraPlugin(core);
   const uploads = new UploadedDrawings(files, log, options.keepUploadsMs);
   const queue = new JobQueue({
     store,
@@ -112,11 +115,23 @@ export async function startApp(
     announce,
     nowIso,
     log,
-    withChange: (before, after) => webhooks.note(before, after),
+    withChange: (before, after) => {
+      webhooks.note(before, after);
+      camera.jobs?.withChange?.(before, after);
+    },
+    onRemoved: camera.jobs?.onRemoved,
     afterChange: () => webhooks.wake(),
     onProgress: (job) => webhooks.progressed(job),
   });
   const notices = new Notices({ store, announce, nowIso });
+  const cameras = await camera.start({
+    ...core,
+    queue,
+    files,
+    uploads,
+    notices,
+    setLocalName: () => undefined,
+  });
   const operatorLock = new OperatorLock({
     store,
     log,
@@ -135,7 +150,7 @@ export async function startApp(
     hub,
     operatorLock,
     notices,
-    plugins: [{ webhooks: webhookOperations(webhooks, log) }],
+    plugins: [{ webhooks: webhookOperations(webhooks, log) }, cameras.operations ?? {}],
     pairing: () =>
       pairingLinks("http://192.168.1.4:9080", true, {
         operatePath: "/pair?a",
@@ -191,6 +206,7 @@ export async function startApp(
       await new Promise((resolve) => http.close(resolve));
       await queue.close();
       await webhooks.close();
+      await cameras.close();
       await uploads.close();
       operatorLock.close();
       store.close();

@@ -55,6 +55,7 @@ const sendOperation = async (fetchPath: Fetch, one: Operation, input: OperationI
     const { contentOf } = await import("../drawing-text.js");
     return contentOf(await response.arrayBuffer());
   }
+  if (one.answer === "picture") return response.arrayBuffer();
   if (one.answer === "text" || one.answer === "events") return response.text();
   return one.answer.parse(await response.json());
 };

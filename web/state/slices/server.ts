@@ -54,6 +54,8 @@ export interface ServerSlice {
   readonly nudgedJobId: string | null;
   /** The job with a lost position for which the user has said that the carriage is in its corner. */
   readonly cornerJobId: string | null;
+  /** Where a button would move the place of the paused job, mm; shown on the sheet while the button is pointed at. */
+  readonly placeMark: { readonly xMm: number; readonly yMm: number } | null;
   /** The name of the request that is running: its button is disabled meanwhile. */
   readonly busyAction: string | null;
   /** Small jobs besides the drawing, such as alignment marks. Watch does not open for them. */
@@ -82,6 +84,7 @@ export const SERVER_AT_FIRST = {
   wantedPen: null,
   nudgedJobId: null,
   cornerJobId: null,
+  placeMark: null,
   busyAction: null,
   utilityJobIds: [],
 } as const satisfies Partial<ServerSlice>;

@@ -243,6 +243,8 @@ describe("the hold point", () => {
     await world.advance(6);
     await world.run(run.pause());
     const { stroke } = run.holdPlace!;
+    const [x, y] = DRAWING.xy.subarray(2 * DRAWING.offsets[stroke]);
+    expect(run.placeAfter({ strokes: -1 })).toEqual({ stroke, alongMm: 0, x, y });
     expect(run.moveHoldPlace({ strokes: -1 })).toEqual({ stroke, alongMm: 0 });
     expect(run.moveHoldPlace({ strokes: 2 })).toEqual({ stroke: stroke + 2, alongMm: 0 });
     expect(run.moveHoldPlace({ strokes: -99 })).toEqual({ stroke: 0, alongMm: 0 });

@@ -201,6 +201,52 @@ describe("a plot with a change of pens", () => {
     expect(board.state()).toMatchObject({ steps1: 0, steps2: 0, penUp: true });
   });
 
+  it("lowers and lifts the pen for the new one, to the heights of the layer that comes next, without moving", async () => {
+    const pen = { ...SETTINGS.pen, upPct: 60, downPct: 30, layers: { ink: { downPct: 20 } } };
+    const { world, driver, board, run, nextHold, drawnRows } = await plotting({ ...SETTINGS, pen });
+    await world.run(nextHold());
+    const at = (): unknown => [driver.state.penUp, board.state().penUp, Math.round(board.state().penPct)];
+    await world.run(run.movePenAtHold(false));
+    expect(at()).toEqual([false, false, 20]);
+    await world.run(run.change({ pen: { ...pen, layers: { ink: { downPct: 25 } } } }));
+    expect(at()).toEqual([false, false, 25]);
+    await world.run(run.movePenAtHold(true));
+    expect(at()).toEqual([true, true, 60]);
+    expect(board.state()).toMatchObject({ steps1: 0, steps2: 0 });
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(drawnRows()).toEqual([10, 20, 30, 40, 50]);
+  });
+
+  it.each(["resume", "cancel", "leave"] as const)(
+    "lifts a pen that stands on the paper before anything moves: %s",
+    async (end) => {
+      const { world, board, run, nextHold, drawnRows } = await plotting();
+      await world.run(nextHold());
+      await world.run(run.checkHoldPlace());
+      const place = board.state();
+      // Both are asked at once: the move that was asked for first is finished first.
+      const lowered = run.movePenAtHold(false);
+      const ended = run[end]();
+      await world.run(lowered);
+      await world.run(ended);
+      if (end === "resume") await world.run(run.finished);
+      const rows = [10, 20, 30];
+      expect(drawnRows()).toEqual(end === "resume" ? [...rows, 40, 50] : rows);
+      expect(board.state().penUp).toBe(true);
+      const { steps1, steps2 } = end === "leave" ? place : { steps1: 0, steps2: 0 };
+      expect(board.state()).toMatchObject({ steps1, steps2 });
+    },
+  );
+
+  it("does not move the pen while it plots, or after the plot", async () => {
+    const { world, run } = await plotting();
+    await world.advance(1);
+    await expect(run.movePenAtHold(false)).rejects.toThrow("The plot is not held");
+    await world.run(run.cancel().catch(() => undefined));
+    await expect(run.movePenAtHold(false)).rejects.toThrow("The plot is not held");
+  });
+
   it("waits for the pen if it is paused on its way home to a stop, and is done if on the final way home", async () => {
     const { world, board, run, held, drawnRows } = await plotting();
     while (drawnRows().length < 3 || !board.state().penUp) await world.advance(0.1);

@@ -1,0 +1,164 @@
+/** A plot beside a camera: where a step back leads is marked before it is made, and the pictures are played at the end. */
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { cameraStateSchema, keptPicturesSchema, type Job } from "../../../src/schema/index.js";
+import { BLUE, fakeCamera, RED, still, type FakeCamera } from "../../support/camera/fake-camera.js";
+import { openPanel, plotBar, statusCard } from "../../support/browser/page-actions.js";
+import { PageTest } from "../../support/browser/page-test.js";
+
+const PATIENCE_MS = 120_000;
+const NAME = "rows";
+const SVG = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="80mm" viewBox="0 0 120 80" fill="none" stroke="#c00">${Array.from(
+  { length: 12 },
+  (_, i) => `<path d="M10 ${10 + 5 * i}h100"/>`,
+).join("")}</svg>`;
+
+let test: PageTest;
+let camera: FakeCamera;
+
+beforeAll(async () => {
+  camera = await fakeCamera({
+    "/snapshot.jpg": (response, request, count) => still(count < 3 ? RED : BLUE)(response, request, count),
+  });
+  test = await PageTest.firstVisit("filmed", {}, ["--virtual-speed", "2"]);
+}, PATIENCE_MS);
+
+afterAll(async () => {
+  await test.close();
+  await camera.close();
+});
+
+const theJob = async (): Promise<Job> => (await test.jobs()).find(({ name }) => name === NAME)!;
+const lapse = () => test.page.getByRole("region", { name: "Timelapse" });
+const kept = async (): Promise<number> => {
+  const { id } = await theJob();
+  const answer = await test.page.request.get(`${test.server.url}/api/v1/jobs/${id}/pictures`);
+  return keptPicturesSchema.parse(await answer.json()).pictures.length;
+};
+
+/** The middle of the mark on the sheet, CSS px; null: there is none. */
+const mark = (): Promise<readonly [x: number, y: number] | null> =>
+  test.page.evaluate(() => {
+    for (const canvas of document.querySelectorAll<HTMLCanvasElement>("[aria-label='Sheet'] canvas")) {
+      const context = canvas.getContext("2d");
+      if (!context || canvas.width === 0) continue;
+      const { data, width } = context.getImageData(0, 0, canvas.width, canvas.height);
+      let [count, sumX, sumY] = [0, 0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        if (data[i] !== 20 || data[i + 1] !== 80 || data[i + 2] !== 255) continue;
+        count++;
+        sumX += (i / 4) % width;
+        sumY += Math.floor(i / 4 / width);
+      }
+      if (count > 20) return [sumX / count, sumY / count] as const;
+    }
+    return null;
+  });
+
+describe("a plot beside a camera", () => {
+  it("has a camera that the sharing dialog sets and tries", async () => {
+    const { page } = test;
+    await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();
+    await page.getByRole("radio", { name: "Camera" }).check();
+    const address = page.getByLabel("Address that the server reads");
+    await address.fill(`${camera.url}/nothing`);
+    await page.getByRole("button", { name: "Keep pictures" }).click();
+    await page.getByText("The camera answers with HTTP 404.").waitFor();
+    await address.fill(`${camera.url}/snapshot.jpg`);
+    await page.getByLabel("A picture every").selectOption("2");
+    await page.getByRole("button", { name: "Keep pictures" }).click();
+    await page.getByText("The camera works.").waitFor();
+    const plotter = (await (await page.request.get(`${test.server.url}/api/v1/state`)).json()) as {
+      plotters: { id: string }[];
+    };
+    const path = `/api/v1/plotters/${plotter.plotters[0].id}/camera`;
+    const { camera: stored } = cameraStateSchema.parse(
+      await (await page.request.get(test.server.url + path)).json(),
+    );
+    expect(stored).toEqual({ url: `${camera.url}/snapshot.jpg`, everyS: 2 });
+    await page.keyboard.press("Escape");
+    await page.getByRole("dialog").waitFor({ state: "detached" });
+  });
+
+  it("marks where a step back leads while its button is pointed at or has the focus", async () => {
+    const { page } = test;
+    await test.drop(NAME, SVG);
+    await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
+    await expect.poll(async () => (await theJob()).progress).toBeGreaterThan(0.2);
+    await statusCard(page).getByRole("button", { name: "Pause" }).click();
+    await expect.poll(async () => (await theJob()).place?.alongMm ?? 0).toBeGreaterThanOrEqual(0);
+    await expect.poll(async () => (await theJob()).state).toBe("paused");
+    await openPanel(page, "Queue");
+    const button = (name: string) => page.getByRole("button", { name, exact: true });
+    // So that a step of 10 mm stays on its stroke.
+    for (let i = 0; i < 3; i++) await button("10 mm forward").click();
+    await expect
+      .poll(async () => {
+        if ((await theJob()).place!.alongMm <= 15) await button("10 mm forward").click();
+        return (await theJob()).place!.alongMm;
+      })
+      .toBeGreaterThan(15);
+    const { alongMm } = (await theJob()).place!;
+    const pointAt = async (name: string): Promise<readonly [number, number]> => {
+      await page.mouse.move(5, 5);
+      await button(name).blur();
+      await expect.poll(mark).toBeNull();
+      await button(name).hover();
+      await expect.poll(mark).not.toBeNull();
+      return (await mark())!;
+    };
+    const here = await pointAt("Go there with the pen up");
+    const near = await pointAt("10 mm back");
+    const begin = await pointAt("One stroke back");
+    const away = (at: readonly [number, number]): number => Math.hypot(at[0] - here[0], at[1] - here[1]);
+    expect(away(begin) / away(near)).toBeCloseTo(alongMm / 10, 1);
+    // Nothing has moved.
+    expect((await theJob()).place!.alongMm).toBe(alongMm);
+    await page.mouse.move(5, 5);
+    await expect.poll(mark).toBeNull();
+    await button("One stroke back").focus();
+    await expect.poll(mark).not.toBeNull();
+    await page.keyboard.press("Enter");
+    await expect.poll(async () => (await theJob()).place!.alongMm).toBe(0);
+    await button("One stroke back").blur();
+    await expect.poll(mark).toBeNull();
+  });
+
+  it(
+    "shows no timelapse before it is done, and then plays the pictures from the first to the last",
+    async () => {
+      const { page } = test;
+      expect(await lapse().count()).toBe(0);
+      await statusCard(page).getByRole("button", { name: "Resume" }).click();
+      await expect.poll(async () => (await theJob()).state, { timeout: PATIENCE_MS }).toBe("done");
+      await lapse().getByRole("img").waitFor();
+      await expect.poll(kept).toBeGreaterThan(2);
+      const size = await lapse()
+        .getByRole("img")
+        .evaluate(async (image: HTMLImageElement) => {
+          await image.decode();
+          return [image.naturalWidth, image.naturalHeight];
+        });
+      expect(size).toEqual([16, 12]);
+      const number = async (): Promise<number> =>
+        Number(/Picture (\d+) of/.exec((await lapse().getByRole("img").getAttribute("alt")) ?? "")?.[1]);
+      await lapse().getByRole("slider", { name: "Moment of the timelapse" }).fill("0");
+      await expect.poll(number).toBe(1);
+      await lapse().getByRole("button", { name: "Play the timelapse" }).click();
+      await expect.poll(number).toBeGreaterThan(2);
+      await lapse().getByRole("button", { name: "Play the timelapse" }).waitFor();
+    },
+    2 * PATIENCE_MS,
+  );
+
+  it("is forgotten with its job", async () => {
+    const { id } = await theJob();
+    const api = `${test.server.url}/api/v1/jobs/${id}`;
+    expect((await test.page.request.delete(api)).ok()).toBe(true);
+    expect((await test.page.request.get(`${api}/pictures`)).status()).toBe(404);
+    await expect.poll(() => lapse().count()).toBe(0);
+  });
+
+  it("logs no error in the browser's console", () => {
+    expect(test.complaints).toEqual([]);
+  });
+});
