@@ -174,12 +174,15 @@ const shadeBeyond = (context: CanvasRenderingContext2D, view: View, paper: Size,
 };
 
 const HOME_PX = 9;
+/** On a small picture of the sheet. */
+const HOME_MM = 10;
 /** From the corner to the word. */
 const HOME_GAP_PX = 5;
 
 /** Marks the paper's corner at home, with the word where the desk is turned. */
 const drawHome = (context: CanvasRenderingContext2D, view: View, colors: DeskColors): void => {
   const [cos, sin] = turnOf(view);
+  const legPx = Math.min(HOME_PX, HOME_MM * view.scale);
   // Along the paper's edges from its corner.
   const at = (along: number, down: number): Px => [
     view.offsetX + cos * along - sin * down,
@@ -188,8 +191,8 @@ const drawHome = (context: CanvasRenderingContext2D, view: View, colors: DeskCol
   context.fillStyle = colors["ruler-text"];
   context.beginPath();
   context.moveTo(...at(0, 0));
-  context.lineTo(...at(HOME_PX, 0));
-  context.lineTo(...at(0, HOME_PX));
+  context.lineTo(...at(legPx, 0));
+  context.lineTo(...at(0, legPx));
   context.fill();
   const { turn = 0, offsetX, offsetY } = view;
   if (turn === 0) return;

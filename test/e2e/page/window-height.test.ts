@@ -143,3 +143,49 @@ describe.each(SIZES)("a window of $width × $height", (size) => {
     expect(plot.y + plot.height).toBeLessThanOrEqual(size.height);
   });
 });
+
+describe("the names of plotters", () => {
+  const NAMES = ["Large plotter by the window", "The small one on the shelf"];
+
+  /** Selects whose chosen text has less room than it needs. */
+  const cut = (): Promise<string[]> =>
+    test.page.evaluate(() => {
+      const context = new OffscreenCanvas(1, 1).getContext("2d")!;
+      return Array.from(document.querySelectorAll("select"))
+        .filter((select) => select.checkVisibility())
+        .flatMap((select) => {
+          const style = getComputedStyle(select);
+          context.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
+          const text = select.selectedOptions[0]?.text ?? "";
+          const roomPx = select.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight);
+          return context.measureText(text).width > roomPx + 0.5 ? [text] : [];
+        });
+    });
+
+  it.each([...SIZES, { width: 390, height: 844 }])(
+    "are whole in header and queue of a window of $width × $height, and nothing is wider than it",
+    async (size) => {
+      const { page } = test;
+      const to = `${test.server.url}/api/v1/plotters`;
+      const headers = { "content-type": "application/json" };
+      if ((await page.getByRole("combobox", { name: "Send to" }).count()) === 0) {
+        await fetch(`${to}/main`, { method: "PATCH", headers, body: JSON.stringify({ name: NAMES[0] }) });
+        const body = JSON.stringify({ name: NAMES[1], device: "virtual" });
+        await fetch(to, { method: "POST", headers, body });
+        await plotBar(page).getByRole("button", { name: "Add to queue" }).click();
+      }
+      await page.setViewportSize(size);
+      const header = page.getByRole("combobox", { name: "Send to" });
+      await header.waitFor();
+      expect(await header.locator("option:checked").innerText()).toBe(NAMES[0]);
+      await test.panel("Queue");
+      await queuePanel(page)
+        .getByRole("combobox", { name: /^Plotter for / })
+        .waitFor();
+      expect(await cut()).toEqual([]);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(size.width);
+      const help = (await page.getByRole("button", { name: "Keyboard shortcuts" }).boundingBox())!;
+      expect(help.x + help.width).toBeLessThanOrEqual(size.width);
+    },
+  );
+});
