@@ -17,12 +17,21 @@ export { printable, printableJson } from "./plain-text.js";
 // drawing
 export { hasFill, type DrawingWarning } from "./drawing/drawing.js";
 export { settingsIdOf, strokeCount, pointCount, type StrokeLayer } from "./drawing/stroke-set.js";
-export { compose, inverse, meanScale, scaling, type Affine } from "./geometry/affine.js";
+export {
+  compose,
+  inverse,
+  mapAround,
+  meanScale,
+  rotation,
+  scaling,
+  translation,
+  type Affine,
+} from "./geometry/affine.js";
 export { firstWhere } from "./geometry/binary-search.js";
 export { ColumnBuffer, PointBuffer } from "./geometry/growable.js";
 export { nearestShare } from "./geometry/polyline.js";
 export type { PaperName, PaperSize } from "./drawing/paper.js";
-export { combine, type SheetSource } from "./drawing/combine.js";
+export { combine, type SheetItem, type SheetSource } from "./drawing/combine.js";
 export { listColor, rampColor } from "./drawing/color-ramp.js";
 export { otherPapers, PX_NOTE, withPxPerInch, type PaperInPx } from "./drawing/px-size.js";
 
@@ -93,7 +102,7 @@ export { SPRINGS_TABLE } from "./settings/machine.js";
 export { STREAM_TABLE } from "./settings/machine.js";
 
 // prepare
-export { boxOfPoints, isEmptyBox, mapBox, uniteBoxes, type Box } from "./geometry/box.js";
+export { boxOfPoints, isEmptyBox, uniteBoxes, type Box } from "./geometry/box.js";
 export { isReached, unreachedCount } from "./prepare/on-paper.js";
 export {
   canBePaper,

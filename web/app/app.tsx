@@ -51,9 +51,13 @@ const Camera = lazyPart(async () => (await import("../sharing/camera.js")).Camer
 const PLOT = [".plot-buttons .button-primary:enabled", "#plot-bar"];
 const WATCH = [".status-actions button:enabled", "#plot-status"];
 
+const FIRST_DROP_HINT = [drawingText.dropHere];
+const DROP_HINTS = [drawingText.dropReplace, drawingText.dropAdd];
+
 /** Arranges the page: the sheet, the rail with one open panel beside it, and the bar with Plot under it. */
 export const App = () => {
-  const { openFile, openPasted, showPanel } = useActions();
+  const { openDropped, openPasted, showPanel } = useActions();
+  const hasDrawing = usePageState((state) => state.drawing !== null);
   const isEmpty = usePageState(
     (state) => state.drawing === null && !state.isStarting && state.link !== "connecting",
   );
@@ -65,7 +69,7 @@ export const App = () => {
   const hasCamera = usePageState((state) => state.view.cameraUrl !== "");
   if (isUnpaired) return <Pairing />;
   return (
-    <DropZone hint={drawingText.dropHere} onFile={openFile} onText={openPasted}>
+    <DropZone hints={hasDrawing ? DROP_HINTS : FIRST_DROP_HINT} onFiles={openDropped} onText={openPasted}>
       <div className="app" data-view={view} data-full={isFull || undefined}>
         <SkipLink isWatching={isWatching} />
         <TopBar />

@@ -155,7 +155,7 @@ async function restoreSession(
   opening: Opening,
 ): Promise<void> {
   const kept = await readKeptDrawing(drawings);
-  if (kept && store.getState().drawing === null) actions.restoreDrawing(kept);
+  if (kept && store.getState().drawing === null) await actions.restoreDrawing(kept);
   opening.seen(store.getState().drawing?.key);
   store.setState({ isStarting: false });
   await connected(store);

@@ -14,11 +14,15 @@ import { SettingsGroup } from "../ui/fields/settings-group.js";
 import { Panel } from "../ui/panel.js";
 import { lazyPart } from "../ui/lazy-part.js";
 
+const SheetPart = lazyPart(async () => (await import("./sheet/sheet-part.js")).SheetPart);
+
 export const DrawingPanel = () => {
   const drawing = usePageState((state) => state.drawing);
   const planned = usePageState((state) => state.planned);
   const unit = usePageState((state) => state.view.lengthUnit);
-  const size = planned && words.size(formatSize(planned.pageWidthMm, planned.pageHeightMm, unit));
+  const hasSheet = Boolean(drawing?.sheet);
+  const size =
+    planned && !hasSheet && words.size(formatSize(planned.pageWidthMm, planned.pageHeightMm, unit));
   return (
     <Panel id="drawing" title={words.title} help={words.chooseHint}>
       {drawing && (
@@ -30,7 +34,9 @@ export const DrawingPanel = () => {
       <div className="choose-row">
         <ChooseDrawing label={words.choose} />
         <Samples />
+        {drawing && <AddDrawings />}
       </div>
+      {drawing && <SheetPart />}
       <FillChoice />
       <Report />
       <ExportPanel />
@@ -42,7 +48,20 @@ const ACCEPTED = ["image/svg+xml", ...DRAWING_EXTENSIONS.map((extension) => `.${
 
 export const ChooseDrawing = ({ label }: { label: string }) => {
   const { openFile } = useActions();
-  return <ChooseFile label={label} accept={ACCEPTED} icon="file" onFile={(file) => void openFile(file)} />;
+  return <ChooseFile label={label} accept={ACCEPTED} icon="file" onFiles={([file]) => void openFile(file)} />;
+};
+
+const AddDrawings = () => {
+  const { addFiles } = useActions();
+  return (
+    <ChooseFile
+      label={words.add}
+      accept={ACCEPTED}
+      icon="plus"
+      isMultiple
+      onFiles={(files) => void addFiles(files)}
+    />
+  );
 };
 
 const Samples = () => {

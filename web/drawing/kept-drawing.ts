@@ -1,7 +1,9 @@
 /** The last drawing, stored in the browser. In IndexedDB, which has room for large ones. */
 import { openDB, type IDBPDatabase } from "idb";
 import { z } from "zod";
-import type { PageStore } from "../state/store.js";
+import type { DrawingText } from "../backend/drawing-text.js";
+import { textOfDrawing } from "../state/sheet-actions.js";
+import type { OpenDrawing, PageStore } from "../state/store.js";
 
 const keptDrawingSchema = z.object({
   name: z.string(),
@@ -28,20 +30,31 @@ export const readKeptDrawing = async (storage: DrawingStorage): Promise<KeptDraw
  * called the first time that a drawing can't be stored.
  */
 export const keepDrawing = (store: PageStore, storage: DrawingStorage, onFault: () => void): void => {
-  let kept = "";
+  let kept: readonly unknown[] = [];
   let isFaultKnown = false;
-  store.subscribe(({ drawing, planned }) => {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const failed = (): void => {
+    if (!isFaultKnown) onFault();
+    isFaultKnown = true;
+  };
+  const write = ({ name, jobId, sourceId }: OpenDrawing, text: DrawingText): void =>
+    void storage.write({ name, text, jobId, sourceId }).catch(failed);
+  store.subscribe(({ drawing, planned, settings }) => {
     if (!drawing || planned?.drawingKey !== drawing.key) return;
-    const { key, name, text, jobId, sourceId } = drawing;
-    const now = JSON.stringify([key, jobId, sourceId]);
-    if (now === kept) return;
+    const now = [drawing.key, drawing.sheet, drawing.jobId, drawing.sourceId];
+    if (now.every((value, index) => value === kept[index])) return;
     kept = now;
-    storage.write({ name, text, jobId, sourceId }).catch(() => {
-      if (!isFaultKnown) onFault();
-      isFaultKnown = true;
-    });
+    clearTimeout(timer);
+    if (drawing.sheet === null) return write(drawing, drawing.text);
+    // While a drawing of a sheet is dragged, the sheet changes many times a second.
+    timer = setTimeout(
+      () => void textOfDrawing(drawing, settings).then((text) => write(drawing, text), failed),
+      SHEET_RESTS_MS,
+    );
   });
 };
+
+const SHEET_RESTS_MS = 400;
 
 const DATABASE = "plotwright";
 const TABLE = "page";

@@ -38,11 +38,12 @@ export const OutOfReach = () => {
   const planned = usePageState((state) => state.planned);
   const machine = usePageState((state) => findMachine(state.settings));
   const unit = usePageState((state) => state.view.lengthUnit);
+  const isSheet = usePageState(({ drawing }) => Boolean(drawing?.sheet));
   const { changeSettings } = useActions();
   if (!planned || !machine) return null;
   const { drawnBox, frameMm, unreachedCount } = planned;
   const doesTurnHelp =
-    frameMm !== null && isReached(quarterTurnedBox(drawnBox, turningHeightMm(planned)), machine);
+    !isSheet && frameMm !== null && isReached(quarterTurnedBox(drawnBox, turningHeightMm(planned)), machine);
   const reach = formatSize(machine.widthMm, machine.heightMm, unit);
   return (
     <div className="out-of-reach">

@@ -2,7 +2,7 @@ import type { OutsidePaper as Outside } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { wholeTurn } from "../scene/placing.js";
 import type { PageState } from "../state/store.js";
-import { usePageState } from "../state/use-store.js";
+import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import { formatCount, formatInUnit } from "../ui/format.js";
@@ -21,7 +21,9 @@ export const OutsidePaper = () => {
   const planned = usePageState((state) => state.planned);
   const isUnanswered = usePageState(isOutsideUnanswered);
   const unit = usePageState((state) => state.view.lengthUnit);
+  const isSheet = usePageState(({ drawing }) => Boolean(drawing?.sheet));
   const change = usePrepareChange();
+  const { moveOntoPaper, fitSheet } = useActions();
   if (!planned?.outside) return null;
   const { outside, turnOntoPaper } = planned;
   const edges = EDGES.filter((edge) => outside[edge] > 0).map((edge) =>
@@ -40,10 +42,17 @@ export const OutsidePaper = () => {
         <Button title={words.cutHint} onClick={() => change("outside", { outside: "cut" })}>
           {words.cut}
         </Button>
-        {outside.canMove && (
-          <Button onClick={() => change("outside", movedOnto(planned, outside))}>{words.move}</Button>
+        {(isSheet || outside.canMove) && (
+          <Button
+            onClick={() => (isSheet ? void moveOntoPaper() : change("outside", movedOnto(planned, outside)))}
+          >
+            {words.move}
+          </Button>
         )}
-        <Button title={words.fitHint} onClick={() => change("outside", fittedTo(planned))}>
+        <Button
+          title={words.fitHint}
+          onClick={() => (isSheet ? void fitSheet() : change("outside", fittedTo(planned)))}
+        >
           {words.fit}
         </Button>
         <Button kind="link" onClick={() => change("outside", { outside: "allow" })}>

@@ -30,6 +30,8 @@ const FITS = {
   true: { fit: false },
 } as const;
 const CUSTOM = "custom";
+/** What lies outside the paper is not moved by a setting, where each drawing has its place. */
+const ON_SHEET = ["refuse", "cut", "allow"] as const;
 
 const nameOfPaper = ({ widthMm, heightMm }: PrepareSettings["paper"]): PaperName | typeof CUSTOM =>
   PAPER_NAMES.find(
@@ -44,6 +46,8 @@ export const paperLabel = (name: PaperName): string => name.replace("in", " in")
 
 export const PaperPanel = () => {
   const prepare = usePageState((state) => state.settings.prepare);
+  /** Each drawing has its place. */
+  const isSheet = usePageState(({ drawing }) => Boolean(drawing?.sheet));
   const lengthUnit = usePageState((state) => state.view.lengthUnit);
   const change = usePrepareChange();
   const { changeView } = useActions();
@@ -102,39 +106,45 @@ export const PaperPanel = () => {
           onChange={(value) => change("margin", { marginMm: value })}
         />
       )}
-      <Segments
-        label={words.placement}
-        value={prepare.layout ? "box" : FIT_NAMES[`${prepare.fit}`]}
-        hint={words.autoHint}
-        options={[
-          { value: "auto", label: words.auto },
-          { value: "fit", label: words.fit },
-          { value: "true", label: words.trueSize },
-          { value: "box", label: words.byNumbers },
-        ]}
-        onChange={(value) =>
-          change("fit", value === "box" ? { layout: firstLayout } : { ...FITS[value], layout: null })
-        }
-      />
-      {prepare.layout && <LayoutFields layout={prepare.layout} />}
-      <Resolution prepare={prepare} />
-      <div className="field-with-button">
-        <SettingField
-          setting={PREPARE_TABLE.rotateDeg}
-          value={angleDeg}
-          onChange={(value) => turnTo("rotate", value)}
-        />
-        <IconButton
-          kind="icon"
-          icon="again"
-          label={words.rotateQuarter}
-          onClick={() => turnTo("quarter", angleDeg + 90)}
-        />
-      </div>
-      {prepare.rotateDeg !== "auto" && !prepare.layout && prepare.fit !== true && (
-        <Button kind="link" onClick={() => change("rotate", { rotateDeg: "auto" })}>
-          {words.autoTurn}
-        </Button>
+      {isSheet ? (
+        <p className="note">{words.onSheet}</p>
+      ) : (
+        <>
+          <Segments
+            label={words.placement}
+            value={prepare.layout ? "box" : FIT_NAMES[`${prepare.fit}`]}
+            hint={words.autoHint}
+            options={[
+              { value: "auto", label: words.auto },
+              { value: "fit", label: words.fit },
+              { value: "true", label: words.trueSize },
+              { value: "box", label: words.byNumbers },
+            ]}
+            onChange={(value) =>
+              change("fit", value === "box" ? { layout: firstLayout } : { ...FITS[value], layout: null })
+            }
+          />
+          {prepare.layout && <LayoutFields layout={prepare.layout} />}
+          <Resolution prepare={prepare} />
+          <div className="field-with-button">
+            <SettingField
+              setting={PREPARE_TABLE.rotateDeg}
+              value={angleDeg}
+              onChange={(value) => turnTo("rotate", value)}
+            />
+            <IconButton
+              kind="icon"
+              icon="again"
+              label={words.rotateQuarter}
+              onClick={() => turnTo("quarter", angleDeg + 90)}
+            />
+          </div>
+          {prepare.rotateDeg !== "auto" && !prepare.layout && prepare.fit !== true && (
+            <Button kind="link" onClick={() => change("rotate", { rotateDeg: "auto" })}>
+              {words.autoTurn}
+            </Button>
+          )}
+        </>
       )}
       <Segments
         label={words.unit}
@@ -145,23 +155,30 @@ export const PaperPanel = () => {
       />
       <SettingsGroup id="paper-more" isPart title={words.more}>
         <Margins prepare={prepare} />
-        <Segments
-          label={PREPARE_TABLE.mirror.label}
-          value={prepare.mirror}
-          options={PREPARE_TABLE.mirror.choices.map((value) => ({ value, label: words.mirrors[value] }))}
-          onChange={(mirror) => change("mirror", { mirror })}
-        />
+        {!isSheet && (
+          <Segments
+            label={PREPARE_TABLE.mirror.label}
+            value={prepare.mirror}
+            options={PREPARE_TABLE.mirror.choices.map((value) => ({ value, label: words.mirrors[value] }))}
+            onChange={(mirror) => change("mirror", { mirror })}
+          />
+        )}
         <Select
           label={PREPARE_TABLE.outside.label}
           value={prepare.outside}
-          options={PREPARE_TABLE.outside.choices.map((value) => ({ value, label: words.outside[value] }))}
+          options={(isSheet ? ON_SHEET : PREPARE_TABLE.outside.choices).map((value) => ({
+            value,
+            label: words.outside[value],
+          }))}
           onChange={(outside) => change("outside", { outside })}
         />
-        <Switch
-          label={PREPARE_TABLE.cropToPage.label}
-          isOn={prepare.cropToPage}
-          onChange={(cropToPage) => change("crop", { cropToPage })}
-        />
+        {!isSheet && (
+          <Switch
+            label={PREPARE_TABLE.cropToPage.label}
+            isOn={prepare.cropToPage}
+            onChange={(cropToPage) => change("crop", { cropToPage })}
+          />
+        )}
         <Switch
           label={PREPARE_TABLE.clipToMargins.label}
           isOn={prepare.clipToMargins}

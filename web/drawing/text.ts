@@ -2,10 +2,13 @@
 export const drawingText = {
   title: "Drawing",
   choose: "Choose a drawing",
+  add: "Add to the sheet",
   chooseHint: "SVG, DXF, HPGL or JSON. Drop it anywhere, paste it, or choose a file.",
   sample: "Samples",
   sampleHint: "Try a sample",
   dropHere: "Drop the drawing to open it",
+  dropReplace: "Drop here to replace the drawing",
+  dropAdd: "Drop here to add it to the sheet",
   size: (size: string) => `${size} in the file`,
 };
 
@@ -65,6 +68,7 @@ export const paperText = {
   portrait: "Portrait",
   landscape: "Landscape",
   placement: "Size of the drawing",
+  onSheet: "The sheet has several drawings: the panel Drawing places each of them.",
   auto: "Auto",
   autoHint: "True size if the page of the file fits the paper, otherwise fitted to it.",
   outside: {

@@ -23,9 +23,9 @@ import { addCrispLine, DESK_FONT } from "./backdrop.js";
 import { mmFromPx, mmFromScreen, screenBox, screenPoint, type View } from "../scene/view.js";
 
 const HANDLE_PX = 10;
-const REACH_PX = 20;
-const KNOB_PX = 30;
-const SNAP_PX = 7;
+export const REACH_PX = 20;
+export const KNOB_PX = 30;
+export const SNAP_PX = 7;
 const BELOW_LABEL_PX = 88;
 
 /** The drawing's frame by the current settings, which may be newer than the plan. Null: not placed by hand. */
@@ -113,7 +113,7 @@ const SNAP_COLOR = "#d2452c";
 const NOTE_COLOR = "#b86e00";
 const NOTE_PAD_PX = 5;
 
-const paintFrame = (
+export const paintFrame = (
   context: CanvasRenderingContext2D,
   view: View,
   frame: FrameMm,
@@ -170,7 +170,11 @@ const paintSize = (context: CanvasRenderingContext2D, view: View, frame: FrameMm
   context.fillText(label, x, y + 15);
 };
 
-const paintSnapLines = (context: CanvasRenderingContext2D, view: View, { xs, ys }: SnapLines): void => {
+export const paintSnapLines = (
+  context: CanvasRenderingContext2D,
+  view: View,
+  { xs, ys }: SnapLines,
+): void => {
   const { width, height } = context.canvas;
   // Longer than the canvas from anywhere on it.
   const [farX, farY] = mmFromPx({ ...view, turn: 0 }, width + height, width + height);

@@ -17,8 +17,8 @@ export interface GestureTarget {
   grab(at: Point): Drag | null;
   /** An arrow key moves a drawing placed by hand, mm on the screen. False: there is none, and the key pans. */
   nudge(rightMm: number, downMm: number): boolean;
-  /** A press without a drag. */
-  tap(at: Point): void;
+  /** A press without a drag; `isMore`: with Shift, Ctrl or Command held. */
+  tap(at: Point, isMore: boolean): void;
 }
 
 export interface Drag {
@@ -77,7 +77,9 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   };
 
   const onUp = (event: PointerEvent): void => {
-    if (pointers.size === 1 && travelled <= TAP_PX && event.type === "pointerup") target.tap(placeOf(event));
+    if (pointers.size === 1 && travelled <= TAP_PX && event.type === "pointerup") {
+      target.tap(placeOf(event), event.shiftKey || event.ctrlKey || event.metaKey);
+    }
     pointers.delete(event.pointerId);
     letGo();
   };

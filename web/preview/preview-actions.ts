@@ -39,7 +39,10 @@ export const PLACE: PageAction = {
   words: "move, drag, scale, resize, position",
   isForDrawing: true,
   isOffered: isForSubmitter,
-  whyOff: ({ planned }) => (planned?.frameMm ? null : previewText.needsDrawing),
+  whyOff: ({ planned, drawing }) => {
+    if (drawing?.sheet) return previewText.placesEach;
+    return planned?.frameMm ? null : previewText.needsDrawing;
+  },
   perform: ({ store, actions }) => {
     const { planned, settings } = store.getState();
     const frame = planned?.frameMm ?? null;
@@ -56,6 +59,7 @@ export const START_HERE: PageAction = {
   isForDrawing: true,
   isOffered: isForSubmitter,
   whyOff: (state) => {
+    if (state.drawing?.sheet) return previewText.placesEach;
     if (!state.planned?.frameMm) return previewText.needsDrawing;
     const plotter = state.link === "connected" ? currentPlotter(state) : null;
     return plotter && plotter.xMm !== null && plotter.yMm !== null ? null : previewText.needsPosition;
@@ -73,6 +77,31 @@ export const START_HERE: PageAction = {
     });
     actions.changeSettings("start here", (now) => ({ ...now, prepare: { ...now.prepare, layout } }));
   },
+};
+
+const needsPiece: PageAction["whyOff"] = ({ drawing, selectedPieces }) =>
+  drawing?.sheet?.pieces.some(({ id }) => selectedPieces.includes(id)) ? null : previewText.needsPiece;
+
+const DUPLICATE: PageAction = {
+  id: "duplicate-piece",
+  label: previewText.duplicatePiece,
+  words: "copy, n-up, repeat",
+  key: "D",
+  isForDrawing: true,
+  isOffered: isForSubmitter,
+  whyOff: needsPiece,
+  perform: ({ actions }) => void actions.duplicatePieces(),
+};
+
+const REMOVE: PageAction = {
+  id: "remove-piece",
+  label: previewText.removePiece,
+  words: "delete, erase",
+  key: "Delete",
+  isForDrawing: true,
+  isOffered: isForSubmitter,
+  whyOff: needsPiece,
+  perform: ({ actions }) => void actions.removePieces(),
 };
 
 const TURN_PAPER: PageAction = {
@@ -102,6 +131,8 @@ export const PREVIEW_ACTIONS: readonly PageAction[] = [
   GRAPH,
   PLACE,
   START_HERE,
+  DUPLICATE,
+  REMOVE,
   TURN_PAPER,
   TURN_DESK,
 ];

@@ -44,18 +44,35 @@ export const Preview = () => (
   </Sheet>
 );
 
+/** Selects and moves the drawings of a sheet. Null until there was one. */
+let sheetHand: typeof import("./sheet-hand.js") | null = null;
+
+/** The hand for a sheet, if there is one now. */
+const handOf = (store: PageStore): typeof sheetHand => (store.getState().drawing?.sheet ? sheetHand : null);
+
 const showState = (stage: Stage, store: PageStore): (() => void) => {
   const glide = new PenGlide();
+  let isClosed = false;
+  let isLoading = false;
+  const loadSheetHand = async (): Promise<void> => {
+    isLoading = true;
+    // If it can't be loaded now, the next change tries again.
+    sheetHand = await import("./sheet-hand.js").catch(() => null);
+    isLoading = false;
+    if (sheetHand && !isClosed) show(store.getState(), null);
+  };
   const show = (state: PageState, before: PageState | null): void => {
     const hasChanged = (...parts: readonly (keyof PageState)[]): boolean =>
       before === null || parts.some((part) => state[part] !== before[part]);
     const picture = viewModeOf(state).picture?.(state);
     if (picture) stage.setScene(picture, null);
     else stage.setScene(state.planned?.scene ?? null, state.planned?.picture ?? null);
-    // Another file is seen whole. One that was edited and opened again keeps the view.
-    if (before && state.drawing?.name !== before.drawing?.name) stage.fit();
+    // Another file is seen whole. One that was edited and opened again, or added to the sheet, keeps the view.
+    const isOther = state.drawing?.key !== before?.drawing?.key;
+    if (before && isOther && state.drawing?.name !== before.drawing?.name) stage.fit();
     followPen(glide, state, before, performance.now());
     stage.setPen(penOf(state, glide));
+    if (state.drawing?.sheet && !sheetHand && !isLoading) void loadSheetHand();
     if (hasChanged("settings", "view")) stage.setDesk(deskOfState(state));
     if (
       hasChanged("view", "planned", "live", "jobs", "momentS", "swing", "drawing") ||
@@ -66,24 +83,30 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     }
     if (state.view.theme !== before?.view.theme) stage.recolor();
     if (
-      hasChanged("planned", "settings", "selected", "noteBoxes", "snapLines") ||
+      hasChanged("planned", "settings", "selected", "noteBoxes", "snapLines", "drawing", "selectedPieces") ||
       state.view.lengthUnit !== before?.view.lengthUnit
     ) {
       const frame = frameNow(state);
       const { cutOff, besidePaper } = state.planned ?? { cutOff: null, besidePaper: null };
       const selection = selectionPainter(state);
       const rest = painterOf(state);
+      const pieces = state.drawing?.sheet ? sheetHand?.piecesPainter(state) : null;
       const paint = (context: CanvasRenderingContext2D, view: View): void => {
         if (cutOff) paintCutOff(context, view, cutOff);
         if (besidePaper) paintBesidePaper(context, view, besidePaper);
         selection?.(context, view);
         rest?.(context, view);
+        pieces?.(context, view);
       };
       stage.setPainter(paint, frame && boxAround(frame));
     }
   };
   show(store.getState(), null);
-  return store.subscribe(show);
+  const stop = store.subscribe(show);
+  return () => {
+    isClosed = true;
+    stop();
+  };
 };
 
 const hoverUnder = (stage: Stage, planned: Planned, { x, y }: Point): Hover | null => {
@@ -133,15 +156,20 @@ const PREPARED: SheetKind = {
   belowPx: BELOW_PX,
   show: showState,
   hand: (stage, store, actions) => ({
-    grab: (at) => grabFrame(stage, store, actions, at),
+    grab: (at) => (handOf(store)?.grabPiece ?? grabFrame)(stage, store, actions, at),
     nudge: (rightMm, downMm) =>
-      nudgeFrame(store, actions, ...mmFromPx({ ...stage.view, scale: 1 }, rightMm, downMm)),
+      (handOf(store)?.nudgePieces ?? nudgeFrame)(
+        store,
+        actions,
+        ...mmFromPx({ ...stage.view, scale: 1 }, rightMm, downMm),
+      ),
     hover: (at) => {
       const { planned, hover } = store.getState();
       const found = at && planned ? hoverUnder(stage, planned, at) : null;
       if (found !== hover) store.setState({ hover: found });
     },
-    tap: (at) => {
+    tap: (at, isMore) => {
+      if (handOf(store)?.tapPiece(stage, store, at, isMore)) return;
       const { planned } = store.getState();
       const hover = planned && hoverUnder(stage, planned, at);
       store.setState({ hover: null, selected: planned && hover ? { of: planned, hover } : null });

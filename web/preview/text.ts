@@ -25,10 +25,14 @@ export const previewText = {
   startHere: "Start here",
   startHereHint:
     "Moves the drawing so that the upper left corner of its box is where the carriage is now. Undo moves it back.",
+  placesEach: "The sheet has several drawings: press one to place it.",
+  needsPiece: "No drawing of the sheet is selected.",
+  duplicatePiece: "Duplicate the selected drawing",
+  removePiece: "Remove the selected drawing",
   needsPosition: "The position of the carriage is not known: press Home first.",
   colorBy: "Colour by",
   moreEntries: (count: number) => `and ${count} more`,
-  hint: "Arrow keys move the paper, or a drawing placed by hand; plus and minus zoom, 0 shows the whole paper.",
+  hint: "Arrow keys move the paper, a drawing placed by hand, or the selected drawings; plus and minus zoom, 0 shows the whole paper.",
 };
 
 export const hoverText = {

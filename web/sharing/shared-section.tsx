@@ -10,6 +10,7 @@ import {
 } from "../../src/schema/index.js";
 import { BackendFault, type Backend } from "../backend/backend.js";
 import { profileOf } from "../state/plotter-sync.js";
+import { textOfDrawing } from "../state/sheet-actions.js";
 import { useActions, useBackend, usePageState } from "../state/use-store.js";
 import { sharingText as words } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -142,7 +143,7 @@ const ShareForm = ({ onSent }: { onSent(): void }) => {
   const named = plotters.find(({ id }) => id === to);
   const target: SharedTarget = named ? { plotter: named.name } : { machine: settings.machine };
   const send = async (): Promise<void> => {
-    const uploaded = await sharing.drawings.upload(drawing.text);
+    const uploaded = await sharing.drawings.upload(await textOfDrawing(drawing, settings));
     const job = { name: drawing.name, settings: withoutPlotterPart(settings), target };
     if (!uploaded || !(await sharing.sharedJobs.add({ ...job, drawingId: uploaded.id }))) return;
     actions.notify("info", words.shareSent(drawing.name));

@@ -12,6 +12,7 @@ import type { Planner } from "../worker/planner.js";
 import { createDocumentActions } from "./document-actions.js";
 import { createPlanActions } from "./plan-actions.js";
 import { createPlayerActions } from "./player-actions.js";
+import { createSheetActions } from "./sheet-actions.js";
 import { createServerActions } from "./server-actions.js";
 import { createAsOperator } from "./take-over.js";
 import { createPlotterSync, withMachine } from "./plotter-sync.js";
@@ -24,7 +25,7 @@ export type Actions = ReturnType<typeof createActions>;
 interface ActionDeps {
   readonly store: PageStore;
   readonly backend: Backend;
-  readonly planner: Pick<Planner, "request" | "export" | "strokes" | "sketches">;
+  readonly planner: Pick<Planner, "request" | "export" | "strokes" | "sketches" | "measure">;
   nowMs(): number;
   after(delayMs: number, callback: () => void): void;
 }
@@ -61,6 +62,10 @@ export const createActions = (deps: ActionDeps) => {
     store,
     nowMs: () => deps.nowMs(),
     setSettings,
+    setDocument: ({ settings, drawing }) => {
+      store.setState({ settings, drawing: drawing && { ...drawing, jobId: null } });
+      plan.replan();
+    },
     changed: (before) => sync.changed(before),
   });
 
@@ -87,19 +92,32 @@ export const createActions = (deps: ActionDeps) => {
     if (isShown) sync.confirmed(profile.id);
   };
 
+  const measure: Planner["measure"] = (file) => planner.measure(file);
+  const document = createDocumentActions({
+    store,
+    backend,
+    ui,
+    undo,
+    attempt,
+    replan: plan.replan,
+    measure,
+    followPlotter: () => sync.follow(false),
+  });
+  const sheet = createSheetActions({ store, ui, undo, measure });
+
   return {
     ...ui,
     ...plan,
     ...createPlayerActions(store),
-    ...createDocumentActions({
-      store,
-      backend,
-      ui,
-      undo,
-      attempt,
-      replan: plan.replan,
-      followPlotter: () => sync.follow(false),
-    }),
+    ...document,
+    ...sheet,
+    /** The first of the files replaces the drawing, unless they are added; the others are added. */
+    openDropped: async ([first, ...others]: readonly File[], isAdded: boolean): Promise<void> => {
+      if (!first) return;
+      if (isAdded) return sheet.addFiles([first, ...others]);
+      await document.openFile(first);
+      if (others.length > 0) await sheet.addFiles(others);
+    },
     ...createServerActions({ store, backend, attempt, notify: ui.notify }),
     attempt,
     changeSettings: undo.changeSettings,

@@ -1,44 +1,23 @@
 /** The user's actions that put a drawing on the paper. */
-import { isDrawingName, isSameJson } from "../../src/internal.js";
+import { isSameJson, isSheetBegun } from "../../src/internal.js";
 import { type Job, DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import type { DrawingText } from "../backend/drawing-text.js";
-import type { PlanFault } from "../worker/protocol.js";
+import type { Measured, PageSheet, PlanFault } from "../worker/protocol.js";
+import type { PlannerFile } from "../worker/planner.js";
+import { contentOfDrawing, headOf } from "./drawing-content.js";
 import type { createUiActions } from "./ui-actions.js";
 import { openedSettings } from "./plotter-sync.js";
 import type { OpenDrawing, PageState, PageStore } from "./store.js";
 import { stateText } from "./text.js";
 import type { createUndo } from "./undo.js";
 
-const HEAD_LENGTH = 4_096;
-
-/** The tables of encodings are loaded with the first file. */
-const contentOfFile = async (file: File): Promise<DrawingText> => {
-  const bytes = await file.arrayBuffer();
-  const { contentOf } = await import("../backend/drawing-text.js");
-  return contentOf(bytes);
-};
-
-const headOf = (content: DrawingText): string => {
-  const head = content.slice(0, HEAD_LENGTH);
-  return typeof head === "string" ? head : new TextDecoder().decode(head);
-};
-
-/** How PNG, JPEG, GIF, WebP, BMP, TIFF, HEIC and AVIF begin, read as text. */
-const PICTURE = /^(.PNG|\ufffd{2,3}|ÿØÿ|GIF8|RIFF.{4}WEBP|BM|II\*\0|MM\0\*|.{4}ftyp(heic|heix|mif1|avif))/s;
-const PICTURE_NAME = /\.(png|jpe?g|gif|webp|bmp|tiff?|heic|heif|avif)$/i;
-
-/** Pixels. Some systems do not tell a file's type. */
-const isPicture = ({ name, type }: File, head: string): boolean =>
-  (type.startsWith("image/") && !type.startsWith("image/svg")) ||
-  (head.includes("\0") && (PICTURE_NAME.test(name) || PICTURE.test(head)));
-
 /**
  * Whether the drawing is opened again, perhaps after it was edited. Files are known by their name. Pasted drawings all
  * have the same one, so only their text tells them apart.
  */
 const isAgain = (before: OpenDrawing, name: string, text: DrawingText): boolean =>
-  name === before.name && (name !== stateText.pastedName || text === before.text);
+  before.sheet === null && name === before.name && (name !== stateText.pastedName || text === before.text);
 
 interface DocumentParts {
   readonly store: PageStore;
@@ -47,12 +26,13 @@ interface DocumentParts {
   readonly undo: ReturnType<typeof createUndo>;
   attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
   replan(): void;
+  measure(file: PlannerFile): Promise<Measured>;
   /** Shows the plotter's own heights and pens again, without an undo step. */
   followPlotter(): void;
 }
 
 export const createDocumentActions = (parts: DocumentParts) => {
-  const { store, backend, ui, undo, attempt, replan, followPlotter } = parts;
+  const { store, backend, ui, undo, attempt, replan, measure, followPlotter } = parts;
   let nextDrawing = 1;
   /** The drawing before the one being opened, to return to if the new file can't be read. */
   let lastGood: Pick<PageState, "drawing" | "settings"> | null = null;
@@ -69,7 +49,16 @@ export const createDocumentActions = (parts: DocumentParts) => {
     return () => request === lastRequest;
   };
 
-  const openDrawing = (name: string, text: DrawingText, jobId: string | null = null): void => {
+  const isSheet = (text: DrawingText): boolean => isSheetBegun(headOf(text).trimStart());
+  const sheetIn = async (text: DrawingText): Promise<PageSheet | null> =>
+    isSheet(text) ? (await import("./sheet-text.js")).sheetOfText(text, measure) : null;
+
+  const openDrawing = (
+    name: string,
+    text: DrawingText,
+    jobId: string | null = null,
+    sheet: PageSheet | null = null,
+  ): void => {
     ui.clearErrors();
     const { drawing, planned, settings } = store.getState();
     const isOther = jobId === null && (drawing === null || !isAgain(drawing, name, text));
@@ -77,7 +66,8 @@ export const createDocumentActions = (parts: DocumentParts) => {
     if (drawing && planned) lastGood = { drawing, settings };
     unreadKey = isOther ? key : null;
     store.setState({
-      drawing: { key, name, text, jobId, sourceId: jobId },
+      drawing: { key, name, text: sheet ? "" : text, sheet, jobId, sourceId: jobId },
+      selectedPieces: [],
       copies: 1,
       // A file that was edited and opened again keeps its layer settings and its place.
       settings: isOther ? forOtherDrawing(settings) : settings,
@@ -111,8 +101,12 @@ export const createDocumentActions = (parts: DocumentParts) => {
   };
 
   /** Shows the drawing of the last visit. The settings were restored before. */
-  const restoreDrawing = (kept: Omit<OpenDrawing, "key">): void => {
-    store.setState({ drawing: { key: `drawing-${nextDrawing++}`, ...kept }, planned: null, fault: null });
+  const restoreDrawing = async (kept: Omit<OpenDrawing, "key" | "sheet">): Promise<void> => {
+    const sheet = isSheet(kept.text) ? await sheetIn(kept.text) : null;
+    // Another drawing was opened meanwhile.
+    if (sheet && store.getState().drawing !== null) return;
+    const drawing = { ...kept, key: `drawing-${nextDrawing++}`, text: sheet ? "" : kept.text, sheet };
+    store.setState({ drawing, planned: null, fault: null });
     replan();
   };
 
@@ -140,13 +134,12 @@ export const createDocumentActions = (parts: DocumentParts) => {
     },
     openFile: async (file: File): Promise<void> => {
       const isLast = startRequest();
-      const text = await contentOfFile(file).catch(() => null);
+      const content = await contentOfDrawing(file);
       if (!isLast()) return;
-      if (text === null) ui.notify("error", stateText.unreadable(file.name));
-      else if (isPicture(file, headOf(text))) {
-        ui.notify("error", stateText.isPicture(file.name));
-      } else if (headOf(text).includes("\0")) ui.notify("error", stateText.notText(file.name));
-      else openDrawing(isDrawingName(file.name) ? file.name.replace(/\.\w+$/, "") : file.name, text);
+      if ("problem" in content) return ui.notify("error", content.problem);
+      const { name, text } = content;
+      const sheet = await sheetIn(text);
+      if (isLast()) openDrawing(name, text, null, sheet);
     },
     openPasted: (text: string): void => {
       if (!/<svg[\s>]/i.test(text)) return ui.notify("error", stateText.pasteNothing);
@@ -162,8 +155,10 @@ export const createDocumentActions = (parts: DocumentParts) => {
       const isLast = startRequest();
       const text = await attempt(`open ${job.id}`, () => backend.jobs.drawing(job.id));
       if (text === null || !isLast()) return;
+      const sheet = await sheetIn(text);
+      if (!isLast()) return;
       undo.clear();
-      openDrawing(job.name, text, job.id);
+      openDrawing(job.name, text, job.id, sheet);
       showJobSettings(job);
     },
   };

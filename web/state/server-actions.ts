@@ -19,6 +19,7 @@ import {
 import { addJob, BackendFault, type Backend, type JobAction } from "../backend/backend.js";
 import { withPageWords } from "./server-events.js";
 import { activeJob, currentPlotter, penOf, type PageNotice, type PageStore } from "./store.js";
+import { textOfDrawing } from "./sheet-actions.js";
 import { stateText } from "./text.js";
 
 interface ServerActionDeps {
@@ -42,9 +43,11 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
       ...(copies > 1 ? { copies } : {}),
       ...(from ? { from } : {}),
     };
-    const job = await attempt("add", () => addJob(backend, newJob, drawing.text));
+    const job = await attempt("add", async () =>
+      addJob(backend, newJob, await textOfDrawing(drawing, settings)),
+    );
     const now = store.getState();
-    if (job && now.drawing?.key === drawing.key) {
+    if (job && now.drawing?.key === drawing.key && now.drawing.sheet === drawing.sheet) {
       const jobId = now.settings === settings ? job.id : null;
       // Later changes concern a single job, not the first of several copies.
       const sourceId = copies === 1 ? job.id : drawing.sourceId;

@@ -1,4 +1,4 @@
-/** Changes of settings and presets by the user, each of which can be undone. */
+/** Changes of settings, sheet and presets by the user, each of which can be undone. */
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PageStore, UndoStep } from "./store.js";
 
@@ -11,17 +11,19 @@ interface UndoParts {
   readonly store: PageStore;
   nowMs(): number;
   setSettings(settings: PlotSettings): void;
+  /** Puts settings and sheet of a step on the paper. */
+  setDocument(step: Pick<UndoStep, "settings" | "drawing">): void;
   /** Called after each change by the user, with the state before it. */
   changed(before: UndoStep): void;
 }
 
-export const createUndo = ({ store, nowMs, setSettings, changed }: UndoParts) => {
+export const createUndo = ({ store, nowMs, setSettings, setDocument, changed }: UndoParts) => {
   let lastChange = NOTHING_CHANGED;
 
   /** Stores the state for undo. `what` names the thing that is about to change. */
   const noteStep = (what: string): UndoStep => {
-    const { settings, presets, undoStack } = store.getState();
-    const before = { settings, presets };
+    const { settings, presets, drawing, undoStack } = store.getState();
+    const before = { settings, presets, drawing };
     const isSame = what === lastChange.what && nowMs() - lastChange.atMs < COALESCE_MS;
     lastChange = { what, atMs: nowMs() };
     store.setState({
@@ -36,13 +38,14 @@ export const createUndo = ({ store, nowMs, setSettings, changed }: UndoParts) =>
     const target = state[from].at(-1);
     if (!target) return;
     lastChange = NOTHING_CHANGED;
-    const { settings, presets } = state;
+    const { settings, presets, drawing } = state;
     store.setState({
       [from]: state[from].slice(0, -1),
-      [to]: [...state[to], { settings, presets }],
+      [to]: [...state[to], { settings, presets, drawing }],
       presets: target.presets,
     });
-    if (target.settings !== settings) setSettings(target.settings);
+    if (target.drawing?.sheet !== drawing?.sheet) setDocument(target);
+    else if (target.settings !== settings) setSettings(target.settings);
     changed(state);
   };
 
@@ -56,6 +59,12 @@ export const createUndo = ({ store, nowMs, setSettings, changed }: UndoParts) =>
     changeSettings: (what: string, change: (settings: PlotSettings) => PlotSettings): void => {
       const before = noteStep(what);
       setSettings(change(before.settings));
+      changed(before);
+    },
+    /** Changes the sheet, perhaps together with the settings. */
+    changeDocument: (what: string, step: Pick<UndoStep, "settings" | "drawing">): void => {
+      const before = noteStep(what);
+      setDocument(step);
       changed(before);
     },
     changePresets: (what: string, change: (step: UndoStep) => UndoStep["presets"]): void => {

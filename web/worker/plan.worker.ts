@@ -5,6 +5,7 @@
  * newer request. Each stage stores its last result, so that a change of speed or margin does not import the file again.
  */
 import {
+  DEFAULT_PREPARE,
   planJob,
   prepare,
   trajectoryStats,
@@ -15,6 +16,8 @@ import {
 } from "../../src/index.js";
 import {
   boxOfPoints,
+  combine,
+  compose,
   hasFill,
   inPageWords,
   unreachedCount,
@@ -22,11 +25,14 @@ import {
   otherPapers,
   penStopsOf,
   layOutDrawing,
+  orientedPaper,
   prepareSettingsOf,
+  scaling,
   strokeCount,
   turnedOntoPaper,
   unusedSettings,
   withPxPerInch,
+  type Box,
   type Layout,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
@@ -36,9 +42,11 @@ import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
 import { sketchesOf } from "./sketches.js";
-import type { DrawingText } from "../backend/drawing-text.js";
+import { DrawingFiles } from "./drawing-files.js";
+import type { FileExtent } from "../scene/arrange.js";
 import type {
   ExportRequest,
+  MeasureRequest,
   Planned,
   PlannedReply,
   PlanFault,
@@ -57,9 +65,9 @@ const scope = self as unknown as WorkerScope;
 
 let newest: WorkerPlanRequest | null = null;
 let isRunning = false;
-/** The last text received, until it has been imported. */
-let received: { key: string; text: DrawingText } | null = null;
-let imported: { key: string; drawing: Drawing } | null = null;
+const files = new DrawingFiles();
+/** The drawing of the last plan, as it was read. */
+let imported: Drawing | null = null;
 let prepared: {
   key: string;
   result: Prepared;
@@ -76,8 +84,9 @@ scope.onmessage = (event) => {
   if (event.data.type === "export") return void exportAs(event.data);
   if (event.data.type === "strokes") return sendStrokes(event.data);
   if (event.data.type === "sketches") return sendSketches(event.data);
+  if (event.data.type === "measure") return void sendMeasured(event.data);
   newest = event.data;
-  if (newest.text !== null) received = { key: newest.drawingKey, text: newest.text };
+  files.keep(newest.files);
   if (!isRunning) void run();
 };
 
@@ -99,11 +108,12 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
   let stage: PlanFault["stage"] = "import";
   try {
     const read = await drawingOf(request);
+    imported = read;
     scope.postMessage({ type: "imported", id, drawingKey }, []);
     if (await isSuperseded()) return null;
     stage = "plan";
     const drawing = withPxPerInch(read, settings.prepare.pxPerInch);
-    const { result: ready, placement, cutOff, besidePaper } = preparedOf(drawingKey, drawing, request);
+    const { result: ready, placement, cutOff, besidePaper } = preparedOf(drawing, request);
     if (await isSuperseded()) return null;
     const { trajectory } = planJob(ready, settings, machineOf(settings), { firmware });
     if (await isSuperseded()) return null;
@@ -117,11 +127,14 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
       pxPerInch: drawing.pxPerInch ?? null,
       otherPapers: otherPapers(drawing),
       pageToPaper: placement.map,
+      fileToPaper: compose(placement.map, scaling(drawing.widthMm / read.widthMm)),
       choice: placement.choice,
       size: ready.size,
       outside: ready.outside,
       turnOntoPaper:
-        ready.outside && turnedOntoPaper(drawing, prepareSettingsOf(settings), machineOf(settings)),
+        ready.outside && request.sheet === null
+          ? turnedOntoPaper(drawing, prepareSettingsOf(settings), machineOf(settings))
+          : null,
       fillCount: drawing.paths.fill.reduce((sum, _, shape) => sum + Number(hasFill(drawing.paths, shape)), 0),
       drawnBox: boxOfPoints(ready.strokes.xy),
       frameMm: frameOf(placement, settings.prepare),
@@ -150,29 +163,36 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
   }
 }
 
-async function drawingOf({ drawingKey }: WorkerPlanRequest): Promise<Drawing> {
-  if (imported?.key !== drawingKey) {
-    if (received?.key !== drawingKey)
-      throw new Error("the worker was asked for a drawing whose text it does not have");
-    imported = { key: drawingKey, drawing: await drawingIn(received.text) };
-  }
-  if (received?.key === drawingKey) received = null;
-  return imported.drawing;
+/** On a sheet, the page is the paper. */
+async function drawingOf({ files: wanted, sheet, settings }: WorkerPlanRequest): Promise<Drawing> {
+  const drawings: Drawing[] = [];
+  for (const { key } of wanted) drawings.push(await files.read(key));
+  if (sheet === null) return drawings[0];
+  const { paper, landscape } = settings.prepare;
+  const sources = sheet.names.map((names, index) => ({ ...names, drawing: drawings[index] }));
+  return combine(sources, sheet.items, orientedPaper(paper, landscape));
 }
 
-/** The readers are loaded when the first file is opened. */
-async function drawingIn(content: DrawingText): Promise<Drawing> {
-  const { importDrawing, textOf } = await import("./formats.js");
-  return importDrawing("", textOf(content));
+async function sendMeasured({ file }: MeasureRequest): Promise<void> {
+  files.add(file);
+  const measured = await files.read(file.key).then(extentOf, (error) => ({ fault: messageOf(error) }));
+  scope.postMessage({ type: "measured", key: file.key, measured }, []);
+}
+
+function extentOf(drawing: Drawing): FileExtent {
+  const contentOn = (cropToPage: boolean): Box =>
+    layOutDrawing(drawing, { ...DEFAULT_PREPARE, fit: false, rotateDeg: 0, outside: "allow", cropToPage })
+      .content;
+  const { widthMm, heightMm } = drawing;
+  return { widthMm, heightMm, content: contentOn(false), onPage: contentOn(true) };
 }
 
 function preparedOf(
-  drawingKey: string,
   drawing: Drawing,
-  { settings }: WorkerPlanRequest,
+  { drawingKey, sheet, settings }: WorkerPlanRequest,
 ): NonNullable<typeof prepared> {
   const wanted = prepareSettingsOf(settings);
-  const key = `${drawingKey} ${JSON.stringify(wanted)}`;
+  const key = `${drawingKey} ${JSON.stringify([wanted, sheet])}`;
   if (prepared?.key !== key) {
     const result = prepare(drawing, wanted);
     const placement = layOutDrawing(drawing, wanted);
@@ -219,7 +239,7 @@ function sendStrokes({ id }: StrokesRequest): void {
 function sendSketches({ id, changes }: SketchRequest): void {
   if (answered?.id !== id || !prepared || !imported) return;
   const { prepare: wanted } = prepared.settings;
-  const drawing = withPxPerInch(imported.drawing, wanted.pxPerInch);
+  const drawing = withPxPerInch(imported, wanted.pxPerInch);
   const sketches = sketchesOf(drawing, prepareSettingsOf(prepared.settings), changes);
   scope.postMessage(
     { type: "sketches", id, sketches },

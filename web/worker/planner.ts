@@ -11,10 +11,14 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingText } from "../backend/drawing-text.js";
 import type {
   ExportFormat,
+  Measured,
   PlanFault,
   Planned,
   Sketch,
+  PageSheet,
+  SheetOnPaper,
   SketchRequest,
+  WorkerFile,
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
@@ -22,6 +26,7 @@ import { markMoment } from "./moments.js";
 
 const PATIENCE_MS = 1_500;
 const READING_MS = 120_000;
+const TOO_LONG = "This file takes too long to read. It may be damaged. Simplify it, or export it again.";
 
 /** The used part of a Worker. Tests pass their own. */
 export interface WorkerLike {
@@ -44,10 +49,15 @@ interface PlanListener {
   onExportFailed(message: string): void;
 }
 
-export interface PlannerDrawing {
+export interface PlannerFile {
   /** Identifies the text: different texts have different keys. */
   readonly key: string;
   readonly text: DrawingText;
+}
+
+export interface PlannerDrawing extends PlannerFile {
+  /** In place of the text: several files. */
+  readonly sheet?: PageSheet | null;
 }
 
 export interface PlannerTask {
@@ -72,8 +82,13 @@ export const openPlanner = (listener: PlanListener): Planner =>
 
 export class Planner {
   private worker: WorkerLike | null = null;
-  /** The drawing whose text the running worker has. */
-  private sentKey: string | null = null;
+  /** The files whose texts the running worker has. */
+  private readonly sent = new Set<string>();
+  /** Files that are being measured, by key. */
+  private readonly measuring = new Map<
+    string,
+    { readonly file: PlannerFile; take(measured: Measured): void }
+  >();
   private newestId = 0;
   private latest: PlannerTask | null = null;
   private isBusy = false;
@@ -108,6 +123,25 @@ export class Planner {
     if (!this.isBusy) this.worker?.postMessage({ type: "strokes", id: this.newestId });
   }
 
+  /** What a file draws. Never rejects. */
+  measure(file: PlannerFile): Promise<Measured> {
+    return new Promise((resolve) => {
+      const stopWaiting = this.timer.after(READING_MS, () => {
+        const isPlanning = this.isBusy;
+        this.end(TOO_LONG);
+        if (isPlanning && this.latest) this.send(this.latest);
+      });
+      const take = (measured: Measured): void => {
+        stopWaiting();
+        this.measuring.delete(file.key);
+        resolve(measured);
+      };
+      this.measuring.set(file.key, { file, take });
+      if (this.worker) this.worker.postMessage({ type: "measure", file: this.withText(file) });
+      else this.worker = this.open();
+    });
+  }
+
   /** Requests small pictures of the last plan's drawing. Not answered while a newer plan is being made. */
   sketches(changes: SketchRequest["changes"], take: (sketches: readonly Sketch[]) => void): void {
     this.takeSketches = take;
@@ -126,24 +160,36 @@ export class Planner {
 
   private send({ drawing, settings, firmware }: PlannerTask): void {
     const worker = (this.worker ??= this.open());
-    const text = this.sentKey === drawing.key ? null : drawing.text;
-    this.sentKey = drawing.key;
+    const { key: drawingKey, sheet: kept = null } = drawing;
+    const files = (kept?.files ?? [drawing]).map((file) => this.withText(file));
+    const sheet = kept && onPaper(kept);
+    this.sent.clear();
+    for (const file of files) this.sent.add(file.key);
     this.isBusy = true;
     const id = this.newestId;
-    worker.postMessage({ type: "plan", id, drawingKey: drawing.key, text, settings, firmware });
+    worker.postMessage({ type: "plan", id, drawingKey, files, sheet, settings, firmware });
   }
 
+  /** With its text, unless the worker has it. */
+  private withText({ key, text }: PlannerFile): WorkerFile {
+    const isSent = this.sent.has(key);
+    this.sent.add(key);
+    return { key, text: isSent ? null : text };
+  }
+
+  /** A new worker, with the files to measure that the last one did not answer for. */
   private open(): WorkerLike {
     const worker = this.start();
-    this.sentKey = null;
+    this.sent.clear();
+    for (const { file } of this.measuring.values()) {
+      worker.postMessage({ type: "measure", file: this.withText(file) });
+    }
     worker.onmessage = ({ data }) => this.take(data);
     worker.onerror = (event) => {
-      this.close();
-      this.listener.onFault({
-        message:
-          event.message || "The planner stopped. The drawing may be too large for this device's memory.",
-        stage: "plan",
-      });
+      const message =
+        event.message || "The planner stopped. The drawing may be too large for this device's memory.";
+      this.end(message);
+      this.listener.onFault({ message, stage: "plan" });
     };
     return worker;
   }
@@ -151,6 +197,7 @@ export class Planner {
   private take(reply: WorkerReply): void {
     if (reply.type === "exported") return this.listener.onExported(reply.format, reply.text);
     if (reply.type === "export-failed") return this.listener.onExportFailed(reply.message);
+    if (reply.type === "measured") return this.measuring.get(reply.key)?.take(reply.measured);
     if (reply.id !== this.newestId) return;
     if (reply.type === "strokes") return this.takeStrokes?.(reply.strokes);
     if (reply.type === "sketches") return this.takeSketches?.(reply.sketches);
@@ -170,11 +217,14 @@ export class Planner {
   }
 
   private endReading(): void {
+    this.end(TOO_LONG);
+    this.listener.onFault({ message: TOO_LONG, stage: "import" });
+  }
+
+  /** Ends the worker, and gives up the files that it was to measure. */
+  private end(fault: string): void {
     this.close();
-    this.listener.onFault({
-      message: "This file takes too long to read. It may be damaged. Simplify it, or export it again.",
-      stage: "import",
-    });
+    for (const { take } of [...this.measuring.values()]) take({ fault });
   }
 
   private restart(): void {
@@ -182,3 +232,12 @@ export class Planner {
     if (this.latest) this.send(this.latest);
   }
 }
+
+const onPaper = ({ files, pieces }: PageSheet): SheetOnPaper => ({
+  names: files.map(({ name, layerPrefix }) => ({ name, layerPrefix })),
+  items: pieces.map(({ fileKey, map, isCropped }) => ({
+    source: files.findIndex(({ key }) => key === fileKey),
+    map,
+    isCropped,
+  })),
+});

@@ -9,11 +9,14 @@ import type {
   PenStop,
   Layout,
   PreparedLayer,
+  SheetItem,
+  SheetSource,
   Springs,
   StrokeLayer,
   TrajectoryStats,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import type { FileExtent } from "../scene/arrange.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Frame, Picture } from "../scene/renderer.js";
 import type { Scene } from "../scene/scene.js";
@@ -21,12 +24,50 @@ import type { SwingPicture } from "../scene/swing-scene.js";
 import type { CutOffPicture } from "./cut-off.js";
 import type { DrawingText } from "../backend/drawing-text.js";
 
-/** `drawingKey` identifies the text. The worker stores the last drawing, so the text is sent once. */
+/** A file of the drawing. The worker stores those of the last request, so each text is sent once: null after that. */
+export interface WorkerFile {
+  /** Identifies the text. */
+  readonly key: string;
+  readonly text: DrawingText | null;
+}
+
+/** Several drawings on a sheet. */
+export interface SheetOnPaper {
+  /** By the index of the file in the request. */
+  readonly names: readonly Pick<SheetSource, "name" | "layerPrefix">[];
+  readonly items: readonly SheetItem[];
+}
+
+/** A file on the page's sheet. */
+export interface SheetSourceFile extends Pick<SheetSource, "name" | "layerPrefix"> {
+  /** Identifies the text. */
+  readonly key: string;
+  readonly text: DrawingText;
+  readonly extent: FileExtent;
+}
+
+/** One of the drawings on the page's sheet. */
+export interface SheetPiece {
+  readonly id: string;
+  readonly fileKey: string;
+  readonly map: SheetItem["map"];
+  readonly isCropped: boolean;
+}
+
+/** Several drawings on a sheet, as the page keeps them. */
+export interface PageSheet {
+  readonly files: readonly SheetSourceFile[];
+  /** In paint order. */
+  readonly pieces: readonly SheetPiece[];
+}
+
 export interface WorkerPlanRequest {
   readonly type: "plan";
   readonly id: number;
   readonly drawingKey: string;
-  readonly text: DrawingText | null;
+  /** One, or those of the sheet. */
+  readonly files: readonly WorkerFile[];
+  readonly sheet: SheetOnPaper | null;
   readonly settings: PlotSettings;
   /** Firmware of the board that will plot it; null: unknown. */
   readonly firmware: string | null;
@@ -58,7 +99,14 @@ export interface SketchRequest {
   readonly changes: readonly Partial<PlotSettings["prepare"]>[];
 }
 
-export type WorkerRequest = WorkerPlanRequest | ExportRequest | StrokesRequest | SketchRequest;
+/** Asks what a file draws, before it is on the sheet. */
+export interface MeasureRequest {
+  readonly type: "measure";
+  readonly file: WorkerFile;
+}
+
+export type WorkerRequest =
+  WorkerPlanRequest | ExportRequest | StrokesRequest | SketchRequest | MeasureRequest;
 
 /** A small picture of a drawing: polylines in mm. */
 export interface Sketch {
@@ -80,6 +128,8 @@ export interface Planned {
   readonly otherPapers: readonly PaperInPx[];
   /** Maps the file's page to the paper, both in mm: x′ = a x + c y + e, y′ = b x + d y + f. */
   readonly pageToPaper: Layout["map"];
+  /** The same for the file as it was read: before its px have the size that the user has chosen. */
+  readonly fileToPaper: Layout["map"];
   /** The drawing's box on the paper, before anything is cut off; null for an empty drawing. */
   readonly frameMm: FrameMm | null;
   readonly choice: Layout["choice"];
@@ -118,6 +168,9 @@ export interface Planned {
   readonly picture: Picture;
 }
 
+/** What a file draws, or why it can't be read. */
+export type Measured = FileExtent | { readonly fault: string };
+
 export interface PlanFault {
   readonly message: string;
   /** What failed: reading the file, or preparing and planning it. */
@@ -145,6 +198,7 @@ export type WorkerReply =
   | { readonly type: "export-failed"; readonly message: string }
   | { readonly type: "strokes"; readonly id: number; readonly strokes: StrokeSet }
   | { readonly type: "sketches"; readonly id: number; readonly sketches: readonly Sketch[] }
+  | { readonly type: "measured"; readonly key: string; readonly measured: Measured }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };
 
 /** To the drawing worker. */

@@ -1,6 +1,6 @@
 /** One browser, one server and one page for a browser test, with its helpers. */
 import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
-import { importSvg, prepare, type StrokeSet } from "../../../src/index.js";
+import { importDrawing, prepare, type StrokeSet } from "../../../src/index.js";
 import { prepareSettingsOf } from "../../../src/internal.js";
 import { jobSchema, snapshotSchema, type Job } from "../../../src/schema/index.js";
 import { launchBrowser, PLAIN } from "./browser.js";
@@ -187,7 +187,7 @@ export class PageTest {
   /** The strokes that a job would draw, from its own file and settings. */
   async strokesOf(job: Job): Promise<StrokeSet> {
     const text = await (await fetch(`${this.server.url}/api/v1/jobs/${job.id}/drawing`)).text();
-    return prepare(await importSvg(text), prepareSettingsOf(job.settings)).strokes;
+    return prepare(await importDrawing("", text), prepareSettingsOf(job.settings)).strokes;
   }
 
   /** The box that a drawing queued now would cover, mm. */

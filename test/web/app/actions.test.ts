@@ -38,6 +38,7 @@ function makePage(more: Calls = {}) {
     export: () => undefined,
     strokes: () => undefined,
     sketches: () => undefined,
+    measure: () => Promise.reject(new Error("not asked")),
   };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const errorCount = (): number => store.getState().notices.filter(({ kind }) => kind === "error").length;
@@ -287,6 +288,7 @@ describe("a drawing that arrives late", () => {
     const page = makePage({ samples: { get: arriving }, jobs: { drawing: arriving } });
     const slowFile = {
       name: "late.svg",
+      type: "",
       arrayBuffer: async () => new TextEncoder().encode(await arriving("late")).buffer,
     } as unknown as File;
     const asks: Readonly<Record<string, () => Promise<void>>> = {

@@ -25,11 +25,11 @@ class FakeEditable extends FakeElement {
 }
 
 const BODY = new FakeElement("BODY");
-const DRAWING = { key: "drawing-1", name: "waves", text: "<svg/>", jobId: null, sourceId: null };
+const DRAWING = { key: "drawing-1", name: "waves", text: "<svg/>", sheet: null, jobId: null, sourceId: null };
 const planned = (strokeCount: number, x1: number): Planned =>
   ({ strokeCount, drawnBox: { x0: 0, y0: 0, x1, y1: 10 } }) as Planned;
 
-const STEP = { settings: DEFAULT_PLOT_SETTINGS, presets: [] };
+const STEP = { settings: DEFAULT_PLOT_SETTINGS, presets: [], drawing: DRAWING };
 
 let listener: (event: KeyboardEvent) => void;
 

@@ -32,14 +32,14 @@ function makePage() {
 describe("the last drawing", () => {
   it("is stored once it is planned, and again when it has become a job", async () => {
     const { store, storage, written, plan } = makePage();
-    store.setState({ drawing: { key: "drawing-1", ...SHEET } });
+    store.setState({ drawing: { key: "drawing-1", sheet: null, ...SHEET } });
     expect(written).toEqual([]);
     plan("drawing-1");
     expect(written).toEqual([SHEET]);
     store.setState({ isPlanning: true });
     plan("drawing-1");
     expect(written).toHaveLength(1);
-    store.setState({ drawing: { key: "drawing-1", ...SHEET, jobId: "job-7" } });
+    store.setState({ drawing: { key: "drawing-1", sheet: null, ...SHEET, jobId: "job-7" } });
     expect(await readKeptDrawing(storage)).toEqual({ ...SHEET, jobId: "job-7" });
   });
 
@@ -47,7 +47,7 @@ describe("the last drawing", () => {
     const { store, storage, plan, faults } = makePage();
     storage.write = () => Promise.reject(new Error("full"));
     for (const key of ["drawing-1", "drawing-2"]) {
-      store.setState({ drawing: { key, ...SHEET } });
+      store.setState({ drawing: { key, sheet: null, ...SHEET } });
       plan(key);
     }
     await expect.poll(() => faults).toEqual(["not stored"]);
@@ -55,9 +55,9 @@ describe("the last drawing", () => {
 
   it("stays if another one can't be read", () => {
     const { store, written, plan } = makePage();
-    store.setState({ drawing: { key: "drawing-1", ...SHEET } });
+    store.setState({ drawing: { key: "drawing-1", sheet: null, ...SHEET } });
     plan("drawing-1");
-    store.setState({ drawing: { key: "drawing-2", ...SHEET, name: "torn" }, planned: null });
+    store.setState({ drawing: { key: "drawing-2", sheet: null, ...SHEET, name: "torn" }, planned: null });
     store.setState({ fault: { message: "torn", stage: "import" } });
     expect(written.map(({ name }) => name)).toEqual(["waves"]);
   });

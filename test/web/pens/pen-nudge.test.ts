@@ -32,6 +32,7 @@ const openPage = () => {
     export: () => undefined,
     strokes: () => undefined,
     sketches: () => undefined,
+    measure: () => Promise.reject(new Error("not asked")),
   };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const withPen = (pen: Pen): Job =>

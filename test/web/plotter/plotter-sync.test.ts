@@ -71,6 +71,7 @@ class Plotters {
         export: () => undefined,
         strokes: () => undefined,
         sketches: () => undefined,
+        measure: () => Promise.reject(new Error("not asked")),
       },
       nowMs: () => (nowMs += 10_000),
       after: (_delayMs, callback) => void setTimeout(callback, 0),

@@ -14,7 +14,7 @@ const halfS = trajectory.totalS / 2;
 const pageWith = (job: Job, more: Partial<PageState> = {}): PageState => ({
   ...createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW }).getState(),
   planned: { trajectory } as Planned,
-  drawing: { key: "a", name: "a", text: "", jobId: job.id, sourceId: job.id },
+  drawing: { key: "a", name: "a", text: "", sheet: null, jobId: job.id, sourceId: job.id },
   jobs: [job],
   ...more,
 });

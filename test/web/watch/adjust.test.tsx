@@ -33,6 +33,7 @@ const openPage = (settings = DEFAULT_PLOT_SETTINGS) => {
     export: () => undefined,
     strokes: () => undefined,
     sketches: () => undefined,
+    measure: () => Promise.reject(new Error("not asked")),
   };
   const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
   const seeJob = (job: Job = sent): void => store.setState({ jobs: [job] });

@@ -63,8 +63,8 @@ describe("keys for the laid-out drawing", () => {
     const store = makeStore();
     const actions = { undo: vi.fn() } as unknown as Actions;
     const press = (): void => performByKey(UNDO, { store, actions } as unknown as Page);
-    const { settings, presets } = store.getState();
-    store.setState({ pageView: "watch", undoStack: [{ settings, presets }] });
+    const { settings, presets, drawing } = store.getState();
+    store.setState({ pageView: "watch", undoStack: [{ settings, presets, drawing }] });
     press();
     expect(actions.undo).not.toHaveBeenCalled();
     store.setState({ pageView: "prepare" });
@@ -139,6 +139,7 @@ describe("an action that only the operator may do", () => {
       export: () => undefined,
       strokes: () => undefined,
       sketches: () => undefined,
+      measure: () => Promise.reject(new Error("not asked")),
     };
     const actions = createActions({ store, backend, planner, nowMs: () => 0, after: () => undefined });
     return { store, actions, duplicate };

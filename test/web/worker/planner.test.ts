@@ -18,12 +18,15 @@ const settings = DEFAULT_PLOT_SETTINGS;
 const taskOf = (drawing: PlannerDrawing, firmware: string | null = null): PlannerTask => ({
   ...{ drawing, settings, firmware },
 });
+const BOX = { x0: 0, y0: 0, x1: 9, y1: 9 };
+const HERE = { a: 1, b: 0, c: 0, d: 1, e: 0, f: 0 };
 const planned = (drawingKey: string): Planned => ({ drawingKey }) as Planned;
 
 class WorkerByHand implements WorkerLike {
   readonly asked: WorkerPlanRequest[] = [];
   readonly exports: string[] = [];
   readonly strokesAsked: number[] = [];
+  readonly measured: [key: string, text: unknown][] = [];
   isEnded = false;
   onmessage: ((event: MessageEvent<WorkerReply>) => void) | null = null;
   onerror: ((event: ErrorEvent) => void) | null = null;
@@ -31,6 +34,7 @@ class WorkerByHand implements WorkerLike {
   postMessage(message: WorkerRequest): void {
     if (message.type === "plan") this.asked.push(message);
     else if (message.type === "export") this.exports.push(message.format);
+    else if (message.type === "measure") this.measured.push([message.file.key, message.file.text]);
     else this.strokesAsked.push(message.id);
   }
   terminate(): void {
@@ -86,7 +90,56 @@ describe("the planner", () => {
     planner.request(taskOf({ key: "a", text: "<svg/>" }));
     planner.request(taskOf({ key: "a", text: "<svg/>" }));
     planner.request(taskOf({ key: "b", text: "<svg></svg>" }));
-    expect(worker().asked.map(({ text }) => text)).toEqual(["<svg/>", null, "<svg></svg>"]);
+    expect(worker().asked.map(({ files }) => files[0].text)).toEqual(["<svg/>", null, "<svg></svg>"]);
+  });
+
+  it("sends each text of a sheet once, also if it was measured before", async () => {
+    const { planner, worker } = setUp();
+    const extent = { widthMm: 9, heightMm: 9, content: BOX, onPage: BOX };
+    const fileOf = (key: string) => ({ key, name: key, layerPrefix: "", text: `<${key}>`, extent });
+    const pieceOf = (fileKey: string) => ({ id: fileKey, fileKey, map: HERE, isCropped: false });
+    const sheet = { files: [fileOf("a"), fileOf("b")], pieces: [pieceOf("b"), pieceOf("a"), pieceOf("b")] };
+    planner.request(taskOf({ key: "a", text: "<a>" }));
+    worker().reply({ type: "planned", id: 1, planned: planned("a") });
+    const measuring = planner.measure(fileOf("b"));
+    expect(worker().measured).toEqual([["b", "<b>"]]);
+    worker().reply({ type: "measured", key: "b", measured: extent });
+    expect(await measuring).toEqual(extent);
+    planner.request(taskOf({ key: "a", text: "", sheet }));
+    const [, { files, sheet: onPaper }] = worker().asked;
+    expect(files).toEqual([
+      { key: "a", text: null },
+      { key: "b", text: null },
+    ]);
+    expect(onPaper?.items.map(({ source }) => source)).toEqual([1, 0, 1]);
+    // Another drawing: the worker forgets the sheet's.
+    planner.request(taskOf({ key: "c", text: "<c>" }));
+    planner.request(taskOf({ key: "a", text: "", sheet }));
+    expect(
+      worker()
+        .asked.at(-1)
+        ?.files.map(({ text }) => text),
+    ).toEqual(["<a>", "<b>"]);
+  });
+
+  it("measures a file again in the worker that replaces one which did not begin", async () => {
+    const { planner, worker, timers, workers } = setUp();
+    planner.request(taskOf({ key: "slow", text: "slow" }));
+    const measuring = planner.measure({ key: "b", text: "<b>" });
+    planner.request(taskOf({ key: "small", text: "small" }));
+    // The last timer is that of the planner's patience.
+    timers.at(-1)?.callback();
+    expect(workers).toHaveLength(2);
+    expect(worker().measured).toEqual([["b", "<b>"]]);
+    worker().reply({ type: "measured", key: "b", measured: { fault: "torn" } });
+    expect(await measuring).toEqual({ fault: "torn" });
+  });
+
+  it("gives up measuring when the worker dies, and says why", async () => {
+    const { planner, worker } = setUp();
+    const measuring = planner.measure({ key: "huge", text: "huge" });
+    worker().onerror?.({ message: "out of memory" } as ErrorEvent);
+    expect(await measuring).toEqual({ fault: "out of memory" });
   });
 
   it("includes the board's firmware in a request", () => {
@@ -113,7 +166,7 @@ describe("the planner", () => {
     runTimers();
     expect(workers).toHaveLength(2);
     expect(workers[0].isEnded).toBe(true);
-    expect(asked()).toMatchObject({ drawingKey: "small", text: "small" });
+    expect(asked()).toMatchObject({ drawingKey: "small", files: [{ key: "small", text: "small" }] });
     worker().reply({ type: "planned", id: asked().id, planned: planned("small") });
     expect(calls).toEqual(["small"]);
   });
@@ -181,6 +234,6 @@ describe("the planner", () => {
     expect(calls).toEqual(["fault out of memory"]);
     planner.request(taskOf({ key: "a", text: "a" }));
     expect(workers).toHaveLength(2);
-    expect(worker().asked[0].text).toBe("a");
+    expect(worker().asked[0].files[0].text).toBe("a");
   });
 });

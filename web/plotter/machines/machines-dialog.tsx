@@ -105,7 +105,7 @@ const ImportButton = ({ onRead }: { onRead(profile: MachineProfile): void }) => 
     }
   };
   return (
-    <ChooseFile label={words.import} accept=".json,application/json" onFile={(file) => void read(file)} />
+    <ChooseFile label={words.import} accept=".json,application/json" onFiles={([file]) => void read(file)} />
   );
 };
 

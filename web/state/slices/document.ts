@@ -2,12 +2,16 @@
 import type { PaperSize } from "../../../src/internal.js";
 import type { PlotSettings, Preset } from "../../../src/schema/index.js";
 import type { DrawingText } from "../../backend/drawing-text.js";
+import type { PageSheet } from "../../worker/protocol.js";
 
 /** The drawing on the paper. */
 export interface OpenDrawing {
   readonly key: string;
   readonly name: string;
+  /** Empty for a sheet. */
   readonly text: DrawingText;
+  /** Several drawings on the sheet; null: one drawing, that of the text. */
+  readonly sheet: PageSheet | null;
   /** The job that it was opened from or sent as, as long as the settings are that job's. */
   readonly jobId: string | null;
   /** The single job that it was opened from or sent as, even after the settings were changed. */
@@ -15,7 +19,7 @@ export interface OpenDrawing {
 }
 
 /** What undo restores. */
-export type UndoStep = Pick<DocumentSlice, "settings" | "presets">;
+export type UndoStep = Pick<DocumentSlice, "settings" | "presets" | "drawing">;
 
 export interface DocumentSlice {
   readonly settings: PlotSettings;
@@ -26,6 +30,8 @@ export interface DocumentSlice {
   /** True until the browser has returned the drawing of the last visit. */
   readonly isStarting: boolean;
   readonly drawing: OpenDrawing | null;
+  /** Ids of the selected pieces of the sheet. Some of them may be gone. */
+  readonly selectedPieces: readonly string[];
   /** How many times "Add to queue" adds the drawing. */
   readonly copies: number;
   /** A paper whose size is typed into fields, also while that happens to be the size of a paper with a name. */
@@ -39,6 +45,7 @@ export const DOCUMENT_AT_FIRST = {
   redoStack: [],
   isStarting: true,
   drawing: null,
+  selectedPieces: [],
   copies: 1,
   typedPaper: null,
 } as const satisfies Partial<DocumentSlice>;

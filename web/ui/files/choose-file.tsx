@@ -6,11 +6,14 @@ interface ChooseFileProps {
   /** Types and endings that the browser's dialog lists. */
   readonly accept: string;
   readonly icon?: IconName;
-  onFile(file: File): void;
+  /** Several files may be chosen. */
+  readonly isMultiple?: boolean;
+  /** At least one. */
+  onFiles(files: readonly File[]): void;
 }
 
 /** A button that opens the browser's dialog for a file. */
-export const ChooseFile = ({ label, accept, icon, onFile }: ChooseFileProps) => {
+export const ChooseFile = ({ label, accept, icon, isMultiple, onFiles }: ChooseFileProps) => {
   const id = useId();
   return (
     <div className="choose">
@@ -18,10 +21,11 @@ export const ChooseFile = ({ label, accept, icon, onFile }: ChooseFileProps) => 
         id={id}
         type="file"
         accept={accept}
+        multiple={isMultiple}
         className="visually-hidden"
         onChange={(event) => {
-          const file = event.target.files?.[0];
-          if (file) onFile(file);
+          const files = [...(event.target.files ?? [])];
+          if (files.length > 0) onFiles(files);
           // Otherwise the same file could not be chosen again after it was edited.
           event.target.value = "";
         }}

@@ -1,0 +1,75 @@
+/** The user's actions on a sheet with several drawings. What they do is loaded with the first one: sheet-edits.ts. */
+import type { PlotSettings } from "../../src/schema/index.js";
+import type { Measured, PageSheet } from "../worker/protocol.js";
+import type { PlannerFile } from "../worker/planner.js";
+import type { DrawingText } from "../backend/drawing-text.js";
+import type { createUiActions } from "./ui-actions.js";
+import type { OpenDrawing, PageStore } from "./store.js";
+import type { createUndo } from "./undo.js";
+import type { SheetEdit } from "./sheet-edits.js";
+
+export interface SheetParts {
+  readonly store: PageStore;
+  readonly ui: Pick<ReturnType<typeof createUiActions>, "notify">;
+  readonly undo: Pick<ReturnType<typeof createUndo>, "changeDocument">;
+  measure(file: PlannerFile): Promise<Measured>;
+}
+
+/** On a sheet each drawing has its place, so the settings place nothing. */
+export const sheetSettings = (settings: PlotSettings): PlotSettings => {
+  const { prepare } = settings;
+  const isOutsidePlaced = prepare.outside === "move" || prepare.outside === "fit";
+  return {
+    ...settings,
+    prepare: {
+      ...prepare,
+      fit: "auto",
+      rotateDeg: "auto",
+      mirror: "none",
+      layout: null,
+      pxPerInch: "auto",
+      cropToPage: false,
+      outside: isOutsidePlaced ? "refuse" : prepare.outside,
+    },
+  };
+};
+
+/** The drawing as it is sent and stored. */
+export const textOfDrawing = async (drawing: OpenDrawing, settings: PlotSettings): Promise<DrawingText> =>
+  drawing.sheet === null
+    ? drawing.text
+    : (await import("./sheet-text.js")).textOfSheet(drawing.sheet, settings.prepare);
+
+export const createSheetActions = (parts: SheetParts) => {
+  const { store, undo } = parts;
+  const changeSheet = (what: string, sheet: PageSheet, name?: string): void => {
+    const { drawing, settings } = store.getState();
+    if (!drawing) return;
+    undo.changeDocument(`sheet ${what}`, {
+      settings: sheetSettings(settings),
+      drawing: { ...drawing, name: name ?? drawing.name, text: "", sheet, jobId: null, sourceId: null },
+    });
+  };
+  const editSheet = async (what: string, edit: SheetEdit): Promise<void> =>
+    (await import("./sheet-edits.js")).editSheet({ ...parts, changeSheet }, what, edit);
+  const editSelected = async (
+    what: string,
+    edit: (edits: typeof import("./sheet-edits.js"), ids: readonly string[]) => SheetEdit,
+  ): Promise<void> =>
+    editSheet(what, edit(await import("./sheet-edits.js"), store.getState().selectedPieces));
+  return {
+    changeSheet,
+    selectPieces: (selectedPieces: readonly string[]): void => store.setState({ selectedPieces }),
+    /** Adds drawings to the sheet. */
+    addFiles: async (files: readonly File[]): Promise<void> =>
+      (await import("./sheet-edits.js")).addFiles({ ...parts, changeSheet }, files),
+    /** Changes the drawings on the sheet. A single drawing becomes a sheet with the first change. */
+    editSheet,
+    duplicatePieces: () => editSelected("duplicate", ({ duplicated }, ids) => duplicated(ids)),
+    removePieces: () => editSelected("remove", ({ without }, ids) => without(ids)),
+    /** Moves each drawing that leaves the paper back onto it. */
+    moveOntoPaper: () => editSelected("onto paper", ({ ontoPaper }) => ontoPaper),
+    /** Fits all drawings together into the margins. */
+    fitSheet: () => editSelected("fit", ({ fittedToMargins }) => fittedToMargins),
+  };
+};
