@@ -158,7 +158,7 @@ describe("a drawing of the last visit", () => {
   it("is restored with its last settings", () => {
     const { store, actions } = makePage();
     store.setState({ settings: jobSettings });
-    actions.restoreDrawing({ ...ofJob, jobId: null });
+    void actions.restoreDrawing({ ...ofJob, jobId: null });
     actions.takeJobSettings();
     expect(store.getState()).toMatchObject({
       settings: jobSettings,
@@ -168,7 +168,7 @@ describe("a drawing of the last visit", () => {
 
   it("a drawing of the last visit that belongs to a job has the job's settings", () => {
     const { store, actions } = makePage();
-    actions.restoreDrawing(ofJob);
+    void actions.restoreDrawing(ofJob);
     store.setState({ jobs: [makeJob("a", { settings: jobSettings })] });
     actions.takeJobSettings();
     expect(store.getState()).toMatchObject({ settings: jobSettings, drawing: { jobId: "a" } });
@@ -176,7 +176,7 @@ describe("a drawing of the last visit", () => {
 
   it("is no longer a job's after that was removed", () => {
     const { store, actions } = makePage();
-    actions.restoreDrawing(ofJob);
+    void actions.restoreDrawing(ofJob);
     actions.takeJobSettings();
     expect(store.getState().drawing?.jobId).toBe(null);
   });
