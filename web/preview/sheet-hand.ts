@@ -3,7 +3,8 @@ import { boxOf, frameOf, inFrame, movedBy, topmostAt } from "../scene/arrange.js
 import { draggedFrame, framePartAt, snapFrame, snapLinesOf, type SnapLines } from "../scene/placing.js";
 import { mmFromPx, mmFromScreen, screenBox, type View } from "../scene/view.js";
 import type { Actions } from "../state/actions.js";
-import { piecesOnPaper, withPieces, type PlacedPiece } from "../state/sheet-edits.js";
+import { piecesOnPaper, withPieces } from "../state/sheet-edits.js";
+import type { PlacedPiece } from "../state/sheet-settings.js";
 import type { PageState, PageStore } from "../state/store.js";
 import { KNOB_PX, paintFrame, paintSnapLines, REACH_PX, SNAP_PX } from "./frame.js";
 import type { Drag, Point } from "./gestures.js";

@@ -3,7 +3,7 @@ import { isSameJson, isSheetBegun } from "../../src/internal.js";
 import { type Job, DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import type { DrawingText } from "../backend/drawing-text.js";
-import type { Measured, PageSheet, PlanFault } from "../worker/protocol.js";
+import type { FileMeasured, PageSheet, PlanFault } from "../worker/protocol.js";
 import type { PlannerFile } from "../worker/planner.js";
 import { contentOfDrawing, headOf } from "./drawing-content.js";
 import type { createUiActions } from "./ui-actions.js";
@@ -26,7 +26,7 @@ interface DocumentParts {
   readonly undo: ReturnType<typeof createUndo>;
   attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
   replan(): void;
-  measure(file: PlannerFile): Promise<Measured>;
+  measure(file: PlannerFile): Promise<FileMeasured>;
   /** Shows the plotter's own heights and pens again, without an undo step. */
   followPlotter(): void;
 }

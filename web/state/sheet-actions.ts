@@ -1,38 +1,9 @@
 /** The user's actions on a sheet with several drawings. What they do is loaded with the first one: sheet-edits.ts. */
 import type { PlotSettings } from "../../src/schema/index.js";
-import type { Measured, PageSheet } from "../worker/protocol.js";
-import type { PlannerFile } from "../worker/planner.js";
+import type { PageSheet } from "../worker/protocol.js";
 import type { DrawingText } from "../backend/drawing-text.js";
-import type { createUiActions } from "./ui-actions.js";
-import type { OpenDrawing, PageStore } from "./store.js";
-import type { createUndo } from "./undo.js";
-import type { SheetEdit } from "./sheet-edits.js";
-
-export interface SheetParts {
-  readonly store: PageStore;
-  readonly ui: Pick<ReturnType<typeof createUiActions>, "notify">;
-  readonly undo: Pick<ReturnType<typeof createUndo>, "changeDocument">;
-  measure(file: PlannerFile): Promise<Measured>;
-}
-
-/** On a sheet each drawing has its place, so the settings place nothing. */
-export const sheetSettings = (settings: PlotSettings): PlotSettings => {
-  const { prepare } = settings;
-  const isOutsidePlaced = prepare.outside === "move" || prepare.outside === "fit";
-  return {
-    ...settings,
-    prepare: {
-      ...prepare,
-      fit: "auto",
-      rotateDeg: "auto",
-      mirror: "none",
-      layout: null,
-      pxPerInch: "auto",
-      cropToPage: false,
-      outside: isOutsidePlaced ? "refuse" : prepare.outside,
-    },
-  };
-};
+import { sheetSettings, type SheetEdit, type SheetParts } from "./sheet-settings.js";
+import type { OpenDrawing } from "./store.js";
 
 /** The drawing as it is sent and stored. */
 export const textOfDrawing = async (drawing: OpenDrawing, settings: PlotSettings): Promise<DrawingText> =>

@@ -1,39 +1,25 @@
 /** What the actions on a sheet do: adding, copying, removing and moving drawings. Loaded with the first one. */
-import { compose, isEmptyBox, orientedPaper, type Box } from "../../src/internal.js";
+import { compose, isEmptyBox, orientedPaper } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
-import {
-  asAdded,
-  atFreePlace,
-  fittedInto,
-  gridOf,
-  movedOnto,
-  type GridWish,
-  type Placed,
-} from "../scene/arrange.js";
+import { asAdded, atFreePlace, fittedInto, gridOf, movedOnto, type GridWish } from "../scene/arrange.js";
 import type { PageSheet, SheetPiece, SheetSourceFile } from "../worker/protocol.js";
 import { contentOfDrawing } from "./drawing-content.js";
-import { sheetSettings, type SheetParts } from "./sheet-actions.js";
+import {
+  sheetSettings,
+  type PlacedPiece,
+  type SheetEdit,
+  type SheetParts,
+  type SheetRoom,
+} from "./sheet-settings.js";
 import { newFileKey, newPieceId } from "./sheet-text.js";
 import type { PageState, PageStore } from "./store.js";
 import { stateText } from "./text.js";
-
-/** A drawing on the sheet, with what its file draws. */
-export type PlacedPiece = SheetPiece & Placed & { readonly name: string };
-
-/** The pieces as they shall be. */
-export type SheetEdit = (pieces: readonly PlacedPiece[], room: Room) => readonly PlacedPiece[];
-
-/** The paper, and the space inside its margins, mm. */
-export interface Room {
-  readonly paper: Box;
-  readonly inside: Box;
-}
 
 interface Parts extends SheetParts {
   changeSheet(what: string, sheet: PageSheet, name?: string): void;
 }
 
-export const roomOf = ({ prepare }: PlotSettings): Room => {
+export const roomOf = ({ prepare }: PlotSettings): SheetRoom => {
   const { margins, marginMm } = prepare;
   const { widthMm, heightMm } = orientedPaper(prepare.paper, prepare.landscape);
   const sides = margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm };
@@ -175,7 +161,7 @@ const isOneOf =
 
 /** Changes the pieces with these ids. */
 export const eachOf =
-  (ids: readonly string[], change: (piece: PlacedPiece, room: Room) => PlacedPiece): SheetEdit =>
+  (ids: readonly string[], change: (piece: PlacedPiece, room: SheetRoom) => PlacedPiece): SheetEdit =>
   (pieces, room) =>
     pieces.map((piece) => (isOneOf(ids)(piece) ? change(piece, room) : piece));
 

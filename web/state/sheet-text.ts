@@ -3,7 +3,7 @@ import { orientedPaper, parseSheet, type SheetFile } from "../../src/internal.js
 import type { PlotSettings } from "../../src/schema/index.js";
 import { textOf, type DrawingText } from "../backend/drawing-text.js";
 import { mapOfMatrix, matrixOf } from "../scene/arrange.js";
-import type { Measured, PageSheet, SheetSourceFile } from "../worker/protocol.js";
+import type { FileMeasured, PageSheet, SheetSourceFile } from "../worker/protocol.js";
 import type { PlannerFile } from "../worker/planner.js";
 
 let nextFile = 1;
@@ -29,7 +29,7 @@ export const textOfSheet = ({ files, pieces }: PageSheet, prepare: PlotSettings[
 /** Null for a text that is damaged: it is opened as a drawing then, and the reader says what is wrong with it. */
 export const sheetOfText = async (
   content: DrawingText,
-  measure: (file: PlannerFile) => Promise<Measured>,
+  measure: (file: PlannerFile) => Promise<FileMeasured>,
 ): Promise<PageSheet | null> => {
   const sheet = parsed(textOf(content));
   if (sheet === null) return null;

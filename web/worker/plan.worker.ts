@@ -42,7 +42,7 @@ import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
 import { sketchesOf } from "./sketches.js";
-import { DrawingFiles } from "./drawing-files.js";
+import { SentFiles } from "./sent-files.js";
 import type { FileExtent } from "../scene/arrange.js";
 import type {
   ExportRequest,
@@ -65,7 +65,7 @@ const scope = self as unknown as WorkerScope;
 
 let newest: WorkerPlanRequest | null = null;
 let isRunning = false;
-const files = new DrawingFiles();
+const files = new SentFiles();
 /** The drawing of the last plan, as it was read. */
 let imported: Drawing | null = null;
 let prepared: {

@@ -11,7 +11,7 @@ import type { PlotSettings } from "../../src/schema/index.js";
 import type { DrawingText } from "../backend/drawing-text.js";
 import type {
   ExportFormat,
-  Measured,
+  FileMeasured,
   PlanFault,
   Planned,
   Sketch,
@@ -87,7 +87,7 @@ export class Planner {
   /** Files that are being measured, by key. */
   private readonly measuring = new Map<
     string,
-    { readonly file: PlannerFile; take(measured: Measured): void }
+    { readonly file: PlannerFile; take(measured: FileMeasured): void }
   >();
   private newestId = 0;
   private latest: PlannerTask | null = null;
@@ -124,14 +124,14 @@ export class Planner {
   }
 
   /** What a file draws. Never rejects. */
-  measure(file: PlannerFile): Promise<Measured> {
+  measure(file: PlannerFile): Promise<FileMeasured> {
     return new Promise((resolve) => {
       const stopWaiting = this.timer.after(READING_MS, () => {
         const isPlanning = this.isBusy;
         this.end(TOO_LONG);
         if (isPlanning && this.latest) this.send(this.latest);
       });
-      const take = (measured: Measured): void => {
+      const take = (measured: FileMeasured): void => {
         stopWaiting();
         this.measuring.delete(file.key);
         resolve(measured);

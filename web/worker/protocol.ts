@@ -169,7 +169,7 @@ export interface Planned {
 }
 
 /** What a file draws, or why it can't be read. */
-export type Measured = FileExtent | { readonly fault: string };
+export type FileMeasured = FileExtent | { readonly fault: string };
 
 export interface PlanFault {
   readonly message: string;
@@ -198,7 +198,7 @@ export type WorkerReply =
   | { readonly type: "export-failed"; readonly message: string }
   | { readonly type: "strokes"; readonly id: number; readonly strokes: StrokeSet }
   | { readonly type: "sketches"; readonly id: number; readonly sketches: readonly Sketch[] }
-  | { readonly type: "measured"; readonly key: string; readonly measured: Measured }
+  | { readonly type: "measured"; readonly key: string; readonly measured: FileMeasured }
   | { readonly type: "fault"; readonly id: number; readonly fault: PlanFault };
 
 /** To the drawing worker. */

@@ -11,7 +11,8 @@ import {
   type Alignment,
 } from "../../scene/arrange.js";
 import { wholeTurn, type FrameMm } from "../../scene/placing.js";
-import { eachOf, type PlacedPiece, type Room } from "../../state/sheet-edits.js";
+import { eachOf } from "../../state/sheet-edits.js";
+import type { PlacedPiece, SheetRoom } from "../../state/sheet-settings.js";
 import { useActions } from "../../state/use-store.js";
 import { Button } from "../../ui/button.js";
 import { Segments } from "../../ui/fields/choice.js";
@@ -114,7 +115,7 @@ const Aligning = ({ selected }: { selected: readonly PlacedPiece[] }) => {
   const ids = selected.map(({ id }) => id);
   // One drawing is not aligned to itself.
   const target = to === "each" && ids.length < 2 ? "inside" : to;
-  const boxIn = ({ paper, inside }: Room): Box =>
+  const boxIn = ({ paper, inside }: SheetRoom): Box =>
     target === "paper" ? paper : target === "inside" ? inside : boxOfAll(selected);
   const align = (how: Alignment): void =>
     void editSheet(

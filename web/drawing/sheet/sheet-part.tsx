@@ -1,7 +1,8 @@
 import "./sheet.css";
 import { useState } from "react";
 import { frameOf, type GridWish } from "../../scene/arrange.js";
-import { inGrid, piecesOnPaper, type PlacedPiece } from "../../state/sheet-edits.js";
+import { inGrid, piecesOnPaper } from "../../state/sheet-edits.js";
+import type { PlacedPiece } from "../../state/sheet-settings.js";
 import { useActions, usePageState, usePageStore } from "../../state/use-store.js";
 import { Button } from "../../ui/button.js";
 import { Switch } from "../../ui/fields/choice.js";

@@ -3,7 +3,7 @@ import type { Drawing } from "../../src/index.js";
 import type { DrawingText } from "../backend/drawing-text.js";
 import type { WorkerFile } from "./protocol.js";
 
-export class DrawingFiles {
+export class SentFiles {
   private readonly files = new Map<string, DrawingText | Promise<Drawing>>();
 
   /** Forgets all other files. */
