@@ -6,9 +6,11 @@
  */
 import type { Page } from "playwright-core";
 import { PageTest } from "../test/support/browser/page-test.js";
+import { rendererName } from "./pen.bench.js";
 import type { Report, Row } from "./run.js";
 
 const FILES = [
+  { what: "100 000 segments in 1 000 strokes", strokes: 1_000, points: 101 },
   { what: "25 MB, 40 000 polylines", strokes: 40_000, points: 43 },
   { what: "1 000 000 segments in 1 000 strokes", strokes: 1_000, points: 1_001 },
 ] as const;
@@ -25,9 +27,11 @@ interface Watched {
 
 export default async function pageBench(report: Report): Promise<void> {
   const rows: Row[] = [];
+  let renderer = "";
   for (const { what, strokes, points } of FILES) {
     const test = await PageTest.open("bench");
     try {
+      renderer = await test.page.evaluate(rendererName);
       rows.push({ what, ...(await measure(test, strokes, points)) });
     } finally {
       await test.close();
@@ -36,7 +40,7 @@ export default async function pageBench(report: Report): Promise<void> {
   report(
     "The page and large drawings",
     rows,
-    "In Chromium without a graphics card; tasks and work are those of the page's thread, tasks under 50 ms do not count.",
+    `In Chromium, ${renderer}; tasks and work are those of the page's thread, tasks under 50 ms do not count.`,
   );
 }
 

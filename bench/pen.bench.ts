@@ -122,7 +122,8 @@ const shownPlaces = (page: Page): Promise<Place[]> =>
     return places;
   }, WATCHED_MS);
 
-function rendererName(): string {
+/** What draws the strokes; for `page.evaluate`. */
+export function rendererName(): string {
   const gl = document.createElement("canvas").getContext("webgl2");
   const info = gl?.getExtension("WEBGL_debug_renderer_info");
   return gl ? String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)) : "no WebGL2";
