@@ -26,6 +26,7 @@ export const PAGE_GROUPS: readonly PageGroup[] = [
       page("docs/without-installing.md", "Without installing"),
       page("docs/network.md", "Phone and network"),
       page("docs/raspberry-pi.md", "Raspberry Pi"),
+      page("docs/docker.md", "In a container"),
       page("docs/ports.md", "USB ports by system"),
       page("docs/troubleshooting.md", "Troubleshooting"),
       page("docs/upgrade.md", "Upgrade"),

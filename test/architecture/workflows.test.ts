@@ -73,6 +73,35 @@ describe("the workflows", () => {
   });
 });
 
+describe("the container image", () => {
+  const read = (name: string): string => readFileSync(path.join(ROOT, name), "utf8");
+  const dockerfile = read("Dockerfile");
+
+  it("is made from files that the repository has, with the Node versions that are tested", () => {
+    const copied = [...dockerfile.matchAll(/^COPY (?!--from)(.+) \S+$/gm)].flatMap(([, names]) =>
+      names.split(" "),
+    );
+    expect(copied).toEqual(["package.json", "package-lock.json", "."]);
+    const bases = [...dockerfile.matchAll(/^FROM node:(\d+)-/gm)].map(([, version]) => Number(version));
+    expect(bases).toHaveLength(2);
+    expect(new Set(bases).size).toBe(1);
+    expect([20, 22, 24]).toContain(bases[0]);
+    for (const name of ["dist", "node_modules", ".git"])
+      expect(read(".dockerignore").split("\n")).toContain(name);
+  });
+
+  it("runs the server without root's rights, with its data in a volume, and has time to lift the pen", () => {
+    expect(dockerfile).toMatch(/^USER node$/m);
+    expect(dockerfile.indexOf("USER node")).toBeLessThan(dockerfile.indexOf("ENTRYPOINT"));
+    expect(dockerfile).toMatch(/^VOLUME \/data$/m);
+    expect(dockerfile).toMatch(/^ENV .*XDG_DATA_HOME=\/data/m);
+    expect(dockerfile).toMatch(/^ENTRYPOINT \["plotwright"\]\nCMD \["serve", "--lan"\]$/m);
+    expect(read("compose.yaml")).toMatch(/stop_grace_period: 60s/);
+    expect(read("compose.yaml")).not.toMatch(/privileged/);
+    expect(read("docs/docker.md")).toMatch(/--stop-timeout 60/);
+  });
+});
+
 describe("the check of a release", () => {
   const folder = mkdtempSync(path.join(tmpdir(), "plotwright-release-"));
   afterAll(() => rmSync(folder, { recursive: true, force: true }));
