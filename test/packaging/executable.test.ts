@@ -15,6 +15,7 @@ describe.runIf(IS_FULL)("the executable", () => {
   const folder = mkdtempSync(path.join(tmpdir(), "plotwright-executable-test-"));
   const program = path.join(folder, process.platform === "win32" ? "plotwright.exe" : "plotwright");
   const cache = path.join(folder, "cache");
+  const data = path.join(folder, "data");
   const env = {
     XDG_CACHE_HOME: cache,
     LOCALAPPDATA: cache,
