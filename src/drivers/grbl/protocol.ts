@@ -142,6 +142,9 @@ const ALARMS: Readonly<Record<number, string>> = {
   1: "a limit switch was hit",
   2: "the target is beyond the soft limits",
   3: "the machine was reset during a motion",
+  6: "the machine was reset while it sought its switches",
+  8: "a switch was not released after homing",
+  9: "a switch was not found",
 };
 
 export const alarm = (code: number | null): PlotwrightError =>
@@ -188,3 +191,10 @@ export const outOfStep = (): PlotwrightError =>
 
 /** Added to an error after which the pen could not be lifted. */
 export const NOT_LIFTED = "The pen could not be lifted: lift it by hand.";
+
+export const noSwitches = (): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    "The profile says that the Grbl finds home with switches, but homing is off ($22=0). Nothing has moved. Send $22=1 " +
+      "in the console if it has switches; otherwise switch homing off in the profile.",
+  );

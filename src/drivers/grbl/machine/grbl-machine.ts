@@ -20,9 +20,10 @@ import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-j
 import { MoveSignal, moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
 import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, type GrblState } from "../grbl-job.js";
+import { findsHome } from "../model/grbl-controller.js";
 import { penLiftOf, waitLine, type PenLift } from "../model/pen-lift.js";
 import { difference, type Axes } from "../model/planner.js";
-import { isLocked, locked, NOT_LIFTED, servoSignalOf, type Status } from "../protocol.js";
+import { isLocked, locked, noSwitches, NOT_LIFTED, servoSignalOf, type Status } from "../protocol.js";
 import { whyRefused } from "../console-lines.js";
 import { GrblPlayback } from "./grbl-playback.js";
 import { LineStream } from "./line-stream.js";
@@ -43,6 +44,7 @@ interface GrblMemory {
 }
 
 export class GrblMachine implements Machine {
+  readonly homing = { seekHome: (settings: MachineSettings): Promise<boolean> => this.seekHome(settings) };
   readonly console = { send: (line: string): Promise<ConsoleAnswer> => this.sendLine(line) };
   stopSignal = new MoveSignal();
   penUp: boolean | null = null;
@@ -64,6 +66,7 @@ export class GrblMachine implements Machine {
   /** That of the latest settings. */
   private profile: MachineProfile | null = null;
   private isAsleep = false;
+  private isHoming = false;
   /** Only the user may unlock it. */
   private isLocked = false;
   private byHand: LineStream | null = null;
@@ -123,6 +126,7 @@ export class GrblMachine implements Machine {
     // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
+    if (this.home === null) await this.seekHome(settings);
     await this.mustBeUnlocked();
     const home = this.home ?? (await this.homeIsHere());
     this.motorsOn = true;
@@ -200,6 +204,32 @@ export class GrblMachine implements Machine {
     this.options.events.changed();
   }
 
+  /** False if the profile has no switches; nothing moves then. */
+  private async seekHome(settings: MachineSettings): Promise<boolean> {
+    const { session, stopSignal } = this;
+    const profile = machineOf(settings);
+    if (!findsHome(profile)) return false;
+    if (!session.settings.hasHoming) throw noSwitches();
+    // A Z axis is brought to its switch first. Any other pen must not be dragged: the user has asked for the lock to go.
+    const needsLift = !this.isLocked || this.liftOf(profile).kind !== "z";
+    if (this.isLocked && needsLift) await this.recovered(await session.status(), true);
+    this.isAsleep = false;
+    if (needsLift) await this.movePen(true, settings);
+    stopSignal.throwIfAborted();
+    this.isHoming = true;
+    try {
+      await session.seekSwitches();
+    } finally {
+      this.isHoming = false;
+    }
+    await this.recovered(await session.status());
+    // Z counts from its switch again.
+    this.penZeroMm = null;
+    await this.homeIsHere();
+    await this.movePen(true, settings);
+    return true;
+  }
+
   async setHome(settings: MachineSettings): Promise<void> {
     await this.prepareMotors(settings);
     await this.homeIsHere();
@@ -233,6 +263,7 @@ export class GrblMachine implements Machine {
     this.stopSignal.aborted = true;
     this.stopSignal = new MoveSignal();
     this.byHand?.stop(moveStopped());
+    if (this.isHoming) this.stopHoming().catch(() => undefined);
   }
 
   async ping(): Promise<void> {
@@ -241,6 +272,11 @@ export class GrblMachine implements Machine {
 
   emergencyStopMs(): number {
     return STOP_MS;
+  }
+
+  private async stopHoming(): Promise<void> {
+    await this.forgetPosition();
+    await this.recovered(await this.session.reset());
   }
 
   private async sendLine(line: string): Promise<ConsoleAnswer> {

@@ -72,11 +72,14 @@ const REST_TRIES = 200;
 const OFFSET_TRIES = 35;
 const REST_POLL_S = 0.05;
 const POLL_S = 0.2;
-/** Reported by a reset during motion. */
-const RESET_ALARM = 3;
+/** Reported by a reset during motion, or in a search for switches. */
+const RESET_ALARMS: readonly (number | null)[] = [3, 6];
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
+/** The longest search for switches, s. */
+const HOMING_S = 180;
+const HOME = "$H";
 /** Time for braking. */
 const HOLD_S = 0.5;
 
@@ -186,7 +189,7 @@ export class GrblSession implements LineProtocol {
     this.lines.writeLines([line]);
     // Not measured from an old reply.
     if (this.sent.length === 1) {
-      this.lines.expectWithin(PATIENCE_S);
+      this.lines.expectWithin(line === HOME ? HOMING_S : PATIENCE_S);
       this.expectAnswer();
     }
     this.poll();
@@ -221,6 +224,11 @@ export class GrblSession implements LineProtocol {
   async readSettings(): Promise<void> {
     this.settings.forget();
     await this.attempt("$$");
+  }
+
+  /** Brings the carriage to its switches. The Grbl says nothing until it is there. */
+  seekSwitches(): Promise<void> {
+    return this.send(HOME);
   }
 
   /** Asks until it reports its work offset, as it does at least once in 30 reports. One that never does has none. */
@@ -327,7 +335,7 @@ export class GrblSession implements LineProtocol {
       this.checkReported();
     } else if (alarmed) {
       const code = alarmed[1] === "" ? null : Number(alarmed[1]);
-      const isOurs = code === RESET_ALARM || line.includes("Abort during cycle");
+      const isOurs = RESET_ALARMS.includes(code) || line.includes("Abort during cycle");
       if (isOurs && this.greetingWaiters.length > 0) this.isLockOurs = true;
       else this.broken(alarm(code));
     } else if (isGreeting(line)) {
@@ -378,7 +386,8 @@ export class GrblSession implements LineProtocol {
   /** From now on the answer to the first line is due, after the wait that the line asks for. */
   private expectAnswer(): void {
     const first = this.sent.at(0);
-    const waitS = Number(/^G4P([\d.]+)/.exec(first?.line ?? "")?.[1] ?? 0);
+    const isHoming = first?.line === HOME;
+    const waitS = isHoming ? HOMING_S : Number(/^G4P([\d.]+)/.exec(first?.line ?? "")?.[1] ?? 0);
     this.missing.expect(first ? PATIENCE_S + waitS : Infinity);
   }
 
@@ -408,7 +417,7 @@ export class GrblSession implements LineProtocol {
    * and one report may be lost.
    */
   private poll(): void {
-    const isWaiting = this.sent.length > 0 || this.statusWaiters.length > 0;
+    const isWaiting = (this.sent.length > 0 && this.sent[0].line !== HOME) || this.statusWaiters.length > 0;
     if (this.failure || this.cancelPoll || !isWaiting) return;
     this.cancelPoll = this.clock.after(POLL_S, () => {
       this.cancelPoll = null;

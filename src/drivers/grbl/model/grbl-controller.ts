@@ -97,6 +97,13 @@ export const GRBL_FIELDS = {
   ...LIMIT_FIELDS,
   ...Y_FIELDS,
   ...PEN_FIELDS,
+  homing: {
+    kind: "switch",
+    isOptional: true,
+    label: "Finds home with its switches",
+    about: "home is where $H brings the carriage, and is found when the position is unknown; needs $22=1",
+    default: false,
+  },
   penUpLines: OWN_LINES,
   penDownLines: OWN_LINES,
 } as const;
@@ -106,6 +113,7 @@ type Optional<Values> = { readonly [K in keyof Values]?: Values[K] | null | unde
 export interface GrblController
   extends Controller, ValuesOf<typeof LIMIT_FIELDS>, Optional<ValuesOf<typeof Y_FIELDS & typeof PEN_FIELDS>> {
   readonly kind: "grbl";
+  readonly homing?: boolean | null | undefined;
   /** G-code that lifts the pen; lines are separated by line ends. */
   readonly penUpLines?: string | null | undefined;
   readonly penDownLines?: string | null | undefined;
@@ -125,6 +133,8 @@ export function grblOf({ name, motors, controller }: MachineProfile): GrblContro
     `The profile of ${name} says that its motors are "mixed", but a Grbl mixes them by itself: set them to "direct".`,
   );
 }
+
+export const findsHome = ({ controller }: MachineProfile): boolean => controller.homing === true;
 
 /** By the profile. A Z axis that the pen does not use has no limits. */
 export function axisLimits(grbl: GrblController): GrblAxisLimits {

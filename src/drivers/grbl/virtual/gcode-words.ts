@@ -1,9 +1,10 @@
-/** How the virtual Grbl reads a line of G-code, and the codes with which it refuses one. */
+/** How the virtual Grbl reads a line of G-code, the codes with which it refuses one, and the modes that last. */
 
 export const ERROR = {
   letter: 1,
   number: 2,
   dollar: 3,
+  noHoming: 5,
   busy: 8,
   locked: 9,
   unknown: 20,
@@ -40,4 +41,53 @@ export function wordsOf(line: string): GcodeWords | number {
   if (groups.includes(-1)) return ERROR.unknown;
   if (new Set(groups).size < groups.length) return ERROR.sameGroup;
   return { modes, words };
+}
+
+/** What one line sets for those after it. A reset sets it back. */
+export class Modes {
+  isRapid = true;
+  /** mm/min. */
+  feed = 0;
+  /** "M5": its output is off. */
+  private spindle = "M5";
+  private speed = 0;
+
+  /** The signal of the spindle's output; null if it is off. */
+  get signal(): number | null {
+    return this.spindle === "M5" ? null : this.speed;
+  }
+
+  /** As `$G` reports them. */
+  get words(): string {
+    const motion = this.isRapid ? "G0" : "G1";
+    return `${motion} G54 G17 G21 G90 G94 ${this.spindle} M9 T0 F${this.feed} S${this.speed}`;
+  }
+
+  /** Takes M3, M5 and S out of a line. Whether the signal changes; null if it does and may not yet. */
+  takeSpindle({ modes, words }: GcodeWords, mayChange: boolean): boolean | null {
+    const spindle = modes.find((mode) => mode.startsWith("M")) ?? this.spindle;
+    const speed = words.get("S") ?? this.speed;
+    const isChange = spindle !== this.spindle || (speed !== this.speed && spindle !== "M5");
+    if (isChange && !mayChange) return null;
+    words.delete("S");
+    this.spindle = spindle;
+    this.speed = speed;
+    return isChange;
+  }
+
+  /** False for a move whose feed is missing. */
+  takeMotion(modes: readonly string[], words: ReadonlyMap<string, number>, isMove: boolean): boolean {
+    if (modes.includes("G0")) this.isRapid = true;
+    if (modes.includes("G1")) this.isRapid = false;
+    const feed = words.get("F") ?? this.feed;
+    if (isMove && !this.isRapid && feed === 0) return false;
+    this.feed = feed;
+    return true;
+  }
+
+  reset(): void {
+    this.isRapid = true;
+    this.feed = this.speed = 0;
+    this.spindle = "M5";
+  }
 }

@@ -95,9 +95,9 @@ export class GrblMotion {
     this.arrived(this.start);
   }
 
-  /** At rest: counts from the current position from now on. */
-  zero(): void {
-    this.start = this.target = [0, 0, 0];
+  /** At rest: it stands at this position by its own count from now on. */
+  jumpTo(at: Axes): void {
+    this.start = this.target = at;
   }
 
   /** Performs everything before a given time. */

@@ -11,8 +11,9 @@ import type { Transport } from "../../transport.js";
 import { dwellS } from "../model/grbl-controller.js";
 import { difference, sum, type Axes } from "../model/planner.js";
 import { VirtualLink } from "../../virtual-link.js";
-import { ERROR, wordsOf } from "./gcode-words.js";
+import { ERROR, Modes, wordsOf } from "./gcode-words.js";
 import { GrblMotion } from "./motion.js";
+import { RxBuffer } from "./rx-buffer.js";
 import { Ink, VirtualPen } from "./virtual-pen.js";
 import {
   VirtualSettings,
@@ -25,25 +26,24 @@ import {
 const OFFSET_EVERY = { rest: 10, motion: 30 };
 /** How long Grbl waits for more lines before it starts with a queue that is not full. */
 const START_S = 0.005;
+/** How long it seeks its switches: longer than any other silence. */
+const HOMING_S = 8;
+const PULL_OFF_MM = 1;
 export class VirtualGrbl implements VirtualMachine {
   private readonly settings: VirtualSettings;
   private readonly motion: GrblMotion;
   private readonly pen: VirtualPen;
   private readonly startS: number;
   private link: VirtualLink | null = null;
-  private received = "";
-  private lostCount = 0;
+  private readonly rx: RxBuffer;
   private earlyCount = 0;
-  /** "M5": the spindle's output is off. */
-  private spindle = "M5";
-  private spindleSpeed = 0;
+  private readonly modes = new Modes();
   private isLocked = false;
   private isAsleep = false;
+  private isHoming = false;
   private isHeld = false;
   /** After some alarms it answers nothing until it is reset. */
   private isDeaf = false;
-  private feed = 0;
-  private isRapid = true;
   /** Origin of the work coordinates, mm. */
   private offset: Axes = [0, 0, 0];
   /** Where the machine coordinates begin since the last start, mm from where they began at the first. */
@@ -71,6 +71,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.startS = clock.nowS();
     this.settings = new VirtualSettings(machine, board);
     this.pen = new VirtualPen(machine);
+    this.rx = new RxBuffer(this.settings.rxBytes);
     this.motion = new GrblMotion(
       this.settings.face.queueMoves,
       () => this.settings.limits,
@@ -103,7 +104,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.catchUp();
     this.motion.stop();
     this.origin = sum(this.origin, this.motion.at);
-    this.motion.zero();
+    this.motion.jumpTo([0, 0, 0]);
     this.ink.begin(this.isPenDown);
     this.isLocked = this.settings.hasHoming;
     this.begin();
@@ -146,8 +147,8 @@ export class VirtualGrbl implements VirtualMachine {
     this.catchUp();
     const { x: xMm, y: yMm } = this.onPage;
     const pen = { zMm: this.zMm, penUp: !this.isPenDown, offsetMm: this.offset };
-    const { earlyCount, lostCount } = this;
-    return { state: this.stateName(), xMm, yMm, ...pen, earlyCount, lostCount };
+    const counts = { earlyCount: this.earlyCount, lostCount: this.rx.lostCount };
+    return { state: this.stateName(), xMm, yMm, ...pen, ...counts };
   }
 
   drawn(): DrawnPolyline[] {
@@ -168,8 +169,7 @@ export class VirtualGrbl implements VirtualMachine {
       else if (character === "~") this.resume();
       else if (character === "\x18") this.reset();
       else if (character === "\n" && this.settings.takes("line-end-lost")) continue;
-      else if (this.received.length < this.settings.rxBytes) this.received += character;
-      else this.lostCount++;
+      else this.rx.push(character);
     }
     this.work();
   }
@@ -177,18 +177,18 @@ export class VirtualGrbl implements VirtualMachine {
   /** Reads lines while it can, and sets a timer for the next event. */
   private work(): void {
     while (!this.isHeld && !this.isAsleep && !this.isDeaf && this.waitUntilS === null) {
-      const end = this.received.indexOf("\n");
-      if (end < 0) break;
-      const line = this.received.slice(0, end).replace(/\s|\(.*?\)|;.*/g, "");
+      const received = this.rx.line;
+      if (received === null) break;
+      const line = received.replace(/\s|\(.*?\)|;.*/g, "");
       const answer = this.perform(line.toUpperCase());
       if (answer === null) break;
       if (answer === 0) this.pen.executed(line.toUpperCase(), this.nowS);
-      this.received = this.received.slice(end + 1);
+      this.rx.dropLine();
       this.answer(answer === 0 ? "ok" : this.settings.face.error(answer));
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
       this.startDueS ??= this.nowS + START_S;
-      const waitsForMotion = /^(G4|M[345])/.test(this.received);
+      const waitsForMotion = /^(G4|M[345])/.test(this.rx.line ?? "");
       if (this.motion.isFull || waitsForMotion) this.startDueS = this.nowS;
     }
     this.schedule();
@@ -242,25 +242,26 @@ export class VirtualGrbl implements VirtualMachine {
     const block = wordsOf(line);
     if (typeof block === "number") return block;
     const { modes, words } = block;
-    if (!this.setSpindle(modes, words)) return null;
+    const isChange = this.modes.takeSpindle(block, this.motion.isEmpty);
+    if (isChange === null) return null;
+    if (isChange) this.pen.signal(this.modes.signal, this.nowS);
     if (modes.includes("G4")) return this.dwell(modes, words);
     if (modes.includes("G10")) return this.setOffset(words);
     return this.move(modes, words);
   }
 
-  private system(line: string): number {
+  private system(line: string): number | null {
     const isAtRest = this.motion.isEmpty || this.isLocked;
     const [, number, value] = /^\$(\d+)=(-?[\d.]+)$/.exec(line) ?? [];
     const { face } = this.settings;
-    if (line === "$G") {
-      const modes = `${this.isRapid ? "G0" : "G1"} G54 G17 G21 G90 G94 ${this.spindle} M9 T0`;
-      this.reply(face.modes(`${modes} F${this.feed} S${this.spindleSpeed}`));
-    } else if (line === "$")
+    if (line === "$G") this.reply(face.modes(this.modes.words));
+    else if (line === "$")
       this.reply("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]");
     else if (line === "$X") {
       if (this.isLocked) this.reply("[MSG:Caution: Unlocked]");
       this.isLocked = false;
-    } else if (line !== "$I" && line !== "$$" && line !== "$SLP" && number === undefined) {
+    } else if (line === "$H") return this.seekSwitches();
+    else if (line !== "$I" && line !== "$$" && line !== "$SLP" && number === undefined) {
       return ERROR.dollar;
     } else if (!isAtRest) return ERROR.busy;
     else if (line === "$I") {
@@ -274,9 +275,28 @@ export class VirtualGrbl implements VirtualMachine {
     return 0;
   }
 
+  /** It stands at the switches then, where the carriage stood at the first start, and the pen is up. */
+  private seekSwitches(): number | null {
+    if (!this.settings.hasHoming) return ERROR.noHoming;
+    this.isHoming = true;
+    this.wait(HOMING_S, () => {
+      this.isHoming = this.isLocked = false;
+      this.motion.jumpTo([-PULL_OFF_MM, -PULL_OFF_MM, -PULL_OFF_MM]);
+      this.origin = [PULL_OFF_MM, PULL_OFF_MM, 0];
+      this.ink.begin(false);
+    });
+    return null;
+  }
+
+  /** The line is answered when the wait ends, so it is removed from the buffer here. */
+  private wait(seconds: number, then: () => void): void {
+    this.waitUntilS = this.nowS + seconds;
+    this.afterWait = then;
+    this.rx.dropLine();
+  }
+
   /**
-   * G4 is answered when its wait ends, so the line is removed from the buffer here. A move in the same line, whose line
-   * end was lost, comes after the wait.
+   * A move in the same line, whose line end was lost, comes after the wait.
    */
   private dwell(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
     const seconds = words.get("P");
@@ -285,23 +305,8 @@ export class VirtualGrbl implements VirtualMachine {
     const rest = new Map(words);
     rest.delete("P");
     if (seconds <= 0) return this.move(modes, rest);
-    this.waitUntilS = this.nowS + dwellS(seconds);
-    this.afterWait = () => this.move(modes, rest);
-    this.received = this.received.slice(this.received.indexOf("\n") + 1);
+    this.wait(dwellS(seconds), () => this.move(modes, rest));
     return null;
-  }
-
-  /** Takes M3, M5 and S out of the line. A change waits for rest: false while it does. */
-  private setSpindle(modes: readonly string[], words: Map<string, number>): boolean {
-    const spindle = modes.find((mode) => mode.startsWith("M")) ?? this.spindle;
-    const speed = words.get("S") ?? this.spindleSpeed;
-    const isChange = spindle !== this.spindle || (speed !== this.spindleSpeed && spindle !== "M5");
-    if (isChange && !this.motion.isEmpty) return false;
-    words.delete("S");
-    this.spindle = spindle;
-    this.spindleSpeed = speed;
-    if (isChange) this.pen.signal(spindle === "M5" ? null : speed, this.nowS);
-    return true;
   }
 
   private setOffset(words: ReadonlyMap<string, number>): number | null {
@@ -319,11 +324,8 @@ export class VirtualGrbl implements VirtualMachine {
   private move(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
     const isMove = words.has("X") || words.has("Y") || words.has("Z");
     if (isMove && this.motion.isFull) return null;
-    if (modes.includes("G0")) this.isRapid = true;
-    if (modes.includes("G1")) this.isRapid = false;
-    const feed = words.get("F") ?? this.feed;
-    if (isMove && !this.isRapid && feed === 0) return ERROR.noFeed;
-    this.feed = feed;
+    if (!this.modes.takeMotion(modes, words, isMove)) return ERROR.noFeed;
+    const { isRapid, feed } = this.modes;
     if (!isMove) return words.size > (words.has("F") ? 1 : 0) ? ERROR.unused : 0;
     const { end } = this.motion;
     const target = (letter: string, axis: 0 | 1 | 2): number => {
@@ -337,7 +339,7 @@ export class VirtualGrbl implements VirtualMachine {
       return null;
     }
     if (to.every((value, i) => value === end[i])) return 0;
-    this.motion.queue(to, this.isRapid ? Infinity : feed / 60);
+    this.motion.queue(to, isRapid ? Infinity : feed / 60);
     return 0;
   }
 
@@ -365,6 +367,10 @@ export class VirtualGrbl implements VirtualMachine {
       this.reply(this.settings.face.alarm(3));
       this.isLocked = true;
     }
+    if (this.isHoming) {
+      this.reply(this.settings.face.alarm(6));
+      this.isLocked = true;
+    }
     // The motors were off, so the carriage may have been pushed.
     if (this.isAsleep) this.isLocked = true;
     this.begin();
@@ -381,21 +387,18 @@ export class VirtualGrbl implements VirtualMachine {
 
   private begin(): void {
     this.motion.stop();
-    this.received = "";
+    this.rx.clear();
     this.refusal = 0;
-    this.isHeld = this.isAsleep = this.isDeaf = false;
+    this.isHeld = this.isAsleep = this.isDeaf = this.isHoming = false;
     this.waitUntilS = this.startDueS = null;
-    this.feed = 0;
-    this.isRapid = true;
-    this.spindle = "M5";
-    this.spindleSpeed = 0;
+    this.modes.reset();
     this.offsetDue = 0;
     this.reply(this.settings.face.greeting);
     if (this.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
   }
 
   private report(): void {
-    if (this.isDeaf) return;
+    if (this.isDeaf || this.isHoming) return;
     const { settings } = this;
     const { at } = this.motion;
     const hasOffset = this.offsetDue === 0;
@@ -405,7 +408,7 @@ export class VirtualGrbl implements VirtualMachine {
       machineAt: settings.reported(at),
       workAt: settings.reported(difference(at, this.offset)),
       offset: hasOffset ? settings.reported(this.offset) : null,
-      free: `${this.motion.freeCount},${settings.rxBytes - this.received.length}`,
+      free: `${this.motion.freeCount},${this.rx.freeCount}`,
       feed: Math.round(60 * this.motion.speedMmPerS),
     });
     this.reply(report);
