@@ -3,7 +3,7 @@ import { SERVER_STOPPED } from "../../../host/queue/job-words.js";
 import { PlotwrightError } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { folderOfTest } from "../../support/processes/folders.js";
-import { LED_PLANNING } from "../../support/jobs/led-plotter.js";
+import { LED_PLANNING, LedPlotter } from "../../support/jobs/led-plotter.js";
 import { openQueueIn, settled, type OpenQueue } from "../../support/jobs/open-queue.js";
 
 let dir: string;
@@ -398,6 +398,34 @@ describe("the queue", () => {
     store.close();
     openQueue();
     expect(queue.settings()).toEqual({ runOn: true });
+  });
+
+  it("continues with the next waiting job of the same plotter, and with that one only", async () => {
+    store.close();
+    openQueue({ otherPlotter: new LedPlotter("other", "Other plotter") });
+    queue.saveSettings({ runOn: true });
+    const { run } = await plotting();
+    const onOther = await add("moss", { plotterId: "other" });
+    const cancelled = await add("lichen");
+    queue.plots.cancel(cancelled.id);
+    const [next, last] = [await add("ivy"), await add("sedge")];
+    run.end({ kind: "done" });
+    await settled();
+    const states = [onOther, cancelled, next, last].map(({ id }) => {
+      const { state, message } = queue.get(id);
+      return [state, message];
+    });
+    expect(states).toEqual([
+      ["queued", null],
+      ["cancelled", null],
+      ["plotting", null],
+      ["queued", null],
+    ]);
+    (await nextRun()).end({ kind: "done" });
+    await settled();
+    expect(queue.get(last.id).state).toBe("plotting");
+    (await nextRun()).end({ kind: "done" });
+    await settled();
   });
 
   it("changes settings only while queued, and the name at any time", async () => {

@@ -1,4 +1,4 @@
-/** A queue on a data folder, with one plotter that the test controls. */
+/** A queue on a data folder, with one or two plotters that the test controls. */
 import { expect } from "vitest";
 import { DISK_FULL } from "../../../host/disk-fault.js";
 import type { Planning } from "../../../host/planning/planning.js";
@@ -30,7 +30,13 @@ export const settled = (): Promise<void> => new Promise((resolve) => setImmediat
 
 export function openQueueIn(
   dir: string,
-  options: { readonly planning?: Planning; readonly claims?: Claims; readonly nowIso?: () => string } = {},
+  options: {
+    readonly planning?: Planning;
+    readonly claims?: Claims;
+    readonly nowIso?: () => string;
+    /** Beside the first one. */
+    readonly otherPlotter?: LedPlotter;
+  } = {},
 ): OpenQueue {
   prepareDataDir(dir);
   const store = Store.open(dir);
@@ -41,7 +47,7 @@ export function openQueueIn(
     store,
     files: new DrawingFiles(dir, 1_000_000),
     planning: options.planning ?? LED_PLANNING,
-    plotters: new Map([[plotter.id, plotter]]),
+    plotters: new Map([plotter, options.otherPlotter ?? plotter].map((one) => [one.id, one])),
     // What is announced is already on disk, unless the disk is reported as full.
     announce: (event) => {
       const isUnsaved = event.type === "job" && event.job.message?.includes(DISK_FULL) === true;

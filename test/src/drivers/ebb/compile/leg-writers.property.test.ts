@@ -190,7 +190,8 @@ describe.each(GENERATIONS)("the command for a leg on firmware $features.version"
         wrong.motors.forEach(({ motion }, i) => {
           const change = stepsPerSFromRate(motion.rateDuring(1) - exact.motors[i].motion.rateDuring(1));
           expect(Math.abs(change)).toBeLessThan(12.1);
-          // It leads back to the plan.
+          // It leads back to the plan. LT may clear the accumulators instead, so that the motor is on the other side.
+          if (generation.counts === "travel" && wrong.command.line.split(",").length > 6) return;
           expect(change * off).toBeLessThanOrEqual(0);
         });
       }),
