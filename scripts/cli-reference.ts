@@ -1,4 +1,5 @@
 /** The commands of the command line as Markdown, from the program's own help. */
+import { Readable } from "node:stream";
 import type { Command, Option } from "commander";
 import { COMMANDS } from "../server/cli/commands.js";
 import { buildProgram } from "../server/cli/program.js";
@@ -14,6 +15,7 @@ const NO_IO = {
   onInterrupt: () => () => undefined,
   endWithin: () => undefined,
   onLine: () => () => undefined,
+  inputLines: () => Readable.from([]),
 };
 
 export async function cliReference(): Promise<string> {

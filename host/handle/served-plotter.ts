@@ -122,7 +122,10 @@ class ServerHandle extends BaseHandle {
   }
 
   protected beginLive(): Promise<BegunLive> {
-    throw new PlotwrightError("bad-setting", "Live drawing on a server is not there yet.");
+    throw new PlotwrightError(
+      "bad-setting",
+      "A plotter of a server can't draw live yet: open its port with device while no server runs.",
+    );
   }
 
   protected plotEnded(): void {

@@ -84,6 +84,10 @@ export class LiveStrokes {
     return this.view;
   }
 
+  get hasFailed(): boolean {
+    return this.failure !== null;
+  }
+
   get strokeCount(): number {
     return this.offsets.length - 1;
   }

@@ -48,6 +48,12 @@ export const COMMANDS: readonly CliCommand[] = [
     load: async () => (await import("./plot/plot.js")).declarePlot,
   },
   {
+    name: "live",
+    about: "draw points from stdin as they come: x y on each line, up lifts the pen",
+    examples: ["plotwright live --speed 30", "plotwright live --device virtual"],
+    load: async () => (await import("./live/live.js")).declareLive,
+  },
+  {
     name: "add",
     about: "put drawings into a running server's queue",
     examples: [

@@ -1,5 +1,6 @@
 /** The process, as a command uses it. An interface, so that tests can run commands without a process. */
 import { closeSync } from "node:fs";
+import { createInterface } from "node:readline";
 import { isatty } from "node:tty";
 import { printable } from "../../src/internal.js";
 
@@ -26,6 +27,8 @@ export interface CliIo {
   endWithin(ms: number): void;
   /** Calls back for each typed line; the returned function stops listening. */
   onLine(listener: (line: string) => void): () => void;
+  /** The lines of stdin, as they come, until `end`: an open stdin would keep the process. */
+  inputLines(end: AbortSignal): AsyncIterable<string>;
 }
 
 /**
@@ -105,6 +108,7 @@ export function processIo(): CliIo {
       };
       setTimeout(end, ms).unref();
     },
+    inputLines: (signal) => createInterface({ input: process.stdin, crlfDelay: Infinity, signal }),
     onLine: (listener) => {
       if (!isatty(0)) return () => undefined;
       const take = (data: Buffer): void => listener(data.toString("utf8").trim());

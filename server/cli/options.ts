@@ -70,6 +70,7 @@ export const number = numberThat(Number.isFinite, "a number");
 export const positive = numberThat((value) => value > 0 && Number.isFinite(value), "a number above 0");
 export const percent = numberThat(isIn(0, 100), "0 to 100");
 export const seconds = numberThat(isIn(0, 86_400), "0 to 86400 seconds");
+export const milliseconds = numberThat(isIn(0, 60_000), "0 to 60000 ms");
 export const port = numberThat(isIn(0, 65_535), "0 to 65535", WHOLE);
 export const copies = numberThat(
   isIn(1, 100),

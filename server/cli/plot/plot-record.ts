@@ -2,7 +2,15 @@
  * Stores a plot started from the command line, so that it can resume after a crash: its drawing, its settings, and the
  * driver's journal. One folder per device, deleted when the plot has ended.
  */
-import { copyFileSync, existsSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import {
+  appendFileSync,
+  copyFileSync,
+  existsSync,
+  readFileSync,
+  renameSync,
+  rmSync,
+  writeFileSync,
+} from "node:fs";
 import { join } from "node:path";
 import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
@@ -49,9 +57,10 @@ export class PlotRecord {
   constructor(
     private readonly dataDir: string,
     device = "auto",
+    kind: "command-line" | "live" = "command-line",
   ) {
     this.device = device;
-    this.names = ["command-line", encodeURIComponent(device)];
+    this.names = [kind, encodeURIComponent(device)];
     this.folder = join(dataDir, ...this.names);
   }
 
@@ -71,12 +80,12 @@ export class PlotRecord {
 
   /**
    * Only one process can open a serial port, but several can plot on a virtual board: then only the first plot is
-   * stored. Throws `bad-file` if the drawing can't be read, `bad-setting` if the data folder can't be written to.
+   * stored. `path` null: the drawing is added by `append`. Throws `bad-file` if the drawing can't be read, `bad-setting` if the data folder can't be written to.
    */
-  begin(path: string, plot: StoredPlot, font?: string): void {
+  begin(path: string | null, plot: StoredPlot, font?: string): void {
     this.isOurs = this.device !== "virtual" || this.ownerElsewhere() === null;
     if (!this.isOurs) return;
-    const drawing = readDrawing(path);
+    const drawing = path === null ? "" : readDrawing(path);
     makeDataFolder(this.dataDir, ...this.names);
     this.mustWrite(() => {
       rmSync(join(this.folder, "journal.json"), { force: true });
@@ -95,6 +104,11 @@ export class PlotRecord {
   /** `progress`: 0 … 1. Throws the system's error if the disk is full. */
   save(entry: JournalEntry, progress: number): void {
     if (this.isOurs) this.write("journal.json", { ...entry, progress });
+  }
+
+  /** Adds to the drawing. */
+  append(text: string): void {
+    if (this.isOurs) appendFileSync(this.drawingPath, text);
   }
 
   end(): void {

@@ -304,7 +304,11 @@ const wasInterrupted = ({ name, progress }: InterruptedPlot): string =>
   `The plot of ${name} was interrupted at ${Math.round(100 * progress)} %.`;
 
 /** A full disk must not stop the pen in mid-stroke: each entry is tried, as the disk may soon have room again. */
-function journalIn(record: PlotRecord, progress: () => number, io: CliIo): NonNullable<PlotStart["journal"]> {
+export function journalIn(
+  record: PlotRecord,
+  progress: () => number,
+  io: CliIo,
+): NonNullable<PlotStart["journal"]> {
   let isReported = false;
   return {
     record: (entry: JournalEntry) => {

@@ -206,6 +206,7 @@ const WITH: Readonly<Record<string, readonly string[]>> = {
   "serve --cert": ["--key", TLS.key],
   "serve --key": ["--cert", TLS.cert],
   "test-patch --shaper": ["--machine-file", "measured.json"],
+  "live --shaper": ["--machine-file", "measured.json"],
   "plan --pen-error": ["--spring-x", "15", "--spring-y", "25"],
   "ringing --damping": ["--ripples-x", "2,19.5"],
   "ringing --store": ["--ripples-x", "2,19.5", "--ripples-y", "3,18"],

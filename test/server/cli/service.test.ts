@@ -1,5 +1,6 @@
 /** The services of systemd and launchd, and the logs, on a simulated computer that only records its commands. */
 import { spawnSync } from "node:child_process";
+import { Readable } from "node:stream";
 import { chmodSync, existsSync, readFileSync, statSync } from "node:fs";
 import { createServer, type AddressInfo } from "node:net";
 import { homedir } from "node:os";
@@ -45,6 +46,7 @@ const io: CliIo = {
   onInterrupt: () => () => undefined,
   endWithin: () => undefined,
   onLine: () => () => undefined,
+  inputLines: () => Readable.from([]),
 };
 const host = (more: Partial<ServiceHost> = {}): ServiceHost => ({
   platform: "linux",

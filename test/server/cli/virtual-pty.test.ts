@@ -1,3 +1,4 @@
+import { Readable } from "node:stream";
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { SerialPort } from "serialport";
@@ -75,6 +76,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
         },
         endWithin: () => undefined,
         onLine: () => () => undefined,
+        inputLines: () => Readable.from([]),
       },
     );
     await up;
@@ -115,6 +117,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
           return () => undefined;
         },
         endWithin: () => undefined,
+        inputLines: () => Readable.from([]),
         onLine: (listener) => {
           type = listener;
           return () => undefined;
@@ -154,6 +157,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
           onInterrupt: () => () => undefined,
           endWithin: () => undefined,
           onLine: () => () => undefined,
+          inputLines: () => Readable.from([]),
         },
       ),
     ).rejects.toMatchObject({ code: "bad-setting" });

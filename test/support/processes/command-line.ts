@@ -1,4 +1,5 @@
 /** Runs the command line in this process, and captures its output. */
+import { Readable } from "node:stream";
 import { runCli } from "../../../server/cli/program.js";
 import type { CliIo } from "../../../server/cli/io.js";
 
@@ -13,6 +14,8 @@ export class CaughtIo implements CliIo {
   errText = "";
   readonly isTerminal = false;
   hasKeyboard = true;
+  /** What stdin gives. */
+  inputText = "";
   private interruptListeners: ((isFinal: boolean) => void)[] = [];
   private lineListeners: ((line: string) => void)[] = [];
 
@@ -36,6 +39,10 @@ export class CaughtIo implements CliIo {
   onLine(listener: (line: string) => void): () => void {
     this.lineListeners.push(listener);
     return () => (this.lineListeners = this.lineListeners.filter((one) => one !== listener));
+  }
+
+  inputLines(): AsyncIterable<string> {
+    return Readable.from(this.inputText.split("\n").slice(0, -1));
   }
 
   /** Whether an interrupt is handled; otherwise it would end the process. */
