@@ -7,17 +7,17 @@
  */
 import { PlotwrightError } from "../../src/index.js";
 
-type Point = readonly [x: number, y: number];
+type LinePoint = readonly [x: number, y: number];
 
 /** Takes the strokes of a live drawing. */
-interface Pen {
-  stroke(points: readonly Point[]): void;
+interface TakesLines {
+  stroke(points: readonly LinePoint[]): void;
   lineTo(x: number, y: number): void;
   penUp(): void;
 }
 
 /** Adds what a line says. Throws `bad-file` for a line that says nothing, and the errors of `pen`. */
-export function drawLine(line: string, pen: Pen): void {
+export function drawLine(line: string, pen: TakesLines): void {
   const text = line.trim();
   if (text === "" || text === "up") return pen.penUp();
   const value = text.startsWith("[") ? parsed(text) : text.split(/[\s,]+/).map(Number);
@@ -40,5 +40,5 @@ function parsed(text: string): unknown {
   }
 }
 
-const isPoint = (value: unknown): value is Point =>
+const isPoint = (value: unknown): value is LinePoint =>
   Array.isArray(value) && value.length === 2 && value.every((one) => Number.isFinite(one));

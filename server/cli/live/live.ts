@@ -23,7 +23,7 @@ import { PlotRecord, type InterruptedPlot } from "../plot/plot-record.js";
 import { CANCELLED, cancelled } from "../plot/plot-watch.js";
 import { addSettingOptions, type OptionValues } from "../settings-options.js";
 
-interface LiveOptions extends DeviceOptions {
+interface LiveCommandOptions extends DeviceOptions {
   readonly liftAfterMs: number;
   readonly restart?: boolean;
   readonly quiet?: boolean;
@@ -42,7 +42,7 @@ export const declareLive: Declare = (command, { io, setExitCode }) => {
     )
     .option("--restart", "discard what an interrupted live drawing has left")
     .option("--quiet", "print nothing but errors")
-    .action(async (given: LiveOptions & OptionValues) => {
+    .action(async (given: LiveCommandOptions & OptionValues) => {
       const served = await servedPlotter(given);
       if (served !== null) throw isServed(served.access.url);
       const options = await withPortByName(given);
@@ -52,7 +52,7 @@ export const declareLive: Declare = (command, { io, setExitCode }) => {
     });
 };
 
-async function drawLive(settings: PlotSettings, options: LiveOptions, io: CliIo): Promise<number> {
+async function drawLive(settings: PlotSettings, options: LiveCommandOptions, io: CliIo): Promise<number> {
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device, "live");
   const found = options.restart === true ? null : record.find();
   return withPlotter(options, settings, async (plotter) => {
@@ -81,7 +81,7 @@ function isStillThere({ board }: InterruptedPlot, plotter: PlotterPort): boolean
   return now.xMm !== null && !(board !== undefined && isOtherBoard(board, now));
 }
 
-interface Drawing {
+interface LiveCourse {
   readonly source: LiveStrokes;
   readonly left: InterruptedPlot | null;
   readonly record: PlotRecord;
@@ -90,7 +90,7 @@ interface Drawing {
 function begin(
   plotter: PlotterPort,
   settings: PlotSettings,
-  { source, left, record }: Drawing,
+  { source, left, record }: LiveCourse,
   io: CliIo,
 ): Promise<RunningPlot> | RunningPlot {
   const start: PlotStart = {
