@@ -25,7 +25,7 @@ export class Cameras {
   private cameras: Readonly<Record<string, Camera>>;
   private readonly lastTries = new Map<string, CameraState["last"]>();
   /** The jobs that are being plotted, by plotter id, and what stops taking their pictures. */
-  private readonly plotting = new Map<string, { readonly jobId: string; stop: AbortController }>();
+  private readonly plotting = new Map<string, { readonly jobId: string; readonly stop: AbortController }>();
   /** Jobs that were removed. */
   private readonly gone = new Set<string>();
   private readonly running = new Set<Promise<void>>();
@@ -99,6 +99,7 @@ export class Cameras {
   }
 
   private begin(plotterId: string, jobId: string, isNew: boolean): void {
+    this.end(plotterId);
     const stop = new AbortController();
     this.plotting.set(plotterId, { jobId, stop });
     this.track(
@@ -116,9 +117,7 @@ export class Cameras {
   /** With another camera, or none. */
   private followAgain(plotterId: string): void {
     const now = this.plotting.get(plotterId);
-    if (now === undefined) return;
-    now.stop.abort();
-    this.begin(plotterId, now.jobId, false);
+    if (now !== undefined) this.begin(plotterId, now.jobId, false);
   }
 
   private async follow(plotterId: string, jobId: string, stop: AbortSignal): Promise<void> {
