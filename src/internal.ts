@@ -113,7 +113,16 @@ export {
   turnedOntoPaper,
 } from "./prepare/files-page.js";
 export { meanScaleOf, sizeInWords, type DrawnSize, type OutsidePaper } from "./prepare/on-paper.js";
-export { orientedPaper, layOutDrawing, type Layout } from "./prepare/layout.js";
+export { layOutDrawing, type Layout } from "./prepare/layout.js";
+export {
+  orientedPaper,
+  paperAndMargins,
+  sheetOf,
+  sheetSize,
+  tileCount,
+  tilesOf,
+  tileWindows,
+} from "./prepare/tiles.js";
 export { cutOffLines } from "./prepare/cut-off.js";
 export type { PreparedLayer } from "./prepare/assemble.js";
 export { parseLayerName, shownLayerName } from "./prepare/layers/layer-codes.js";

@@ -96,21 +96,24 @@ export class JobList {
   }
 
   /**
-   * Adds a job and copies of it before another job of the queue, or last. All are stored in one transaction: many flushes
+   * Adds jobs and copies of them before another job of the queue, or last. All are stored in one transaction: many flushes
    * to the disk would delay the plotters, and a fault between them would leave only some of the jobs.
    */
   insert(
-    job: Job,
+    wanted: readonly Job[],
     drawing: StoredDrawing,
     { beforeId = null, watched, sharedId, copies = 1 }: Origin = {},
   ): Job {
     const { store, announce } = this.parts;
-    const jobs = [job];
-    while (jobs.length < copies) jobs.push({ ...job, id: crypto.randomUUID() });
+    const jobs = [...wanted];
+    while (jobs.length < copies * wanted.length) {
+      jobs.push(...wanted.map((job) => ({ ...job, id: crypto.randomUUID() })));
+    }
+    const [first] = jobs;
     store.transaction(() => {
       for (const each of jobs) store.addJob(each, drawing, beforeId);
       if (watched !== undefined) store.saveSeen(watched);
-      if (sharedId !== undefined) store.saveShared(sharedId, job.id);
+      if (sharedId !== undefined) store.saveShared(sharedId, first.id);
     });
     this.storedOrder = null;
     for (const each of jobs) {
@@ -118,7 +121,7 @@ export class JobList {
       announce({ type: "job", job: each });
     }
     this.announceOrder();
-    return job;
+    return first;
   }
 
   /** Returns the job's drawing if no other job uses it, else null. */

@@ -21,6 +21,7 @@ import { findPlotter } from "./find-plotter.js";
 import { JobList } from "./job-list.js";
 import { SettingsOfJobs } from "./job-settings.js";
 import { applyJobEvent, isOnPlotter, queuedJob } from "./job-states.js";
+import { sheetsOf } from "./job-words.js";
 import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
 
@@ -29,6 +30,9 @@ import type { NewQueueJob, QueueParts } from "./queue-parts.js";
  * become that large: at 100 bytes each, those of a thousand layers.
  */
 const MAX_SETTINGS_BYTES = 100_000;
+
+/** On its plotter, with its settings. */
+type PlacedJob = Pick<Job, "plotterId" | "settings">;
 
 /** Waiting jobs of one device or key that may only submit jobs. */
 const MAX_SUBMITTED = 20;
@@ -106,7 +110,7 @@ export class JobQueue {
     const waiting = this.jobs.order().filter((queuedId) => this.get(queuedId).state === "queued");
     const beforeId = job.state === "queued" ? (waiting[waiting.indexOf(id) + 1] ?? null) : null;
     const copy = this.newJob({ ...job, plotterId: this.existingPlotter(job) });
-    return this.jobs.insert(copy, { id: this.parts.store.drawingOf(id), bytes: 0 }, { beforeId });
+    return this.jobs.insert([copy], { id: this.parts.store.drawingOf(id), bytes: 0 }, { beforeId });
   }
 
   /**
@@ -123,14 +127,47 @@ export class JobQueue {
   }
 
   private async addJob(wanted: NewQueueJob, requester: Requester): Promise<Job> {
-    const { name, drawing, from, submittedBy, plotterId = this.firstPlotter() } = wanted;
+    const { drawing, from, submittedBy, plotterId = this.firstPlotter(), copies = 1 } = wanted;
     findPlotter(this.parts.plotters, plotterId);
-    this.mustHaveRoom(submittedBy, wanted.copies);
+    this.mustHaveRoom(submittedBy, copies);
     const { settings, note } =
       wanted.sharedId === undefined
         ? this.jobSettings.with(plotterId, wanted.settings)
         : this.jobSettings.withForeign(plotterId, wanted.settings);
     mustFit(settings);
+    const jobs: Job[] = [];
+    const sheets = sheetsOf(wanted.name, settings);
+    let fault: unknown = null;
+    for (const sheet of sheets) {
+      try {
+        const job = await this.measured({ ...wanted, ...sheet, plotterId }, note, requester);
+        jobs.push({ ...job, place: from ?? null });
+      } catch (error) {
+        // A part of the drawing without lines needs no sheet.
+        const isBlank = error instanceof PlotwrightError && error.code === "bad-file";
+        if (!isBlank || sheets.length === 1) throw error;
+        fault = error;
+      }
+    }
+    if (jobs.length === 0) throw fault;
+    if (from && sheets.length > 1) {
+      throw new PlotwrightError(
+        "bad-setting",
+        `The drawing is on ${sheets.length} sheets, so it can only start at the beginning. Choose one sheet ("tile" in the settings).`,
+      );
+    }
+    // The plotter may have been removed meanwhile.
+    findPlotter(this.parts.plotters, plotterId);
+    this.mustHaveRoom(submittedBy, copies * jobs.length);
+    return this.jobs.insert(jobs, drawing, { ...wanted, copies });
+  }
+
+  /** A new job, once its drawing is planned. */
+  private async measured(
+    { name, settings, drawing, from, submittedBy, plotterId }: PlacedJob & NewQueueJob,
+    note: string | null,
+    requester: Requester,
+  ): Promise<Job> {
     const firmware = this.firmwareOf(plotterId, settings);
     const { stats, warnings } = await this.parts.planning.measure(drawing.id, settings, firmware, requester);
     if (from && from.strokeIndex >= stats.strokeCount) {
@@ -139,19 +176,7 @@ export class JobQueue {
         `The drawing has ${stats.strokeCount} strokes, so it can't start at number ${from.strokeIndex + 1}.`,
       );
     }
-    // The plotter may have been removed meanwhile.
-    findPlotter(this.parts.plotters, plotterId);
-    this.mustHaveRoom(submittedBy, wanted.copies);
-    const job = this.newJob({
-      plotterId,
-      name,
-      settings,
-      stats,
-      warnings: noted(note, warnings),
-      submittedBy,
-    });
-    const { watched, sharedId, copies } = wanted;
-    return this.jobs.insert({ ...job, place: from ?? null }, drawing, { watched, sharedId, copies });
+    return this.newJob({ plotterId, name, settings, stats, warnings: noted(note, warnings), submittedBy });
   }
 
   /**

@@ -1,10 +1,22 @@
-/** What a job's message says about a plot that was held or interrupted. */
-import { findsHome, homeAgain, machineOf } from "../../src/internal.js";
-import type { Job, PlotWait, Plotter } from "../../src/schema/index.js";
+/** Names of jobs, and what a job's message says about a plot that was held or interrupted. */
+import { findsHome, homeAgain, machineOf, tilesOf } from "../../src/internal.js";
+import type { Job, PlotSettings, PlotWait, Plotter } from "../../src/schema/index.js";
 import { OTHER_BOARD } from "../plotter/board-id.js";
 
 export const SERVER_STOPPED =
   "The server stopped while this was plotting. Check pen and paper, then resume where it stopped.";
+
+/** What is plotted on each sheet of paper: several if the drawing is spread over them. */
+export const sheetsOf = (
+  name: string,
+  settings: PlotSettings,
+): readonly { readonly name: string; readonly settings: PlotSettings }[] => {
+  const tiles = tilesOf(settings.prepare);
+  return tiles.map((prepare) => ({
+    name: tiles.length === 1 ? name : `${name} (sheet ${prepare.tile} of ${tiles.length})`,
+    settings: { ...settings, prepare },
+  }));
+};
 
 export const penWords = ({ penName, layerName }: PlotWait): string =>
   penName === null ? `Put in the pen for "${layerName}".` : `Put in "${penName}" for "${layerName}".`;

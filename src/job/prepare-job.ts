@@ -11,6 +11,7 @@ import type { MachineProfile } from "../machines/profile.js";
 import { checkBounds, checkPaper } from "../prepare/on-paper.js";
 import { prepareSettingsOf, type PenSetup } from "../prepare/layers/pens.js";
 import { prepare, type Prepared } from "../prepare/prepare.js";
+import { tileCount } from "../prepare/tiles.js";
 import type { Work } from "../prepare/work.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { controllerOf } from "../drivers/registry.js";
@@ -35,6 +36,13 @@ export function prepareJob(
   machine: MachineProfile,
   work: Work = {},
 ): PreparedJob {
+  const { prepare: wanted } = settings;
+  if (tileCount(wanted) > 1 && wanted.tile === 0) {
+    throw new PlotwrightError(
+      "bad-setting",
+      `The drawing is on ${tileCount(wanted)} sheets, which are plotted one at a time. Choose one with --tile, or "tile" in the settings: 1 to ${tileCount(wanted)}.`,
+    );
+  }
   // The note about the size of a px disappears if the user has chosen it.
   const drawing = withPxPerInch(imported, settings.prepare.pxPerInch);
   const prepared = prepare(drawing, prepareSettingsOf(settings), work);

@@ -3,7 +3,8 @@ import type { Drawing } from "../drawing/drawing.js";
 import { PAPER_SIZES, type PaperSize } from "../drawing/paper.js";
 import { boxContains, isEmptyBox, type Box } from "../geometry/box.js";
 import { PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
-import { layOutDrawing, orientedPaper, withTolerance, type LayoutChoice, type Layout } from "./layout.js";
+import { layOutDrawing, withTolerance, type LayoutChoice, type Layout } from "./layout.js";
+import { orientedPaper } from "./tiles.js";
 import { isReached } from "./on-paper.js";
 
 /** Width along x and height along y, unlike `PaperSize`, which is portrait. */

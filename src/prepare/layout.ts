@@ -8,13 +8,13 @@
  *                                   middle   true size, centred: a file without a page
  *                                   box      the content in the given box, then turned about its centre
  *
+ * A tiled drawing is laid out on its poster in place of the paper (tiles.ts).
+ *
  * The setting `fit` chooses between fit and corner; "auto" chooses by the file's page. A drawing that leaves the paper is
  * moved or fitted if the setting `outside` asks for it.
  */
 import { curveBoxOf } from "../drawing/curve-box.js";
 import { curvesOf, isBackground, type Drawing } from "../drawing/drawing.js";
-import type { PaperSize } from "../drawing/paper.js";
-import { PlotwrightError } from "../errors.js";
 import {
   IDENTITY,
   compose,
@@ -36,6 +36,7 @@ import {
   type Box,
 } from "../geometry/box.js";
 import type { MirrorMode, PlacedBox, PrepareSettings } from "../settings/prepare.js";
+import { sheetOf } from "./tiles.js";
 
 export interface Layout {
   /** Page mm to machine mm. */
@@ -58,13 +59,6 @@ export interface Layout {
 export interface LayoutChoice {
   readonly how: "fit" | "corner" | "middle" | "box";
   readonly rotateDeg: number;
-}
-
-/** Width and height as the paper lies: the long side along x in landscape, otherwise along y. */
-export function orientedPaper(paper: PaperSize, landscape: boolean): PaperSize {
-  const long = Math.max(paper.widthMm, paper.heightMm);
-  const short = Math.min(paper.widthMm, paper.heightMm);
-  return landscape ? { widthMm: long, heightMm: short } : { widthMm: short, heightMm: long };
 }
 
 /** What the pen's width and the rounding of pages to whole pixels may exceed the paper by, mm. */
@@ -92,9 +86,7 @@ export function layOutDrawing(drawing: Drawing, settings: PrepareSettings): Layo
 
 /** The layout by the settings, whether or not it leaves the paper. */
 function laidOut(drawing: Drawing, settings: PrepareSettings): Layout {
-  const { widthMm, heightMm } = orientedPaper(settings.paper, settings.landscape);
-  const paper = { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
-  const inside = insideMargins(paper, settings);
+  const { paper, inside } = sheetOf(settings);
   const choice = choiceOf(drawing, settings, paper, inside);
   const turn = turnOf(choice.rotateDeg, settings.mirror);
   const { boxes: turned, whole } = shapeBoxes(drawing, turn);
@@ -183,23 +175,6 @@ const MIRRORS: Readonly<Record<MirrorMode, Affine>> = {
   leftRight: scaling(-1, 1),
   upDown: scaling(1, -1),
 };
-
-function insideMargins(paper: Box, settings: PrepareSettings): Box {
-  const m = settings.marginMm;
-  const { topMm, rightMm, bottomMm, leftMm } = settings.margins ?? {
-    topMm: m,
-    rightMm: m,
-    bottomMm: m,
-    leftMm: m,
-  };
-  const inside = { x0: leftMm, y0: topMm, x1: paper.x1 - rightMm, y1: paper.y1 - bottomMm };
-  if (inside.x0 < inside.x1 && inside.y0 < inside.y1) return inside;
-  const sides = settings.margins ? `${topMm}, ${rightMm}, ${bottomMm} and ${leftMm}` : String(m);
-  throw new PlotwrightError(
-    "bad-setting",
-    `Margins of ${sides} mm leave no room on paper of ${paper.x1} × ${paper.y1} mm: make the margin smaller or the paper larger.`,
-  );
-}
 
 const EVERYTHING: Box = { x0: -Infinity, y0: -Infinity, x1: Infinity, y1: Infinity };
 

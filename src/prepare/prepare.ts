@@ -8,7 +8,8 @@
 import { isBackground, type Drawing } from "../drawing/drawing.js";
 import { withPxPerInch } from "../drawing/px-size.js";
 import { drawingOfLines, setFor, type Line, type StrokeSet } from "../drawing/stroke-set.js";
-import { lineCount, totalLength } from "../geometry/polyline.js";
+import { clipLinesToBox } from "../geometry/cut-line.js";
+import { lineCount, totalLength, type Lines } from "../geometry/polyline.js";
 import { cropAreas, filledAreas, filledOnly } from "./steps/areas.js";
 import {
   sortedByLayer,
@@ -43,10 +44,11 @@ import {
 } from "./steps/shapes.js";
 import { hideCovered } from "./steps/hidden-lines.js";
 import { joinInFileOrder, joinLines } from "./steps/join.js";
-import { inOrder, layersOf, visibleLayers, speedPartsOf } from "./layers/layers.js";
+import { inOrder, layersOf, visibleLayers, speedPartsOf, type SpeedParts } from "./layers/layers.js";
 import { inDrawingOrder } from "./order/order.js";
 import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
-import { layOutDrawing, orientedPaper } from "./layout.js";
+import { layOutDrawing } from "./layout.js";
+import { moved, sheetSize, tileOf, withMarks, type Tile } from "./tiles.js";
 import { dropRepeats } from "./steps/repeats.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { simplifyLines, reloopLines, smoothLines } from "./steps/points.js";
@@ -97,6 +99,7 @@ export function prepare(
 
   progress(0, "placing");
   const place = layOutDrawing(drawing, settings);
+  const tile = tileOf(settings);
   const limit = cropBox(settings, place);
   const edge = edgeName(settings);
   const area = areaOfHatches(settings, place, limit);
@@ -165,11 +168,17 @@ export function prepare(
   lines = simplifyLines(lines, settings.simplifyMm);
   lines = smoothLines(lines, settings.smoothRounds);
   if (settings.reloop) lines = reloopLines(lines);
+  // Cut last, so that neighbouring sheets show the same lines where they overlap.
+  if (tile) lines = clipLinesToBox(lines, tile.window);
 
   progress(0.55, "ordering");
   const layers = countLayers(lines, table, parts, isVisible);
   lines = visibleOnly(lines, parts, isVisible);
   if (lineCount(lines) === 0) warnings.push(emptyWarning(drawing, isVisible));
+  // On the poster, before it has marks.
+  const outside = tile && outsidePaper(lines, place);
+  if (tile) lines = onTile(lines, tile, parts, isVisible);
+  if (tile?.lacksMarks) warnings.push(NO_ROOM_FOR_MARKS);
   const passesOf = (part: number): number =>
     setFor(settings.layerRepeats, table.layers[parts.layer[part]].id) ?? 1;
   const ordered = inDrawingOrder(lines, passesOf, settings, within(options, 0.55, 0.98));
@@ -186,16 +195,31 @@ export function prepare(
   return {
     strokes,
     layers,
-    paperWidthMm: place.paper.x1,
-    paperHeightMm: place.paper.y1,
+    paperWidthMm: (tile ?? place).paper.x1,
+    paperHeightMm: (tile ?? place).paper.y1,
     size: drawnSizeOf(ordered.lines, place, settings.rotateDeg !== "auto"),
-    outside: outsidePaper(ordered.lines, place),
+    outside: tile ? outside : outsidePaper(ordered.lines, place),
     travelMmUnordered: ordered.travelMmUnordered,
     travelMm: ordered.travelMm,
     drawMm: totalLength(ordered.lines),
     warnings,
   };
 }
+
+/** The lines of a sheet where they lie on its paper, with marks drawn by the first pen. */
+function onTile(
+  lines: Lines,
+  tile: Tile,
+  { layer, count }: SpeedParts,
+  isVisible: readonly boolean[],
+): Lines {
+  const parts = Array.from({ length: count }, (_, part) => part);
+  const first = lineCount(lines) > 0 ? lines.tag[0] : parts.find((part) => isVisible[layer[part]]);
+  return moved(first === undefined ? lines : withMarks(lines, tile.marks, first), tile.move);
+}
+
+const NO_ROOM_FOR_MARKS =
+  "The margins have no room for the marks of the sheets: make them at least 3 mm wide, or leave out the marks (--no-tile-marks).";
 
 const cutHatch = (edge: string): string =>
   `Areas filled with lines lie partly outside ${edge} and are cut off. Fit the drawing to the paper or make it smaller.`;
@@ -212,7 +236,7 @@ const within = (work: Work, from: number, to: number): Work => ({
 });
 
 function drawingFrom(imported: Drawing | readonly Line[], settings: PrepareSettings): Drawing {
-  if (isLines(imported)) return drawingOfLines(imported, orientedPaper(settings.paper, settings.landscape));
+  if (isLines(imported)) return drawingOfLines(imported, sheetSize(settings));
   checkObject(
     "prepare",
     "the drawing",

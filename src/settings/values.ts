@@ -50,6 +50,16 @@ export interface PrepareValues {
   readonly clipToMargins: boolean;
   /** Cut off what lies outside the file's own page. Default false. */
   readonly cropToPage: boolean;
+  /** Spread the drawing over this many sheets beside each other (a whole number, 1 to 20). Default 1. */
+  readonly tileColumns: number;
+  /** Spread the drawing over this many sheets below each other (a whole number, 1 to 20). Default 1. */
+  readonly tileRows: number;
+  /** How much of the drawing neighbouring sheets share (0 to 500 mm). Default 10. */
+  readonly tileOverlapMm: number;
+  /** With several sheets: draw marks in the margins that show where to cut. Default true. */
+  readonly tileMarks: boolean;
+  /** Which of several sheets is plotted, counted row by row; 0: all of them, one after the other (a whole number, 0 to 400). Default 0. */
+  readonly tile: number;
   /** Draw the outline of shapes that are only filled. Default true. */
   readonly outlineFills: boolean;
   /** When hatching: fill closed lines too, not only filled shapes. Default false. */

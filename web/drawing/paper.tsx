@@ -4,12 +4,13 @@ import {
   orientedPaper,
   PAPER_TABLE,
   PREPARE_TABLE,
+  tileCount,
   type PaperName,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import type { PageState } from "../state/store.js";
 import { useActions, usePageState, usePageStore } from "../state/use-store.js";
-import { paperText as words } from "./text.js";
+import { paperText as words, tilesText } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Segments, Select, Switch } from "../ui/fields/choice.js";
 import { formatSize } from "../ui/format.js";
@@ -20,6 +21,7 @@ import { SettingsGroup } from "../ui/fields/settings-group.js";
 import { Panel } from "../ui/panel.js";
 import { usePrepareChange } from "../ui/use-change.js";
 
+const TilesFields = lazyPart(async () => (await import("./tiles-fields.js")).TilesFields);
 const LayoutFields = lazyPart(async () => (await import("./layout-fields.js")).LayoutFields);
 type PrepareSettings = PlotSettings["prepare"];
 const PAPER_NAMES = Object.keys(PAPER_SIZES) as PaperName[];
@@ -153,6 +155,17 @@ export const PaperPanel = () => {
         options={LENGTH_UNITS.map((value) => ({ value, label: words.units[value] }))}
         onChange={(unit) => changeView({ lengthUnit: unit })}
       />
+      <SettingsGroup
+        id="tiles"
+        isPart
+        isLazy
+        title={tilesText.title}
+        summary={
+          tileCount(prepare) > 1 ? tilesText.summary(prepare.tileColumns, prepare.tileRows) : undefined
+        }
+      >
+        <TilesFields />
+      </SettingsGroup>
       <SettingsGroup id="paper-more" isPart title={words.more}>
         <Margins prepare={prepare} />
         {!isSheet && (

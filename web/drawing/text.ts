@@ -92,6 +92,17 @@ export const paperText = {
   rotateQuarter: "Turn by 90°",
 };
 
+export const tilesText = {
+  title: "Over several sheets",
+  summary: (columns: number, rows: number) => `${columns} × ${rows}`,
+  together: (count: number, size: string) => `${count} sheets, together ${size}.`,
+  which: "Sheets to plot",
+  all: "All, one after the other",
+  one: (tile: number, count: number) => `Sheet ${tile} of ${count}`,
+  hint: "Each sheet is a job of the queue: change the paper and start the next one. Cut along the marks, or glue the sheets where they overlap.",
+  off: "Back to one sheet",
+};
+
 export const saveText = {
   title: "Save to a file",
   svg: "Prepared drawing as SVG",

@@ -1,4 +1,5 @@
 /** Actions on the plotter: moves by hand, and its dialogs. */
+import { tilesOf } from "../../src/internal.js";
 import type { HandMove, BoxMm } from "../../src/schema/index.js";
 import { isForOperator, type Page, type PageAction } from "../state/page-action.js";
 import {
@@ -81,6 +82,7 @@ export const TRACE_FRAME: PageAction = {
   ...move("frame", movesText.frame, "bounds, outline, check the paper", { kind: "home" }),
   whyOff: (state) => {
     if (areMovesOff(state)) return whyNoMove(state);
+    if (tilesOf(state.settings.prepare).length > 1) return why.oneSheet;
     return state.planned && state.planned.strokeCount > 0 ? null : why.nothingDrawn;
   },
   perform: ({ store, actions }) => {

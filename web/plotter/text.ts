@@ -93,6 +93,7 @@ export const whyNoMoveText = {
   fault: "The plotter needs attention.",
   still: "No move by hand is under way.",
   nothingDrawn: "There is no drawing on the paper.",
+  oneSheet: "Choose one of the sheets first (Paper, Over several sheets).",
 };
 
 export const presetsText = {

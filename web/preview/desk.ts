@@ -1,5 +1,5 @@
 /** The desk of the preview: paper, margins and the machine's reach, from a job's settings, and where the plotter's pen is. */
-import { findMachine, mmFromLength, orientedPaper } from "../../src/internal.js";
+import { findMachine, mmFromLength, orientedPaper, sheetSize, tileCount } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { formatSize } from "../ui/format.js";
 import type { Desk } from "./backdrop.js";
@@ -8,16 +8,22 @@ import type { ViewSettings } from "../state/persist.js";
 import { currentPlotter, type PageState } from "../state/store.js";
 import type { PenGlide } from "./pen/pen-glide.js";
 
+/** A drawing that is spread over several sheets is shown as a whole. */
+const NO_MARGINS = { topMm: 0, rightMm: 0, bottomMm: 0, leftMm: 0 };
+
 export const deskOf = (
   settings: PlotSettings,
   { lengthUnit: unit, deskTurn }: Pick<ViewSettings, "lengthUnit" | "deskTurn">,
 ): Desk => {
-  const { paper, landscape, margins, marginMm } = settings.prepare;
-  const { widthMm, heightMm } = orientedPaper(paper, landscape);
+  const { paper, landscape, margins, marginMm, tile } = settings.prepare;
+  const isPoster = tile === 0 && tileCount(settings.prepare) > 1;
+  const { widthMm, heightMm } = isPoster ? sheetSize(settings.prepare) : orientedPaper(paper, landscape);
   const machine = findMachine(settings);
   return {
     paperMm: { width: widthMm, height: heightMm },
-    margins: margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm },
+    margins: isPoster
+      ? NO_MARGINS
+      : (margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm }),
     reach: machine && {
       width: machine.widthMm,
       height: machine.heightMm,

@@ -32,7 +32,7 @@ const BELOW_LABEL_PX = 88;
 export const frameNow = ({ planned, settings: { prepare } }: PageState): FrameMm | null => {
   const frame = planned?.frameMm ?? null;
   const place = prepare.layout;
-  if (!frame || !place) return null;
+  if (!frame || !place || prepare.tile > 0) return null;
   const widthMm =
     place.widthMm ??
     (place.heightMm === null ? frame.widthMm : (place.heightMm * frame.widthMm) / frame.heightMm);

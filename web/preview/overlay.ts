@@ -112,6 +112,27 @@ const BESIDE: readonly GlowPass[] = [
 ];
 type GlowPass = readonly [color: string, widthPx: number];
 
+const TILE_COLOR = "#2f62d8";
+
+/** The edges of the sheets over which a drawing is spread, with their numbers. Their overlaps are shaded. */
+export const paintTiles = (context: CanvasRenderingContext2D, view: View, windows: readonly Box[]): void => {
+  context.save();
+  context.strokeStyle = context.fillStyle = TILE_COLOR;
+  context.font = "600 12px Helvetica, Arial, sans-serif";
+  context.setLineDash([6, 4]);
+  windows.forEach((window, k) => {
+    const { x0: x, y0: y, x1, y1 } = screenBox(view, window);
+    const [width, height] = [x1 - x, y1 - y];
+    context.strokeRect(x, y, width, height);
+    // Twice where two of them overlap.
+    context.globalAlpha = 0.06;
+    context.fillRect(x, y, width, height);
+    context.globalAlpha = 1;
+    context.fillText(String(k + 1), x + 8, y + 18);
+  });
+  context.restore();
+};
+
 export const paintCutOff = (context: CanvasRenderingContext2D, view: View, cutOff: CutOffPicture): void =>
   paintOutside(context, view, cutOff, CUT);
 

@@ -1,10 +1,11 @@
 import { stateAt } from "../../src/index.js";
+import { tileWindows, type Box } from "../../src/internal.js";
 import { drawnUntilS } from "./drawn-until.js";
 import { activeJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
 import { deskOf, followPen } from "./desk.js";
-import { paintBesidePaper, paintCutOff } from "./overlay.js";
+import { paintBesidePaper, paintCutOff, paintTiles } from "./overlay.js";
 import { PenGlide } from "./pen/pen-glide.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
@@ -47,8 +48,10 @@ export const Preview = () => (
 /** Selects and moves the drawings of a sheet. Null until there was one. */
 let sheetHand: typeof import("./sheet-hand.js") | null = null;
 
-/** The hand for a sheet, if there is one now. */
-const handOf = (store: PageStore): typeof sheetHand => (store.getState().drawing?.sheet ? sheetHand : null);
+/** The hand for a sheet, if there is one now. A single sheet of a large drawing shows only a part of it. */
+const handIn = ({ drawing, settings }: PageState): typeof sheetHand =>
+  drawing?.sheet && settings.prepare.tile === 0 ? sheetHand : null;
+const handOf = (store: PageStore): typeof sheetHand => handIn(store.getState());
 
 const showState = (stage: Stage, store: PageStore): (() => void) => {
   const glide = new PenGlide();
@@ -88,10 +91,12 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     ) {
       const frame = frameNow(state);
       const { cutOff, besidePaper } = state.planned ?? { cutOff: null, besidePaper: null };
+      const tiles = tilesShown(state);
       const selection = selectionPainter(state);
       const rest = painterOf(state);
-      const pieces = state.drawing?.sheet ? sheetHand?.piecesPainter(state) : null;
+      const pieces = handIn(state)?.piecesPainter(state);
       const paint = (context: CanvasRenderingContext2D, view: View): void => {
+        if (tiles.length > 0) paintTiles(context, view, tiles);
         if (cutOff) paintCutOff(context, view, cutOff);
         if (besidePaper) paintBesidePaper(context, view, besidePaper);
         selection?.(context, view);
@@ -108,6 +113,10 @@ const showState = (stage: Stage, store: PageStore): (() => void) => {
     stop();
   };
 };
+
+/** The sheets over which the drawing is spread, once it is planned so. */
+const tilesShown = ({ planned }: PageState): readonly Box[] =>
+  planned?.settings.prepare.tile === 0 ? tileWindows(planned.settings.prepare) : [];
 
 const hoverUnder = (stage: Stage, planned: Planned, { x, y }: Point): Hover | null => {
   const [xMm, yMm] = mmFromScreen(stage.view, x, y);

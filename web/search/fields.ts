@@ -17,9 +17,10 @@ import {
   STREAM_TABLE,
   TRAVEL_TABLE,
   findMachine,
+  tileCount,
   type Setting,
 } from "../../src/internal.js";
-import { drawingText, fillText, linesText, paperText } from "../drawing/text.js";
+import { drawingText, fillText, linesText, paperText, tilesText } from "../drawing/text.js";
 import { isCustomPaper } from "../drawing/paper.js";
 import { layersText } from "../layers/text.js";
 import { detailsText } from "../motion/details-text.js";
@@ -71,6 +72,7 @@ const PANELS = {
   drawing: panel("drawing", ["drawing"], drawingText.title),
   paper: panel("paper", ["paper"], paperText.title),
   paperMore: panel("paper", ["paper", "paper-more"], paperText.title, paperText.more),
+  tiles: panel("paper", ["paper", "tiles"], paperText.title, tilesText.title),
   layers: panel("layers", ["layers"], layersText.title),
   pens: panel("layers", ["layers", "pens"], layersText.title, pensText.title),
   lines: panel("lines", ["lines"], linesText.title),
@@ -111,6 +113,12 @@ const unless =
   (state) =>
     isThere(state) ? null : place;
 
+const isTiled = ({ settings }: PageState): boolean => tileCount(settings.prepare) > 1;
+const ifTiled = { instead: unless(isTiled, at("tiles", PREPARE_TABLE.tileColumns.label)) };
+/** A sheet with several drawings places each of them. */
+const isOneDrawing = ({ drawing }: PageState): boolean => !drawing?.sheet;
+const ifOneDrawing = { whyOff: (state: PageState) => (isOneDrawing(state) ? null : paperText.onSheet) };
+
 const PAPER: readonly Field[] = [
   field("paper", {
     label: paperText.size,
@@ -126,19 +134,25 @@ const PAPER: readonly Field[] = [
   field("paper", {
     label: paperText.placement,
     words: `${PREPARE_TABLE.fit.words}, ${PREPARE_TABLE.fit.about}`,
+    ...ifOneDrawing,
   }),
   row("paper", PREPARE_TABLE.pxPerInch, {
     whyOff: ({ planned }) => ((planned?.pxPerInch ?? null) === null ? words.needsPx : null),
   }),
-  row("paper", PREPARE_TABLE.rotateDeg),
+  row("paper", PREPARE_TABLE.rotateDeg, ifOneDrawing),
   field("paper", {
     label: paperText.unit,
     words: "units, inches, inch, mm, millimetres, millimeters, imperial, metric",
   }),
+  row("tiles", PREPARE_TABLE.tileColumns),
+  row("tiles", PREPARE_TABLE.tileRows),
+  row("tiles", PREPARE_TABLE.tileOverlapMm, ifTiled),
+  row("tiles", PREPARE_TABLE.tileMarks, ifTiled),
+  row("tiles", PREPARE_TABLE.tile, { ...ifTiled, label: tilesText.which }),
   field("paperMore", { label: paperText.margins, words: "margin top right bottom left, border" }),
-  row("paperMore", PREPARE_TABLE.mirror),
+  row("paperMore", PREPARE_TABLE.mirror, ifOneDrawing),
   row("paperMore", PREPARE_TABLE.outside),
-  row("paperMore", PREPARE_TABLE.cropToPage),
+  row("paperMore", PREPARE_TABLE.cropToPage, ifOneDrawing),
   row("paperMore", PREPARE_TABLE.clipToMargins),
 ];
 

@@ -167,7 +167,7 @@ export const createDocumentActions = (parts: DocumentParts) => {
 /** Layers identified by a colour mean the same in every drawing. */
 const isColorId = (id: string): boolean => /^#[0-9a-f]{6}$/.test(id);
 
-/** What was chosen for one drawing: its place by hand, its filled shapes, what happens outside the paper, its px per inch. */
+/** What was chosen for one drawing: its place by hand, its filled shapes, what happens outside the paper, its px per inch, its sheets. */
 const OF_ONE_DRAWING = [
   "layout",
   "hatch",
@@ -176,6 +176,9 @@ const OF_ONE_DRAWING = [
   "hideCovered",
   "outside",
   "pxPerInch",
+  "tileColumns",
+  "tileRows",
+  "tile",
 ] as const satisfies readonly (keyof PlotSettings["prepare"])[];
 
 /** The settings for another drawing: without those of single layers, except layers identified by a colour. */

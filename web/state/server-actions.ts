@@ -1,5 +1,6 @@
 /** Requests about jobs, the queue, the plotter and who operates, as functions on the store. */
 import type { MachineProfile } from "../../src/index.js";
+import { tilesOf } from "../../src/internal.js";
 import {
   ENDED_STATES,
   machineProfileSchema,
@@ -48,9 +49,11 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
     );
     const now = store.getState();
     if (job && now.drawing?.key === drawing.key && now.drawing.sheet === drawing.sheet) {
-      const jobId = now.settings === settings ? job.id : null;
+      // Of several sheets each one is a job.
+      const isWhole = tilesOf(settings.prepare).length === 1;
+      const jobId = isWhole && now.settings === settings ? job.id : null;
       // Later changes concern a single job, not the first of several copies.
-      const sourceId = copies === 1 ? job.id : drawing.sourceId;
+      const sourceId = isWhole && copies === 1 ? job.id : drawing.sourceId;
       store.setState({ drawing: { ...drawing, jobId, sourceId } });
     }
     return job;

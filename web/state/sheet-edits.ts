@@ -1,5 +1,5 @@
 /** What the actions on a sheet do: adding, copying, removing and moving drawings. Loaded with the first one. */
-import { compose, isEmptyBox, orientedPaper } from "../../src/internal.js";
+import { compose, isEmptyBox, orientedPaper, sheetOf } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { asAdded, atFreePlace, fittedInto, gridOf, movedOnto, type GridWish } from "../scene/arrange.js";
 import type { PageSheet, SheetPiece, SheetSourceFile } from "../worker/protocol.js";
@@ -20,17 +20,14 @@ interface Parts extends SheetParts {
 }
 
 export const roomOf = ({ prepare }: PlotSettings): SheetRoom => {
-  const { margins, marginMm } = prepare;
-  const { widthMm, heightMm } = orientedPaper(prepare.paper, prepare.landscape);
-  const sides = margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm };
-  const paper = { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
-  const inside = {
-    x0: sides.leftMm,
-    y0: sides.topMm,
-    x1: widthMm - sides.rightMm,
-    y1: heightMm - sides.bottomMm,
-  };
-  return { paper, inside: isEmptyBox(inside) ? paper : inside };
+  try {
+    return sheetOf(prepare);
+  } catch {
+    // The margins leave no room.
+    const { widthMm, heightMm } = orientedPaper(prepare.paper, prepare.landscape);
+    const paper = { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
+    return { paper, inside: paper };
+  }
 };
 
 /** The drawings on the sheet, in paint order, as they lie on the paper. Empty without a sheet. */
@@ -59,7 +56,7 @@ export const withPieces = ({ drawing }: PageState, pieces: readonly PlacedPiece[
 
 /** A single drawing becomes a sheet once it is planned. Added pieces are selected. */
 export const editSheet = async (parts: Parts, what: string, edit: SheetEdit): Promise<void> => {
-  const found = parts.store.getState().drawing?.sheet ? currentSheet(parts.store) : await sheetOf(parts);
+  const found = parts.store.getState().drawing?.sheet ? currentSheet(parts.store) : await foundSheet(parts);
   if (!found) return;
   const { files, pieces } = found;
   const after = edit(pieces, roomOf(parts.store.getState().settings));
@@ -80,7 +77,7 @@ const currentSheet = (store: PageStore): Found => {
 };
 
 /** The sheet, or the single drawing as one. Null if it can't be drawn, or another one was opened meanwhile. */
-const sheetOf = async ({ store, measure }: Parts): Promise<Found | null> => {
+const foundSheet = async ({ store, measure }: Parts): Promise<Found | null> => {
   const { drawing } = store.getState();
   if (!drawing) return null;
   if (drawing.sheet) return currentSheet(store);
@@ -130,7 +127,7 @@ export const addFiles = async (parts: Parts, given: readonly File[]): Promise<vo
     else if (isEmptyBox(extent.content)) ui.notify("error", stateText.drawsNothing(name));
     else added.push({ key, name, text, layerPrefix: "", extent });
   }
-  const found = added.length > 0 ? await sheetOf(parts) : null;
+  const found = added.length > 0 ? await foundSheet(parts) : null;
   if (!found) return;
   const files = [...found.files];
   const pieces = [...found.pieces];

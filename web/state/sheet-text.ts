@@ -1,5 +1,5 @@
 /** A sheet as the text of one drawing, and back. Loaded with the first sheet. */
-import { orientedPaper, parseSheet, type SheetFile } from "../../src/internal.js";
+import { sheetSize, parseSheet, type SheetFile } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { textOf, type DrawingText } from "../backend/drawing-text.js";
 import { mapOfMatrix, matrixOf } from "../scene/arrange.js";
@@ -15,7 +15,7 @@ export const textOfSheet = ({ files, pieces }: PageSheet, prepare: PlotSettings[
   const sheet: SheetFile = {
     format: "plotwright-sheet",
     version: 1,
-    ...orientedPaper(prepare.paper, prepare.landscape),
+    ...sheetSize(prepare),
     files: files.map(({ name, text, layerPrefix }) => ({ name, text: textOf(text), layerPrefix })),
     items: pieces.map(({ fileKey, map, isCropped }) => ({
       file: files.findIndex(({ key }) => key === fileKey),

@@ -25,9 +25,11 @@ import {
   otherPapers,
   penStopsOf,
   layOutDrawing,
-  orientedPaper,
   prepareSettingsOf,
   scaling,
+  sheetSize,
+  tileCount,
+  paperAndMargins,
   strokeCount,
   turnedOntoPaper,
   unusedSettings,
@@ -136,7 +138,7 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
           ? turnedOntoPaper(drawing, prepareSettingsOf(settings), machineOf(settings))
           : null,
       fillCount: drawing.paths.fill.reduce((sum, _, shape) => sum + Number(hasFill(drawing.paths, shape)), 0),
-      drawnBox: boxOfPoints(ready.strokes.xy),
+      drawnBox: reachedBoxOf(ready.strokes, settings.prepare),
       frameMm: frameOf(placement, settings.prepare),
       layers: ready.layers,
       penStops: penStopsOf(ready.strokes, settings),
@@ -168,10 +170,15 @@ async function drawingOf({ files: wanted, sheet, settings }: WorkerPlanRequest):
   const drawings: Drawing[] = [];
   for (const { key } of wanted) drawings.push(await files.read(key));
   if (sheet === null) return drawings[0];
-  const { paper, landscape } = settings.prepare;
   const sources = sheet.names.map((names, index) => ({ ...names, drawing: drawings[index] }));
-  return combine(sources, sheet.items, orientedPaper(paper, landscape));
+  return combine(sources, sheet.items, sheetSize(settings.prepare));
 }
+
+/** Of several sheets none is drawn on more than the space inside its margins. */
+const reachedBoxOf = ({ xy }: StrokeSet, settings: PlotSettings["prepare"]): Box =>
+  xy.length > 0 && settings.tile === 0 && tileCount(settings) > 1
+    ? paperAndMargins(settings).inside
+    : boxOfPoints(xy);
 
 async function sendMeasured({ file }: MeasureRequest): Promise<void> {
   files.add(file);

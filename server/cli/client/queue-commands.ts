@@ -78,6 +78,8 @@ async function startIfFree({ jobs }: ServerClient, job: Job, { quiet }: AddOptio
 }
 
 interface AddedDrawing {
+  /** Left out: the file's. */
+  readonly name?: string;
   readonly only?: readonly string[] | undefined;
   readonly pen?: readonly PenChoice[] | undefined;
   readonly plotterId?: string | undefined;
@@ -89,7 +91,7 @@ export const addDrawing = (
   access: ServerAccess,
   base: PlotSettings,
   file: string,
-  { only, pen, ...job }: AddedDrawing,
+  { name = nameOf(file), only, pen, ...job }: AddedDrawing,
 ): Promise<Job> =>
   withDrawingFile(file, async (path) => {
     const bytes = readBytes(path);
@@ -97,7 +99,7 @@ export const addDrawing = (
     const drawing = isByName ? await importDrawing(file, textOfBytes(bytes)) : null;
     const settings =
       drawing === null ? base : withLayerPens(drawing, withOnlyLayers(drawing, base, only), pen);
-    return addJob(access, { name: basename(nameOf(file)), settings, ...job }, bytes);
+    return addJob(access, { name: basename(name), settings, ...job }, bytes);
   });
 
 export const declareQueue: Declare = (command, { io }) => {

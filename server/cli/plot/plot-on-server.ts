@@ -19,18 +19,13 @@ interface Options {
 
 /** Returns the exit code: 0, or 5 when it was cancelled or this command was ended. Failures are thrown. */
 export async function plotOnServer(
-  file: string,
+  { file, name, settings }: Pick<Job, "name" | "settings"> & { readonly file: string },
   served: ServedPlotter,
   end: AbortSignal,
   options: Options,
   io: CliIo,
 ): Promise<number> {
-  const {
-    access,
-    client,
-    plotter,
-    settings: { settings },
-  } = served;
+  const { access, client, plotter } = served;
   const { only, pen } = options;
   let isInterrupted = false;
   /** Until the plot is watched. */
@@ -39,7 +34,7 @@ export async function plotOnServer(
     isInterrupted = true;
   });
   try {
-    const job = await addDrawing(access, settings, file, { only, pen, plotterId: plotter.id });
+    const job = await addDrawing(access, settings, file, { name, only, pen, plotterId: plotter.id });
     if (isInterrupted && (await isRemoved(client, job))) return cancelled(io);
     if (options.quiet !== true) {
       io.err(printed`The server at ${access.url} has ${plotter.name}, and plots it: job ${job.id}.\n`);

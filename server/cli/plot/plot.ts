@@ -11,6 +11,7 @@ import type { PlotSettings } from "../../../src/schema/index.js";
 import { defaultDataDir } from "../../storage/data-dir.js";
 import { fileFault } from "../../storage/file-fault.js";
 import type { OpenPlanner } from "../../../host/planning/open-planner.js";
+import { sheetsOf } from "../../../host/queue/job-words.js";
 import { PenStops } from "../../../host/plotter/pen-stops.js";
 import { openPlanner } from "../../planning/planner.js";
 import { withLayerPens, type PenChoice } from "../../planning/layers-by-name.js";
@@ -67,6 +68,14 @@ interface Plot {
   readonly progress: number;
 }
 
+/** What is plotted on one sheet of paper. */
+interface PaperSheet {
+  /** With the number of the sheet, if its drawing is spread over several. */
+  readonly name: string;
+  readonly file: string;
+  readonly settings: PlotSettings;
+}
+
 /** What a plot on the plotter needs besides its drawing. */
 interface Course {
   /** Stores that the plot begins or resumes. */
@@ -81,14 +90,18 @@ interface Course {
 /** Plots the drawings one after the other. Returns the exit code: that of the first plot which does not end normally. */
 async function plotInTurn(
   files: readonly string[],
+  settings: PlotSettings,
   options: PlotCommandOptions,
   io: CliIo,
-  plot: (file: string, end: AbortSignal, over: () => void) => Promise<number>,
+  plot: (sheet: PaperSheet, end: AbortSignal, over: () => void) => Promise<number>,
 ): Promise<number> {
   const { copies } = options;
   if (files.length === 0)
     throw new PlotwrightError("bad-setting", "No drawing was given. Use plotwright plot FILE.svg.");
-  const isSingle = copies === 1 && files.length === 1;
+  const sheets = files.map((file) =>
+    sheetsOf(nameOf(file), settings).map((sheet): PaperSheet => ({ ...sheet, file })),
+  );
+  const isSingle = copies === 1 && sheets.flat().length === 1;
   if (!isSingle && options.paperS === undefined && !io.hasKeyboard) {
     throw new PlotwrightError(
       "bad-setting",
@@ -103,11 +116,11 @@ async function plotInTurn(
     let isStopped = false;
     const forget = io.onInterrupt(() => (isStopped ||= isBetween));
     try {
-      for (const file of copiesInTurn(files, copies)) {
-        if (isBetween && (end.aborted || isStopped || !(await waitForPaper(nameOf(file), options, io))))
+      for (const sheet of copiesInTurn(sheets, copies)) {
+        if (isBetween && (end.aborted || isStopped || !(await waitForPaper(sheet.name, options, io))))
           return cancelled(io);
         isBetween = false;
-        const code = await plot(file, end, () => (isBetween = true));
+        const code = await plot(sheet, end, () => (isBetween = true));
         if (code !== 0) return code;
         isBetween = true;
       }
@@ -118,26 +131,26 @@ async function plotInTurn(
   });
 }
 
-/** Each file as often as asked; without an end, all files over and over. */
-function* copiesInTurn(files: readonly string[], copies: number): Generator<string> {
-  while (copies === 0) yield* files;
-  for (const file of files) yield* Array<string>(copies).fill(file);
+/** All sheets of each file as often as asked; without an end, all files over and over. */
+function* copiesInTurn(files: readonly (readonly PaperSheet[])[], copies: number): Generator<PaperSheet> {
+  while (copies === 0) yield* files.flat();
+  for (const sheets of files) for (let copy = 0; copy < copies; copy++) yield* sheets;
 }
 
 /** Without a server. Returns the exit code: 0, or 5 when it was cancelled or interrupted. Failures are thrown. */
 export async function runPlot(
   files: readonly string[],
-  settings: PlotSettings,
+  given: PlotSettings,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
   const record = new PlotRecord(options.data ?? defaultDataDir(), options.device);
   mustHaveEnded(record, options);
-  return plotInTurn(files, options, io, (file, end, over) =>
+  return plotInTurn(files, given, options, io, ({ file, name, settings }, end, over) =>
     withDrawingFile(file, async (path) => {
       const { only, pen, font } = options;
       const plot: Plot = {
-        name: basename(nameOf(file)),
+        name: basename(name),
         path,
         settings:
           pen === undefined
@@ -359,7 +372,9 @@ export const declarePlot: Declare = (command, { io, setExitCode }) => {
       setExitCode(
         served === null
           ? await runPlot(files, settings, options, io)
-          : await plotInTurn(files, options, io, (file, end) => plotOnServer(file, served, end, options, io)),
+          : await plotInTurn(files, settings, options, io, (sheet, end) =>
+              plotOnServer(sheet, served, end, options, io),
+            ),
       );
     });
 };

@@ -30,13 +30,17 @@ import { patternOnPaper } from "./dash.js";
 import { hatchArea } from "./hatch.js";
 import type { LayerTable } from "../layers/layers.js";
 import { isFarAway, pageCorners, withTolerance, type Layout } from "../layout.js";
+import { tileCount } from "../tiles.js";
 import type { HatchSettings, PrepareSettings } from "../../settings/prepare.js";
 import { stopIfCancelled, type Work } from "../work.js";
 import { flattenVerbs, gapOf } from "../../drawing/flatten.js";
 import type { Affine } from "../../geometry/affine.js";
 
 /** The box to which lines are cropped; null if nothing is cropped. */
-export function cropBox({ clipToMargins, outside, reach }: PrepareSettings, place: Layout): Box | null {
+export function cropBox(settings: PrepareSettings, place: Layout): Box | null {
+  const { clipToMargins, outside } = settings;
+  // On a tiled drawing's poster the machine's reach differs for each sheet.
+  const reach = tileCount(settings) === 1 ? settings.reach : null;
   const boxes = [
     ...(clipToMargins ? [place.inside] : []),
     ...(outside === "cut" ? [withTolerance(place.paper)] : []),

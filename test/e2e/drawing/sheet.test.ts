@@ -1,6 +1,6 @@
 /** Several drawings on one sheet: added, selected, moved, copied, aligned, kept, and plotted as one job. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { dropFile } from "../../support/browser/page-actions.js";
+import { dropFile, openView } from "../../support/browser/page-actions.js";
 import { PageTest } from "../../support/browser/page-test.js";
 
 /** A line to the right and down, so that size, mirroring and turning are seen in its ends. */
@@ -230,6 +230,71 @@ describe("several drawings on a sheet", () => {
     expect(await pieceCount()).toBe(0);
     await dropFile(test.page, "fine.svg", flag(20, 20, "Ink"));
     await test.planned();
+    expect(test.complaints).toEqual([]);
+  });
+});
+
+describe("a drawing over several sheets", () => {
+  it("is shown as a whole with the edges of its sheets, and each sheet is a job of the queue", async () => {
+    await test.drop("poster", flag(200, 100, "Ink"));
+    await test.group("Paper", "Over several sheets");
+    await type("Sheets across", 2);
+    await type("Sheets down", 2);
+    await type("Overlap of the sheets", 20);
+    // Of A4 inside margins of 15 mm: 2 × 267 − 20 mm and 2 × 180 − 20 mm.
+    await test.page.getByText("4 sheets, together 514 × 340\u202fmm.").waitFor();
+    const known = new Set((await test.jobs()).map(({ id }) => id));
+    await button("Add to queue").click();
+    const fresh = async () => (await test.jobs()).filter(({ id }) => !known.has(id));
+    await expect.poll(async () => (await fresh()).length).toBe(4);
+    const jobs = await fresh();
+    expect(jobs.map(({ name }) => name)).toEqual([1, 2, 3, 4].map((k) => `poster (sheet ${k} of 4)`));
+    const pieces: number[][] = [];
+    for (const job of jobs) {
+      const { xy, offsets } = await test.strokesOf(job);
+      const { tile } = job.settings.prepare;
+      const [dx, dy] = [((tile - 1) % 2) * 247 - 15, Math.floor((tile - 1) / 2) * 160 - 15];
+      let marks = 0;
+      for (let i = 0; i + 1 < offsets.length; i++) {
+        const [x0, y0, x1, y1] = xy.subarray(2 * offsets[i], 2 * offsets[i + 1]);
+        if (x0 === x1 || y0 === y1) marks++;
+        else pieces.push([x0 + dx, y0 + dy, x1 + dx, y1 + dy]);
+      }
+      expect(marks).toBe(4);
+    }
+    // The one line of the drawing fills the poster: 514 × 257 mm, in its middle. On two sheets it overlaps.
+    const xs = pieces.flatMap(([x0, , x1]) => [x0, x1]);
+    expect(Math.min(...xs)).toBeCloseTo(0, 1);
+    expect(Math.max(...xs)).toBeCloseTo(514, 1);
+    for (const [x0, y0, x1, y1] of pieces) {
+      expect(y0).toBeCloseTo(41.5 + x0 / 2, 1);
+      expect(y1).toBeCloseTo(41.5 + x1 / 2, 1);
+    }
+  });
+
+  it("is plotted sheet by sheet, with a change of paper between them", async () => {
+    const queued = (await test.jobs()).filter(({ name }) => name.startsWith("poster (sheet"));
+    for (const { id } of queued) {
+      await fetch(`${test.server.url}/api/v1/jobs/${id}/start`, {
+        method: "POST",
+        headers: { "x-plotwright": "1" },
+      });
+      await expect
+        .poll(async () => (await test.jobs()).find((job) => job.id === id)?.state, { timeout: 60_000 })
+        .toBe("done");
+      const others = (await test.jobs()).filter(({ state }) => state === "plotting");
+      expect(others).toEqual([]);
+    }
+  });
+
+  it("shows a single sheet, and none of it falls on the next drawing", async () => {
+    await openView(test.page, "Prepare");
+    await test.group("Paper", "Over several sheets");
+    await test.field("Sheets to plot").selectOption("Sheet 2 of 4");
+    const job = await test.queue();
+    expect([job.name, job.settings.prepare.tile]).toEqual(["poster", 2]);
+    await test.drop("next", flag(20, 20, "Ink"));
+    expect(await ends()).toEqual([[0, 0, 20, 20]]);
     expect(test.complaints).toEqual([]);
   });
 });

@@ -381,6 +381,22 @@ describe("the queue", () => {
     expect(store.isUsed(queue.drawingOf(copy.id))).toBe(true);
   });
 
+  it("adds a job for each sheet of a drawing that is spread over several, in order, all or none", async () => {
+    const { prepare } = DEFAULT_PLOT_SETTINGS;
+    const spread = { ...DEFAULT_PLOT_SETTINGS, prepare: { ...prepare, tileColumns: 2, tileRows: 2 } };
+    const first = await add("map", { settings: spread, copies: 2 });
+    const sheets = [1, 2, 3, 4].map((tile) => `map (sheet ${tile} of 4) queued`);
+    expect(names()).toEqual([...sheets, ...sheets]);
+    expect(queue.list()[0]?.id).toBe(first.id);
+    expect(queue.list().map(({ settings }) => settings.prepare.tile)).toEqual([1, 2, 3, 4, 1, 2, 3, 4]);
+    // The one that is wanted again.
+    await add("map", { settings: { ...spread, prepare: { ...spread.prepare, tile: 3 } } });
+    expect(names().at(-1)).toBe("map queued");
+    const begun = add("map", { settings: spread, from: { strokeIndex: 0, alongMm: 0 } });
+    await expect(begun).rejects.toThrow(/4 sheets.*Choose one/);
+    expect(queue.list()).toHaveLength(9);
+  });
+
   it("waits between jobs for the paper, or continues automatically if configured", async () => {
     const [a, b] = [await add("fern"), await add("moss")];
     await queue.start(a.id);

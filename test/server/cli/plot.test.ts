@@ -77,6 +77,23 @@ describe("plotwright plot", () => {
     expect([copies.code, copies.err.match(/Done/g)?.length]).toEqual([0, 3]);
   });
 
+  it("plots a drawing that is spread over several sheets one sheet after the other", async () => {
+    const spread = ["--tile-columns", "2", "--tile-rows", "2", "--fit"];
+    const io = new CaughtIo();
+    const plotted = plot(io, file, ...spread);
+    for (const tile of [2, 3, 4]) {
+      await expect.poll(() => io.errText).toContain(`Next: ${file} (sheet ${tile} of 4). Change the paper`);
+      io.line();
+    }
+    expect((await plotted).code).toBe(0);
+    const done = [...io.errText.matchAll(/Done: (.*?)[.:,\n]/g)].map(([, name]) => name);
+    expect(done).toHaveLength(4);
+    const single = await plot(withoutKeyboard(), file, ...spread, "--tile", "3");
+    expect([single.code, single.err.match(/Done/g)?.length]).toEqual([0, 1]);
+    const none = await plot(withoutKeyboard(), file, ...spread, "--tile", "5");
+    expect(none.err).toMatch(/no sheet 5/);
+  });
+
   it("plots endless copies of all files in turn, until Ctrl-C between two of them or twice in a plot", async () => {
     const other = join(dir, "b.svg");
     writeFileSync(other, SVG);

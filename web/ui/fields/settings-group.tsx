@@ -7,7 +7,7 @@ interface SettingsGroupProps {
   readonly id: string;
   readonly title: string;
   /** The group's values in a few words, shown beside the title. */
-  readonly summary?: string;
+  readonly summary?: string | undefined;
   /** Help on demand, while the group is open. */
   readonly help?: string;
   /** Is inside another group. */
