@@ -1,5 +1,5 @@
 /** The user's actions that put a drawing on the paper. */
-import { isSameJson, isSheetBegun } from "../../src/internal.js";
+import { isSameJson, isSheetBegun, tileCount } from "../../src/internal.js";
 import { type Job, DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import type { DrawingText } from "../backend/drawing-text.js";
@@ -192,6 +192,8 @@ export const forOtherDrawing = (settings: PlotSettings): PlotSettings => {
     prepare: {
       ...prepare,
       ...Object.fromEntries(OF_ONE_DRAWING.map((name) => [name, usual[name]])),
+      // To fill several sheets it was fitted to them.
+      fit: tileCount(prepare) > 1 ? usual.fit : prepare.fit,
       hiddenLayers: [],
       shownLayers: [],
       layerOrder: prepare.layerOrder.filter(isColorId),
