@@ -48,7 +48,7 @@ import { inOrder, layersOf, visibleLayers, speedPartsOf, type SpeedParts } from 
 import { inDrawingOrder } from "./order/order.js";
 import { drawnSizeOf, outsidePaper, type DrawnSize, type OutsidePaper } from "./on-paper.js";
 import { layOutDrawing } from "./layout.js";
-import { moved, sheetSize, tileOf, withMarks, type Tile } from "./tiles.js";
+import { moved, sheetSize, tileOf, withMarks, type TileOnPaper } from "./tiles.js";
 import { dropRepeats } from "./steps/repeats.js";
 import type { PrepareSettings } from "../settings/prepare.js";
 import { simplifyLines, reloopLines, smoothLines } from "./steps/points.js";
@@ -209,7 +209,7 @@ export function prepare(
 /** The lines of a sheet where they lie on its paper, with marks drawn by the first pen. */
 function onTile(
   lines: Lines,
-  tile: Tile,
+  tile: TileOnPaper,
   { layer, count }: SpeedParts,
   isVisible: readonly boolean[],
 ): Lines {

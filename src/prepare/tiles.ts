@@ -131,7 +131,7 @@ export function tileWindows(settings: TileSettings): Box[] {
 }
 
 /** One sheet of a tiled drawing. */
-export interface Tile {
+export interface TileOnPaper {
   /** What is drawn of the poster. Without end where the poster ends: what leaves it is a matter of the whole drawing. */
   readonly window: Box;
   /** From the poster to the paper. */
@@ -152,7 +152,7 @@ const SHORTEST_MARK_MM = 1;
 const MARK_GAP_MM = 1;
 
 /** The chosen sheet. Null: the drawing is not tiled, or no sheet is chosen. Throws `bad-setting` if there is no such sheet. */
-export function tileOf(settings: TileSettings): Tile | null {
+export function tileOf(settings: TileSettings): TileOnPaper | null {
   const { tile, tileColumns, tileRows } = settings;
   if (tile > tileCount(settings)) {
     throw new PlotwrightError(
@@ -186,7 +186,7 @@ export function tileOf(settings: TileSettings): Tile | null {
 const NO_MARKS = { marks: [], lacksMarks: false };
 
 /** Marks above and below each cut, left and right of each: on both neighbours at the same place of the poster. */
-function marksOf(settings: TileSettings, own: Box): Pick<Tile, "marks" | "lacksMarks"> {
+function marksOf(settings: TileSettings, own: Box): Pick<TileOnPaper, "marks" | "lacksMarks"> {
   const { tileColumns, tileRows, tileOverlapMm: overlap } = settings;
   const { stepX, stepY } = windowsOf(settings);
   const { paper, inside } = paperAndMargins(settings);
@@ -233,7 +233,7 @@ export function withMarks(lines: Lines, marks: readonly Mark[], tag: number): Li
   return builder.finish();
 }
 
-export const moved = (lines: Lines, { x, y }: Tile["move"]): Lines => ({
+export const moved = (lines: Lines, { x, y }: TileOnPaper["move"]): Lines => ({
   ...lines,
   xy: lines.xy.map((mm, k) => mm + (k % 2 === 0 ? x : y)),
 });
