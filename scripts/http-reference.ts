@@ -27,6 +27,7 @@ const TITLES: Readonly<Record<OperationGroup, string>> = {
   machines: "Machines",
   samples: "Samples",
   operator: "Operator, pairing and logs",
+  library: "Library",
   access: "Access",
   webhooks: "Webhooks",
   cameras: "Cameras",

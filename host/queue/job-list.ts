@@ -55,12 +55,15 @@ export class JobList {
   }
 
   /** The next jobs of the history. Throws `not-found` if there is no job `after`. */
-  older({ after, plotterId }: HistoryRequest, submitterId?: string): JobPage {
+  older({ after, plotterId, name = "" }: HistoryRequest, submitterId?: string): JobPage {
     const order = this.orderFor(submitterId);
     const from = after === undefined ? 0 : order.indexOf(this.getFor(after, submitterId).id) + 1;
-    const older = order
-      .slice(from)
-      .filter((id) => this.isEnded(id) && (plotterId ?? this.get(id).plotterId) === this.get(id).plotterId);
+    const part = name.toLowerCase();
+    const isWanted = (job: Job): boolean =>
+      ENDED_STATES.includes(job.state) &&
+      (plotterId ?? job.plotterId) === job.plotterId &&
+      job.name.toLowerCase().includes(part);
+    const older = order.slice(from).filter((id) => isWanted(this.get(id)));
     return {
       jobs: older.slice(0, HISTORY_PAGE).map((id) => this.get(id)),
       hasOlderJobs: older.length > HISTORY_PAGE,

@@ -15,6 +15,7 @@ import { LogBook, readLog } from "../storage/log-book.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { createPlanning } from "../planning/planner.js";
 import { DrawingFiles, UNCLAIMED_DAYS } from "../storage/drawing-files.js";
+import { LibraryFiles } from "../storage/library-files.js";
 import { JobQueue } from "../../host/queue/job-queue.js";
 import { Notices } from "../../host/queue/notices.js";
 import { packagePath, packageVersion } from "../storage/package-files.js";
@@ -217,6 +218,7 @@ async function openParts(
     machines,
     queue,
     files,
+    library: new LibraryFiles(dataDir, files.maxBytes),
     uploads,
     registry,
     hub,

@@ -101,7 +101,7 @@ const sendDrawing =
   };
 
 /** A file name that is valid on every system. */
-function fileName(name: string): string {
+export function fileName(name: string): string {
   const safe = cleanName(name).replace(/[<>:"/\\|?*\x00-\x1f]/g, "_");
   return isDrawingName(safe) ? safe : `${safe}.svg`;
 }

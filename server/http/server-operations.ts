@@ -8,11 +8,13 @@ import { hostOperations } from "../../host/operations/host-operations.js";
 import { lane } from "../../host/planning/lane.js";
 import { drawingBoxMm } from "../planning/planner.js";
 import type { DrawingFiles } from "../storage/drawing-files.js";
+import type { LibraryFiles } from "../storage/library-files.js";
 import { bundleText } from "../storage/log-book.js";
 import type { UploadedDrawings } from "../../host/queue/uploaded-drawings.js";
 import type { Access } from "../security/access.js";
 import type { Browsers } from "./browser.js";
 import { jobResponders } from "./job-routes.js";
+import { libraryOperations, libraryResponders } from "./library-routes.js";
 import { bytesOf, submitterOf, type Responders, type ServerHandlers } from "./operation-routes.js";
 import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
@@ -36,6 +38,7 @@ export interface ServerParts {
   /** Built-in and custom machine profiles. */
   readonly machines: MachineFiles;
   readonly files: DrawingFiles;
+  readonly library: LibraryFiles;
   readonly uploads: UploadedDrawings;
   /** Operations of the plug-ins that are loaded. */
   readonly plugins: readonly ServerHandlers[];
@@ -73,6 +76,7 @@ export const serverHandlers = (parts: ServerParts): ServerHandlers => {
         }),
     },
     access: accessOperations(parts.access),
+    library: libraryOperations(parts),
     ...parts.plugins.reduce((all, one) => ({ ...all, ...one }), {}),
   };
 };
@@ -86,6 +90,7 @@ export const serverResponders = (
   state: stateResponders(parts, browsers, openApi),
   drawings: { upload: receiveDrawing(parts) },
   jobs: jobResponders(parts),
+  library: libraryResponders(parts),
   operator: {
     take: (request, response) => {
       const browser = browsers.of(request);

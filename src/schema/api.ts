@@ -160,9 +160,12 @@ export const jobPageSchema = z.object({
 });
 export type JobPage = z.infer<typeof jobPageSchema>;
 
-/** GET /history: up to 50 ended jobs, those after the job `after` or else the newest, of one plotter or of all. */
+/**
+ * GET /history: up to 50 ended jobs, those after the job `after` or else the newest, of one plotter or of all; with `name`,
+ * those that have it in their name, in upper or lower case.
+ */
 export const historyRequestSchema = z
-  .object({ after: z.string().max(100), plotterId: z.string().max(100) })
+  .object({ after: z.string().max(100), plotterId: z.string().max(100), name: z.string().max(200) })
   .partial();
 export type HistoryRequest = z.infer<typeof historyRequestSchema>;
 

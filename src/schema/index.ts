@@ -11,5 +11,6 @@ export * from "./sharing.js";
 export * from "./machine.js";
 export * from "./hand-moves.js";
 export * from "./shared.js";
+export * from "./library.js";
 export * from "./operation.js";
 export * from "./operations.js";

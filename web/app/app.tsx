@@ -24,7 +24,7 @@ const LayersAndPens = lazyPart(async () => (await import("./panels.js")).LayersA
 const LinesPanel = lazyPart(async () => (await import("../drawing/lines.js")).LinesPanel);
 const SpeedAndPresets = lazyPart(async () => (await import("./panels.js")).SpeedAndPresets);
 const PlotterAndSetUp = lazyPart(async () => (await import("./panels.js")).PlotterAndSetUp);
-const QueueAndHistory = lazyPart(async () => (await import("./panels.js")).QueueAndHistory);
+const QueueAndSheets = lazyPart(async () => (await import("./panels.js")).QueueAndSheets);
 
 const OpenPanel = ({ name }: { name: PanelName }) => {
   switch (name) {
@@ -41,7 +41,7 @@ const OpenPanel = ({ name }: { name: PanelName }) => {
     case "plotter":
       return <PlotterAndSetUp />;
     case "queue":
-      return <QueueAndHistory />;
+      return <QueueAndSheets />;
   }
 };
 const Pairing = lazyPart(async () => (await import("./pairing.js")).Pairing);
@@ -138,6 +138,8 @@ const DIALOGS = {
   wizard: lazyPart(async () => (await import("../plotter/wizard/wizard.js")).Wizard),
   machines: lazyPart(async () => (await import("../plotter/machines/machines-dialog.js")).MachinesDialog),
   console: lazyPart(async () => (await import("../plotter/console/console.js")).Console),
+  gallery: lazyPart(async () => (await import("../gallery/gallery.js")).Gallery),
+  library: lazyPart(async () => (await import("../gallery/library.js")).Library),
   ringing: lazyPart(async () => (await import("../ringing/ringing.js")).RingingDialog),
   sharing: lazyPart(async () => (await import("../sharing/sharing-dialog.js")).SharingDialog),
 } as const;

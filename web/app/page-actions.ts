@@ -1,4 +1,6 @@
 /** All actions of the page, in the order of the list of shortcuts and of the search. */
+import { drawingText } from "../drawing/text.js";
+import { galleryText } from "../gallery/text.js";
 import { PLOTTER_ACTIONS } from "../plotter/plotter-actions.js";
 import { PREVIEW_ACTIONS } from "../preview/preview-actions.js";
 import { PLOT_ACTIONS } from "../queue/plot-actions.js";
@@ -51,6 +53,21 @@ export const SHARING: PageAction = {
   perform: ({ actions }) => actions.openDialog("sharing"),
 };
 
+const GALLERY: PageAction = {
+  id: "gallery",
+  label: galleryText.title,
+  words: "history, finished, done, archive, plotted, sheets",
+  perform: ({ actions }) => actions.openDialog("gallery"),
+};
+
+const LIBRARY: PageAction = {
+  id: "library",
+  label: drawingText.library,
+  words: "folders, files, stored drawings, open, save",
+  isOffered: (page) => isForOperator(page) && page.backend.features.library,
+  perform: ({ actions }) => actions.openDialog("library"),
+};
+
 const nextTheme = ({ view }: PageState): Theme =>
   THEMES[(THEMES.indexOf(view.theme) + 1) % THEMES.length] ?? "auto";
 export const THEME: PageAction = {
@@ -89,6 +106,8 @@ export const PAGE_ACTIONS: readonly PageAction[] = [
   ...PLOTTER_ACTIONS,
   showView("prepare"),
   showView("watch"),
+  GALLERY,
+  LIBRARY,
   SHARING,
   THEME,
   SEARCH,

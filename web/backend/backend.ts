@@ -27,7 +27,8 @@ export type JobAction = Exclude<
 
 /** A drawing that the backend stores. */
 export interface DrawingSource {
-  readonly of: "job" | "sample";
+  readonly of: "job" | "sample" | "library";
+  /** In the library, its path. */
   readonly id: string;
 }
 
@@ -41,6 +42,8 @@ export interface BackendListener {
 interface BackendFeatures {
   /** Other devices, keys, webhooks, several plotters, a shared queue. */
   readonly sharing: boolean;
+  /** Drawings kept in folders, apart from the jobs. */
+  readonly library: boolean;
   /** The user must first allow the page to use the plotter's port, with `connect`. */
   readonly asksForPort: boolean;
   /** If `asksForPort`: why the page can't use a port in this browser, and what to do; null: it can. */

@@ -1,5 +1,6 @@
 import { DRAWING_EXTENSIONS, PX_NOTE } from "../../src/internal.js";
-import { useActions, usePageState, usePageStore } from "../state/use-store.js";
+import { mayOperate } from "../state/store.js";
+import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import type { Planned } from "../worker/protocol.js";
 import { useFilesPage } from "./drawn-size.js";
 import { FillChoice } from "./fill-choice.js";
@@ -35,6 +36,7 @@ export const DrawingPanel = () => {
         <ChooseDrawing label={words.choose} />
         <Samples />
         {drawing && <AddDrawings />}
+        <OpenLibrary />
       </div>
       {drawing && <SheetPart />}
       <FillChoice />
@@ -61,6 +63,19 @@ const AddDrawings = () => {
       isMultiple
       onFiles={(files) => void addFiles(files)}
     />
+  );
+};
+
+const OpenLibrary = () => {
+  const { features } = useBackend();
+  const { openDialog } = useActions();
+  const isOperator = usePageState(mayOperate);
+  if (!features.library || !isOperator) return null;
+  return (
+    <Button onClick={() => openDialog("library")}>
+      <Icon name="folder" />
+      {words.library}
+    </Button>
   );
 };
 

@@ -1,6 +1,7 @@
 /** Texts of the drawing and its paper, of filling, lines and saving. */
 export const drawingText = {
   title: "Drawing",
+  library: "Library",
   choose: "Choose a drawing",
   add: "Add to the sheet",
   chooseHint: "SVG, DXF, HPGL or JSON. Drop it anywhere, paste it, or choose a file.",

@@ -26,15 +26,7 @@ export const EndedButtons = ({ job }: { job: Job }) => {
   }
   return (
     <div className="button-row ended-buttons">
-      {isOperator && canGoOn(job) && (
-        <Button
-          disabled={isOff || !isFree}
-          aria-label={words.goOnNamed(job.name)}
-          onClick={() => void actOnJob(job.id, "recover")}
-        >
-          {words.goOn}
-        </Button>
-      )}
+      {isOperator && canGoOn(job) && <GoOnButton job={job} />}
       <Button
         disabled={isOff}
         aria-label={words.againNamed(job.name)}
@@ -43,6 +35,21 @@ export const EndedButtons = ({ job }: { job: Job }) => {
         {words.again}
       </Button>
     </div>
+  );
+};
+
+export const GoOnButton = ({ job }: { job: Job }) => {
+  const { actOnJob } = useActions();
+  const isOff = !useIsConnected();
+  const isFree = usePageState((state) => activeJob(state) === null);
+  return (
+    <Button
+      disabled={isOff || !isFree}
+      aria-label={words.goOnNamed(job.name)}
+      onClick={() => void actOnJob(job.id, "recover")}
+    >
+      {words.goOn}
+    </Button>
   );
 };
 

@@ -3,13 +3,7 @@ import { ENDED_STATES, type Job } from "../../src/schema/index.js";
 import { rowsOf } from "./copies.js";
 import { queueAxis, type AxisRow, type QueueAxis, type QueueBreak } from "./queue-time.js";
 import { ACTIVE_STATES, activeJob, currentPlotter, mayOperate, onlySubmits } from "../state/store.js";
-import {
-  useActions,
-  useIsConnected,
-  useOlderJobs,
-  usePageState,
-  usePlotterJobs,
-} from "../state/use-store.js";
+import { useActions, useIsConnected, usePageState, usePlotterJobs } from "../state/use-store.js";
 import { axisText, queueText as words, notifyText } from "./text.js";
 import { Segments } from "../ui/fields/choice.js";
 import { formatClockIn, formatDuration, formatWhen } from "../ui/format.js";
@@ -20,7 +14,6 @@ import { Button } from "../ui/button.js";
 import "./axis.css";
 
 const RunningJob = lazyPart(async () => (await import("./running-job.js")).RunningJob);
-const HistoryList = lazyPart(async () => (await import("./history-list.js")).HistoryList);
 const WaitingJob = lazyPart(async () => (await import("./waiting-job.js")).WaitingJob);
 
 /** The plots of a plotter along an axis of time: when each starts and ends, and where a person must act. */
@@ -159,17 +152,6 @@ const BetweenJobs = () => {
       ]}
       onChange={(value) => void setQueue({ runOn: value === "run" })}
     />
-  );
-};
-
-export const HistoryPanel = () => {
-  const jobs = usePlotterJobs().filter((job) => ENDED_STATES.includes(job.state));
-  const isEmpty = useOlderJobs() === null && jobs.length === 0;
-  return (
-    <section className="card" aria-label={words.history}>
-      <h2 className="card-title">{words.history}</h2>
-      {isEmpty ? <p className="note">{words.historyEmpty}</p> : <HistoryList jobs={jobs} />}
-    </section>
   );
 };
 

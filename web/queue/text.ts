@@ -1,4 +1,4 @@
-/** Texts of the plot bar, the queue and the history. */
+/** Texts of the plot bar, the queue and finished plots. */
 export const plotText = {
   planning: "Planning…",
   time: "Time",
@@ -36,8 +36,6 @@ export const queueText = {
   title: "Queue",
   empty: "The queue is empty.",
   last: (name: string, state: string, when: string) => `Last: ${name}, ${state.toLowerCase()} ${when}.`,
-  history: "History",
-  historyEmpty: "Finished plots are listed here.",
   startNamed: (name: string) => `Start ${name}`,
   cancel: "Cancel",
   between: "After a plot",
@@ -87,8 +85,6 @@ export const queueText = {
   againNamed: (name: string) => `Plot again: ${name}`,
   goOn: "Go on from where it was cancelled",
   goOnNamed: (name: string) => `Go on from where it was cancelled: ${name}`,
-  showMore: (count: number) => `Show ${Math.min(count, 20)} more`,
-  showOlder: "Show older plots",
   took: (duration: string) => `took ${duration}`,
   estimated: (duration: string) => `estimated ${duration}`,
 };
@@ -109,13 +105,28 @@ export const axisText = {
   endUnknown: "The end is not known yet.",
 };
 
+/** Texts of a finished plot. */
+export const doneText = {
+  asExpected: "as long as expected",
+  longer: (more: string, expected: string) => `${more} longer than the expected ${expected}`,
+  shorter: (less: string, expected: string) => `${less} shorter than the expected ${expected}`,
+  drawn: (length: string, count: number, number: string) =>
+    `${length} of ink in ${count === 1 ? "1 stroke" : `${number} strokes`}`,
+  save: (format: string) => `Save ${format.toUpperCase()}`,
+  saveNamed: (format: string) => `Save ${format.toUpperCase()} picture`,
+  saveOf: (format: string, name: string) => `Save ${format.toUpperCase()} picture of ${name}`,
+  notSaved: (why: string) => `The picture can’t be saved: ${why}`,
+  keepSpeed: (pct: number) => `It ran at ${pct}\u202f% of its speeds: keep that from now on?`,
+  keep: "Keep",
+};
+
 export const notifyText = {
   waits: (name: string, what: string) => `${name}: ${what}.`,
   ask: "Notify me when a plot ends",
   asked: "You will be notified when a plot ends or fails",
   denied: "The browser blocks notifications for this page. Allow them in its settings.",
   done: (name: string) => `${name} is plotted.`,
-  failed: (name: string) => `${name} failed. The history says why.`,
+  failed: (name: string) => `${name} failed. The gallery says why.`,
   interrupted: (name: string) => `${name} was interrupted. You can go on from there.`,
 };
 

@@ -21,7 +21,7 @@ const isAgain = (before: OpenDrawing, name: string, text: DrawingText): boolean 
 
 interface DocumentParts {
   readonly store: PageStore;
-  readonly backend: Pick<Backend, "samples" | "jobs">;
+  readonly backend: Pick<Backend, "samples" | "jobs" | "library">;
   readonly ui: Pick<ReturnType<typeof createUiActions>, "notify" | "clearErrors">;
   readonly undo: ReturnType<typeof createUndo>;
   attempt<T>(name: string, request: () => Promise<T>): Promise<T | null>;
@@ -150,6 +150,11 @@ export const createDocumentActions = (parts: DocumentParts) => {
       const isLast = startRequest();
       const svg = await attempt("sample", () => backend.samples.get(name));
       if (svg !== null && isLast()) openDrawing(title, svg);
+    },
+    openFromLibrary: async (path: string): Promise<void> => {
+      const isLast = startRequest();
+      const text = await attempt(`open ${path}`, () => backend.library.get(path));
+      if (text !== null && isLast()) openDrawing(path.replace(/^.*\//, "").replace(/\.\w+$/, ""), text);
     },
     openJob: async (job: Job): Promise<void> => {
       const isLast = startRequest();

@@ -2,21 +2,24 @@
 import type { MachineProfile } from "../../src/index.js";
 import { tilesOf } from "../../src/internal.js";
 import {
-  ENDED_STATES,
   machineProfileSchema,
   withOffs,
   type HandMove,
   type HandMoveRequest,
+  type HistoryRequest,
   type Job,
   type JobChange,
+  type JobPage,
   type JobPatch,
   type JobPlace,
+  type LibraryRequest,
   type MovePlace,
   type NewJob,
   type PlotSettings,
   type Plotter,
   type QueueSettings,
 } from "../../src/schema/index.js";
+import type { DrawingText } from "../backend/drawing-text.js";
 import { addJob, BackendFault, type Backend, type JobAction } from "../backend/backend.js";
 import { withPageWords } from "./server-events.js";
 import { activeJob, currentPlotter, penOf, type PageNotice, type PageStore } from "./store.js";
@@ -107,23 +110,20 @@ export const createServerActions = ({ store, backend, attempt, notify }: ServerA
       const job = await addToQueue(1, from);
       if (job) await attempt("plot", () => backend.jobs.start(job.id));
     },
-    /** Fetches the next part of a plotter's history; "": of all plotters. */
-    fetchOlderJobs: async (plotterId: string): Promise<void> => {
-      const isListed = (job: Job): boolean => plotterId === "" || job.plotterId === plotterId;
-      const ended = store.getState().jobs.filter(({ state }) => ENDED_STATES.includes(state));
-      const last = ended.filter(isListed).at(-1);
-      const page = await attempt("older", () =>
-        backend.state.history({ ...(last && { after: last.id }), ...(plotterId && { plotterId }) }),
-      );
-      if (!page) return;
-      store.setState(({ jobs, wholeHistories }) => {
-        const known = new Set(jobs.map(({ id }) => id));
-        return {
-          jobs: [...jobs, ...page.jobs.filter(({ id }) => !known.has(id)).map(withPageWords)],
-          wholeHistories: page.hasOlderJobs ? wholeHistories : [...wholeHistories, plotterId],
-        };
-      });
+    /** A page of finished plots: those after a job, or the newest. `plotterId` "": of all plotters. */
+    fetchHistory: async ({ after, name, plotterId }: HistoryRequest): Promise<JobPage | null> => {
+      const wanted = { ...(after && { after }), ...(name && { name }), ...(plotterId && { plotterId }) };
+      const page = await attempt("history", () => backend.state.history(wanted));
+      return page && { ...page, jobs: page.jobs.map(withPageWords) };
     },
+    keepJob: async ({ id }: Job): Promise<void> => {
+      const kept = await attempt(`keep ${id}`, () => backend.library.keep(id, {}));
+      if (kept) notify("info", stateText.kept(kept.path));
+    },
+    listLibrary: (wanted: LibraryRequest) => attempt("library", () => backend.library.list(wanted)),
+    saveToLibrary: (path: string, drawing: DrawingText) =>
+      attempt("save-to-library", () => backend.library.save(path, drawing)),
+    removeFromLibrary: (path: string) => attempt(`remove ${path}`, () => backend.library.remove(path)),
     saveToJob: async (id: string): Promise<void> => {
       const { settings } = store.getState();
       const job = await attempt("save", () => backend.jobs.patch(id, { settings: withOffs(settings) }));

@@ -58,8 +58,7 @@ const changeBy = (state: PageState, event: ServerEvent): Change => {
 
 /** The whole state, sent when the page has connected. The live report is dropped unless its job is still running. */
 const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
-  const { version, plotters, plotterSettings, jobs, hasOlderJobs, queues, operator, serverNotices } =
-    snapshot;
+  const { version, plotters, plotterSettings, jobs, queues, operator, serverNotices } = snapshot;
   const { localName, machines } = snapshot;
   const isRunning = jobs.some(({ id, state: now }) => id === state.live?.jobId && now === "plotting");
   return {
@@ -69,8 +68,6 @@ const applySnapshot = (state: PageState, snapshot: Snapshot): Change => {
     isOutdated: state.isOutdated || (state.version !== null && state.version !== version),
     plotterSettings,
     jobs: jobs.map(withPageWords),
-    hasOlderJobs,
-    wholeHistories: [],
     queues,
     operator,
     serverNotices: serverNotices.map(withPageWords),

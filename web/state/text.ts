@@ -12,5 +12,6 @@ export const stateText = {
   pasteNothing: "The clipboard has no SVG. Copy the drawing as SVG, or drop the file.",
   saved: (name: string) => `${name} in the queue now has these settings.`,
   added: (name: string) => `${name} is in the queue.`,
+  kept: (path: string) => `Kept in the library: ${path}`,
   notConnected: "There is no connection to plotwright, so nothing can be plotted.",
 };

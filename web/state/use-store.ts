@@ -25,7 +25,7 @@ export const usePageStore = (): PageStore => usePage().store;
 export const useIsConnected = (): boolean => usePageState((state) => state.link === "connected");
 
 /** The plotter whose jobs the page lists; "": the jobs of all plotters, because there is only one. */
-const useListedPlotter = (): string =>
+export const useListedPlotter = (): string =>
   usePageState((state) => (state.plotters.length > 1 ? (currentPlotter(state)?.id ?? "") : ""));
 
 /** The current plotter's jobs: the queue in its order, then the history, newest first. */
@@ -33,12 +33,4 @@ export const usePlotterJobs = (): readonly Job[] => {
   const jobs = usePageState((state) => state.jobs);
   const plotterId = useListedPlotter();
   return plotterId === "" ? jobs : jobs.filter((job) => job.plotterId === plotterId);
-};
-
-/** Fetches more of the history that `usePlotterJobs` lists; null if the page has all of it. */
-export const useOlderJobs = (): (() => void) | null => {
-  const plotterId = useListedPlotter();
-  const hasMore = usePageState((state) => state.hasOlderJobs && !state.wholeHistories.includes(plotterId));
-  const { fetchOlderJobs } = useActions();
-  return hasMore ? () => void fetchOlderJobs(plotterId) : null;
 };

@@ -47,10 +47,14 @@ export const Dialog = ({ title, isBare, className = "", onClose, children }: Dia
 };
 
 /** One of the page's dialogs. It shows the notices itself, because it covers the page's. */
-export const Sheet = ({ title, children }: { title: string; children: ReactNode }) => {
+export const Sheet = ({
+  title,
+  className = "",
+  children,
+}: Pick<DialogProps, "title" | "className" | "children">) => {
   const { closeDialog } = useActions();
   return (
-    <Dialog title={title} onClose={closeDialog}>
+    <Dialog title={title} className={className} onClose={closeDialog}>
       <Notices isInDialog />
       {children}
     </Dialog>

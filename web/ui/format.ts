@@ -59,6 +59,10 @@ export const formatInUnit = (mm: number, unit: LengthUnit, digits = 2): string =
 export const formatSize = (widthMm: number, heightMm: number, unit: LengthUnit): string =>
   `${formatInUnit(widthMm, unit, 1)} × ${formatInUnit(heightMm, unit, 1)}${NARROW}${unit}`;
 
+/** The size of a file: "12 kB", "3.4 MB". */
+export const formatBytes = (bytes: number): string =>
+  bytes < 1e6 ? `${Math.ceil(bytes / 1e3)}${NARROW}kB` : `${(bytes / 1e6).toFixed(1)}${NARROW}MB`;
+
 /** A count with narrow spaces between thousands. */
 export const formatCount = (n: number): string =>
   String(Math.round(n)).replace(/\B(?=(\d{3})+(?!\d))/g, NARROW);

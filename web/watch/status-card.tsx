@@ -1,7 +1,7 @@
 import type { Job } from "../../src/schema/index.js";
+import { DoneButtons, DoneFigures, KeepChanges } from "../queue/done.js";
 import { EndedButtons } from "../queue/ended-buttons.js";
 import { hasHoldCard, HoldCard } from "../queue/hold-card.js";
-import { KeepHeights } from "../plotter/hand/pen-nudge.js";
 import { JobButtons } from "../queue/job-buttons.js";
 import { Progress, StateBadge } from "../queue/job-head.js";
 import { PenWait } from "../queue/pen-wait.js";
@@ -30,12 +30,12 @@ export const StatusCard = ({ job }: { job: Job }) => {
       </div>
       <div className="status-actions">
         {isActive && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}
-        {!isActive && <EndedButtons job={job} />}
+        {job.state === "done" ? <DoneButtons job={job} /> : !isActive && <EndedButtons job={job} />}
       </div>
       <div className="status-below">
-        {job.state !== "queued" && <Progress job={job} />}
+        {job.state !== "queued" && job.state !== "done" && <Progress job={job} />}
         <HoldCard job={job} />
-        {job.state === "done" && <KeepHeights job={job} />}
+        {job.state === "done" && <KeepChanges job={job} />}
         <Message job={job} isWaiting={wait !== null} />
       </div>
     </>
@@ -62,6 +62,7 @@ const Figures = ({ job }: { job: Job }) => {
       </p>
     );
   }
+  if (job.state === "done") return <DoneFigures job={job} />;
   if (!ACTIVE_STATES.includes(job.state)) {
     return (
       <p className="status-figures">

@@ -114,7 +114,11 @@ describe("for programs that generate a client, the OpenAPI document", () => {
     expect(Object.keys(paths["/drawings"]?.["post"]?.requestBody?.content ?? {})).toEqual([
       "application/octet-stream",
     ]);
-    expect(paths["/history"]?.["get"]?.parameters?.map(({ name }) => name)).toEqual(["after", "plotterId"]);
+    expect(paths["/history"]?.["get"]?.parameters?.map(({ name }) => name)).toEqual([
+      "after",
+      "plotterId",
+      "name",
+    ]);
     expect(paths["/plotters/{id}/home"]?.["post"]?.requestBody?.required).toBe(false);
   });
 });

@@ -25,7 +25,8 @@ export const plotBar = (page: Page): Locator => page.getByRole("region", { name:
 export const queuePanel = (page: Page): Locator => page.getByRole("region", { name: "Queue" });
 /** In Watch: how far the plot is, and its buttons. */
 export const statusCard = (page: Page): Locator => page.getByRole("region", { name: "Plot under way" });
-export const historyPanel = (page: Page): Locator => page.getByRole("region", { name: "History" });
+/** The newest finished plots. */
+export const historyPanel = (page: Page): Locator => page.getByRole("region", { name: "Gallery" });
 
 /** Watch opens by itself when a plot starts. */
 export const openView = (page: Page, name: "Prepare" | "Watch"): Promise<void> =>

@@ -22,6 +22,7 @@ import { cameraPlugin } from "../../../server/plugins/camera/plugin.js";
 import { WebhookStore } from "../../../server/plugins/webhooks/webhook-store.js";
 import type { Operation, ServerEvent } from "../../../src/schema/index.js";
 import { DrawingFiles } from "../../../server/storage/drawing-files.js";
+import { LibraryFiles } from "../../../server/storage/library-files.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { Planning } from "../../../host/planning/planning.js";
 import { UploadedDrawings } from "../../../host/queue/uploaded-drawings.js";
@@ -145,6 +146,7 @@ export async function startApp(
     version: "0.0.0",
     queue,
     files,
+    library: new LibraryFiles(dir, maxUploadBytes),
     uploads,
     registry,
     hub,

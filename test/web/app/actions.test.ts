@@ -1,11 +1,5 @@
 import { describe, expect, it } from "vitest";
-import {
-  DEFAULT_PLOT_SETTINGS,
-  newJobSchema,
-  type HistoryRequest,
-  type JobPage,
-  type OperationClient,
-} from "../../../src/schema/index.js";
+import { DEFAULT_PLOT_SETTINGS, newJobSchema, type OperationClient } from "../../../src/schema/index.js";
 import { createServerBackend } from "../../../web/backend/server/server-backend.js";
 import { createActions, type Actions } from "../../../web/state/actions.js";
 import { DEFAULT_VIEW } from "../../../web/state/persist.js";
@@ -343,29 +337,5 @@ describe("a drawing that arrives late", () => {
     page.arrive("late");
     await late;
     expect(page.store.getState().drawing?.name).toBe("Job late");
-  });
-});
-
-describe("the older jobs of the history", () => {
-  it("are fetched after the last one that the page has, and listed once, until there are no more", async () => {
-    const asked: HistoryRequest[] = [];
-    const pages = [
-      { jobs: [makeJob("c", { state: "done" }), makeJob("d", { state: "done" })], hasOlderJobs: true },
-      { jobs: [makeJob("e", { state: "failed" })], hasOlderJobs: false },
-    ];
-    const history = (wanted: HistoryRequest): Promise<JobPage> => {
-      asked.push(wanted);
-      return Promise.resolve(pages.shift()!);
-    };
-    const { store, actions } = makePage({ state: { history } });
-    const own = { state: "done", plotterId: "other" } as const;
-    store.setState({ jobs: [makeJob("a"), makeJob("b", own), makeJob("c", { state: "done" })] });
-    await actions.fetchOlderJobs("other");
-    expect(store.getState().jobs.map(({ id }) => id)).toEqual(["a", "b", "c", "d"]);
-    expect(store.getState().wholeHistories).toEqual([]);
-    await actions.fetchOlderJobs("");
-    expect(store.getState().jobs.map(({ id }) => id)).toEqual(["a", "b", "c", "d", "e"]);
-    expect(store.getState().wholeHistories).toEqual([""]);
-    expect(asked).toEqual([{ after: "b", plotterId: "other" }, { after: "d" }]);
   });
 });

@@ -36,7 +36,7 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
       list: () => Promise.resolve({ samples: sampleList(sampleFiles) }),
       get: (name) => sampleText(sampleFiles, name),
     },
-    features: { sharing: false, asksForPort: true, whyNoPort: whyNoPort() },
+    features: { sharing: false, library: false, asksForPort: true, whyNoPort: whyNoPort() },
     listen: (listener) => client.listen(listener),
     connect: async (id) => {
       await askForPort(client);

@@ -9,7 +9,7 @@ import {
   type OperationInput,
   parseServerEvent,
 } from "../../../src/schema/index.js";
-import { BackendFault, type Backend, type BackendListener } from "../backend.js";
+import { BackendFault, type Backend, type BackendListener, type DrawingSource } from "../backend.js";
 
 /** Texts of errors in requests to the server. */
 const serverText = {
@@ -19,12 +19,12 @@ const serverText = {
 
 export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(path, init)): Backend => ({
   ...clientOf(OPERATIONS, (one, input) => sendOperation(fetchPath, one, input)),
-  features: { sharing: true, asksForPort: false, whyNoPort: null },
+  features: { sharing: true, library: true, asksForPort: false, whyNoPort: null },
   listen: (listener) => openEvents(`${API_PATH}${OPERATIONS.state.events.path}`, listener),
   connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
   svgOf: async ({ of, id }, maxBytes) => {
     const stop = new AbortController();
-    const one = of === "job" ? OPERATIONS.jobs.drawing : OPERATIONS.samples.get;
+    const one = SOURCES[of];
     const response = await fetchPath(requestOf(one, { id }).path, { signal: stop.signal });
     if (!response.ok || Number(response.headers.get("content-length") ?? 0) > maxBytes) {
       stop.abort();
@@ -34,6 +34,13 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     return /<svg[\s>]/i.test(file.slice(0, 20_000)) ? file : null;
   },
 });
+
+/** The operations that return drawings. */
+const SOURCES: Readonly<Record<DrawingSource["of"], Operation>> = {
+  job: OPERATIONS.jobs.drawing,
+  sample: OPERATIONS.samples.get,
+  library: OPERATIONS.library.get,
+};
 
 type Fetch = (path: string, init?: RequestInit) => Promise<Response>;
 

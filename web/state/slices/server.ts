@@ -33,10 +33,6 @@ export interface ServerSlice {
   readonly machines: readonly ListedMachine[];
   readonly samples: readonly { readonly name: string; readonly title: string }[];
   readonly jobs: readonly Job[];
-  /** The server has ended jobs that are not in `jobs`. */
-  readonly hasOlderJobs: boolean;
-  /** Plotters whose older jobs are all in `jobs`; "" if the jobs of all plotters are. */
-  readonly wholeHistories: readonly string[];
   /** Whether each plotter's queue starts the next job by itself, by plotter id. */
   readonly queues: Readonly<Record<string, QueueSettings>>;
   /** This browser's identity and role; null until the server has answered. */
@@ -73,8 +69,6 @@ export const SERVER_AT_FIRST = {
   machines: [],
   samples: [],
   jobs: [],
-  hasOlderJobs: false,
-  wholeHistories: [],
   queues: {},
   me: null,
   operator: null,

@@ -26,7 +26,16 @@ interface TakeOverQuestion {
 
 /** Dialogs, one at a time. */
 export type DialogName =
-  "search" | "keys" | "about" | "machines" | "wizard" | "console" | "sharing" | "ringing";
+  | "search"
+  | "keys"
+  | "about"
+  | "machines"
+  | "wizard"
+  | "console"
+  | "sharing"
+  | "ringing"
+  | "gallery"
+  | "library";
 
 export interface UiSlice {
   readonly view: ViewSettings;

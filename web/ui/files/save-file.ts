@@ -1,5 +1,5 @@
 /** Saves a file by a browser download. */
-export const saveFile = (name: string, content: string, type: string): void => {
+export const saveFile = (name: string, content: string | Blob, type: string): void => {
   const url = URL.createObjectURL(new Blob([content], { type }));
   const link = document.createElement("a");
   link.href = url;

@@ -153,7 +153,10 @@ describe("the history", () => {
   const ENDED_COUNT = 120;
   /** Four jobs end at the same moment. */
   const ended = (index: number): Job => ({
-    ...queuedJob({ plotterId: `plotter-${index % 3}`, name: "a", settings, stats: null, warnings: [] }, NOW),
+    ...queuedJob(
+      { plotterId: `plotter-${index % 3}`, name: `Moonrise ${index}`, settings, stats: null, warnings: [] },
+      NOW,
+    ),
     state: "done",
     endedAt: new Date(Date.parse(NOW) + 1_000 * Math.floor(index / 4)).toISOString(),
   });
@@ -193,6 +196,22 @@ describe("the history", () => {
       expect(rest(list, [])).toEqual(history);
       const own = history.filter((id) => list.get(id).plotterId === "plotter-1");
       expect(rest(list, [], "plotter-1")).toEqual(own);
+      const named = list.older({ name: "RISE 11" }).jobs.map(({ name }) => name);
+      expect(named).toEqual([
+        "Moonrise 119",
+        "Moonrise 118",
+        "Moonrise 117",
+        "Moonrise 116",
+        "Moonrise 115",
+        "Moonrise 114",
+        "Moonrise 113",
+        "Moonrise 112",
+        "Moonrise 111",
+        "Moonrise 110",
+        "Moonrise 11",
+      ]);
+      expect(list.older({ name: "rise 11", plotterId: "plotter-2" }).jobs).toHaveLength(5);
+      expect(list.older({ name: "none" })).toEqual({ jobs: [], hasOlderJobs: false });
       expect(() => list.older({ after: "none" })).toThrow("There is no job none.");
       for (const id of history.slice(30)) list.remove(id);
       expect(list.recent()).toMatchObject({ hasOlderJobs: false, jobs: { length: 31 } });
