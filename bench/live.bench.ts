@@ -11,7 +11,7 @@ import type { Report } from "./run.js";
 
 const STROKES = 40;
 const POINTS = 1_000_000;
-const SPEEDUP = 60;
+const SPEEDUP = 10;
 /** Commands with steps. */
 const MOTION = /^(LT|LM|SM|XM|T3|L3|TD),/m;
 
