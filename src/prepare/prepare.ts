@@ -219,7 +219,7 @@ function onTile(
 }
 
 const NO_ROOM_FOR_MARKS =
-  "The margins have no room for the marks of the sheets: make them at least 3 mm wide, or leave out the marks (--no-tile-marks).";
+  "The margins have no room for the marks of the sheets: make them at least 3 mm wide, or switch off --tile-marks.";
 
 const cutHatch = (edge: string): string =>
   `Areas filled with lines lie partly outside ${edge} and are cut off. Fit the drawing to the paper or make it smaller.`;

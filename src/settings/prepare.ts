@@ -253,7 +253,7 @@ export const PREPARE_TABLE = {
   },
   tile: {
     kind: "number",
-    label: "Only sheet",
+    label: "Sheets to plot",
     words: "tiles, one sheet again",
     about: "which of several sheets is plotted, counted row by row; 0: all of them, one after the other",
     flag: "--tile",
