@@ -1,6 +1,6 @@
 /** What users install: packages and MB, by npm from the packed product. */
 import { spawnSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import type { Report } from "./run.js";
@@ -43,12 +43,14 @@ function installed(folder: string, args: readonly string[]): { packages: number;
   mkdirSync(folder);
   writeFileSync(path.join(folder, "package.json"), '{ "private": true }');
   const flags = ["--ignore-scripts", "--prefer-offline", "--no-audit", "--no-fund"];
-  const said = run("npm", ["install", ...flags, ...args], folder);
+  run("npm", ["install", ...flags, ...args], folder);
+  const lock = readFileSync(path.join(folder, "node_modules", ".package-lock.json"), "utf8");
+  const { packages } = JSON.parse(lock) as { packages: object };
   const files = readdirSync(path.join(folder, "node_modules"), { recursive: true, encoding: "utf8" })
     .map((name) => statSync(path.join(folder, "node_modules", name)))
     .filter((file) => file.isFile());
   const bytes = files.reduce((sum, { size }) => sum + size, 0);
-  return { packages: Number(/added (\d+)/.exec(said)?.[1]), mb: Math.round(bytes / 1e5) / 10 };
+  return { packages: Object.keys(packages).length, mb: Math.round(bytes / 1e5) / 10 };
 }
 
 function run(command: string, args: readonly string[], cwd: string): string {
