@@ -24,11 +24,15 @@ export const deskOf = (
     margins: isPoster
       ? NO_MARGINS
       : (margins ?? { topMm: marginMm, rightMm: marginMm, bottomMm: marginMm, leftMm: marginMm }),
-    reach: machine && {
-      width: machine.widthMm,
-      height: machine.heightMm,
-      label: previewText.reach(machine.name, formatSize(machine.widthMm, machine.heightMm, unit)),
-    },
+    // Of several sheets each one lies at home.
+    reach:
+      !isPoster && machine
+        ? {
+            width: machine.widthMm,
+            height: machine.heightMm,
+            label: previewText.reach(machine.name, formatSize(machine.widthMm, machine.heightMm, unit)),
+          }
+        : null,
     unitMm: mmFromLength(1, unit),
     turn: deskTurn,
   };
