@@ -19,7 +19,7 @@ describe.runIf(IS_FULL)("the executable", () => {
   const env = {
     XDG_CACHE_HOME: cache,
     LOCALAPPDATA: cache,
-    XDG_DATA_HOME: folder,
+    XDG_DATA_HOME: data,
     HOME: folder,
     PATH: folder,
   };
