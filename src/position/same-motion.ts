@@ -2,7 +2,13 @@
  * Whether a longer plan can take over from a shorter one in motion. A plan of a line that grows is the same as before, up
  * to where the shorter one begins to brake for its end.
  */
-import { newMotionState, SAME_TIME_S, stateAt, type MotionState, type Trajectory } from "../plan/trajectory.js";
+import {
+  newMotionState,
+  SAME_TIME_S,
+  stateAt,
+  type MotionState,
+  type Trajectory,
+} from "../plan/trajectory.js";
 import { nextPosition, PositionTimes } from "./on-plan.js";
 
 /** Less than a motor step, mm. */
