@@ -18,15 +18,9 @@ import {
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
 import { isDrawingName } from "../../src/internal.js";
-import {
-  libraryFolderSchema,
-  libraryPathSchema,
-  whyNotName,
-  type LibraryFileInfo,
-  type LibraryList,
-  type LibraryRequest,
-} from "../../src/schema/index.js";
+import { type LibraryFileInfo, type LibraryList, type LibraryRequest } from "../../src/schema/index.js";
 import { parseWith } from "../../host/parse-with.js";
+import { libraryFolderSchema, libraryPathSchema, whyNotName } from "./library-paths.js";
 import { fileFault } from "./file-fault.js";
 
 /** More are not listed: the search finds them. */

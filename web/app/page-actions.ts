@@ -1,6 +1,5 @@
 /** All actions of the page, in the order of the list of shortcuts and of the search. */
 import { drawingText } from "../drawing/text.js";
-import { galleryText } from "../gallery/text.js";
 import { PLOTTER_ACTIONS } from "../plotter/plotter-actions.js";
 import { PREVIEW_ACTIONS } from "../preview/preview-actions.js";
 import { PLOT_ACTIONS } from "../queue/plot-actions.js";
@@ -55,7 +54,7 @@ export const SHARING: PageAction = {
 
 const GALLERY: PageAction = {
   id: "gallery",
-  label: galleryText.title,
+  label: viewText.gallery,
   words: "history, finished, done, archive, plotted, sheets",
   perform: ({ actions }) => actions.openDialog("gallery"),
 };

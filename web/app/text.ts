@@ -37,6 +37,7 @@ export const viewText = {
   watch: "Watch",
   show: { prepare: "Show Prepare", watch: "Show Watch" },
   isShown: "It is shown already.",
+  gallery: "Gallery",
 };
 
 export const pairingText = {

@@ -4,7 +4,8 @@ import { useSavePicture } from "../queue/done.js";
 import { canGoOn, GoOnButton } from "../queue/ended-buttons.js";
 import { JobName, StateBadge } from "../queue/job-head.js";
 import { expectedSOf } from "../queue/queue-time.js";
-import { doneText, queueText } from "../queue/text.js";
+import { doneText } from "../queue/axis-text.js";
+import { queueText } from "../queue/text.js";
 import { mayOperate, maySubmit, unfinishedJob, type PageStore } from "../state/store.js";
 import {
   useActions,

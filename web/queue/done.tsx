@@ -9,7 +9,7 @@ import { useMotionChange } from "../ui/use-change.js";
 import { EndedButtons } from "./ended-buttons.js";
 import type { PictureFormat } from "./plotted-picture.js";
 import { expectedSOf } from "./queue-time.js";
-import { doneText as words } from "./text.js";
+import { doneText as words } from "./axis-text.js";
 import "./done.css";
 
 /** Of a finished plot: how long it took, compared with what was expected, and what it drew. */

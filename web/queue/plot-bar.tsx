@@ -3,21 +3,19 @@ import { isOutsideUnanswered, OutsidePaper } from "../drawing/outside-paper.js";
 import { movesText } from "../plotter/hand/text.js";
 import { TRACE_FRAME } from "../plotter/plotter-actions.js";
 import { plotterText } from "../plotter/text.js";
-import { ACTIVE_STATES, activeJob, currentPlotter, onlySubmits, shownView } from "../state/store.js";
-import { useActions, usePageState, usePageStore, usePlotterJobs } from "../state/use-store.js";
+import { activeJob, currentPlotter, onlySubmits, shownView } from "../state/store.js";
+import { usePageState, usePageStore } from "../state/use-store.js";
 import { stateText } from "../state/text.js";
 import { isEnabled } from "../state/page-action.js";
 import { isSendingJob, PLOT, QUEUE, SAVE_TO_JOB } from "./plot-actions.js";
-import { rowsOf } from "./copies.js";
-import { queueAxis } from "./queue-time.js";
-import { axisText, plotText as words } from "./text.js";
+import { plotText as words } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
 import { Facts } from "../ui/facts.js";
-import { formatClockIn, formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
+import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/format.js";
 import { lazyPart } from "../ui/lazy-part.js";
-import { useNow } from "../ui/use-now.js";
 import { NumberField } from "../ui/fields/number-field.js";
 
+const QueueStrip = lazyPart(async () => (await import("./queue-strip.js")).QueueStrip);
 const HoldCard = lazyPart(async () => (await import("./hold-card.js")).HoldCard);
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
 const MAX_COPIES = 100;
@@ -73,32 +71,6 @@ const Notes = () => {
       {isUnreached && !isOutside && <OutOfReach />}
       <PlotNote />
     </div>
-  );
-};
-
-/** The plots that wait, in their order, with their times as far as these are known. Opens the queue. */
-const QueueStrip = () => {
-  const nowMs = useNow();
-  const jobs = usePlotterJobs();
-  const plotterId = usePageState((state) => currentPlotter(state)?.id ?? "");
-  const runsOn = usePageState((state) => state.queues[plotterId]?.runOn ?? false);
-  const seesAll = !usePageState(onlySubmits);
-  const { showPanel } = useActions();
-  const waiting = jobs.filter(({ state }) => state === "queued");
-  if (waiting.length === 0) return null;
-  const active = jobs.filter(({ state }) => ACTIVE_STATES.includes(state));
-  const { rows } = queueAxis(active, rowsOf(waiting), { runsOn, seesAll });
-  const totalS = rows.reduce((all, { durationS }) => all + (durationS ?? 0), 0);
-  const names = rows.map(({ copies: [{ name }], fromS, toS, isStartSure }) =>
-    fromS === null || toS === null || !isStartSure
-      ? name
-      : `${name} ${axisText.fromTo(formatClockIn(nowMs, fromS), formatClockIn(nowMs, toS))}`,
-  );
-  return (
-    <button type="button" className="queue-strip" onClick={() => showPanel("queue")}>
-      <span className="plot-time-label">{words.queued(waiting.length, formatDuration(totalS))}</span>
-      <span className="queue-names">{names.join(" · ")}</span>
-    </button>
   );
 };
 

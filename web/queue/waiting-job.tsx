@@ -1,7 +1,8 @@
 import type { RefObject } from "react";
 import { activeJob, mayOperate, maySubmit } from "../state/store.js";
 import { useActions, useIsConnected, usePageState } from "../state/use-store.js";
-import { axisText, plotText, queueText as words } from "./text.js";
+import { axisText } from "./axis-text.js";
+import { plotText, queueText as words } from "./text.js";
 import { Button } from "../ui/button.js";
 import { useShownAgain } from "../ui/fields/choice.js";
 import { formatClockIn, formatCount, formatDuration } from "../ui/format.js";

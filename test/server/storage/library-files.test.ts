@@ -13,7 +13,7 @@ import {
 import { join } from "node:path";
 import { beforeEach, describe, expect, it } from "vitest";
 import { PlotwrightError } from "../../../src/index.js";
-import { libraryPathSchema, whyNotName } from "../../../src/schema/index.js";
+import { libraryPathSchema, whyNotName } from "../../../server/storage/library-paths.js";
 import { LibraryFiles } from "../../../server/storage/library-files.js";
 import { folderOfTest } from "../../support/processes/folders.js";
 
