@@ -80,13 +80,11 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     rolldownOptions: {
       output: {
-        // The first load needs all of this, and one file compresses better than ten small ones.
+        // The whole first load is one file, which compresses better than twenty small ones. The service worker is not in
+        // it: it is an entry of its own.
         codeSplitting: {
           groups: [
-            {
-              name: "index",
-              test: /node_modules\/(preact|zod|zustand)\/|\/web\/ui\/(fields\/(choice|number-box|number-field|settings-group)|format|icon|lazy-part|text)\.|\/web\/(state|drawing|layers|pens|motion|queue|plotter|preview)\/text\.|\/web\/drawing\/paper\.|\/web\/scene\/placing\.|\/src\/(schema\/(?!sharing|hand-moves)|drawing|machines\/(?!set-up)|errors)/,
-            },
+            { name: "index", tags: ["$initial"], test: /^(?!.*[\\/]pwa[\\/](service-worker|shell-rules)\.)/ },
           ],
         },
       },
