@@ -91,7 +91,9 @@ const UseFilesPage = ({ planned }: { planned: Planned }) => {
   const takePage = useFilesPage();
   const page = { widthMm: planned.pageWidthMm, heightMm: planned.pageHeightMm };
   const isOnIt = usePageState((state) => isOnFilesPage(state.settings.prepare, page));
-  if (isOnIt || !canBePaper(page)) return null;
+  // A sheet with several drawings has the size of the paper that they were laid out on.
+  const isSheet = usePageState(({ drawing }) => Boolean(drawing?.sheet));
+  if (isOnIt || isSheet || !canBePaper(page)) return null;
   return (
     <Button kind="link" onClick={() => takePage(page)}>
       {words.useFilesPage}

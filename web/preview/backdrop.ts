@@ -157,10 +157,12 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   context.globalAlpha = isShort ? 1 : 0.8;
   if (!isShort && box.x1 - box.x0 < MIN_LABEL_PX) return context.restore();
   context.font = DESK_FONT;
-  context.textAlign = "right";
-  // Below the lower edge, and not beyond the paper's right edge, so that it is visible.
-  const right = Math.min(box.x1, screenBox(view, boxOfSize(paperMm)).x1);
-  context.fillText(reach.label, right, box.y1 + REACH_GAP_PX + 9);
+  // Below the lower edge, and not beyond the paper's sides, so that it is visible; the lower right corner may be home.
+  const paper = screenBox(view, boxOfSize(paperMm));
+  const isLeft = view.turn === 2;
+  context.textAlign = isLeft ? "left" : "right";
+  const x = isLeft ? Math.max(box.x0, paper.x0) : Math.min(box.x1, paper.x1);
+  context.fillText(reach.label, x, box.y1 + REACH_GAP_PX + 9);
   context.restore();
 };
 
@@ -178,6 +180,8 @@ const HOME_PX = 9;
 const HOME_MM = 10;
 /** From the corner to the word. */
 const HOME_GAP_PX = 5;
+/** The word is above the sheet on a desk that is turned once. */
+export const roomForHomePx = (turn: number): number => (turn === 1 ? 16 : 0);
 
 /** Marks the paper's corner at home, with the word where the desk is turned. */
 const drawHome = (context: CanvasRenderingContext2D, view: View, colors: DeskColors): void => {

@@ -13,8 +13,11 @@ export interface GestureTarget {
   fit(): void;
   /** The pointer is at (x, y) CSS px of the element, or has left (null). */
   hover(at: Point | null): void;
-  /** Begins a drag of the object under (x, y). Null: there is none, and the drag pans. */
-  grab(at: Point): Drag | null;
+  /**
+   * Begins a drag of the object under (x, y). Null: there is none, and the drag pans. `isFinger`: a finger also pans, so
+   * it moves only what was selected before.
+   */
+  grab(at: Point, isFinger: boolean): Drag | null;
   /** An arrow key moves a drawing placed by hand, mm on the screen. False: there is none, and the key pans. */
   nudge(rightMm: number, downMm: number): boolean;
   /** A press without a drag; `isMore`: with Shift, Ctrl or Command held. */
@@ -36,11 +39,13 @@ const TAP_PX = 5;
 /** Listens on `element`. Returns a function that stops listening. */
 export const listenForGestures = (element: HTMLElement, target: GestureTarget): (() => void) => {
   const pointers = new Map<number, Point>();
-  let travelled = 0;
-  let held: { readonly from: Point; readonly drag: Drag } | null = null;
+  let downAt: Point = { x: 0, y: 0 };
+  /** Until then, it may be a tap. A resting finger trembles, so the way there and back does not count. */
+  let hasMoved = false;
+  let drag: Drag | null = null;
   const letGo = (): void => {
-    held?.drag.end();
-    held = null;
+    drag?.end();
+    drag = null;
   };
 
   const placeOf = (event: MouseEvent): Point => {
@@ -53,10 +58,15 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     element.setPointerCapture(event.pointerId);
     const at = placeOf(event);
     if (pointers.size === 0) {
-      travelled = 0;
-      const drag = target.grab(at);
-      held = drag && { from: at, drag };
-    } else letGo();
+      downAt = at;
+      hasMoved = false;
+      drag = target.grab(at, event.pointerType === "touch");
+    } else {
+      // Two fingers zoom. What the first one has moved until now was not meant.
+      if (hasMoved) drag?.to(0, 0, true);
+      letGo();
+      hasMoved = true;
+    }
     pointers.set(event.pointerId, at);
   };
 
@@ -67,17 +77,17 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
       if (event.pointerType !== "touch") target.hover(now);
       return;
     }
-    travelled += Math.hypot(now.x - before.x, now.y - before.y);
+    hasMoved ||= Math.hypot(now.x - downAt.x, now.y - downAt.y) > TAP_PX;
     const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
     pointers.set(event.pointerId, now);
     if (other) target.setView(pinched(target.view(), before, now, other));
-    else if (held && travelled > TAP_PX) {
-      held.drag.to(now.x - held.from.x, now.y - held.from.y, event.altKey || event.ctrlKey);
-    } else if (travelled > TAP_PX) target.setView(panBy(target.view(), now.x - before.x, now.y - before.y));
+    else if (!hasMoved) return;
+    else if (drag) drag.to(now.x - downAt.x, now.y - downAt.y, event.altKey || event.ctrlKey);
+    else target.setView(panBy(target.view(), now.x - before.x, now.y - before.y));
   };
 
   const onUp = (event: PointerEvent): void => {
-    if (pointers.size === 1 && travelled <= TAP_PX && event.type === "pointerup") {
+    if (pointers.size === 1 && !hasMoved && event.type === "pointerup") {
       target.tap(placeOf(event), event.shiftKey || event.ctrlKey || event.metaKey);
     }
     pointers.delete(event.pointerId);

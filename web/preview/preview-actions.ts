@@ -1,7 +1,7 @@
 /** Actions on the preview and the place of the drawing. */
 import { boxAround, layoutOfFrame } from "../scene/placing.js";
 import { isForSubmitter, type PageAction } from "../state/page-action.js";
-import { currentPlotter } from "../state/store.js";
+import { currentPlotter, type PageState } from "../state/store.js";
 import { previewText, timeLineText } from "./text.js";
 
 const needsPlan: PageAction["whyOff"] = ({ planned }) => (planned ? null : previewText.needsDrawing);
@@ -79,7 +79,7 @@ export const START_HERE: PageAction = {
   },
 };
 
-const needsPiece: PageAction["whyOff"] = ({ drawing, selectedPieces }) =>
+const needsPiece = ({ drawing, selectedPieces }: PageState): string | null =>
   drawing?.sheet?.pieces.some(({ id }) => selectedPieces.includes(id)) ? null : previewText.needsPiece;
 
 const DUPLICATE: PageAction = {
@@ -100,7 +100,11 @@ const REMOVE: PageAction = {
   key: "Delete",
   isForDrawing: true,
   isOffered: isForSubmitter,
-  whyOff: needsPiece,
+  whyOff: (state) => {
+    const { drawing, selectedPieces } = state;
+    const areAll = drawing?.sheet?.pieces.every(({ id }) => selectedPieces.includes(id));
+    return areAll ? previewText.keepsOne : needsPiece(state);
+  },
   perform: ({ actions }) => void actions.removePieces(),
 };
 

@@ -165,7 +165,7 @@ const PREPARED: SheetKind = {
   belowPx: BELOW_PX,
   show: showState,
   hand: (stage, store, actions) => ({
-    grab: (at) => (handOf(store)?.grabPiece ?? grabFrame)(stage, store, actions, at),
+    grab: (at, isFinger) => (handOf(store)?.grabPiece ?? grabFrame)(stage, store, actions, at, isFinger),
     nudge: (rightMm, downMm) =>
       (handOf(store)?.nudgePieces ?? nudgeFrame)(
         store,

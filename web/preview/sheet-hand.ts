@@ -19,9 +19,15 @@ const selectedOf = (state: PageState): readonly PlacedPiece[] =>
 
 /**
  * Begins a drag: of a handle, if one drawing is selected, otherwise of all selected drawings. A drawing that is not
- * selected is selected first. Null: there is none under the pointer.
+ * selected is selected first, but not by a finger. Null: there is none under the pointer.
  */
-export const grabPiece = (stage: Stage, store: PageStore, actions: Actions, at: Point): Drag | null => {
+export const grabPiece = (
+  stage: Stage,
+  store: PageStore,
+  actions: Actions,
+  at: Point,
+  isFinger: boolean,
+): Drag | null => {
   const state = store.getState();
   const { scale } = stage.view;
   const [x, y] = mmFromScreen(stage.view, at.x, at.y);
@@ -31,7 +37,7 @@ export const grabPiece = (stage: Stage, store: PageStore, actions: Actions, at: 
   if (only && part && part !== "move") return dragOf(stage, store, actions, [only], part, { x, y });
   const isSelected = ({ id }: PlacedPiece): boolean => state.selectedPieces.includes(id);
   const under = (part === "move" ? only : null) ?? topmostAt(piecesOnPaper(state), x, y, NEAR_PX / scale);
-  if (!under) return null;
+  if (!under || (isFinger && !isSelected(under))) return null;
   return dragOf(stage, store, actions, isSelected(under) ? selected : [under], "move", { x, y });
 };
 
@@ -61,7 +67,7 @@ const dragOf = (
           ? dragged.map((piece) => [piece.id, movedBy(piece, now.xMm - frame.xMm, now.yMm - frame.yMm)])
           : [[lead.id, inFrame(lead, now)]],
       );
-      change(store, actions, "drag", (piece) => byId.get(piece.id) ?? piece);
+      change(store, actions, `drag ${ids.join()}`, (piece) => byId.get(piece.id) ?? piece);
     },
     end: () => store.setState({ snapLines: null }),
   };
@@ -91,7 +97,9 @@ const change = (
 export const nudgePieces = (store: PageStore, actions: Actions, dxMm: number, dyMm: number): boolean => {
   const ids = selectedOf(store.getState()).map(({ id }) => id);
   if (ids.length === 0) return false;
-  change(store, actions, "nudge", (piece) => (ids.includes(piece.id) ? movedBy(piece, dxMm, dyMm) : piece));
+  change(store, actions, `nudge ${ids.join()}`, (piece) =>
+    ids.includes(piece.id) ? movedBy(piece, dxMm, dyMm) : piece,
+  );
   return true;
 };
 

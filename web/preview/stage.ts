@@ -5,7 +5,14 @@
  * the paper follows the finger even if the drawing is large.
  */
 import { compose, inverse, isSameJson, type Box } from "../../src/internal.js";
-import { beginCanvas, deskColors, drawBackdrop, type Desk, type DeskColors } from "./backdrop.js";
+import {
+  beginCanvas,
+  deskColors,
+  drawBackdrop,
+  roomForHomePx,
+  type Desk,
+  type DeskColors,
+} from "./backdrop.js";
 import { markMoment } from "../worker/moments.js";
 import { drawRulers, RULER_PX } from "./overlay.js";
 import type { PenPlace } from "./pen/pen-glide.js";
@@ -184,7 +191,7 @@ export class Stage {
 
   private fitNow(): void {
     const insets = {
-      top: RULER_PX + INSET_PX,
+      top: RULER_PX + INSET_PX + roomForHomePx(this.shownDesk.turn),
       left: RULER_PX + INSET_PX,
       right: INSET_PX,
       bottom: INSET_PX + Math.min(this.belowPx, MOST_BELOW * this.cssSize.height),

@@ -1,7 +1,7 @@
 /** Texts of the preview and the time line. */
 export const previewText = {
   reach: (machine: string, size: string) => `Reach of ${machine}: ${size}`,
-  home: "Home",
+  home: "Home, top left",
   turnDesk: "Turn the desk",
   reading: (name: string) => `Reading ${name}…`,
   nothingToDraw: "Nothing to draw",
@@ -27,6 +27,7 @@ export const previewText = {
     "Moves the drawing so that the upper left corner of its box is where the carriage is now. Undo moves it back.",
   placesEach: "The sheet has several drawings: press one to place it.",
   needsPiece: "No drawing of the sheet is selected.",
+  keepsOne: "One drawing stays on the sheet.",
   duplicatePiece: "Duplicate the selected drawing",
   removePiece: "Remove the selected drawing",
   needsPosition: "The position of the carriage is not known: press Home first.",

@@ -47,11 +47,15 @@ export const isForOperator = ({ store }: Page): boolean => mayOperate(store.getS
 
 type KeyPress = Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
 
-/** "?" is on different keys and levels of keyboards, so Shift counts only beside Ctrl. */
+/**
+ * "?" is on different keys and levels of keyboards, so Shift counts only beside Ctrl. Keyboards of Macs and tablets have
+ * Backspace in place of Delete.
+ */
 export const isPressed = ({ key = "" }: PageAction, event: KeyPress): boolean => {
   const held = key.split(" ");
   const last = held.pop();
-  if (event.key.toLowerCase() !== (last === "Space" ? " " : last?.toLowerCase())) return false;
+  const pressed = event.key === "Backspace" ? "delete" : event.key.toLowerCase();
+  if (pressed !== (last === "Space" ? " " : last?.toLowerCase())) return false;
   if (!held.includes("Ctrl")) return !event.ctrlKey && !event.metaKey && (!event.altKey || last === "?");
   return (event.ctrlKey || event.metaKey) && event.shiftKey === held.includes("Shift");
 };

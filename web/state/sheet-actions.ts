@@ -26,8 +26,14 @@ export const createSheetActions = (parts: SheetParts) => {
   const editSelected = async (
     what: string,
     edit: (edits: typeof import("./sheet-edits.js"), ids: readonly string[]) => SheetEdit,
-  ): Promise<void> =>
-    editSheet(what, edit(await import("./sheet-edits.js"), store.getState().selectedPieces));
+  ): Promise<void> => {
+    const { selectedPieces } = store.getState();
+    // Of other drawings it is a step of its own for undo, also soon after.
+    await editSheet(
+      `${what} ${selectedPieces.join()}`,
+      edit(await import("./sheet-edits.js"), selectedPieces),
+    );
+  };
   return {
     changeSheet,
     selectPieces: (selectedPieces: readonly string[]): void => store.setState({ selectedPieces }),

@@ -257,6 +257,13 @@ describe("the actions of the page", () => {
     expect(isPressed(action, { ...event, key: "j" })).toBe(false);
   });
 
+  it("removes a drawing with Backspace too, which stands for Delete on many keyboards", () => {
+    const event = { key: "Backspace", ctrlKey: false, shiftKey: false, metaKey: false, altKey: false };
+    expect(ACTIONS_WITH_KEYS.filter((one) => isPressed(one, event)).map(({ id }) => id)).toEqual([
+      "remove-piece",
+    ]);
+  });
+
   it("say why they are off before the server has answered and without a drawing", () => {
     const state = createPageStore({ settings: DEFAULT_PLOT_SETTINGS, view: DEFAULT_VIEW }).getState();
     const reasons = PAGE_ACTIONS.map((action) => [action.id, whyOff(action, state)]);

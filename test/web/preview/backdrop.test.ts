@@ -2,22 +2,30 @@ import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import { drawBackdrop, type Desk, type DeskColors } from "../../../web/preview/backdrop.js";
 
-/** Records only texts and filled boxes. */
-function drawn(sheet: Omit<Desk, "turn">, turn = 0): { words: string[]; fills: number[][] } {
+/** Records only texts, their places, and filled boxes. */
+function drawn(sheet: Omit<Desk, "turn">, turn = 0) {
   const words: string[] = [];
+  const places: { y: number; align: CanvasTextAlign }[] = [];
+  let align: CanvasTextAlign = "left";
   const fills: number[][] = [];
   const context = new Proxy({} as CanvasRenderingContext2D, {
     get: (_target, name) =>
       name === "fillText"
-        ? (text: string) => words.push(text)
+        ? (text: string, _x: number, y: number) => {
+            words.push(text);
+            places.push({ y, align });
+          }
         : name === "fillRect"
           ? (...box: number[]) => fills.push(box)
           : () => undefined,
-    set: () => true,
+    set: (_target, name, value: CanvasTextAlign) => {
+      if (name === "textAlign") align = value;
+      return true;
+    },
   });
   const desk = { ...sheet, turn };
   drawBackdrop(context, { scale: 2, offsetX: 10, offsetY: 20, turn }, desk, {} as DeskColors);
-  return { words, fills };
+  return { words, fills, places };
 }
 
 const margins = { topMm: 15, rightMm: 15, bottomMm: 15, leftMm: 15 };
@@ -71,6 +79,15 @@ describe("the machine's reach under the drawing", () => {
     const { fills, words } = drawn(paper, 1);
     expect(fills[0]).toEqual([10 - 2 * 297, 20, 2 * 297, 2 * 210]);
     expect(fills.at(-1)).toEqual([10 - 2 * 297, 20, 2 * (297 - 218), 2 * 210]);
-    expect(words).toEqual([reach.label, "Home"]);
+    expect(words).toEqual([reach.label, "Home, top left"]);
+  });
+
+  it("has its label and the name of the corner at home apart, however the desk is turned", () => {
+    const paper = { paperMm: { width: 297, height: 210 }, margins, reach, unitMm: 1 };
+    for (const turn of [1, 2, 3]) {
+      const [label, home] = drawn(paper, turn).places;
+      const isApart = label.y !== home.y || label.align !== home.align;
+      expect([turn, isApart]).toEqual([turn, true]);
+    }
   });
 });

@@ -119,7 +119,7 @@ const Aligning = ({ selected }: { selected: readonly PlacedPiece[] }) => {
     target === "paper" ? paper : target === "inside" ? inside : boxOfAll(selected);
   const align = (how: Alignment): void =>
     void editSheet(
-      `align ${how}`,
+      `align ${how} ${ids.join()}`,
       eachOf(ids, (piece, room) => aligned(piece, how, boxIn(room))),
     );
   return (
