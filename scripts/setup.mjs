@@ -30,7 +30,7 @@ export function giveUp(message, exitCode = 1) {
 /** Options of `serve` that npm does not have. (It has its own --cert and --key, which may be in its settings.) */
 const SERVE_OPTIONS = [
   ...["device", "virtual-speed", "virtual-springs", "data", "port", "host", "lan", "mdns", "pair-always"],
-  ...["allow-host", "allow-origin", "watch", "shared-queue", "max-upload-mb", "open"],
+  ...["allow-host", "allow-origin", "watch", "shared-queue", "mqtt", "max-upload-mb", "open"],
 ];
 
 /** Without `--`, as in `npm start --port 9381`, npm takes an option and passes it only in the environment. */
