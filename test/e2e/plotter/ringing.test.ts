@@ -6,6 +6,8 @@ import { seriousFindings } from "../../support/browser/axe.js";
 import { PageTest } from "../../support/browser/page-test.js";
 
 const PATIENCE_MS = 120_000;
+/** Six plots: on a computer as busy as the limit of one test allows for, they take longer than that. */
+const SIX_PLOTS_MS = 300_000;
 const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100"><path d="M10 10h80v80" fill="none" stroke="#0a0"/></svg>`;
 
 let test: PageTest;
@@ -102,23 +104,29 @@ describe("the ringing sheet", () => {
 });
 
 describe("the second sheet", () => {
-  it("plots six lines one after the other, each shaped for another frequency", async () => {
-    await dialog().getByRole("radio", { name: "Pick by eye" }).check();
-    await noteButtonWords();
-    await dialog().getByRole("button", { name: "Plot the six lines" }).click();
-    await expect
-      .poll(async () => (await named(/^Ringing, /)).filter(({ state }) => state === "done").length)
-      .toBe(6);
-    await dialog().getByRole("button", { name: "Plot the six lines" }).waitFor();
-    // A busy computer may show only a later one.
-    expect(await notedButtonWords()).toContainEqual(expect.stringMatching(/^Plotting line [1-6] of 6…$/));
-    const jobs = await named(/^Ringing, /);
-    const swings = jobs.map(({ settings }) => settings.customMachine?.springs?.xHz ?? 0);
-    expect([...swings].sort((a, b) => a - b)).toEqual(
-      [0, 12.08, 13.59, 15.1, 16.61, 18.875].map((hz) => expect.closeTo(hz, 6) as number),
-    );
-    expect(jobs.filter(({ settings }) => settings.motion.shaper === "zv")).toHaveLength(5);
-  });
+  it(
+    "plots six lines one after the other, each shaped for another frequency",
+    async () => {
+      await dialog().getByRole("radio", { name: "Pick by eye" }).check();
+      await noteButtonWords();
+      await dialog().getByRole("button", { name: "Plot the six lines" }).click();
+      await expect
+        .poll(async () => (await named(/^Ringing, /)).filter(({ state }) => state === "done").length, {
+          timeout: 0.75 * SIX_PLOTS_MS,
+        })
+        .toBe(6);
+      await dialog().getByRole("button", { name: "Plot the six lines" }).waitFor();
+      // A busy computer may show only a later one.
+      expect(await notedButtonWords()).toContainEqual(expect.stringMatching(/^Plotting line [1-6] of 6…$/));
+      const jobs = await named(/^Ringing, /);
+      const swings = jobs.map(({ settings }) => settings.customMachine?.springs?.xHz ?? 0);
+      expect([...swings].sort((a, b) => a - b)).toEqual(
+        [0, 12.08, 13.59, 15.1, 16.61, 18.875].map((hz) => expect.closeTo(hz, 6) as number),
+      );
+      expect(jobs.filter(({ settings }) => settings.motion.shaper === "zv")).toHaveLength(5);
+    },
+    SIX_PLOTS_MS,
+  );
 
   it("takes the line that is clicked", async () => {
     await dialog().getByRole("radio", { name: "16.6 / 27.8 Hz" }).check();
