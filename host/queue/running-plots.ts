@@ -113,13 +113,13 @@ export class RunningPlots {
     return this.jobs.note(id, recoveredWords(job, position));
   }
 
-  /** Changes pen heights and speeds of a job that is plotting or held. */
+  /** Changes pen heights and speeds of a job that is plotting or held. While it is being planned the run gets them later. */
   async change(id: string, change: JobChange): Promise<Job> {
-    const run = this.liveRun(id, ["plotting", "paused"], "changed");
+    const { run } = this.runningOf(id, ["plotting", "paused"], "changed");
     const { pen, motion, speedPct } = change;
     const whole = this.settings.changed(this.jobs.get(id), { settings: { pen, motion } }).settings;
     const now = { ...(pen && { pen: whole.pen }), ...(motion && { motion: whole.motion }) };
-    await run.change({ ...now, speedPct });
+    if (run !== null) await run.change({ ...now, speedPct });
     const job = this.jobs.get(id);
     const settings = { ...job.settings, ...now };
     return this.jobs.save({ ...job, settings, speedPct: speedPct ?? job.speedPct });
@@ -142,19 +142,19 @@ export class RunningPlots {
 
   /** Moves the place from which a held job will resume. */
   movePlace(id: string, by: MovePlace): Job {
-    const place = this.liveRun(id, ["paused"], "moved along").moveHoldPlace(by);
+    const place = this.liveRun(id, "moved along").moveHoldPlace(by);
     return this.jobs.save({ ...this.jobs.get(id), place: jobPlace(place) });
   }
 
   /** Where such a move would lead. */
   placeAfter(id: string, by: MovePlace): PlaceOnPaper {
-    const { x, y, ...place } = this.liveRun(id, ["paused"], "moved along").placeAfter(by);
+    const { x, y, ...place } = this.liveRun(id, "moved along").placeAfter(by);
     return { ...jobPlace(place), xMm: x, yMm: y };
   }
 
   /** Travels to the place of a held job with the pen up. */
   async checkPlace(id: string): Promise<Job> {
-    await this.liveRun(id, ["paused"], "checked").checkHoldPlace();
+    await this.liveRun(id, "checked").checkHoldPlace();
     return this.jobs.get(id);
   }
 
@@ -162,7 +162,7 @@ export class RunningPlots {
   async movePen(id: string, up: boolean): Promise<Job> {
     const { name, wait } = this.jobs.get(id);
     if (!wait) throw new PlotwrightError("conflict", `"${name}" does not wait for another pen.`);
-    await this.liveRun(id, ["paused"], "given another pen").movePenAtHold(up);
+    await this.liveRun(id, "given another pen").movePenAtHold(up);
     return this.jobs.get(id);
   }
 
@@ -233,7 +233,7 @@ export class RunningPlots {
 
   private async plot(running: Running): Promise<PlotOutcome> {
     const { job, plotter, abort } = running;
-    const { id, settings, place, speedPct } = job;
+    const { id, settings, place } = job;
     const from = place === null ? null : { stroke: place.strokeIndex, alongMm: place.alongMm };
     // An interrupted plot may have left the pen on the paper. So its planner is opened even after a cancel: cancelling
     // the run then lifts the pen.
@@ -249,7 +249,9 @@ export class RunningPlots {
       if (abort.signal.aborted) this.ask(running, running.isLeft ? run.leave() : run.cancel());
       else if (running.beginsHeld && !held) this.ask(running, run.pause());
       else if (!running.beginsHeld && from !== null) this.ask(running, this.resumeRun(running, run));
-      if (speedPct !== 100) this.ask(running, run.change({ speedPct }));
+      const { settings: now, speedPct } = this.jobs.get(id);
+      const isChanged = now.pen !== settings.pen || now.motion !== settings.motion || speedPct !== 100;
+      if (isChanged) this.ask(running, run.change({ pen: now.pen, motion: now.motion, speedPct }));
       return await run.finished;
     } finally {
       await planner.close();
@@ -415,9 +417,9 @@ export class RunningPlots {
     return place === null ? null : jobPlace(place);
   }
 
-  /** The run of a job for requests that need one; throws `conflict` while it is still being planned. */
-  private liveRun(id: string, states: readonly Job["state"][], verb: string): RunningPlot {
-    const { run } = this.runningOf(id, states, verb);
+  /** The run of a held job for requests that need one; throws `conflict` while it is still being planned. */
+  private liveRun(id: string, verb: string): RunningPlot {
+    const { run } = this.runningOf(id, ["paused"], verb);
     if (run !== null) return run;
     throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
   }

@@ -342,6 +342,35 @@ describe("the queue", () => {
     expect(queue.get(id).state).toBe("paused");
   });
 
+  it("gives the run what was changed while it was still being planned", async () => {
+    await opened.close();
+    let finishPlan = (): void => undefined;
+    const gate = new Promise<void>((resolve) => {
+      finishPlan = resolve;
+    });
+    const open: typeof LED_PLANNING.open = async (...args) => {
+      await gate;
+      return LED_PLANNING.open(...args);
+    };
+    openQueue({ planning: { ...LED_PLANNING, open } });
+    const { id } = await add("fern");
+    await queue.start(id);
+    const pen = { ...DEFAULT_PLOT_SETTINGS.pen, downPct: 21 };
+    await queue.change(id, { speedPct: 60 });
+    await queue.change(id, { pen });
+    expect(store.jobs()[0]).toMatchObject({ speedPct: 60, settings: { pen } });
+    finishPlan();
+    const run = await nextRun();
+    await settled();
+    expect(run.changes).toEqual([{ pen, motion: DEFAULT_PLOT_SETTINGS.motion, speedPct: 60 }]);
+  });
+
+  it("asks a run for no change if nothing was changed", async () => {
+    const { run } = await plotting();
+    await settled();
+    expect(run.changes).toEqual([]);
+  });
+
   it("tells an emergency stop from a pause until it is resumed, and whether the position holds", async () => {
     const { id } = await plotting();
     await queue.plots.emergencyStop(id);

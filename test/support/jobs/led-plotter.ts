@@ -22,6 +22,8 @@ export class LedRun implements RunningPlot {
   progress: (progress: PlotProgress) => void = () => undefined;
   held: (held: boolean, wait?: PlotWait | null) => void = () => undefined;
   readonly asked: string[] = [];
+  /** What `change` was asked for. */
+  readonly changes: PlotChange[] = [];
   holdPlace: StrokePosition | null;
 
   constructor(readonly start: PlotStart) {
@@ -62,6 +64,7 @@ export class LedRun implements RunningPlot {
 
   change(change: PlotChange): Promise<void> {
     this.asked.push(`change ${Object.keys(change).join(" ")}`);
+    this.changes.push(change);
     return Promise.resolve();
   }
 
