@@ -1,5 +1,5 @@
 /** What an operation of the table in operations.ts is, and the types of its clients and handlers. */
-import type { z, ZodType } from "zod";
+import { z, type ZodType } from "zod";
 
 /**
  * Who may perform an operation. Who may only submit jobs is refused any other job than its own, as if there were none:
@@ -79,6 +79,9 @@ export const operation = <
     maxBodyBytes: MAX_BODY_BYTES,
     ...more,
   }) as unknown as Row<Path, Answer, More>;
+
+/** The answer of operations that return no data. */
+export const okSchema = z.object({ ok: z.literal(true) });
 
 /** The text of a drawing, or its bytes. */
 export type FileContent = string | ArrayBuffer;

@@ -47,19 +47,12 @@ import {
 } from "./hand-moves.js";
 import { cameraSchema, cameraStateSchema, keptPicturesSchema, pictureRequestSchema } from "./camera.js";
 import { jobSchema } from "./job.js";
-import {
-  keepRequestSchema,
-  libraryFileInfoSchema,
-  libraryListSchema,
-  libraryRequestSchema,
-} from "./library.js";
+import { LIBRARY_OPERATIONS } from "./library.js";
 import { machineListSchema, machineProfileSchema } from "./machine.js";
-import { operation, type ClientOf, type HandlersOf } from "./operation.js";
+import { okSchema, operation, type ClientOf, type HandlersOf } from "./operation.js";
 import { plotterDefaultsSchema, plotterSettingsSchema } from "./plotter-settings.js";
 import { newSharedJobSchema, sharedJobSchema } from "./shared.js";
 
-/** The answer of operations that return no data. */
-const okSchema = z.object({ ok: z.literal(true) });
 const idSchema = z.object({ id: z.string() });
 
 /** A change of a job or plotter. */
@@ -402,37 +395,7 @@ export const OPERATIONS = {
     }),
   },
 
-  /** Only a server has one. A path has "/" between its names, as %2F in an address. */
-  library: {
-    list: operation(
-      "get",
-      "/library",
-      "Lists folders and drawings of the library, in ?folder=PATH; with ?name=PART all drawings there and below that have it in their name",
-      libraryListSchema,
-      { query: libraryRequestSchema, role: "watch" },
-    ),
-    get: operation("get", "/library/:path", "Returns a drawing of the library", "file", { role: "watch" }),
-    save: operation(
-      "put",
-      "/library/:path",
-      "Stores a drawing in the library, the file as the body; folders that are missing are made, nothing is overwritten",
-      libraryFileInfoSchema,
-      { body: "file", status: 201 },
-    ),
-    remove: operation(
-      "delete",
-      "/library/:path",
-      "Removes a drawing or an empty folder of the library",
-      okSchema,
-    ),
-    keep: operation(
-      "post",
-      "/jobs/:id/keep",
-      "Copies a job's drawing into the library; if the name is taken, a number is added",
-      libraryFileInfoSchema,
-      { body: keepRequestSchema, isBodyOptional: true, status: 201 },
-    ),
-  },
+  library: LIBRARY_OPERATIONS,
 
   sharedJobs: {
     list: operation(
