@@ -56,8 +56,8 @@ export interface Backend extends OperationClient {
   listen(listener: BackendListener): void;
   /** Lets the user choose a port, and connects to it. Needs `features.asksForPort` and a click. */
   connect(id: string): Promise<Plotter>;
-  /** The SVG of a drawing, for a thumbnail; null if it is not SVG or is larger than `maxBytes`. */
-  svgOf(source: DrawingSource, maxBytes: number): Promise<string | null>;
+  /** The file of a drawing, for a thumbnail; null if it is larger than `maxBytes`. */
+  fileOf(source: DrawingSource, maxBytes: number): Promise<DrawingText | null>;
 }
 
 /** Uploads a drawing, then adds its job. */

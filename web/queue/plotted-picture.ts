@@ -2,7 +2,7 @@
 import type { Job } from "../../src/schema/index.js";
 import type { Backend } from "../backend/backend.js";
 import { saveFile } from "../ui/files/save-file.js";
-import { openPlanner } from "../worker/planner.js";
+import { drawnSvg } from "../worker/drawn-svg.js";
 
 export type PictureFormat = "png" | "svg";
 
@@ -10,33 +10,13 @@ export type PictureFormat = "png" | "svg";
 const PNG_PX = 3_000;
 const PAPER = "#ffffff";
 
-/** Plans the job once more, in a worker of its own, and saves what it drew. Rejects with a message for the user. */
+/** Plans the job once more, and saves what it drew. Rejects with a message for the user. */
 export const savePicture = async (backend: Backend, job: Job, format: PictureFormat): Promise<void> => {
-  const svg = await plottedSvg(backend, job);
+  const text = await backend.jobs.drawing(job.id);
+  const svg = await drawnSvg({ key: job.id, text }, job.settings);
   const name = `${job.name.replace(/\.\w{1,5}$/, "")}, plotted.${format}`;
   if (format === "svg") saveFile(name, svg, "image/svg+xml");
   else saveFile(name, await pngOf(svg), "image/png");
-};
-
-const plottedSvg = async (backend: Backend, job: Job): Promise<string> => {
-  const text = await backend.jobs.drawing(job.id);
-  let close = (): void => undefined;
-  try {
-    return await new Promise<string>((resolve, reject) => {
-      const fail = (message: string): void => reject(new Error(message));
-      const planner = openPlanner({
-        onImported: () => undefined,
-        onPlanned: () => planner.export("svg", ""),
-        onFault: ({ message }) => fail(message),
-        onExported: (_format, svg) => resolve(svg),
-        onExportFailed: fail,
-      });
-      close = () => planner.close();
-      planner.request({ drawing: { key: job.id, text }, settings: job.settings, firmware: null });
-    });
-  } finally {
-    close();
-  }
 };
 
 const pngOf = async (svg: string): Promise<Blob> => {

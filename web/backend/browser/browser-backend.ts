@@ -1,5 +1,4 @@
 /** The page's backend without a server: a worker of the page, or of another tab, operates the plotter. */
-import type { DrawingText } from "../drawing-text.js";
 import { clientOf, OPERATIONS, type OperationGroup, type ServerEvent } from "../../../src/schema/index.js";
 import { BackendFault, type Backend } from "../backend.js";
 import { whyNoPort } from "./capabilities.js";
@@ -42,19 +41,11 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
       await askForPort(client);
       return client.callOwn("reconnect", id);
     },
-    svgOf: async ({ of, id }, maxBytes) => {
-      const drawing = of === "job" ? await operations.jobs.drawing(id) : await sampleText(sampleFiles, id);
-      const text = await textUpTo(drawing, maxBytes);
-      return text !== null && /<svg[\s>]/i.test(text.slice(0, 20_000)) ? text : null;
+    fileOf: async ({ of, id }, maxBytes) => {
+      const file = of === "job" ? await operations.jobs.drawing(id) : await sampleText(sampleFiles, id);
+      return (typeof file === "string" ? file.length : file.byteLength) > maxBytes ? null : file;
     },
   };
-};
-
-const textUpTo = async (drawing: DrawingText, maxBytes: number): Promise<string | null> => {
-  const size = typeof drawing === "string" ? drawing.length : drawing.byteLength;
-  if (size > maxBytes) return null;
-  const { textOf } = await import("../drawing-text.js");
-  return textOf(drawing);
 };
 
 /** Opens the browser's own dialog, which works only in a click handler. */

@@ -22,7 +22,7 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
   features: { sharing: true, library: true, asksForPort: false, whyNoPort: null },
   listen: (listener) => openEvents(`${API_PATH}${OPERATIONS.state.events.path}`, listener),
   connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
-  svgOf: async ({ of, id }, maxBytes) => {
+  fileOf: async ({ of, id }, maxBytes) => {
     const stop = new AbortController();
     const one = SOURCES[of];
     const response = await fetchPath(requestOf(one, { id }).path, { signal: stop.signal });
@@ -30,8 +30,7 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
       stop.abort();
       return null;
     }
-    const file = await response.text();
-    return /<svg[\s>]/i.test(file.slice(0, 20_000)) ? file : null;
+    return response.arrayBuffer();
   },
 });
 
