@@ -1,4 +1,4 @@
-import { useEffect, useState } from "react";
+import { useEffect, useRef, useState, type RefObject } from "react";
 import { DRAWING_EXTENSIONS, isDrawingName } from "../../src/internal.js";
 import type { LibraryFileInfo, LibraryList } from "../../src/schema/index.js";
 import { contentOf, type DrawingText } from "../backend/drawing-text.js";
@@ -30,18 +30,28 @@ export const Library = () => {
     setFolder(path);
     setSearch("");
   };
+  const path = useRef<HTMLElement>(null);
+  /** Where the focus goes when the tile that had it is gone. */
+  const focusPath = (): void => [...(path.current?.querySelectorAll("button") ?? [])].at(-1)?.focus();
+  useEffect(() => {
+    if (folder !== "") focusPath();
+  }, [folder]);
+  const afterRemoval = (): void => {
+    reload();
+    focusPath();
+  };
   return (
     <Sheet title={drawingText.library} className="dialog-wide">
       <CloseWhenOpened />
       <div className="library-bar">
-        <FolderPath folder={folder} onGo={goTo} />
+        <FolderPath folder={folder} buttons={path} onGo={goTo} />
         <TextField label={words.search} isLabelInside value={search} maxLength={200} onChange={setSearch} />
       </div>
       <AddBar folder={folder} onAdded={reload} onMade={goTo} />
       {list === null ? (
         <div className="sheet-grid" aria-busy="true" />
       ) : (
-        <Entries list={list} search={search.trim()} onGo={goTo} onRemoved={reload} />
+        <Entries list={list} search={search.trim()} onGo={goTo} onRemoved={afterRemoval} />
       )}
     </Sheet>
   );
@@ -71,11 +81,17 @@ const useList = (folder: string, search: string) => {
   return { list: isCurrent ? list : null, reload: () => setReloads(reloads + 1) };
 };
 
+interface PathProps {
+  readonly folder: string;
+  readonly buttons: RefObject<HTMLElement | null>;
+  onGo(path: string): void;
+}
+
 /** "Library / plants / 2026": each name goes there. */
-const FolderPath = ({ folder, onGo }: { folder: string; onGo(path: string): void }) => {
+const FolderPath = ({ folder, buttons, onGo }: PathProps) => {
   const names = folder === "" ? [] : folder.split("/");
   return (
-    <nav className="library-path" aria-label={words.path}>
+    <nav className="library-path" aria-label={words.path} ref={buttons}>
       <Button kind="link" onClick={() => onGo("")}>
         {drawingText.library}
       </Button>
@@ -201,7 +217,7 @@ const FileTile = ({ file, onRemoved }: { file: LibraryFileInfo; onRemoved(): voi
         aria-label={words.openNamed(nameOf(path))}
         onClick={() => void openFromLibrary(path)}
       >
-        <Thumb of="library" id={path} />
+        <Thumb of="library" id={path} changedAt={changedAt} />
       </button>
       <RemovableName path={path} onRemoved={onRemoved} />
       <p className="note">
@@ -216,14 +232,19 @@ const RemovableName = ({ path, onRemoved }: { path: string; onRemoved(): void })
   const { removeFromLibrary } = useActions();
   const isOff = !useIsConnected();
   const [isAsking, setAsking] = useState(false);
+  const head = useRef<HTMLDivElement>(null);
   const name = nameOf(path);
+  const keep = (): void => {
+    setAsking(false);
+    head.current?.querySelector("button")?.focus();
+  };
   const remove = async (): Promise<void> => {
     setAsking(false);
     if ((await removeFromLibrary(path)) !== null) onRemoved();
   };
   return (
     <>
-      <div className="sheet-head">
+      <div className="sheet-head" ref={head}>
         <span className="job-name" title={path}>
           {name}
         </span>
@@ -239,7 +260,7 @@ const RemovableName = ({ path, onRemoved }: { path: string; onRemoved(): void })
             <Button kind="danger" onClick={() => void remove()}>
               {words.remove}
             </Button>
-            <Button autoFocus onClick={() => setAsking(false)}>
+            <Button autoFocus onClick={keep}>
               {words.keepIt}
             </Button>
           </div>

@@ -84,7 +84,7 @@ const Details = ({ row: { copies } }: { row: AxisRow }) => {
   const stops = (job.stats?.pens?.stops ?? []).filter(({ strokeIndex }) => strokeIndex > 0);
   return (
     <>
-      {facts.length > 0 && <p className="note">{facts.join(", ")}</p>}
+      {facts.length > 0 && <p className="note axis-facts">{facts.join(", ")}</p>}
       {stops.length > 0 && (
         <p className="note axis-pens">
           {axisText.penStops(stops.length)}

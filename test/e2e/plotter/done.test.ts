@@ -1,6 +1,8 @@
 /** The end of a plot: the page compares its time, offers to keep what was changed, and saves its picture. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Job } from "../../../src/schema/index.js";
+import { seriousFindings } from "../../support/browser/axe.js";
+import { SCHEMES } from "../../support/browser/in-states.js";
 import { openView, plotBar, statusCard } from "../../support/browser/page-actions.js";
 import { PageTest } from "../../support/browser/page-test.js";
 
@@ -57,6 +59,10 @@ describe("a plot that has ended", () => {
     async () => {
       const { page } = test;
       await statusCard(page).getByText("It ran at 75 % of its speeds: keep that from now on?").waitFor();
+      for (const colorScheme of SCHEMES) {
+        await page.emulateMedia({ colorScheme });
+        expect(await seriousFindings(page)).toEqual([]);
+      }
       const { speedMmPerS } = (await theJob()).settings.motion.draw;
       await statusCard(page).getByRole("button", { name: "Keep", exact: true }).click();
       await statusCard(page).getByText("keep that from now on?").waitFor({ state: "detached" });

@@ -26,14 +26,20 @@ export const RowMenu = ({ label, items }: RowMenuProps) => {
     document.addEventListener("pointerdown", onPress);
     return () => document.removeEventListener("pointerdown", onPress);
   }, [isOpen]);
+  /** The focus would be lost with the menu. */
+  const close = (): void => {
+    setOpen(false);
+    opener.current?.focus();
+  };
   return (
     <div
       className="row-menu"
       ref={box}
       onKeyDown={(event) => {
         if (event.key !== "Escape" || !isOpen) return;
-        setOpen(false);
-        opener.current?.focus();
+        // A dialog around the menu stays open.
+        event.preventDefault();
+        close();
       }}
     >
       <IconButton
@@ -44,15 +50,7 @@ export const RowMenu = ({ label, items }: RowMenuProps) => {
         onClick={() => setOpen(!isOpen)}
       />
       {isOpen && (
-        <div
-          ref={list}
-          className="row-menu-list"
-          role="group"
-          aria-label={label}
-          onClick={(event) => {
-            if (event.target instanceof Element && event.target.closest("button")) setOpen(false);
-          }}
-        >
+        <div ref={list} className="row-menu-list" role="group" aria-label={label}>
           {items.map(([words, itemLabel, isOff, run]) => (
             <button
               key={itemLabel}
@@ -60,7 +58,10 @@ export const RowMenu = ({ label, items }: RowMenuProps) => {
               className="row-menu-item"
               aria-label={itemLabel}
               disabled={isOff}
-              onClick={run}
+              onClick={() => {
+                close();
+                run();
+              }}
             >
               {words}
             </button>

@@ -133,4 +133,34 @@ export const PLOT_STATES: readonly PageState[] = [
         .waitFor();
     },
   },
+  {
+    name: "46-gallery",
+    isOnlyPlace: true,
+    reach: async ({ page }) => {
+      await start(page, "few lines", ruledSheet(3));
+      await historyPanel(page).getByText("Done").first().waitFor();
+      await page.getByRole("button", { name: "Show all finished plots" }).click();
+      await page.getByRole("dialog", { name: "Gallery" }).locator(".thumb img").first().waitFor();
+    },
+  },
+  {
+    name: "47-library",
+    isOnlyPlace: true,
+    reach: async ({ page }) => {
+      await openPanel(page, "Drawing");
+      await page.getByRole("button", { name: "Library", exact: true }).click();
+      const library = page.getByRole("dialog", { name: "Library" });
+      await library.getByRole("button", { name: /^Save “/ }).click();
+      await library.locator(".thumb img").first().waitFor();
+      await library.getByRole("textbox", { name: "New folder" }).fill("plants");
+      await library.getByRole("button", { name: "Make" }).click();
+      await library.getByText("This folder is empty.", { exact: false }).waitFor();
+      await library.getByRole("button", { name: /^Save “/ }).click();
+      await library.getByRole("button", { name: "Library", exact: true }).click();
+      await library.getByRole("button", { name: "Open the folder plants" }).waitFor();
+      await library.getByRole("button", { name: /^More for .*svg/ }).click();
+      await library.getByRole("button", { name: /^Remove .*svg/ }).click();
+      await library.getByRole("alertdialog").waitFor();
+    },
+  },
 ];
