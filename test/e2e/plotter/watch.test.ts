@@ -179,7 +179,7 @@ describe("the queue", () => {
     await add();
     await add({ strokeIndex: 3, alongMm: 0 });
     const rows = queuePanel(test.page).getByRole("listitem").filter({ hasText: "part" });
-    await rows.getByText(/, from stroke 4$/).waitFor();
+    await rows.getByText(/^from stroke 4$/).waitFor();
     expect(await rows.count()).toBe(2);
   });
 
