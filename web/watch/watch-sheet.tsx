@@ -3,6 +3,7 @@ import { ZoomTools } from "../preview/preview-tools.js";
 import { Sheet, type SheetKind } from "../preview/sheet.js";
 import type { OverlayPainter, ShownPen, Stage } from "../preview/stage.js";
 import { previewText } from "../preview/text.js";
+import { screenPoint } from "../scene/view.js";
 import { watchedJob, type PageState, type PageStore } from "../state/store.js";
 import { usePageState, usePageStore } from "../state/use-store.js";
 import { deskOf, followPen } from "../preview/desk.js";
@@ -79,8 +80,7 @@ const placePainter =
   ({ placeMark }: PageState): OverlayPainter =>
   (context, view) => {
     if (!placeMark) return;
-    const x = view.offsetX + placeMark.xMm * view.scale;
-    const y = view.offsetY + placeMark.yMm * view.scale;
+    const [x, y] = screenPoint(view, placeMark.xMm, placeMark.yMm);
     for (const [color, widthPx] of RINGS) {
       context.beginPath();
       context.arc(x, y, MARK_PX, 0, 2 * Math.PI);

@@ -112,6 +112,16 @@ describe("a plot beside a camera", () => {
     const away = (at: readonly [number, number]): number => Math.hypot(at[0] - here[0], at[1] - here[1]);
     // The mark is painted on whole pixels.
     expect(Math.abs(away(begin) / away(near) / (alongMm / 10) - 1)).toBeLessThan(0.1);
+    // On a turned desk, the stroke and the mark's way along it are turned too.
+    const turn = page.getByRole("button", { name: "Turn the desk" });
+    await turn.click();
+    const turnedHere = await pointAt("Go there with the pen up");
+    const turnedNear = await pointAt("10 mm back");
+    const [dx, dy] = [near[0] - here[0], near[1] - here[1]];
+    const [turnedX, turnedY] = [turnedNear[0] - turnedHere[0], turnedNear[1] - turnedHere[1]];
+    const angleDeg = (Math.atan2(dx * turnedY - dy * turnedX, dx * turnedX + dy * turnedY) * 180) / Math.PI;
+    expect(Math.abs(angleDeg - 90)).toBeLessThan(5);
+    for (let quarter = 1; quarter < 4; quarter++) await turn.click();
     // Nothing has moved.
     expect((await theJob()).place!.alongMm).toBe(alongMm);
     await page.mouse.move(5, 5);
