@@ -13,7 +13,7 @@ const LINES = svgOf(
 describe("filling a drawing without filled shapes", () => {
   it("warns that there is nothing to fill, and says what to do", async () => {
     expect(prepare(await importSvg(LINES), TRUE_SIZE).warnings).toEqual([
-      expect.stringMatching(/nothing to fill.*closed outlines/) as string,
+      expect.stringMatching(/nothing to fill.*--hatch-outlines/) as string,
     ]);
   });
 

@@ -33,7 +33,12 @@ describe("the table of operations", () => {
     ]);
     const isForWatchers = ({ role }: Operation): boolean => role === "all" || role === "watch";
     const secrets = ROWS.filter((one) => one.method === "get" && !isForWatchers(one));
-    expect(secrets.map(titleOf)).toEqual(["get /logs", "get /access", "get /webhooks"]);
+    expect(secrets.map(titleOf)).toEqual([
+      "get /logs",
+      "get /access",
+      "get /webhooks",
+      "get /plotters/:id/camera",
+    ]);
     expect(ROWS.filter((one) => one.method !== "get" && isForWatchers(one))).toEqual([]);
   });
 
@@ -46,7 +51,13 @@ describe("the table of operations", () => {
       "post /jobs/:id/duplicate",
       "delete /jobs/:id",
     ]);
-    expect(withRole("watch")).toEqual(["get /plotters/:id/log", "get /shared-jobs"]);
+    expect(withRole("watch")).toEqual([
+      "get /jobs/:id/place",
+      "get /plotters/:id/log",
+      "get /library",
+      "get /library/:path",
+      "get /shared-jobs",
+    ]);
   });
 
   it("shows the links that pair a device only on the server's computer", () => {

@@ -58,7 +58,7 @@ describe("the page's words", () => {
     const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="842" height="1191">${text}</svg>`;
     const words = (await importSvg(svg)).warnings.map(({ message }) => inPageWords(message)).join("\n");
     expect(words).toContain("convert text to paths in your drawing program.");
-    expect(words).toContain("“Resolution of the file” 72 gives a3");
+    expect(words).toContain("“Resolution of the file” 72 gives A3");
     expect(words).toContain("set “Resolution of the file” if it is wrong");
   });
 
