@@ -31,7 +31,7 @@ export const PLOTTER_STATES: readonly PageState[] = [
       await openPanel(page, "Plotter");
       await page.getByRole("button", { name: "Machines…" }).click();
       await page.getByRole("button", { name: "Copy AxiDraw V3 to a new machine", exact: true }).click();
-      await page.getByText("Pen servo").waitFor();
+      await page.getByText("Pen servo", { exact: true }).waitFor();
     },
   },
   {
