@@ -36,8 +36,8 @@ export { listColor, rampColor } from "./drawing/color-ramp.js";
 export { otherPapers, PX_NOTE, withPxPerInch, type PaperInPx } from "./drawing/px-size.js";
 
 // import
-export { isDrawingName, isSheetBegun, DRAWING_EXTENSIONS } from "./import/registry.js";
-export { parseSheet, type SheetFile } from "./import/sheet/import-sheet.js";
+export { isDrawingName, DRAWING_EXTENSIONS } from "./import/registry.js";
+export { isSheetBegun, parseSheet, type SheetFile } from "./import/sheet/import-sheet.js";
 export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 
 // settings

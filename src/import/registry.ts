@@ -12,6 +12,7 @@ import { isHpglBegun } from "./hpgl/hpgl-reader.js";
 import { importHpgl } from "./hpgl/import-hpgl.js";
 import { checkImportOptions, type ImportOptions } from "./import-options.js";
 import { importPolylines } from "./json/import-polylines.js";
+import { importSheet, isSheetBegun } from "./sheet/import-sheet.js";
 import { importSvg } from "./svg/import-svg.js";
 
 type DrawingFormat = "svg" | "dxf" | "hpgl" | "sheet" | "json";
@@ -24,9 +25,6 @@ interface Format {
   /** Whether a text is in this format, judged by its first few thousand characters, without leading blanks. */
   readonly isBegun: (head: string) => boolean;
 }
-
-/** Whether a text is a sheet, by its beginning: the format is named before the first list. */
-export const isSheetBegun = (head: string): boolean => /^\{[^[]*"format"\s*:\s*"plotwright-sheet"/.test(head);
 
 const FORMATS: Readonly<Record<DrawingFormat, Format>> = {
   svg: { name: "SVG", extensions: ["svg"], isBegun: (head) => head.startsWith("<") },
@@ -52,11 +50,8 @@ const READERS: Readonly<Record<DrawingFormat, Reader>> = {
   svg: importSvg,
   dxf: importDxf,
   hpgl: importHpgl,
-  // Loaded for the first sheet: programs that read single drawings do not need it.
-  sheet: async (text, { pxPerInch: _ofOneFile, ...options }) => {
-    const { importSheet } = await import("./sheet/import-sheet.js");
-    return importSheet(text, (file) => importDrawing("", file, options));
-  },
+  sheet: (text, { pxPerInch: _ofOneFile, ...options }) =>
+    importSheet(text, (file) => importDrawing("", file, options)),
   json: importPolylines,
 };
 

@@ -36,6 +36,9 @@ export interface SheetFile {
 const MAX_PAGE_MM = 100_000;
 const MAX_ITEMS = 10_000;
 
+/** Whether a text is a sheet, by its beginning: the format is named before the first list. */
+export const isSheetBegun = (head: string): boolean => /^\{[^[]*"format"\s*:\s*"plotwright-sheet"/.test(head);
+
 const bad = (what: string): PlotwrightError =>
   new PlotwrightError(
     "bad-file",

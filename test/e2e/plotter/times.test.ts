@@ -50,7 +50,7 @@ describe("a queue of many hours", () => {
     expect(await wordsOf(queuePanel(page))).toMatch(/Times if you start now/);
     expect(await wordsOf(queuePanel(page))).toMatch(/18:41–\w\w\w \d\d:\d\d/);
     // Somebody must put in new paper before the second copy.
-    expect(await wordsOf(queuePanel(page))).toMatch(/new paper after each copy/);
+    expect(await wordsOf(queuePanel(page))).toMatch(/new paper after each copy/i);
     expect(await wordsOf(queuePanel(page))).toMatch(EARLIEST);
   });
 
