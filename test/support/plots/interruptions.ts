@@ -14,7 +14,7 @@ import {
   type StrokeSet,
   type Transport,
 } from "../../../src/index.js";
-import { machineOf, maxOffDrawingMm, type Playback } from "../../../src/internal.js";
+import { machineOf, type Playback } from "../../../src/internal.js";
 import { positionFromMotors } from "../../../src/machines/motors.js";
 import { isPenUpBefore } from "../../../src/plan/pen/pen-moves.js";
 import { strokeLengthMm } from "../../../src/position/on-drawing.js";
@@ -30,13 +30,6 @@ export interface Resumption {
   /** What the board may have drawn after the last place that it certainly had. */
   readonly unsureMm: number;
 }
-
-/**
- * The most that is drawn again although the board's position is known. Two lines as near to each other as the carriage
- * may leave the drawing cannot be told apart, so beside a sharp corner the earlier one counts.
- */
-export const mostAlikeMm = (settings: PlotSettings, unseenMm: number): number =>
-  unseenMm + 2 * maxOffDrawingMm(settings.motion, machineOf(settings));
 
 /** Of sums of lengths. */
 const ROUNDED_MM = 1e-6;

@@ -7,12 +7,13 @@ import { describe, expect, it } from "vitest";
 import { JOURNAL_S, PROGRESS_S } from "../../../../host/plotter/resume-position.js";
 import type { JournalEntry } from "../../../../host/plotter/plotter-port.js";
 import type { StrokeSet } from "../../../../src/index.js";
+import { maxOffDrawingMm, machineOf } from "../../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../../src/schema/index.js";
 import { cases, IS_FULL } from "../../../support/runs/full-run.js";
 import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
 import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
-import { InterruptiblePlot, mostAlikeMm, type Resumption } from "../../../support/plots/interruptions.js";
+import { InterruptiblePlot, type Resumption } from "../../../support/plots/interruptions.js";
 import { seeded } from "../../../support/plots/live-plot.js";
 import { RETRACED_DRAWINGS } from "../../../support/drawings/retraced-drawings.js";
 import { sampleStrokes } from "../../../support/drawings/sample-strokes.js";
@@ -68,6 +69,13 @@ async function interruptedAnywhere(strokes: StrokeSet, settings: PlotSettings, f
   }
   return found;
 }
+
+/**
+ * The most that is drawn again although the board's position is known. Two lines as near to each other as the carriage
+ * may leave the drawing cannot be told apart, so beside a sharp corner the earlier one counts.
+ */
+const mostAlikeMm = (settings: PlotSettings, unseenMm: number): number =>
+  unseenMm + 2 * maxOffDrawingMm(settings.motion, machineOf(settings));
 
 const overlapOf = ({ missingMm }: Resumption): number => Math.max(0, -missingMm);
 
