@@ -116,7 +116,7 @@ describe("a claimed shared job that has not begun", () => {
 
 describe("a shared job that was cancelled in the middle", () => {
   it("resumes where it was cancelled while the database can't be reached, and stays with its server", async () => {
-    await share(server, "elm", { plotter: "left" }, linesSvg(40));
+    await share(server, "elm", { plotter: "left" }, linesSvg(200));
     await expect.poll(async () => (await jobsOf(server))[0]).toBe("elm queued");
     await expect.poll(() => start("elm")).toBe("200");
     const id = await jobNamed("elm");
