@@ -204,6 +204,7 @@ export type {
   PenBefore,
   SupplyState,
   UsbId,
+  VirtualBench,
   VirtualMachine,
 } from "./drivers/driver.js";
 export { homeAgain, powerFailed, powerLost, powerLow } from "./drivers/faults.js";

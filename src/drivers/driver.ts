@@ -15,6 +15,7 @@ import type { PlotwrightError } from "../errors.js";
 import type { Controller, ControllerFields, MachineProfile, Springs } from "../machines/profile.js";
 import type { StrokePosition, Trajectory } from "../plan/trajectory.js";
 import type { Cancellation } from "../prepare/work.js";
+import type { DrawnPolyline } from "./drawn-polylines.js";
 import type { FirmwareRules, MachineSettings, MachineState, PlannedPlot } from "./machine-job.js";
 import type { PenMoment, PlotProgress, PlaybackProgress } from "./playback-progress.js";
 import type { Clock, Transport } from "./transport.js";
@@ -47,6 +48,7 @@ export interface Driver {
   identify(transport: Transport, options: ConnectOptions): Promise<Machine>;
   /** A simulated controller, to plot without hardware. */
   virtualMachine(options: VirtualMachineOptions): VirtualMachine;
+  readonly bench: VirtualBench;
 }
 
 export interface ConnectOptions {
@@ -84,9 +86,30 @@ export interface VirtualMachineOptions {
 }
 
 export interface VirtualMachine {
+  /** The version that it reports. */
+  readonly firmware: string;
   /** Opens a new connection to it. The machine keeps its state when a connection is closed. */
   transport(): Transport;
+  /** Its lines and travels so far, mm from home. */
+  drawn(): readonly DrawnPolyline[];
   close(): void;
+}
+
+/** For the authors of programs that drive the simulated controller. */
+export interface VirtualBench {
+  /** By the first word of `usage`. */
+  readonly faults: Readonly<Record<string, VirtualFault>>;
+  /** What the machine has done: names and values. */
+  summary(machine: VirtualMachine): readonly (readonly [name: string, value: string])[];
+}
+
+/** An event or a fault that a user can cause. */
+export interface VirtualFault {
+  /** What to type, for example "volts V". */
+  readonly usage: string;
+  readonly does: string;
+  /** False if the value is invalid. */
+  apply(machine: VirtualMachine, value: string | undefined): boolean;
 }
 
 /** A machine when its connection was lost. */

@@ -1,10 +1,10 @@
 /**
- * `plotwright board --pty PATH`: a virtual EiBotBoard behind a pseudo-terminal, for any program that drives one.
- * On exit it reports what was drawn, and saves it as SVG.
+ * `plotwright board --pty PATH`: the virtual controller of a plotter behind a pseudo-terminal, for any program that drives
+ * one. On exit it reports what was drawn, and saves it as SVG.
  */
 import { lstatSync, readlinkSync, rmSync, symlinkSync } from "node:fs";
-import { machineById, PlotwrightError, VirtualBoard, type MachineProfile } from "../../../src/index.js";
-import type { Springs } from "../../../src/internal.js";
+import { machineById, PlotwrightError, type MachineProfile, type Transport } from "../../../src/index.js";
+import { driverOf, type Springs, type VirtualMachine } from "../../../src/internal.js";
 import { nodeClock } from "../../serial/node-clock.js";
 import { applyFault, faultHelp } from "./board-faults.js";
 import { fileFault } from "../../storage/file-fault.js";
@@ -27,17 +27,14 @@ export interface BoardCommandOptions {
   readonly svg?: string;
 }
 
-export interface PtyBoardOptions {
-  readonly firmware?: string;
-  readonly speed?: number;
-  readonly machine?: MachineProfile;
-  readonly springs?: Springs;
-}
+type Served = Pick<VirtualMachine, "transport" | "close">;
 
-export interface PtyBoard {
+export interface PtyBoard<Board extends Served = Served> {
   /** Serial port to open; it changes after `replug`. */
   readonly path: string;
-  readonly board: VirtualBoard;
+  readonly board: Board;
+  /** Calls `listener` when the board has dropped its connection. */
+  onDrop(listener: () => void): void;
   /** Plugs in the board again as a new port, after it dropped its connection. False if it is closed. */
   replug(): Promise<boolean>;
   close(): Promise<void>;
@@ -63,40 +60,40 @@ const REPLUG_MS = 1_000;
 type PtyModule = typeof import("@lydell/node-pty");
 
 /**
- * A virtual board that any program can open as a serial port.
+ * Puts a virtual machine behind a pseudo-terminal, so that any program can open it as a serial port.
  *
  * @throws PlotwrightError "no-board" if there are no pseudo-terminals (Windows, or the optional package is missing)
  */
-export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBoard> {
-  const board = new VirtualBoard({ clock: nodeClock, ...options });
+export async function openPtyBoard<Board extends Served>(board: Board): Promise<PtyBoard<Board>> {
   let line: OpenPty | null = null;
   let path = "";
   let isClosed = false;
+  let dropped = (): void => undefined;
   const plug = async (): Promise<void> => {
     const opened = await openPty();
     path = opened.path;
-    // A board with a full queue stops reading: the kernel's buffer fills, and the sender's write blocks, as with USB.
-    opened.pty.onData((bytes) => {
-      if (line !== opened) return;
-      board.receive(bytes);
-      if (!board.accepting) opened.pty.pause();
-    });
     line = opened;
+    const transport = board.transport();
+    opened.pty.onData((bytes) => void passOn(bytes, transport, opened.pty));
+    transport.onData((bytes) => opened.pty.write(bytes));
+    transport.onClose(() => {
+      if (line !== opened) return;
+      void pull();
+      dropped();
+    });
   };
   const pull = async (): Promise<void> => {
     const pulled = line;
     line = null;
     if (pulled !== null) await closePty(pulled.pty);
   };
-  board.onSend((bytes) => line?.pty.write(bytes));
-  board.onDrain(() => line?.pty.resume());
-  board.onDrop(() => void pull());
   await plug();
   return {
     get path() {
       return path;
     },
     board,
+    onDrop: (listener) => (dropped = listener),
     replug: async () => {
       await pull();
       if (!isClosed) await plug();
@@ -110,17 +107,26 @@ export async function openPtyBoard(options: PtyBoardOptions = {}): Promise<PtyBo
   };
 }
 
+/**
+ * A board with a full queue stops reading: the kernel's buffer fills, and the sender's write blocks, as with USB. Bytes for
+ * a board that has dropped its connection are lost.
+ */
+async function passOn(bytes: Uint8Array, transport: Transport, pty: RawPty): Promise<void> {
+  pty.pause();
+  await transport.write(bytes).then(
+    () => pty.resume(),
+    () => undefined,
+  );
+}
+
 /** Runs until interrupted. */
 export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise<void> {
   const machine = machineById(options.machine ?? "axidraw-v3");
   checkLinkPath(options.pty);
-  const ptyBoard = await openPtyBoard({
-    machine,
-    ...(options.firmware === undefined ? {} : { firmware: options.firmware }),
-    ...(options.speed === undefined ? {} : { speed: options.speed }),
-    ...(options.springs === undefined ? {} : { springs: options.springs }),
-  });
-  const { board } = ptyBoard;
+  const { bench, virtualMachine } = driverOf(machine);
+  const { speed = 1, firmware, springs } = options;
+  const board = virtualMachine({ clock: nodeClock, machine, speed, firmware, springs });
+  const ptyBoard = await openPtyBoard(board);
   try {
     link(ptyBoard.path, options.pty);
   } catch (error) {
@@ -128,7 +134,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
     throw error;
   }
   const stopped = new Promise<void>((resolve) => io.onInterrupt(() => resolve()));
-  const stopListening = io.onLine((line) => io.err(applyFault(board, line)));
+  const stopListening = io.onLine((line) => io.err(applyFault(board, bench, line)));
   const dropped = watchDrops(ptyBoard, options.pty, io);
   io.err(
     `Virtual board with firmware ${board.firmware} at ${options.pty} (${ptyBoard.path}). Press Ctrl-C to end it.\n`,
@@ -138,7 +144,7 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
       `It runs ${options.speed} times as fast as real time: plotwright drives it with --device ${options.pty} --virtual-speed ${options.speed}.\n`,
     );
   }
-  if (io.isTerminal) io.err(faultHelp());
+  if (io.isTerminal) io.err(faultHelp(bench.faults));
   try {
     await Promise.race([stopped, dropped]);
   } finally {
@@ -147,8 +153,9 @@ export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise
     await ptyBoard.close();
   }
   const svg = options.svg ?? "drawn.svg";
-  if (svg === "-") io.err(summary(board));
-  else io.out(summary(board));
+  const done = bench.summary(board).map(([name, value]) => `${name.padEnd(14)}${value}\n`);
+  if (svg === "-") io.err(done.join(""));
+  else io.out(done.join(""));
   writeOut(svg, drawnSvg(board, machine), io);
   if (svg !== "-") io.err(`The drawn lines are in ${svg}.\n`);
 }
@@ -164,28 +171,12 @@ function watchDrops(ptyBoard: PtyBoard, path: string, io: CliIo): Promise<never>
     io.err(`It is back at ${path} (${ptyBoard.path}).\n`);
   };
   return new Promise((_, reject) => {
-    ptyBoard.board.onDrop(() => void replug().catch(reject));
+    ptyBoard.onDrop(() => void replug().catch(reject));
   });
 }
 
-function summary(board: VirtualBoard): string {
-  const s = board.statistics();
-  const state = board.state();
-  const rows: [string, string][] = [
-    ["drawn", `${s.drawnMm.toFixed(1)} mm in ${board.drawn().filter((line) => line.penDown).length} strokes`],
-    ["travelled", `${s.travelMm.toFixed(1)} mm`],
-    ["pen moves", `${s.penMoveCount}`],
-    ["moves", `${s.moveCount} in ${s.movingS.toFixed(2)} s, ${s.busyS.toFixed(2)} s with pen waits`],
-    ["underruns", `${s.underrunCount}, ${(s.underrunS * 1e3).toFixed(1)} ms in all`],
-    ["largest jump", `${s.largestJumpMmPerS.toFixed(2)} mm/s`],
-    ["step counters", `${state.steps1}, ${state.steps2}`],
-    ["position", `${state.xMm.toFixed(3)}, ${state.yMm.toFixed(3)} mm`],
-  ];
-  return rows.map(([name, value]) => `${name.padEnd(14)}${value}\n`).join("");
-}
-
 /** The drawn lines, one path per stroke, travel dotted. */
-function drawnSvg(board: VirtualBoard, machine: MachineProfile): string {
+function drawnSvg(board: VirtualMachine, machine: MachineProfile): string {
   const { widthMm, heightMm } = machine;
   const parts = [
     `<svg xmlns="http://www.w3.org/2000/svg" width="${widthMm}mm" height="${heightMm}mm" ` +
@@ -294,7 +285,10 @@ function closePty(pty: RawPty): Promise<void> {
 export const declareBoard: Declare = (command, { io }) => {
   command
     .requiredOption("--pty <path>", "path where the serial port appears")
-    .option("--firmware <version>", "firmware version of the board (default: 2.8.1, of a NextDraw 3.0.3)")
+    .option(
+      "--firmware <version>",
+      "firmware of the board, for example 3.0.3 or grblHAL (default: 2.8.1, of a NextDraw 3.0.3, of a Grbl 1.1)",
+    )
     .addOption(
       new Option("--speed <factor>", "board seconds per real second (default: 1)").argParser(positive),
     )

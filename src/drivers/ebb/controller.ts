@@ -5,6 +5,7 @@ import { connectBoard } from "./machine/connection.js";
 import { EbbMachine } from "./machine/ebb-machine.js";
 import { EBB_FIELDS, findsHome, type EbbController } from "./protocol/ebb-controller.js";
 import { ebbFirmware } from "./protocol/firmware-motion.js";
+import { bench } from "./virtual/bench.js";
 import { VirtualBoard } from "./virtual/virtual-board.js";
 
 export const description: ControllerDescription = {
@@ -22,6 +23,7 @@ export const driver: Driver = {
   identify: async (transport, options) =>
     new EbbMachine(await connectBoard(transport, options), options.events),
   virtualMachine: (options) => new VirtualBoard({ ...options, servo: {} }),
+  bench,
 };
 
 function contradictionIn(controller: Controller): { field: string; message: string } | null {

@@ -6,6 +6,7 @@ import { findsHome, GRBL_FIELDS } from "./model/grbl-controller.js";
 import { liftFault } from "./model/pen-lift.js";
 import { isOwnVersion } from "./protocol.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
+import { bench } from "./virtual/bench.js";
 import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
 export const description: ControllerDescription = {
@@ -38,4 +39,5 @@ export const driver: Driver = {
     }
   },
   virtualMachine: (options) => new VirtualGrbl(options),
+  bench,
 };

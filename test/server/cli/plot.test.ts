@@ -9,7 +9,8 @@ import { openPtyBoard } from "../../../server/cli/board/board.js";
 import { PlotRecord } from "../../../server/cli/plot/plot-record.js";
 import { serverHint } from "../../../server/cli/client/server-client.js";
 import { createServer } from "../../../server/index.js";
-import { PlotwrightError } from "../../../src/index.js";
+import { nodeClock } from "../../../server/serial/node-clock.js";
+import { PlotwrightError, VirtualBoard } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { CaughtIo, cli, cliWith, type CliRun } from "../../support/processes/command-line.js";
 import { folderOfTest } from "../../support/processes/folders.js";
@@ -218,7 +219,7 @@ describe("plotwright plot", () => {
   });
 
   it("resumes at Enter when the button on the machine has paused it", async () => {
-    const line = await openPtyBoard({ speed: 5 });
+    const line = await openPtyBoard(new VirtualBoard({ clock: nodeClock, speed: 5 }));
     writeFileSync(file, SVG.replace("M1 2h9", "M1 2h18v16h-18z"));
     const io = new CaughtIo();
     const args = ["--fit", "--device", line.path, "--virtual-speed", "5", "--data", dir];

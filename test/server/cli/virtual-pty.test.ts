@@ -4,6 +4,8 @@ import { join } from "node:path";
 import { SerialPort } from "serialport";
 import { afterEach, describe, expect, it } from "vitest";
 import { openPtyBoard, runBoard, type PtyBoard } from "../../../server/cli/board/board.js";
+import { nodeClock } from "../../../server/serial/node-clock.js";
+import { VirtualBoard } from "../../../src/index.js";
 import { folderOfTest } from "../../support/processes/folders.js";
 
 const boards: PtyBoard[] = [];
@@ -37,7 +39,9 @@ async function openPort(path: string) {
 
 describe("the virtual board behind a pseudo-terminal", () => {
   it("answers a real serial port, byte for byte", async () => {
-    const ptyBoard = await openPtyBoard({ firmware: "2.8.1", speed: 100 });
+    const ptyBoard = await openPtyBoard(
+      new VirtualBoard({ clock: nodeClock, firmware: "2.8.1", speed: 100 }),
+    );
     boards.push(ptyBoard);
     const { ask } = await openPort(ptyBoard.path);
     expect(await ask("V\r", /\n$/)).toBe("EBBv13_and_above EB Firmware Version 2.8.1\r\n");
@@ -45,7 +49,9 @@ describe("the virtual board behind a pseudo-terminal", () => {
   });
 
   it("takes thousands of commands written at once and loses none", async () => {
-    const ptyBoard = await openPtyBoard({ firmware: "3.0.3", speed: 1_000 });
+    const ptyBoard = await openPtyBoard(
+      new VirtualBoard({ clock: nodeClock, firmware: "3.0.3", speed: 1_000 }),
+    );
     boards.push(ptyBoard);
     const { ask } = await openPort(ptyBoard.path);
     const count = 3_000;
@@ -81,7 +87,7 @@ describe("the virtual board behind a pseudo-terminal", () => {
     );
     await up;
     const { ask } = await openPort(path);
-    await ask("SP,0,10\rSM,100,800,800\rSP,1,10\r", /^(OK\r\n){3}$/);
+    await ask("SP,0,600\rSM,100,800,800\rSP,1,10\r", /^(OK\r\n){3}$/);
     await ask("SM,1,0,0\rSM,1,0,0\rQS\r", /800,800\n\rOK\r\n$/);
     stop();
     await run;
@@ -142,6 +148,53 @@ describe("the virtual board behind a pseudo-terminal", () => {
     stop();
     await run;
   });
+
+  it.each(["grblHAL 1.1f", "FluidNC 3.7.16", "DrawCore 2.09", "Grbl 0.9j", "Grbl 1.1h"])(
+    "is a %s for a model with such a controller",
+    async (version) => {
+      const folder = folderOfTest();
+      const path = join(folder, "grbl");
+      let stop = (): void => undefined;
+      let type = (_line: string): void => undefined;
+      let [said, warned] = ["", ""];
+      let started = (): void => undefined;
+      const up = new Promise<void>((resolve) => (started = resolve));
+      const run = runBoard(
+        { pty: path, machine: "idraw-h-a3", firmware: version, svg: join(folder, "out.svg"), speed: 100 },
+        {
+          out: (text) => (said += text),
+          err: (text) => {
+            warned += text;
+            started();
+          },
+          isTerminal: false,
+          status: () => undefined,
+          hasKeyboard: false,
+          onInterrupt: (listener) => {
+            stop = () => listener(false);
+            return () => undefined;
+          },
+          endWithin: () => undefined,
+          onLine: (listener) => {
+            type = listener;
+            return () => undefined;
+          },
+          inputLines: () => Readable.from([]),
+        },
+      );
+      await up;
+      expect(warned).toContain(`with firmware ${version} at`);
+      const { ask } = await openPort(path);
+      await ask("G1G90Z5F5000\nG1X10F3000\nG1Z0.5\nG4P0\n", /^(ok\r\n){4}$/);
+      type("refuse 1");
+      await ask("G4P0\n", /error: ?\w.*\r\n$/);
+      stop();
+      await run;
+      expect(said).toMatch(/drawn +10\.0 mm in 1 strokes\n/);
+      expect(said).toMatch(/starved +0 times/);
+      expect(readFileSync(join(folder, "out.svg"), "utf8")).toContain('id="drawn"');
+    },
+  );
 
   it("does not overwrite a file with its link", async () => {
     const folder = folderOfTest();

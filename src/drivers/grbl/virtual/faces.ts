@@ -58,6 +58,10 @@ const HAL_RX_BYTES = 1_024;
 
 export const faceOf = (name: FaceName): Face => TABLE[name];
 
+/** The face of a version, such as "grblHAL 1.1f" or only "FluidNC"; Grbl 1.1 for another controller's version. */
+export const faceNamed = (version: string): FaceName =>
+  FACES.find((name) => version.toLowerCase().includes(name.toLowerCase()) && name !== "1.1") ?? "1.1";
+
 const TABLE: Readonly<Record<FaceName, Face>> = {
   "1.1": ARDUINO,
   "0.9": {

@@ -12,6 +12,11 @@ interface Phase {
 const NOTHING = 1e-9;
 
 export class GrblMotion {
+  /** Times at which it came to rest only because the next move was not there yet. */
+  starvedCount = 0;
+  movingS = 0;
+  /** It has come to rest, and no line has asked for that. */
+  private isDry = false;
   /** The first one is running. */
   private moves: Move[] = [];
   private phases: Phase[] = [];
@@ -67,9 +72,16 @@ export class GrblMotion {
   /** Queues a move to `to`, which must differ from the end of the queue. `go` starts the motion. */
   queue(to: Axes, feed: number): void {
     const before = this.moves[this.moves.length - 1] ?? null;
+    if (this.isDry && this.isEmpty) this.starvedCount++;
+    this.isDry = false;
     this.moves.push(moveOf(this.target, to, feed, this.limits(), before));
     this.target = to;
     if (this.isMoving && !this.isHolding) this.plan();
+  }
+
+  /** A line has waited for the rest. */
+  mayRest(): void {
+    this.isDry = false;
   }
 
   /** Starts the motion, or resumes it after a hold. */
@@ -91,7 +103,7 @@ export class GrblMotion {
     this.moves = [];
     this.phases = [];
     this.doneMm = this.speed = 0;
-    this.isHolding = false;
+    this.isHolding = this.isDry = false;
     this.arrived(this.start);
   }
 
@@ -106,6 +118,7 @@ export class GrblMotion {
       const { durationS, accel } = this.phases[0];
       const isWhole = this.atS + durationS <= toS;
       const t = isWhole ? durationS : Math.max(0, toS - this.atS);
+      this.movingS += t;
       this.doneMm += this.speed * t + (accel * t * t) / 2;
       this.speed = Math.max(0, this.speed + accel * t);
       this.atS += t;
@@ -127,6 +140,7 @@ export class GrblMotion {
       this.start = this.moves.length === 1 ? this.target : this.along(move.unit, move.lengthMm);
       this.moves.shift();
       this.doneMm = 0;
+      this.isDry = this.isEmpty;
       this.arrived(this.start);
     }
     if (this.speed < 1e-6 || this.isEmpty) this.speed = 0;

@@ -3,14 +3,16 @@
  * reports, real-time commands, soft limits and the lock of a machine that wants to be homed. It supports the commands
  * that this driver sends, and refuses others as Grbl does.
  */
+import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
 import type { DrawnPolyline } from "../../drawn-polylines.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Transport } from "../../transport.js";
 import { dwellS } from "../model/grbl-controller.js";
-import { difference, sum, type Axes } from "../model/planner.js";
+import { sum, type Axes } from "../model/planner.js";
 import { VirtualLink } from "../../virtual-link.js";
+import { versionOf } from "../protocol.js";
 import { ERROR, Modes, wordsOf } from "./gcode-words.js";
 import { GrblMotion } from "./motion.js";
 import { RxBuffer } from "./rx-buffer.js";
@@ -22,14 +24,14 @@ import {
   type VirtualGrblState,
 } from "./virtual-settings.js";
 
-/** The work offset is in every 10th report at rest, and every 30th in motion. */
-const OFFSET_EVERY = { rest: 10, motion: 30 };
 /** How long Grbl waits for more lines before it starts with a queue that is not full. */
 const START_S = 0.005;
 /** How long it seeks its switches: longer than any other silence. */
 const HOMING_S = 8;
 const PULL_OFF_MM = 1;
+
 export class VirtualGrbl implements VirtualMachine {
+  readonly firmware: string;
   private readonly settings: VirtualSettings;
   private readonly motion: GrblMotion;
   private readonly pen: VirtualPen;
@@ -48,8 +50,6 @@ export class VirtualGrbl implements VirtualMachine {
   private offset: Axes = [0, 0, 0];
   /** Where the machine coordinates begin since the last start, mm from where they began at the first. */
   private origin: Axes = [0, 0, 0];
-  /** Reports until the next one with the work offset. */
-  private offsetDue = 0;
   /** A grblHAL refuses all G-code after an error. */
   private refusal = 0;
   /** Machine seconds at which the running G4 ends; null: none is running. */
@@ -69,7 +69,8 @@ export class VirtualGrbl implements VirtualMachine {
   ) {
     const { clock, machine } = options;
     this.startS = clock.nowS();
-    this.settings = new VirtualSettings(machine, board);
+    this.settings = new VirtualSettings(machine, options.firmware ?? "", board);
+    this.firmware = versionOf(this.settings.face.greeting)!;
     this.pen = new VirtualPen(machine);
     this.rx = new RxBuffer(this.settings.rxBytes);
     this.motion = new GrblMotion(
@@ -133,6 +134,11 @@ export class VirtualGrbl implements VirtualMachine {
     this.schedule();
   }
 
+  /** The cable is unplugged; it has a supply of its own, and goes on. */
+  unplug(): void {
+    this.link?.drop(new PlotwrightError("disconnected", "The virtual Grbl was unplugged: plug it in again."));
+  }
+
   /** From now on, the next `count` replies or lines suffer this fault. */
   spoil(fault: LineFault, count = 1): void {
     this.settings.spoil(fault, count);
@@ -147,7 +153,8 @@ export class VirtualGrbl implements VirtualMachine {
     this.catchUp();
     const { x: xMm, y: yMm } = this.onPage;
     const pen = { zMm: this.zMm, penUp: !this.isPenDown, offsetMm: this.offset };
-    const counts = { earlyCount: this.earlyCount, lostCount: this.rx.lostCount };
+    const { starvedCount, movingS } = this.motion;
+    const counts = { earlyCount: this.earlyCount, starvedCount, movingS, lostCount: this.rx.lostCount };
     return { state: this.stateName(), xMm, yMm, ...pen, ...counts };
   }
 
@@ -244,7 +251,10 @@ export class VirtualGrbl implements VirtualMachine {
     const { modes, words } = block;
     const isChange = this.modes.takeSpindle(block, this.motion.isEmpty);
     if (isChange === null) return null;
-    if (isChange) this.pen.signal(this.modes.signal, this.nowS);
+    if (isChange) {
+      this.motion.mayRest();
+      this.pen.signal(this.modes.signal, this.nowS);
+    }
     if (modes.includes("G4")) return this.dwell(modes, words);
     if (modes.includes("G10")) return this.setOffset(words);
     return this.move(modes, words);
@@ -269,7 +279,7 @@ export class VirtualGrbl implements VirtualMachine {
     } else if (line === "$$") for (const setting of this.settings.list()) this.reply(setting);
     else if (line === "$SLP") this.isAsleep = true;
     else {
-      this.offsetDue = 0;
+      this.settings.offsetDue = 0;
       return this.settings.set(Number(number), Number(value)) ? 0 : ERROR.dollar;
     }
     return 0;
@@ -302,6 +312,7 @@ export class VirtualGrbl implements VirtualMachine {
     const seconds = words.get("P");
     if (seconds === undefined) return ERROR.noWait;
     if (!this.motion.isEmpty) return null;
+    this.motion.mayRest();
     const rest = new Map(words);
     rest.delete("P");
     if (seconds <= 0) return this.move(modes, rest);
@@ -316,7 +327,7 @@ export class VirtualGrbl implements VirtualMachine {
     const set = (i: 0 | 1 | 2, letter: string): number =>
       words.has(letter) ? at[i] - (words.get(letter) ?? 0) : this.offset[i];
     this.offset = [set(0, "X"), set(1, "Y"), set(2, "Z")];
-    this.offsetDue = 0;
+    this.settings.offsetDue = 0;
     this.ink.begin(false);
     return 0;
   }
@@ -392,26 +403,16 @@ export class VirtualGrbl implements VirtualMachine {
     this.isHeld = this.isAsleep = this.isDeaf = this.isHoming = false;
     this.waitUntilS = this.startDueS = null;
     this.modes.reset();
-    this.offsetDue = 0;
+    this.settings.offsetDue = 0;
     this.reply(this.settings.face.greeting);
     if (this.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
   }
 
   private report(): void {
     if (this.isDeaf || this.isHoming) return;
-    const { settings } = this;
-    const { at } = this.motion;
-    const hasOffset = this.offsetDue === 0;
-    this.offsetDue = hasOffset ? OFFSET_EVERY[this.motion.isEmpty ? "rest" : "motion"] : this.offsetDue - 1;
-    const report = settings.face.report({
-      state: this.stateName(),
-      machineAt: settings.reported(at),
-      workAt: settings.reported(difference(at, this.offset)),
-      offset: hasOffset ? settings.reported(this.offset) : null,
-      free: `${this.motion.freeCount},${this.rx.freeCount}`,
-      feed: Math.round(60 * this.motion.speedMmPerS),
-    });
-    this.reply(report);
+    const { motion } = this;
+    const free = `${motion.freeCount},${this.rx.freeCount}`;
+    this.reply(this.settings.report(this.stateName(), motion.at, this.offset, free, motion.speedMmPerS));
   }
 
   private stateName(): string {
@@ -423,11 +424,7 @@ export class VirtualGrbl implements VirtualMachine {
 
   /** The reply to a line. */
   private answer(text: string): void {
-    const { settings } = this;
-    if (settings.takes("reply-lost")) return;
-    if (settings.takes("reply-damaged")) return this.reply(`${text[0]}?`);
-    this.reply(text);
-    if (settings.takes("reply-doubled")) this.reply(text);
+    for (const line of this.settings.answersFor(text)) this.reply(line);
   }
 
   private reply(line: string): void {

@@ -1,11 +1,11 @@
 /** What differs from one virtual Grbl to another: its own settings, its receive buffer, faults; and what a test sees of it. */
 import type { MachineProfile } from "../../../machines/profile.js";
 import { axisLimits, grblOf } from "../model/grbl-controller.js";
-import type { Axes, GrblAxisLimits } from "../model/planner.js";
-import { faceOf, type Face, type FaceName } from "./faces.js";
+import { difference, type Axes, type GrblAxisLimits } from "../model/planner.js";
+import { faceNamed, faceOf, type Face, type FaceName } from "./faces.js";
 
 export interface VirtualGrblOptions {
-  /** Which of Grbl's children it is; default: Grbl 1.1. */
+  /** Which of Grbl's children it is; default: the one that the version names. */
   readonly face?: FaceName;
   /** Characters that its receive buffer really holds; default: as many as it reports. */
   readonly rxBytes?: number;
@@ -24,6 +24,10 @@ export interface VirtualGrblState {
   readonly offsetMm: Axes;
   /** Motions that began while the pen's servo was still on its way. */
   readonly earlyCount: number;
+  /** Times at which the motion ended in want of the next move. */
+  readonly starvedCount: number;
+  /** Seconds in motion. */
+  readonly movingS: number;
   /** Characters that arrived when the buffer was full: a real Grbl loses them silently. */
   readonly lostCount: number;
 }
@@ -34,13 +38,22 @@ export interface VirtualGrblState {
  */
 export type LineFault = "reply-lost" | "reply-doubled" | "reply-damaged" | "line-end-lost" | "refused";
 
+/** The work offset is in every 10th report at rest, and every 30th in motion. */
+const OFFSET_EVERY = { rest: 10, motion: 30 };
+
 export class VirtualSettings {
   readonly face: Face;
   readonly rxBytes: number;
+  /** Reports until the next one with the work offset. */
+  offsetDue = 0;
   private readonly settings = new Map<number, number>();
   private readonly faults = new Map<LineFault, number>();
 
-  constructor(machine: MachineProfile, { face = "1.1", rxBytes, settings = {} }: VirtualGrblOptions) {
+  constructor(
+    machine: MachineProfile,
+    version: string,
+    { face = faceNamed(version), rxBytes, settings = {} }: VirtualGrblOptions,
+  ) {
     this.face = faceOf(face);
     this.rxBytes = rxBytes ?? this.face.rxBytes;
     const { speed, accel, junctionMm } = axisLimits(grblOf(machine));
@@ -88,8 +101,29 @@ export class VirtualSettings {
     return this.value(22) !== 0;
   }
 
+  /** A status report. `at`: in machine coordinates; `work`: their work offset. */
+  report(state: string, at: Axes, work: Axes, free: string, speedMmPerS: number): string {
+    const hasOffset = this.offsetDue === 0;
+    this.offsetDue = hasOffset ? OFFSET_EVERY[state === "Idle" ? "rest" : "motion"] : this.offsetDue - 1;
+    return this.face.report({
+      state,
+      machineAt: this.reported(at),
+      workAt: this.reported(difference(at, work)),
+      offset: hasOffset ? this.reported(work) : null,
+      free,
+      feed: Math.round(60 * speedMmPerS),
+    });
+  }
+
+  /** What really arrives of an answer. */
+  answersFor(text: string): readonly string[] {
+    if (this.takes("reply-lost")) return [];
+    if (this.takes("reply-damaged")) return [`${text[0]}?`];
+    return this.takes("reply-doubled") ? [text, text] : [text];
+  }
+
   /** A position in the unit and with the decimals of its reports. */
-  reported(at: Axes): string {
+  private reported(at: Axes): string {
     const inInches = this.value(13) !== 0;
     return at.map((mm) => (inInches ? (mm / 25.4).toFixed(4) : mm.toFixed(3))).join(",");
   }
