@@ -115,6 +115,7 @@ export {
 export { meanScaleOf, sizeInWords, type DrawnSize, type OutsidePaper } from "./prepare/on-paper.js";
 export { layOutDrawing, type Layout } from "./prepare/layout.js";
 export {
+  needsNewPaper,
   orientedPaper,
   paperAndMargins,
   sheetOf,

@@ -1,6 +1,13 @@
 /** The queue: all operations on jobs, for all plotters. Every change is on disk before it is announced. */
 import { PlotwrightError } from "../../src/index.js";
-import { machineOf, firmwareFor, isPlannedAlike, isSameJson, motionForSprings } from "../../src/internal.js";
+import {
+  machineOf,
+  firmwareFor,
+  isPlannedAlike,
+  isSameJson,
+  motionForSprings,
+  needsNewPaper,
+} from "../../src/internal.js";
 import {
   ENDED_STATES,
   queueSettingsSchema,
@@ -21,7 +28,7 @@ import { findPlotter } from "./find-plotter.js";
 import { JobList } from "./job-list.js";
 import { SettingsOfJobs } from "./job-settings.js";
 import { applyJobEvent, isOnPlotter, queuedJob } from "./job-states.js";
-import { sheetsOf } from "./job-words.js";
+import { NEW_PAPER, sheetsOf } from "./job-words.js";
 import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
 
@@ -289,6 +296,15 @@ export class JobQueue {
     return this.plots.isBusy(plotterId);
   }
 
+  /** Whether a waiting job starts when its plotter is free, without anybody who changes the paper. */
+  startsByItself({ plotterId, settings }: Pick<Job, "plotterId" | "settings">): boolean {
+    if (!this.settings(plotterId).runOn) return false;
+    const last = this.list().find(
+      (job) => job.plotterId === plotterId && ENDED_STATES.includes(job.state) && job.startedAt !== null,
+    );
+    return last === undefined || !needsNewPaper(last.settings.prepare, settings.prepare);
+  }
+
   /**
    * A job of the shared queue starts only once it is certain that no other server has it. Rejects with `busy`
    * while its plotter is plotting another job, and with `conflict` when another server has or may have the
@@ -360,7 +376,9 @@ export class JobQueue {
    */
   private async startNext(plotterId: string): Promise<void> {
     const waiting = this.list().filter((job) => job.plotterId === plotterId && job.state === "queued");
-    for (const { id } of waiting) {
+    for (const next of waiting) {
+      const { id } = next;
+      if (!this.startsByItself(next)) return this.note(id, NEW_PAPER);
       try {
         const begun = await this.begin(id);
         if (typeof begun !== "string") return;

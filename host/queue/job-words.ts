@@ -18,6 +18,8 @@ export const sheetsOf = (
   }));
 };
 
+export const NEW_PAPER = "This is another sheet of a drawing: put in new paper, then start it.";
+
 export const penWords = ({ penName, layerName }: PlotWait): string =>
   penName === null ? `Put in the pen for "${layerName}".` : `Put in "${penName}" for "${layerName}".`;
 

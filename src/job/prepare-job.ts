@@ -7,8 +7,9 @@ import { withPxPerInch } from "../drawing/px-size.js";
 import { strokeCount } from "../drawing/stroke-set.js";
 import type { JobSettings } from "../drivers/machine-job.js";
 import { PlotwrightError } from "../errors.js";
+import { boxOfPoints } from "../geometry/box.js";
 import type { MachineProfile } from "../machines/profile.js";
-import { checkBounds, checkPaper } from "../prepare/on-paper.js";
+import { checkBounds, checkPaper, isReached } from "../prepare/on-paper.js";
 import { prepareSettingsOf, type PenSetup } from "../prepare/layers/pens.js";
 import { prepare, type Prepared } from "../prepare/prepare.js";
 import { tileCount } from "../prepare/tiles.js";
@@ -53,10 +54,12 @@ export function prepareJob(
     const isEmpty = drawing.warnings.some(({ code }) => code === "empty-drawing");
     throw new PlotwrightError("bad-file", (isEmpty ? fileWarnings : warnings).join(" "));
   }
-  checkPaper(prepared.outside, settings.prepare.outside, {
-    widthMm: prepared.paperWidthMm,
-    heightMm: prepared.paperHeightMm,
-  });
+  checkPaper(
+    prepared.outside,
+    settings.prepare.outside,
+    { widthMm: prepared.paperWidthMm, heightMm: prepared.paperHeightMm },
+    isReached(boxOfPoints(prepared.strokes.xy), machine),
+  );
   checkBounds(prepared.strokes, machine);
   return { prepared, warnings: [...warnings, ...unusedSettings(settings, machine)] };
 }

@@ -78,7 +78,9 @@ export function layOutDrawing(drawing: Drawing, settings: PrepareSettings): Layo
   const layout = laidOut(drawing, settings);
   const { paper, inside, content, choice } = layout;
   if (isEmptyBox(content) || boxContains(withTolerance(paper), content)) return layout;
-  if (settings.outside === "move") return movedBy(layout, shiftOnto(content, inside, paper));
+  if (settings.outside === "move" && hasRoom(paper, content)) {
+    return movedBy(layout, shiftOnto(content, inside, paper));
+  }
   if (settings.outside !== "fit") return layout;
   const turnDeg = settings.layout?.turnDeg ?? 0;
   return laidOut(drawing, { ...settings, fit: true, layout: null, rotateDeg: choice.rotateDeg + turnDeg });
@@ -139,12 +141,13 @@ function choiceOf(drawing: Drawing, settings: PrepareSettings, paper: Box, insid
 const turnOf = (rotateDeg: number, mirror: MirrorMode): Affine =>
   compose(rotation((rotateDeg * Math.PI) / 180), MIRRORS[mirror]);
 
-/** The shortest way inside the margins, where there is room, otherwise onto the paper; none if it is too large. */
+/** The shortest way inside the margins, where there is room, otherwise onto the paper, which has room. */
 function shiftOnto(content: Box, inside: Box, paper: Box): { readonly x: number; readonly y: number } {
   const { x0, y0, x1, y1 } = content;
-  const along = (from: number, to: number, ...rooms: readonly (readonly [number, number])[]): number => {
-    const room = rooms.find(([low, high]) => to - from <= high - low);
-    return room ? Math.max(room[0] - from, Math.min(0, room[1] - to)) : 0;
+  type Room = readonly [from: number, to: number];
+  const along = (from: number, to: number, ...rooms: readonly [inside: Room, paper: Room]): number => {
+    const [low, high] = rooms.find(([least, most]) => to - from <= most - least) ?? rooms[1];
+    return Math.max(low - from, Math.min(0, high - to));
   };
   return {
     x: along(x0, x1, [inside.x0, inside.x1], [paper.x0, paper.x1]),

@@ -1,6 +1,7 @@
 /** What reaches the paper: the size of the drawing on it, lines that leave it, and lines that the machine does not reach. */
 import { PlotwrightError } from "../errors.js";
 import { boxContains, boxOfPoints, grownBox, hasRoom, isEmptyBox, type Box } from "../geometry/box.js";
+import { clipLinesToBox } from "../geometry/cut-line.js";
 import { lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import { mmInWords } from "../units.js";
 import type { OutsideMode } from "../settings/prepare.js";
@@ -30,6 +31,8 @@ export interface OutsidePaper {
   readonly topMm: number;
   readonly rightMm: number;
   readonly bottomMm: number;
+  /** A part of the drawing is on the paper, and is left if the rest is cut off. */
+  readonly canCut: boolean;
   /** The drawing is small enough to be moved onto the paper. */
   readonly canMove: boolean;
 }
@@ -60,6 +63,7 @@ export function outsidePaper(lines: Lines, { paper, content }: Layout): OutsideP
     topMm: Math.max(0, paper.y0 - box.y0),
     rightMm: Math.max(0, box.x1 - paper.x1),
     bottomMm: Math.max(0, box.y1 - paper.y1),
+    canCut: lineCount(clipLinesToBox(lines, sheet)) > 0,
     canMove: hasRoom(paper, content),
   };
 }
@@ -78,7 +82,8 @@ const pointInWords = (x: number, y: number): string => `(${mmInWords(x)}, ${mmIn
 const percentInWords = (factor: number): string =>
   String(factor < 0.1 ? Math.round(factor * 1_000) / 10 : Math.round(factor * 100));
 
-const CHOICES: Readonly<Record<Exclude<OutsideMode, "refuse">, string>> = {
+const MODES = ["cut", "move", "fit", "allow"] as const satisfies readonly OutsideMode[];
+const CHOICES: Readonly<Record<(typeof MODES)[number], string>> = {
   cut: "cut (at the paper's edge)",
   move: "move (onto the paper)",
   fit: "fit (to the paper)",
@@ -86,7 +91,7 @@ const CHOICES: Readonly<Record<Exclude<OutsideMode, "refuse">, string>> = {
 };
 
 /**
- * Throws unless everything is on the paper, or the user has allowed more.
+ * Throws unless everything is on the paper, or the user has allowed more. `isDrawable`: the machine reaches all of it.
  *
  * @throws PlotwrightError "out-of-bounds", with the figures and the choices
  */
@@ -94,6 +99,7 @@ export function checkPaper(
   outside: OutsidePaper | null,
   mode: OutsideMode,
   paper: { readonly widthMm: number; readonly heightMm: number },
+  isDrawable: boolean,
 ): void {
   if (outside === null || mode === "allow") return;
   const edges = (["left", "upper", "right", "lower"] as const).flatMap((edge) => {
@@ -101,9 +107,8 @@ export function checkPaper(
     return mm > ROUNDING_MM ? [`${mmInWords(Math.max(mm, 0.1))} mm over its ${edge} edge`] : [];
   });
   const { strokeCount: count } = outside;
-  const choices = Object.entries(CHOICES).flatMap(([choice, words]) =>
-    choice === mode || (choice === "move" && !outside.canMove) ? [] : [words],
-  );
+  const helps = { cut: outside.canCut, move: outside.canMove, fit: true, allow: isDrawable };
+  const choices = MODES.flatMap((choice) => (choice === mode || !helps[choice] ? [] : [CHOICES[choice]]));
   throw new PlotwrightError(
     "out-of-bounds",
     `The drawing leaves the paper of ${mmInWords(paper.widthMm)} × ${mmInWords(paper.heightMm)} mm: ` +

@@ -43,6 +43,14 @@ export const tileCount = ({
   tileRows,
 }: Pick<TileSettings, "tileColumns" | "tileRows">): number => tileColumns * tileRows;
 
+type TileChoice = Pick<TileSettings, "tileColumns" | "tileRows" | "tile">;
+
+const isTile = (settings: TileChoice): boolean => settings.tile > 0 && tileCount(settings) > 1;
+
+/** Two sheets of drawings that have several never share their paper. */
+export const needsNewPaper = (before: TileChoice, next: TileChoice): boolean =>
+  isTile(before) && isTile(next);
+
 /** Settings for each sheet that is still to be plotted: one, unless the drawing is tiled and no sheet was chosen. */
 export const tilesOf = <S extends TileSettings>(settings: S): S[] =>
   tileCount(settings) === 1 || settings.tile > 0
@@ -160,7 +168,7 @@ export function tileOf(settings: TileSettings): TileOnPaper | null {
       `There is no sheet ${tile}: the drawing is on ${tileCount(settings)}, in ${tileColumns} columns and ${tileRows} rows.`,
     );
   }
-  if (tile === 0 || tileCount(settings) === 1) return null;
+  if (!isTile(settings)) return null;
   const { paper, inside } = paperAndMargins(settings);
   const own = tileWindows(settings)[tile - 1];
   const move = { x: inside.x0 - own.x0, y: inside.y0 - own.y0 };

@@ -137,7 +137,10 @@ export const boardIdSchema = plotterSchema.pick({ boardName: true, boardSerialNu
 export type BoardId = z.infer<typeof boardIdSchema>;
 
 export const queueSettingsSchema = z.object({
-  /** False: the next job waits until a user has changed the paper and starts it. */
+  /**
+   * False: the next job waits until a user has changed the paper and starts it. A sheet of a drawing that is spread over
+   * several waits after another sheet in any case.
+   */
   runOn: z.boolean(),
 });
 export type QueueSettings = z.infer<typeof queueSettingsSchema>;

@@ -26,7 +26,12 @@ export const keptPictureSchema = z.object({
 });
 export type KeptPicture = z.output<typeof keptPictureSchema>;
 
-export const keptPicturesSchema = z.object({ pictures: z.array(keptPictureSchema) });
+export const keptPicturesSchema = z.object({
+  pictures: z.array(keptPictureSchema),
+  /** How many more were due: the camera had none, or they could not be stored. */
+  missing: z.int().default(0),
+});
+export type KeptPictures = z.output<typeof keptPicturesSchema>;
 export const pictureRequestSchema = keptPictureSchema.pick({ at: true });
 
 /** The kinds of pictures that are kept. */

@@ -24,8 +24,9 @@ export const OutsidePaper = () => {
   const isSheet = usePageState(({ drawing }) => Boolean(drawing?.sheet));
   const change = usePrepareChange();
   const { moveOntoPaper, fitSheet } = useActions();
-  if (!planned?.outside) return null;
-  const { outside, turnOntoPaper } = planned;
+  if (!planned?.outside || !planned.outsideChoices) return null;
+  const { outside } = planned;
+  const { turn, canCut, canMove, canAllow } = planned.outsideChoices;
   const edges = EDGES.filter((edge) => outside[edge] > 0).map((edge) =>
     words.edges[edge](`${formatInUnit(outside[edge], unit, 1)}\u202f${unit}`),
   );
@@ -38,13 +39,15 @@ export const OutsidePaper = () => {
         {leaves}
       </p>
       <div className="outside-choices">
-        {turnOntoPaper && <Button onClick={() => change("outside", turnOntoPaper)}>{words.turn}</Button>}
-        <Button title={words.cutHint} onClick={() => change("outside", { outside: "cut" })}>
-          {words.cut}
-        </Button>
-        {(isSheet || outside.canMove) && (
+        {turn && <Button onClick={() => change("outside", turn)}>{words.turn}</Button>}
+        {canCut && (
+          <Button title={words.cutHint} onClick={() => change("outside", { outside: "cut" })}>
+            {words.cut}
+          </Button>
+        )}
+        {canMove && (
           <Button
-            onClick={() => (isSheet ? void moveOntoPaper() : change("outside", movedOnto(planned, outside)))}
+            onClick={() => (isSheet ? void moveOntoPaper() : change("outside", movedBack(planned, outside)))}
           >
             {words.move}
           </Button>
@@ -55,9 +58,11 @@ export const OutsidePaper = () => {
         >
           {words.fit}
         </Button>
-        <Button kind="link" onClick={() => change("outside", { outside: "allow" })}>
-          {words.allow}
-        </Button>
+        {canAllow && (
+          <Button kind="link" onClick={() => change("outside", { outside: "allow" })}>
+            {words.allow}
+          </Button>
+        )}
       </div>
     </div>
   );
@@ -66,8 +71,8 @@ export const OutsidePaper = () => {
 const EDGES = ["leftMm", "topMm", "rightMm", "bottomMm"] as const;
 
 /** A drawing that was placed by hand gets another place, so that its frame is where it is drawn. */
-const movedOnto = (
-  { settings }: Planned,
+export const movedBack = (
+  { settings }: Pick<Planned, "settings">,
   { leftMm, topMm, rightMm, bottomMm }: Outside,
 ): Partial<Prepare> => {
   const { layout } = settings.prepare;
@@ -76,7 +81,7 @@ const movedOnto = (
 };
 
 /** Keeps the angle of a drawing that was placed by hand. */
-const fittedTo = ({ settings, choice }: Planned): Partial<Prepare> => {
+export const fittedTo = ({ settings, choice }: Pick<Planned, "settings" | "choice">): Partial<Prepare> => {
   const { layout } = settings.prepare;
   return {
     fit: true,

@@ -1,4 +1,5 @@
 /** When each job of a plotter's queue starts and ends, as far as that is known, and where a person must act. */
+import { needsNewPaper } from "../../src/internal.js";
 import type { Job } from "../../src/schema/index.js";
 import type { Copies } from "./copies.js";
 
@@ -37,6 +38,10 @@ export interface QueueAxis {
 export const expectedSOf = ({ expectedS, stats }: Job): number | null =>
   expectedS ?? stats?.durationS ?? null;
 
+/** Whether new paper is put in between two plots. */
+export const waitsForPaper = (before: Job, next: Job, runsOn: boolean): boolean =>
+  !runsOn || needsNewPaper(before.settings.prepare, next.settings.prepare);
+
 /** How often a running job still waits for another pen. */
 export const stopsLeft = ({ stats, progress }: Job): number =>
   stats?.pens?.stops.filter(({ atS }) => atS > progress * stats.durationS).length ?? 0;
@@ -66,7 +71,7 @@ export const queueAxis = (
     const durationS = copies.reduce((all, copy) => sum(all, expectedSOf(copy)), 0 as number | null);
     const fromS = atS;
     atS = sum(atS, durationS);
-    const waitsBetween = copies.length > 1 && !runsOn;
+    const waitsBetween = copies.length > 1 && waitsForPaper(job, job, runsOn);
     isSure = isStartSure && !waitsBetween && (job.stats?.pens?.stops.length ?? 0) === 0;
     rows.push({ copies, durationS, fromS, toS: atS, isStartSure, isEndSure: isSure, breaks });
     before = job;
@@ -87,7 +92,7 @@ export const queueAxis = (
 /** `before`: the job plotted before it; undefined: none, and it is not known which pen is in the holder. */
 const breaksBetween = (before: Job | undefined, job: Job, runsOn: boolean): readonly QueueBreak[] => {
   const breaks: QueueBreak[] = [];
-  if (before !== undefined && !runsOn) breaks.push({ kind: "paper" });
+  if (before !== undefined && waitsForPaper(before, job, runsOn)) breaks.push({ kind: "paper" });
   const pen = penBreak(before, job);
   if (pen !== null) breaks.push(pen);
   if (job.place !== null) breaks.push({ kind: "place" });

@@ -127,6 +127,7 @@ export const jobText = {
   speedPct: "Speed now",
   speedPctHint: "Percent of the plot’s speed settings. Takes effect within a second.",
   place: (stroke: string, mm: string) => `At stroke ${stroke}, ${mm} mm along it`,
+  placeMark: "The ring on the sheet marks where “One stroke back” leads.",
   placeMoves: "Change where it resumes",
   strokeBack: "One stroke back",
   strokeOn: "One stroke forward",

@@ -9,7 +9,7 @@ import { formatClockIn, formatCount, formatDuration } from "../ui/format.js";
 import { Icon } from "../ui/icon.js";
 import { RowMenu } from "../ui/rows/row-menu.js";
 import type { Copies } from "./copies.js";
-import type { AxisRow } from "./queue-time.js";
+import { waitsForPaper, type AxisRow } from "./queue-time.js";
 import { JobName } from "./job-head.js";
 import "../ui/rows/row-drag.css";
 import { placeAfterMove, useRowDrag } from "../ui/rows/row-drag.js";
@@ -74,7 +74,7 @@ const Details = ({ row: { copies } }: { row: AxisRow }) => {
   const plotterId = job.plotterId;
   const runsOn = usePageState((state) => state.queues[plotterId]?.runOn ?? false);
   const facts = [
-    ...(copies.length > 1 && !runsOn ? [axisText.paperAfterEach] : []),
+    ...(copies.length > 1 && waitsForPaper(job, job, runsOn) ? [axisText.paperAfterEach] : []),
     ...(job.place === null ? [] : [words.fromStroke(formatCount(job.place.strokeIndex + 1))]),
     ...(isOperator && job.submittedBy ? [words.from(job.submittedBy.name)] : []),
     ...(job.speedPct === 100 ? [] : [words.atSpeed(job.speedPct)]),

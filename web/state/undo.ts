@@ -7,6 +7,15 @@ const UNDO_DEPTH = 100;
 const COALESCE_MS = 800;
 const NOTHING_CHANGED = { what: "", atMs: -Infinity };
 
+/** What is selected and still exists. If nothing of it does: what was selected then. */
+const selectionAfter = (
+  { drawing, selectedPieces }: UndoStep,
+  selected: readonly string[],
+): readonly string[] => {
+  const kept = selected.filter((id) => drawing?.sheet?.pieces.some((piece) => piece.id === id));
+  return kept.length > 0 ? kept : selectedPieces;
+};
+
 interface UndoParts {
   readonly store: PageStore;
   nowMs(): number;
@@ -22,8 +31,8 @@ export const createUndo = ({ store, nowMs, setSettings, setDocument, changed }: 
 
   /** Stores the state for undo. `what` names the thing that is about to change. */
   const noteStep = (what: string): UndoStep => {
-    const { settings, presets, drawing, undoStack } = store.getState();
-    const before = { settings, presets, drawing };
+    const { settings, presets, drawing, selectedPieces, undoStack } = store.getState();
+    const before = { settings, presets, drawing, selectedPieces };
     const isSame = what === lastChange.what && nowMs() - lastChange.atMs < COALESCE_MS;
     lastChange = { what, atMs: nowMs() };
     store.setState({
@@ -38,11 +47,12 @@ export const createUndo = ({ store, nowMs, setSettings, setDocument, changed }: 
     const target = state[from].at(-1);
     if (!target) return;
     lastChange = NOTHING_CHANGED;
-    const { settings, presets, drawing } = state;
+    const { settings, presets, drawing, selectedPieces } = state;
     store.setState({
       [from]: state[from].slice(0, -1),
-      [to]: [...state[to], { settings, presets, drawing }],
+      [to]: [...state[to], { settings, presets, drawing, selectedPieces }],
       presets: target.presets,
+      selectedPieces: selectionAfter(target, selectedPieces),
     });
     if (target.drawing?.sheet !== drawing?.sheet) setDocument(target);
     else if (target.settings !== settings) setSettings(target.settings);

@@ -20,8 +20,9 @@ import {
 } from "../../src/internal.js";
 
 const STEP_MM = 10;
+const STROKE_BACK: MovePlace = { strokes: -1 };
 const MOVES = [
-  [words.strokeBack, { strokes: -1 }],
+  [words.strokeBack, STROKE_BACK],
   [words.strokeOn, { strokes: 1 }],
   [words.mmBack, { mm: -STEP_MM }],
   [words.mmOn, { mm: STEP_MM }],
@@ -52,7 +53,7 @@ const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place
   return (
     <div className="place" role="group" aria-label={words.placeMoves}>
       <p className="note">
-        {words.place(formatCount(place.strokeIndex + 1), formatNumber(place.alongMm, 1))}
+        {words.place(formatCount(place.strokeIndex + 1), formatNumber(place.alongMm, 1))} {words.placeMark}
       </p>
       <div className="button-grid">
         {MOVES.map(([label, move]) => (
@@ -71,29 +72,30 @@ const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place
 /** A move that stays where it is. */
 const HERE: MovePlace = {};
 
-/** For a button: while it is pointed at or has the focus, the sheet shows where it leads. */
+/**
+ * For a button: while it is pointed at or has the focus, the sheet shows where it leads. Otherwise it shows where one
+ * stroke back leads: a finger points at nothing before it presses.
+ */
 const usePlaceMark = (jobId: string, { strokeIndex, alongMm }: NonNullable<Job["place"]>) => {
   const { jobs } = useBackend();
   const store = usePageStore();
-  const [by, setBy] = useState<MovePlace | null>(null);
+  const [by, setBy] = useState(STROKE_BACK);
   useEffect(() => {
     let isCurrent = true;
     const show = (placeMark: PageState["placeMark"]): void => {
       if (isCurrent) store.setState({ placeMark });
     };
-    if (by === null) show(null);
-    else
-      jobs.placeAfter(jobId, by).then(
-        ({ xMm, yMm }) => show({ xMm, yMm }),
-        // It goes on meanwhile, or the server is gone.
-        () => show(null),
-      );
+    jobs.placeAfter(jobId, by).then(
+      ({ xMm, yMm }) => show({ xMm, yMm }),
+      // It goes on meanwhile, or the server is gone.
+      () => show(null),
+    );
     return () => {
       isCurrent = false;
     };
   }, [jobs, store, jobId, by, strokeIndex, alongMm]);
   useEffect(() => () => store.setState({ placeMark: null }), [store]);
-  const end = (): void => setBy(null);
+  const end = (): void => setBy(STROKE_BACK);
   return (move: MovePlace) => ({
     onPointerEnter: () => setBy(move),
     onFocus: () => setBy(move),

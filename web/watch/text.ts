@@ -20,6 +20,9 @@ export const watchText = {
   playTimelapse: "Play the timelapse",
   pauseTimelapse: "Pause the timelapse",
   timelapseMoment: "Moment of the timelapse",
+  missingPictures: (count: number) =>
+    count === 1 ? "1 picture is missing." : `${count} pictures are missing.`,
+  missingPicture: "This picture is missing.",
   pictureAlt: (number: number, count: number, time: string) => `Picture ${number} of ${count}, taken ${time}`,
   fullScreen: "Full screen",
   endFullScreen: "Exit full screen",

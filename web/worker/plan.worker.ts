@@ -5,7 +5,6 @@
  * newer request. Each stage stores its last result, so that a change of speed or margin does not import the file again.
  */
 import {
-  DEFAULT_PREPARE,
   planJob,
   prepare,
   trajectoryStats,
@@ -31,11 +30,12 @@ import {
   tileCount,
   paperAndMargins,
   strokeCount,
-  turnedOntoPaper,
   unusedSettings,
   withPxPerInch,
   type Box,
   type Layout,
+  type SheetItem,
+  type SheetSource,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { buildScene, shiftsOf, type Scene } from "../scene/scene.js";
@@ -43,15 +43,17 @@ import { lineGapMm } from "../scene/pick.js";
 import type { FrameMm } from "../scene/placing.js";
 import type { Picture } from "../scene/renderer.js";
 import { cutOffOf, type CutOffPicture } from "./cut-off.js";
+import { extentOf, outsideChoices } from "./outside-choices.js";
 import { sketchesOf } from "./sketches.js";
 import { SentFiles } from "./sent-files.js";
-import type { FileExtent } from "../scene/arrange.js";
 import type {
   ExportRequest,
   MeasureRequest,
   Planned,
   PlannedReply,
   PlanFault,
+  SheetOnPaper,
+  WorkerFile,
   WorkerPlanRequest,
   SketchRequest,
   StrokesRequest,
@@ -121,6 +123,7 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
     if (await isSuperseded()) return null;
     const scene = buildScene(trajectory, ready.strokes.layer, shiftsOf(ready.strokes.layers));
     const stats = trajectoryStats(trajectory);
+    const drawnBox = reachedBoxOf(ready, settings.prepare);
     const planned: Planned = {
       drawingKey,
       settings,
@@ -133,12 +136,20 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
       choice: placement.choice,
       size: ready.size,
       outside: ready.outside,
-      turnOntoPaper:
-        ready.outside && request.sheet === null
-          ? turnedOntoPaper(drawing, prepareSettingsOf(settings), machineOf(settings))
-          : null,
+      outsideChoices:
+        ready.outside &&
+        outsideChoices({
+          drawing,
+          settings,
+          outside: ready.outside,
+          drawnBox,
+          sheet: request.sheet && {
+            ...(await sheetIn(request.sheet, request.files)),
+            map: placement.map,
+          },
+        }),
       fillCount: drawing.paths.fill.reduce((sum, _, shape) => sum + Number(hasFill(drawing.paths, shape)), 0),
-      drawnBox: reachedBoxOf(ready.strokes, settings.prepare),
+      drawnBox,
       frameMm: frameOf(placement, settings.prepare),
       layers: ready.layers,
       penStops: penStopsOf(ready.strokes, settings),
@@ -167,31 +178,38 @@ async function answer(request: WorkerPlanRequest): Promise<WorkerReply | null> {
 
 /** On a sheet, the page is the paper. */
 async function drawingOf({ files: wanted, sheet, settings }: WorkerPlanRequest): Promise<Drawing> {
-  const drawings: Drawing[] = [];
-  for (const { key } of wanted) drawings.push(await files.read(key));
-  if (sheet === null) return drawings[0];
-  const sources = sheet.names.map((names, index) => ({ ...names, drawing: drawings[index] }));
-  return combine(sources, sheet.items, sheetSize(settings.prepare));
+  if (sheet === null) return files.read(wanted[0].key);
+  const { sources, items } = await sheetIn(sheet, wanted);
+  return combine(sources, items, sheetSize(settings.prepare));
 }
 
-/** Of several sheets none is drawn on more than the space inside its margins. */
-const reachedBoxOf = ({ xy }: StrokeSet, settings: PlotSettings["prepare"]): Box =>
-  xy.length > 0 && settings.tile === 0 && tileCount(settings) > 1
-    ? paperAndMargins(settings).inside
-    : boxOfPoints(xy);
+async function sheetIn(
+  { names, items }: SheetOnPaper,
+  wanted: readonly WorkerFile[],
+): Promise<{ readonly sources: readonly SheetSource[]; readonly items: readonly SheetItem[] }> {
+  const sources: SheetSource[] = [];
+  for (const [index, { key }] of wanted.entries()) {
+    sources.push({ ...names[index], drawing: await files.read(key) });
+  }
+  return { sources, items };
+}
+
+/** Of several sheets none is drawn on more than the space inside its margins, and what leaves all of them together. */
+function reachedBoxOf({ strokes: { xy }, outside }: Prepared, settings: PlotSettings["prepare"]): Box {
+  if (xy.length === 0 || settings.tile > 0 || tileCount(settings) === 1) return boxOfPoints(xy);
+  const { inside } = paperAndMargins(settings);
+  return {
+    x0: inside.x0 - (outside?.leftMm ?? 0),
+    y0: inside.y0 - (outside?.topMm ?? 0),
+    x1: inside.x1 + (outside?.rightMm ?? 0),
+    y1: inside.y1 + (outside?.bottomMm ?? 0),
+  };
+}
 
 async function sendMeasured({ file }: MeasureRequest): Promise<void> {
   files.add(file);
   const measured = await files.read(file.key).then(extentOf, (error) => ({ fault: messageOf(error) }));
   scope.postMessage({ type: "measured", key: file.key, measured }, []);
-}
-
-function extentOf(drawing: Drawing): FileExtent {
-  const contentOn = (cropToPage: boolean): Box =>
-    layOutDrawing(drawing, { ...DEFAULT_PREPARE, fit: false, rotateDeg: 0, outside: "allow", cropToPage })
-      .content;
-  const { widthMm, heightMm } = drawing;
-  return { widthMm, heightMm, content: contentOn(false), onPage: contentOn(true) };
 }
 
 function preparedOf(

@@ -22,6 +22,7 @@ import type { Frame, Picture } from "../scene/renderer.js";
 import type { Scene } from "../scene/scene.js";
 import type { SwingPicture } from "../scene/swing-scene.js";
 import type { CutOffPicture } from "./cut-off.js";
+import type { OutsideChoices } from "./outside-choices.js";
 import type { DrawingText } from "../backend/drawing-text.js";
 
 /** A file of the drawing. The worker stores those of the last request, so each text is sent once: null after that. */
@@ -136,8 +137,7 @@ export interface Planned {
   readonly size: DrawnSize;
   /** Strokes that leave the paper. */
   readonly outside: OutsidePaper | null;
-  /** The settings that turn them onto the paper; null if nothing is outside, or a turn does not help. */
-  readonly turnOntoPaper: Partial<PlotSettings["prepare"]> | null;
+  readonly outsideChoices: OutsideChoices | null;
   /** The box of all lines that the pen draws, without lines that are cut off or hidden; empty if there are none. */
   readonly drawnBox: Box;
   /** How many shapes of the file are filled, without its background. */

@@ -10,7 +10,7 @@ interface CameraParts {
     setting(key: string): unknown;
     saveSetting(key: string, value: unknown): void;
   };
-  readonly files: Pick<PictureFiles, "add" | "remove" | "sweep">;
+  readonly files: Pick<PictureFiles, "add" | "addMissing" | "remove" | "sweep">;
   readonly plotterName: (id: string) => string;
   readonly log: (line: string) => void;
   readonly fetch?: (address: string, stop: AbortSignal) => Promise<CameraPicture>;
@@ -28,7 +28,9 @@ export class Cameras {
   private readonly plotting = new Map<string, { readonly jobId: string; readonly stop: AbortController }>();
   /** Jobs that were removed. */
   private readonly gone = new Set<string>();
-  private readonly running = new Set<Promise<void>>();
+  private readonly running = new Set<Promise<unknown>>();
+  /** Why the last change of the stored pictures failed. */
+  private storeFault: string | null = null;
   private readonly closing = new AbortController();
   private readonly fetch: NonNullable<CameraParts["fetch"]>;
   private readonly nowMs: () => number;
@@ -102,11 +104,8 @@ export class Cameras {
     this.end(plotterId);
     const stop = new AbortController();
     this.plotting.set(plotterId, { jobId, stop });
-    this.track(
-      (isNew ? this.parts.files.remove(jobId) : Promise.resolve()).then(() =>
-        this.follow(plotterId, jobId, stop.signal),
-      ),
-    );
+    if (isNew) this.track(this.parts.files.remove(jobId));
+    this.track(this.follow(plotterId, jobId, stop.signal));
   }
 
   private end(plotterId: string): void {
@@ -133,7 +132,25 @@ export class Cameras {
   private async keep(plotterId: string, jobId: string): Promise<void> {
     const camera = this.cameras[plotterId];
     const picture = camera && (await this.picture(plotterId, camera));
-    if (picture && !this.gone.has(jobId)) await this.parts.files.add(jobId, picture, this.nowMs());
+    if (!camera || this.gone.has(jobId) || this.closing.signal.aborted) return;
+    if (picture && (await this.isDone(this.parts.files.add(jobId, picture, this.nowMs())))) {
+      this.storeFault = null;
+    } else await this.isDone(this.parts.files.addMissing(jobId));
+  }
+
+  /** Waits for a change of the stored pictures. False: it failed, such as on a full disk, which is logged once. */
+  private async isDone(change: Promise<void>): Promise<boolean> {
+    try {
+      await change;
+      return true;
+    } catch (error) {
+      // The message has the name of the file.
+      const fault = (error as NodeJS.ErrnoException).code ?? String(error);
+      if (fault !== this.storeFault)
+        this.parts.log(`the pictures of a job can't be changed: ${String(error)}`);
+      this.storeFault = fault;
+      return false;
+    }
   }
 
   /** Null: the camera has none; that is logged once. */
@@ -156,10 +173,7 @@ export class Cameras {
   }
 
   private track(work: Promise<void>): void {
-    const tracked = work
-      // Such as a full disk.
-      .catch((error: unknown) => this.parts.log(`the pictures of a job can't be changed: ${String(error)}`))
-      .finally(() => this.running.delete(tracked));
+    const tracked: Promise<unknown> = this.isDone(work).finally(() => this.running.delete(tracked));
     this.running.add(tracked);
   }
 }

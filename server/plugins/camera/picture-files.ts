@@ -23,6 +23,9 @@ export const PICTURE_LIMITS = {
 };
 export type PictureLimits = typeof PICTURE_LIMITS;
 
+/** In the folder of a job: how many pictures are missing. */
+const MISSING = "missing";
+
 /** How long pictures stay whose job is missing: its database may be an older copy. */
 const UNCLAIMED_MS = 30 * 86_400_000;
 
@@ -32,6 +35,8 @@ export class PictureFiles {
   private last: Promise<unknown> = Promise.resolve();
   /** By job id, oldest first; null until the folders were read. */
   private index: Promise<Map<string, PictureFile[]>> | null = null;
+  /** How many pictures are missing, by job id, as far as it was counted or read. */
+  private readonly missingCounts = new Map<string, number>();
 
   constructor(
     dataDir: string,
@@ -46,6 +51,22 @@ export class PictureFiles {
 
   add(jobId: string, picture: CameraPicture, atMs: number): Promise<void> {
     return this.inTurn(() => this.write(jobId, picture, atMs));
+  }
+
+  /** How many pictures of a job could not be taken or stored. */
+  async missing(jobId: string): Promise<number> {
+    const text = await readFile(join(this.folder(jobId), MISSING), "utf8").catch(() => "0");
+    return this.missingCounts.get(jobId) ?? (Number.parseInt(text, 10) || 0);
+  }
+
+  /** Counts a missing picture, also if even that can't be stored. */
+  addMissing(jobId: string): Promise<void> {
+    return this.inTurn(async () => {
+      const count = (await this.missing(jobId)) + 1;
+      this.missingCounts.set(jobId, count);
+      await mkdir(this.folder(jobId), { recursive: true, mode: 0o700 });
+      await writeFile(join(this.folder(jobId), MISSING), String(count), { mode: 0o600 });
+    });
   }
 
   remove(jobId: string): Promise<void> {
@@ -86,6 +107,7 @@ export class PictureFiles {
 
   private async drop(jobId: string): Promise<void> {
     (await this.all()).delete(jobId);
+    this.missingCounts.delete(jobId);
     await rm(this.folder(jobId), { recursive: true, force: true });
   }
 
@@ -122,9 +144,10 @@ export class PictureFiles {
         if (found) files.push({ atMs: Number(atMs), bytes: found.size, kind: kind as PictureKind });
       }
       files.sort((a, b) => a.atMs - b.atMs);
-      if (files.length > 0) jobs.push([jobId, files]);
+      jobs.push([jobId, files]);
     }
-    return new Map(jobs.sort(([, a], [, b]) => a.at(-1)!.atMs - b.at(-1)!.atMs));
+    const lastMs = (files: readonly PictureFile[]): number => files.at(-1)?.atMs ?? 0;
+    return new Map(jobs.sort(([, a], [, b]) => lastMs(a) - lastMs(b)));
   }
 
   /** The job that got a picture last is the last one, and keeps its own. */

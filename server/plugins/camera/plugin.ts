@@ -39,8 +39,12 @@ const cameraOperations = ({ plotters, queue }: PluginHost, cameras: Cameras, fil
     },
     remove: (id) => cameras.remove(mustExist(id)),
     pictures: async (id) => {
-      const kept = await files.list(queue.get(id).id);
-      return { pictures: kept.map(({ atMs, bytes }) => ({ at: new Date(atMs).toISOString(), bytes })) };
+      const { id: jobId } = queue.get(id);
+      const kept = await files.list(jobId);
+      return {
+        pictures: kept.map(({ atMs, bytes }) => ({ at: new Date(atMs).toISOString(), bytes })),
+        missing: await files.missing(jobId),
+      };
     },
     picture: async (id, { at }) => {
       const bytes = await files.read(queue.get(id).id, Date.parse(at));

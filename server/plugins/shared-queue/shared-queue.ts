@@ -221,7 +221,7 @@ export class SharedQueue {
     for (const id of this.unstarted) {
       const job = queue.list().find((one) => one.id === id);
       if (job?.state !== "queued") this.unstarted.delete(id);
-      else if (queue.settings(job.plotterId).runOn) await startIfFree(queue, id);
+      else if (queue.startsByItself(job)) await startIfFree(queue, id);
     }
   }
 

@@ -166,13 +166,13 @@ describe("what leaves the paper", () => {
     expect(await plot().isDisabled()).toBe(true);
   });
 
-  it("can be allowed, but the machine has to reach it", async () => {
-    await press("Draw it there");
-    expect(await words()).toMatch(/It will be drawn there\.$/);
-    await plotBar(test.page)
-      .getByText(/AxiDraw V3 reaches/)
-      .waitFor();
-    expect(await plot().isDisabled()).toBe(true);
+  it("can be allowed where the machine reaches it, and is cut only if something is left", async () => {
+    const offered = async (): Promise<readonly string[]> =>
+      test.page.getByRole("group", { name: "Drawing off the paper" }).getByRole("button").allInnerTexts();
+    expect(await offered()).toEqual(["Cut", "Fit"]);
+    await test.drop("all beside", svgOf(297, 210, "M320 20H400"));
+    expect(await offered()).toEqual(["Move back", "Fit"]);
+    await test.drop("wide", WIDE);
     await test.page.getByLabel("Paper", { exact: true }).selectOption("A5");
     await test.drop("flag", FLAG);
     await choose("Custom");

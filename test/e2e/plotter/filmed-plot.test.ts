@@ -18,7 +18,10 @@ let camera: FakeCamera;
 
 beforeAll(async () => {
   camera = await fakeCamera({
-    "/snapshot.jpg": (response, request, count) => still(count < 3 ? RED : BLUE)(response, request, count),
+    "/snapshot.jpg": (response, request, count) =>
+      count === 4
+        ? void response.writeHead(500).end()
+        : still(count < 3 ? RED : BLUE)(response, request, count),
   });
   test = await PageTest.firstVisit("filmed", {}, ["--virtual-speed", "2"]);
 }, PATIENCE_MS);
@@ -55,6 +58,24 @@ const mark = (): Promise<readonly [x: number, y: number] | null> =>
     return null;
   });
 
+const apart = (a: readonly [number, number], b: readonly [number, number]): number =>
+  Math.hypot(a[0] - b[0], a[1] - b[1]);
+/** The mark once it stays where it is. */
+const restingMark = async (): Promise<readonly [number, number]> => {
+  let [before, now] = [await mark(), await mark()];
+  await expect
+    .poll(async () => {
+      [before, now] = [now, await mark()];
+      return before && now ? apart(before, now) : Infinity;
+    })
+    .toBeLessThan(0.5);
+  return now!;
+};
+const moved = async (from: readonly [number, number]): Promise<readonly [number, number]> => {
+  await expect.poll(async () => apart((await mark()) ?? from, from)).toBeGreaterThan(3);
+  return restingMark();
+};
+
 describe("a plot beside a camera", () => {
   it("has a camera that the sharing dialog sets and tries", async () => {
     const { page } = test;
@@ -81,7 +102,7 @@ describe("a plot beside a camera", () => {
     await page.getByRole("dialog").waitFor({ state: "detached" });
   });
 
-  it("marks where a step back leads while its button is pointed at or has the focus", async () => {
+  it("marks where one stroke back leads, and another step while its button is pointed at or has the focus", async () => {
     const { page } = test;
     await test.drop(NAME, SVG);
     await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
@@ -98,20 +119,21 @@ describe("a plot beside a camera", () => {
       })
       .toBeGreaterThan(15);
     const { alongMm } = (await theJob()).place!;
+    await page.mouse.move(5, 5);
+    // Nothing is pointed at, as on a touch screen.
+    const begin = await restingMark();
+    await page.getByText("The ring on the sheet marks where “One stroke back” leads.").waitFor();
     const pointAt = async (name: string): Promise<readonly [number, number]> => {
       await page.mouse.move(5, 5);
       await button(name).blur();
-      await expect.poll(mark).toBeNull();
+      const rest = await restingMark();
       await button(name).hover();
-      await expect.poll(mark).not.toBeNull();
-      return (await mark())!;
+      return moved(rest);
     };
     const here = await pointAt("Go there with the pen up");
     const near = await pointAt("10 mm back");
-    const begin = await pointAt("One stroke back");
-    const away = (at: readonly [number, number]): number => Math.hypot(at[0] - here[0], at[1] - here[1]);
     // The mark is painted on whole pixels.
-    expect(Math.abs(away(begin) / away(near) / (alongMm / 10) - 1)).toBeLessThan(0.1);
+    expect(Math.abs(apart(begin, here) / apart(near, here) / (alongMm / 10) - 1)).toBeLessThan(0.1);
     // On a turned desk, the stroke and the mark's way along it are turned too.
     const turn = page.getByRole("button", { name: "Turn the desk" });
     await turn.click();
@@ -125,13 +147,16 @@ describe("a plot beside a camera", () => {
     // Nothing has moved.
     expect((await theJob()).place!.alongMm).toBe(alongMm);
     await page.mouse.move(5, 5);
-    await expect.poll(mark).toBeNull();
+    const rest = await restingMark();
+    await button("10 mm back").focus();
+    expect(apart(await moved(rest), near)).toBeLessThan(3);
     await button("One stroke back").focus();
-    await expect.poll(mark).not.toBeNull();
+    const atBegin = await moved(near);
+    expect(apart(atBegin, begin)).toBeLessThan(3);
     await page.keyboard.press("Enter");
     await expect.poll(async () => (await theJob()).place!.alongMm).toBe(0);
-    await button("One stroke back").blur();
-    await expect.poll(mark).toBeNull();
+    // From there it leads to the stroke before.
+    await moved(begin);
   });
 
   it(
@@ -140,6 +165,7 @@ describe("a plot beside a camera", () => {
       const { page } = test;
       expect(await lapse().count()).toBe(0);
       await statusCard(page).getByRole("button", { name: "Resume" }).click();
+      await expect.poll(mark).toBeNull();
       await expect.poll(async () => (await theJob()).state, { timeout: PATIENCE_MS }).toBe("done");
       await lapse().getByRole("img").waitFor();
       await expect.poll(kept).toBeGreaterThan(2);
@@ -158,9 +184,50 @@ describe("a plot beside a camera", () => {
       await lapse().getByRole("button", { name: "Play the timelapse" }).click();
       await expect.poll(number).toBeGreaterThan(2);
       await lapse().getByRole("button", { name: "Play the timelapse" }).waitFor();
+      await lapse().getByText("1 picture is missing.").waitFor();
     },
     2 * PATIENCE_MS,
   );
+
+  it("plays on past pictures that the page can't get or show, counts them, and tries them again", async () => {
+    const { page } = test;
+    const { id } = await theJob();
+    const answer = await page.request.get(`${test.server.url}/api/v1/jobs/${id}/pictures`);
+    const { pictures } = keptPicturesSchema.parse(await answer.json());
+    expect(pictures.length).toBeGreaterThan(4);
+    const [, gone, noPicture, halfPicture] = pictures.map(({ at }) => encodeURIComponent(at));
+    const asked: string[] = [];
+    let isBroken = true;
+    await page.route(/\/picture\?at=/, (route) => {
+      const url = route.request().url();
+      asked.push(url);
+      if (isBroken && url.includes(gone)) return route.fulfill({ status: 500, body: "{}" });
+      if (isBroken && url.includes(noPicture)) return route.fulfill({ body: "<html>not a picture</html>" });
+      if (isBroken && url.includes(halfPicture)) return route.fulfill({ body: RED.subarray(0, 40) });
+      return route.continue();
+    });
+    await page.reload();
+    await openPanel(page, "Queue");
+    await page.getByRole("button", { name: `Show ${NAME} as it was plotted` }).click();
+    await lapse().getByText("1 picture is missing.").waitFor();
+    const play = lapse().getByRole("button", { name: "Play the timelapse" });
+    const moment = lapse().getByRole("slider", { name: "Moment of the timelapse" });
+    await play.click();
+    await lapse().getByText("4 pictures are missing.").waitFor();
+    await expect.poll(() => moment.inputValue()).toBe(String(pictures.length - 1));
+    await play.waitFor();
+    await moment.fill("1");
+    await lapse().getByText("This picture is missing.").waitFor();
+    expect(asked.filter((url) => url.includes(gone)).length).toBeLessThanOrEqual(4);
+    expect(await seriousFindings(page)).toEqual([]);
+    isBroken = false;
+    await play.click();
+    await lapse().getByText("1 picture is missing.").waitFor();
+    await expect.poll(() => moment.inputValue()).toBe(String(pictures.length - 1));
+    await page.unroute(/\/picture\?at=/);
+    // The browser itself reports the answer 500.
+    expect(test.complaints.splice(0).filter((line) => !line.includes("500"))).toEqual([]);
+  });
 
   it("is forgotten with its job", async () => {
     const { id } = await theJob();

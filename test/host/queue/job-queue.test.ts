@@ -445,6 +445,36 @@ describe("the queue", () => {
     expect(queue.settings()).toEqual({ runOn: true });
   });
 
+  it("waits for paper between sheets of a drawing that has several, even if it continues automatically", async () => {
+    const { prepare } = DEFAULT_PLOT_SETTINGS;
+    const spread = { ...DEFAULT_PLOT_SETTINGS, prepare: { ...prepare, tileColumns: 2, tileRows: 1 } };
+    queue.saveSettings({ runOn: true });
+    const moss = await add("moss");
+    const first = await add("map", { settings: spread });
+    await add("ivy");
+    await add("tide", { settings: { ...spread, prepare: { ...spread.prepare, tile: 2 } } });
+    await queue.start(moss.id);
+    // A drawing before the sheets may share their paper, as the user has chosen.
+    (await nextRun()).end({ kind: "done" });
+    await settled();
+    expect(queue.get(first.id).state).toBe("plotting");
+    (await nextRun()).end({ kind: "done" });
+    await settled();
+    const [second] = queue.list();
+    expect([second.name, second.state]).toEqual(["map (sheet 2 of 2)", "queued"]);
+    expect(second.message).toBe("This is another sheet of a drawing: put in new paper, then start it.");
+    expect(queue.startsByItself(second)).toBe(false);
+    await queue.start(second.id);
+    expect(queue.get(second.id)).toMatchObject({ state: "plotting", message: null });
+    (await nextRun()).end({ kind: "done" });
+    await settled();
+    expect(names().slice(0, 2)).toEqual(["ivy plotting", "tide queued"]);
+    expect(queue.startsByItself(queue.list()[1])).toBe(false);
+    (await nextRun()).end({ kind: "done" });
+    await settled();
+    expect(names()[0]).toBe("tide plotting");
+  });
+
   it("continues with the next waiting job of the same plotter, and with that one only", async () => {
     store.close();
     openQueue({ otherPlotter: new LedPlotter("other", "Other plotter") });

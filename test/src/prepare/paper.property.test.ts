@@ -101,11 +101,15 @@ function mostOutside({ strokes, paperWidthMm, paperHeightMm }: Prepared): number
 }
 
 /** The job's strokes, or the message with which it was refused for leaving the paper. */
-function jobOf(from: ReturnType<typeof drawingOf>, some: Partial<PrepareSettings>): Prepared | string {
+function jobOf(
+  from: ReturnType<typeof drawingOf>,
+  some: Partial<PrepareSettings>,
+  machine = MACHINE,
+): Prepared | string {
   const whole = { motion: DEFAULT_MOTION, pen: DEFAULT_PEN, ...NO_PENS };
   const all = { ...whole, prepare: { ...DEFAULT_PREPARE, ...some } };
   try {
-    return { ...prepareJob(from, all, MACHINE).prepared };
+    return { ...prepareJob(from, all, machine).prepared };
   } catch (error) {
     if (!(error instanceof PlotwrightError)) throw error;
     return error.message;
@@ -139,6 +143,26 @@ describe("any drawing, placed in any way on any paper", () => {
       }),
       { numRuns: cases(400) },
     );
+  });
+
+  it("is advised to be cut, moved or drawn there only where that helps", () => {
+    const advised = { cut: 0, move: 0, allow: 0 };
+    const reach = { ...MACHINE, widthMm: 300, heightMm: 260 };
+    fc.assert(
+      fc.property(drawing, settings, (from, some) => {
+        const refused = jobOf(from, some, reach);
+        if (typeof refused !== "string" || !refused.includes("--outside")) return;
+        for (const outside of ["cut", "move", "allow"] as const) {
+          if (!refused.includes(`${outside} (`)) continue;
+          advised[outside]++;
+          const job = jobOf(from, { ...some, outside }, reach);
+          if (typeof job === "string") expect(job).not.toMatch(/--outside|There is nothing to draw|is left/);
+          if (outside === "allow") expect(job).toHaveProperty("strokes");
+        }
+      }),
+      { numRuns: cases(400) },
+    );
+    expect(Math.min(...Object.values(advised))).toBeGreaterThan(0);
   });
 
   it("is turned onto the paper at its size, within the machine's reach, wherever a turn is offered", () => {

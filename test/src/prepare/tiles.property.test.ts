@@ -2,7 +2,17 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { DEFAULT_PREPARE, prepare, PlotwrightError, type PrepareSettings } from "../../../src/index.js";
-import { prepareJob, sheetSize, tilesOf, tileWindows } from "../../../src/internal.js";
+import {
+  boxOfPoints,
+  combine,
+  compose,
+  prepareJob,
+  rotation,
+  sheetSize,
+  tilesOf,
+  tileWindows,
+  translation,
+} from "../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { machineById } from "../../../src/index.js";
 import { drawingOf } from "../../support/drawings/drawings.js";
@@ -150,6 +160,72 @@ describe("the sheets of a tiled drawing", () => {
       }),
       RUNS,
     );
+  });
+
+  it("of several drawings that lie anywhere stay on their paper, or are refused with the choices that help", () => {
+    const item = fc.record({
+      source: fc.nat(1),
+      xMm: fc.integer({ min: -60, max: 800 }),
+      yMm: fc.integer({ min: -60, max: 600 }),
+      turnDeg: fc.constantFrom(0, 30, 90),
+    });
+    const outside = fc.constantFrom("refuse" as const, "cut" as const, "move" as const, "fit" as const);
+    const counts = { plotted: 0, refused: 0 };
+    const run = (
+      given: Parameters<typeof settingsOf>[0],
+      shapes: Parameters<typeof drawn>[0],
+      items: readonly { source: number; xMm: number; yMm: number; turnDeg: number }[],
+      tileMarks: boolean,
+    ): void => {
+      const whole = settingsOf({ ...given, fit: "auto", tileMarks });
+      fc.pre(whole.tileColumns * whole.tileRows > 1);
+      const sources = [
+        drawn(shapes),
+        drawn([
+          [
+            [0, 0],
+            [40, 25],
+          ],
+        ]),
+      ].map((one, index) => ({
+        drawing: one,
+        name: "",
+        layerPrefix: `${index}/`,
+      }));
+      const placed = items.map(({ source, xMm, yMm, turnDeg }) => ({
+        source,
+        map: compose(translation(xMm, yMm), rotation((turnDeg * Math.PI) / 180)),
+      }));
+      const sheet = combine(sources, placed, sheetSize(whole));
+      for (const settings of tilesOf(whole)) {
+        try {
+          const { strokes, paperWidthMm, paperHeightMm } = prepareJob(
+            sheet,
+            { ...DEFAULT_PLOT_SETTINGS, prepare: settings },
+            { ...machineById("axidraw-v3"), widthMm: 10_000, heightMm: 10_000 },
+          ).prepared;
+          counts.plotted++;
+          const { x0, y0, x1, y1 } = boxOfPoints(strokes.xy);
+          expect(Math.min(x0, y0)).toBeGreaterThan(-0.02);
+          expect(Math.max(x1 - paperWidthMm, y1 - paperHeightMm)).toBeLessThan(0.51);
+        } catch (error) {
+          if (!(error instanceof PlotwrightError)) throw error;
+          counts.refused++;
+          expect(error.message).toMatch(/leaves the paper .* --outside|nothing|Nothing|no lines/);
+        }
+      }
+    };
+    fc.assert(
+      fc.property(
+        tiling.chain((given) => outside.map((mode) => ({ ...given, outside: mode }))),
+        lines,
+        fc.array(item, { minLength: 1, maxLength: 4 }),
+        fc.boolean(),
+        run,
+      ),
+      RUNS,
+    );
+    expect(Math.min(counts.plotted, counts.refused)).toBeGreaterThan(0);
   });
 
   it("hatch and hide as on the whole drawing, so that neighbours show the same where they overlap", () => {

@@ -38,8 +38,9 @@ describe("the page's words", () => {
     expect(inPageWords(empty.warnings[0])).toBe(
       "There is nothing to fill with lines: no shape of this drawing is filled. Use “Fill closed outlines too”, or give shapes a fill.",
     );
-    const outside = { strokeCount: 2, leftMm: 0, topMm: 0, rightMm: 5, bottomMm: 0, canMove: true };
-    const off = messageOf(() => checkPaper(outside, "refuse", { widthMm: 210, heightMm: 297 }));
+    const edges = { leftMm: 0, topMm: 0, rightMm: 5, bottomMm: 0 };
+    const outside = { strokeCount: 2, ...edges, canCut: true, canMove: true };
+    const off = messageOf(() => checkPaper(outside, "refuse", { widthMm: 210, heightMm: 297 }, true));
     expect(off).toContain('with --outside, or "outside" in the settings: cut');
     expect(inPageWords(off)).toContain("Choose what happens to it with “What lies outside the paper”: cut");
     const far = strokesOf(

@@ -39,6 +39,56 @@ function makePage(more: Calls = {}) {
   return { store, actions, errorCount, sent, startServer: () => (isServerUp = true) };
 }
 
+describe("the selected drawings of a sheet", () => {
+  const box = { x0: 0, y0: 0, x1: 10, y1: 10 };
+  const file = { key: "file", name: "leaf", text: "<svg/>", layerPrefix: "" };
+  const extent = { widthMm: 10, heightMm: 10, content: box, onPage: box };
+  const pieceAt = (id: string, e: number) => {
+    return { id, fileKey: "file", map: { a: 1, b: 0, c: 0, d: 1, e, f: 20 }, isCropped: false };
+  };
+  const open = () => {
+    const page = makePage();
+    const sheet = { files: [{ ...file, extent }], pieces: [pieceAt("left", 20), pieceAt("right", 60)] };
+    page.store.setState({
+      drawing: { key: "sheet", name: "leaf", text: "", sheet, jobId: null, sourceId: null },
+      selectedPieces: ["left"],
+    });
+    const selected = (): readonly string[] => page.store.getState().selectedPieces;
+    return { ...page, selected };
+  };
+
+  it("are selected again after undo and redo of what made or removed others", async () => {
+    const { actions, selected } = open();
+    await actions.duplicatePieces();
+    const [copy] = selected();
+    expect(copy).not.toBe("left");
+    actions.undo();
+    expect(selected()).toEqual(["left"]);
+    actions.redo();
+    expect(selected()).toEqual(["left"]);
+    actions.selectPieces([copy]);
+    actions.undo();
+    expect(selected()).toEqual(["left"]);
+    actions.selectPieces(["right"]);
+    await actions.removePieces();
+    actions.undo();
+    expect(selected()).toEqual(["right"]);
+  });
+
+  it("stay selected as far as they exist when another step is undone", async () => {
+    const { actions, selected } = open();
+    await actions.duplicatePieces();
+    const [copy] = selected();
+    actions.selectPieces(["right", copy]);
+    actions.undo();
+    expect(selected()).toEqual(["right"]);
+    actions.changeSettings("paper", (settings) => settings);
+    actions.selectPieces(["left", "right"]);
+    actions.undo();
+    expect(selected()).toEqual(["left", "right"]);
+  });
+});
+
 describe("an error message", () => {
   it("stays until it is closed or an action succeeds", async () => {
     const { actions, errorCount, startServer } = makePage();

@@ -29,7 +29,7 @@ const DRAWING = { key: "drawing-1", name: "waves", text: "<svg/>", sheet: null, 
 const planned = (strokeCount: number, x1: number): Planned =>
   ({ strokeCount, drawnBox: { x0: 0, y0: 0, x1, y1: 10 } }) as Planned;
 
-const STEP = { settings: DEFAULT_PLOT_SETTINGS, presets: [], drawing: DRAWING };
+const STEP = { settings: DEFAULT_PLOT_SETTINGS, presets: [], drawing: DRAWING, selectedPieces: [] };
 
 let listener: (event: KeyboardEvent) => void;
 

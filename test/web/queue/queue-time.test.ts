@@ -51,6 +51,22 @@ describe("the axis of a queue", () => {
     expect(shown(axisOf([inState("plotting")], [tide], false))).toEqual([[300, 900, false, false, "paper"]]);
   });
 
+  it("has new paper between the sheets of a drawing that has several, also if the next plot starts by itself", () => {
+    const { settings } = tide;
+    const sheet = (id: string, tile: number): Job => ({
+      ...makeJob(id, { name: id, expectedS: 600 }),
+      settings: { ...settings, prepare: { ...settings.prepare, tileColumns: 2, tile } },
+    });
+    const [left, right] = [sheet("left", 1), sheet("right", 2)];
+    expect(shown(axisOf([], [moonrise, left, right, tide]))).toEqual([
+      [0, 3_600, true, true, ""],
+      [3_600, 4_200, true, true, ""],
+      [4_200, 4_800, false, false, "paper"],
+      [4_800, 5_400, false, false, ""],
+    ]);
+    expect(shown(axisOf([], [left, { ...left, id: "copy" }]))).toEqual([[0, 1_200, true, false, ""]]);
+  });
+
   it("counts copies together, and their papers", () => {
     const copies = [moonrise, { ...moonrise, id: "second" }];
     expect(shown(axisOf([], [...copies, tide], false))).toEqual([

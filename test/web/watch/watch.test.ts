@@ -63,8 +63,8 @@ describe("keys for the laid-out drawing", () => {
     const store = makeStore();
     const actions = { undo: vi.fn() } as unknown as Actions;
     const press = (): void => performByKey(UNDO, { store, actions } as unknown as Page);
-    const { settings, presets, drawing } = store.getState();
-    store.setState({ pageView: "watch", undoStack: [{ settings, presets, drawing }] });
+    const { settings, presets, drawing, selectedPieces } = store.getState();
+    store.setState({ pageView: "watch", undoStack: [{ settings, presets, drawing, selectedPieces }] });
     press();
     expect(actions.undo).not.toHaveBeenCalled();
     store.setState({ pageView: "prepare" });

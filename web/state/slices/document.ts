@@ -19,7 +19,7 @@ export interface OpenDrawing {
 }
 
 /** What undo restores. */
-export type UndoStep = Pick<DocumentSlice, "settings" | "presets" | "drawing">;
+export type UndoStep = Pick<DocumentSlice, "settings" | "presets" | "drawing" | "selectedPieces">;
 
 export interface DocumentSlice {
   readonly settings: PlotSettings;

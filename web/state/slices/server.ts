@@ -50,7 +50,7 @@ export interface ServerSlice {
   readonly nudgedJobId: string | null;
   /** The job with a lost position for which the user has said that the carriage is in its corner. */
   readonly cornerJobId: string | null;
-  /** Where a button would move the place of the paused job, mm; shown on the sheet while the button is pointed at. */
+  /** Where a button would move the place of the paused job, mm; shown on the sheet while there are such buttons. */
   readonly placeMark: { readonly xMm: number; readonly yMm: number } | null;
   /** The name of the request that is running: its button is disabled meanwhile. */
   readonly busyAction: string | null;

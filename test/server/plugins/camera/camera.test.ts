@@ -1,5 +1,5 @@
 /** A server's camera: pictures of a plot, who may see what, and that a bad camera disturbs nothing. */
-import { existsSync } from "node:fs";
+import { existsSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import {
@@ -8,6 +8,7 @@ import {
   keptPicturesSchema,
   type CameraState,
   type KeptPicture,
+  type KeptPictures,
   type Role,
 } from "../../../../src/schema/index.js";
 import {
@@ -22,6 +23,13 @@ import { startApp, type TestApp } from "../../../support/servers/app.js";
 
 const SVG = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10"/></svg>';
 type Headers = Record<string, string>;
+const MOODS: readonly Parameters<typeof fakeCamera>[0][string][] = [
+  still(RED),
+  (response) => void response.destroy(),
+  (response) => void response.writeHead(500).end("no"),
+  still(Buffer.from("<html>not a picture</html>")),
+  still(RED.subarray(0, RED.length / 2)),
+];
 
 let app: TestApp;
 let camera: FakeCamera;
@@ -31,6 +39,7 @@ beforeEach(async () => {
     "/still": (response, request, count) => still(count % 2 === 0 ? BLUE : RED)(response, request, count),
     "/stream": stream([BLUE]),
     "/broken": (response) => void response.destroy(),
+    "/moody": (response, request, count) => MOODS[count % MOODS.length](response, request, count),
   });
   app = await startApp({ trustsLoopback: false });
   operator = keyOf("operate");
@@ -65,8 +74,9 @@ const startJob = async (id: string) => {
   await app.queue.start(id);
   return app.plotter.nextRun();
 };
-const pictures = async (id: string): Promise<readonly KeptPicture[]> =>
-  keptPicturesSchema.parse(await (await call("GET", `/jobs/${id}/pictures`)).json()).pictures;
+const listOf = async (id: string): Promise<KeptPictures> =>
+  keptPicturesSchema.parse(await (await call("GET", `/jobs/${id}/pictures`)).json());
+const pictures = async (id: string): Promise<readonly KeptPicture[]> => (await listOf(id)).pictures;
 const picture = (id: string, at: string, headers = operator): Promise<Response> =>
   call("GET", `/jobs/${id}/picture?at=${encodeURIComponent(at)}`, headers);
 
@@ -138,6 +148,43 @@ describe("a plotter with a camera", () => {
     expect(app.logged.join("\n")).not.toMatch(/geheim|me:/);
     // Said once, however often it was tried.
     expect(app.logged.filter((line) => line.startsWith("camera of")).length).toBe(1);
+  });
+
+  it("goes on after pictures that fail, whatever is wrong with them, and says how many are missing", async () => {
+    await setCamera("/moody", 1);
+    const id = await addJob();
+    const run = await startJob(id);
+    // In turn: gone, a server error, no picture, half of one, and a picture.
+    await expect.poll(async () => (await pictures(id)).length, { timeout: 20_000 }).toBe(2);
+    const { missing } = await listOf(id);
+    expect(missing).toBeGreaterThanOrEqual(4);
+    const asked = camera.requests.length;
+    run.end({ kind: "done" });
+    await expect.poll(() => camera.requests.length).toBeGreaterThan(asked);
+    await expect
+      .poll(async () => {
+        const now = await listOf(id);
+        return now.pictures.length + now.missing;
+      })
+      .toBe(camera.requests.length - 1);
+    // The count is that of the last plot.
+    app.queue.requeue(id);
+    const again = await startJob(id);
+    await expect.poll(async () => (await listOf(id)).missing).toBeLessThan(missing);
+    again.end({ kind: "done" });
+  }, 40_000);
+
+  it("goes on after pictures that can't be stored, and says how many are missing", async () => {
+    const folder = join(app.dir, "pictures");
+    writeFileSync(folder, "a file in place of the folder");
+    await setCamera("/stream", 1);
+    const id = await addJob();
+    const run = await startJob(id);
+    await expect.poll(async () => (await listOf(id)).missing).toBe(2);
+    rmSync(folder);
+    await expect.poll(async () => (await listOf(id)).pictures.length).toBeGreaterThan(0);
+    expect(app.logged.filter((line) => line.startsWith("the pictures of a job")).length).toBe(1);
+    run.end({ kind: "done" });
   });
 
   it("shows a job's pictures to whoever may see the job", async () => {

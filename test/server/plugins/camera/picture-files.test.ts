@@ -62,6 +62,25 @@ describe("the pictures that a job keeps", () => {
     await expect(next.add("../up", picture(RED), 1)).rejects.toThrow("Not a job's id");
   });
 
+  it("that are missing are counted, also by the next server, and forgotten with the job's pictures", async () => {
+    const dir = folderOfTest();
+    const files = new PictureFiles(dir, LIMITS);
+    expect(await files.missing("job-a")).toBe(0);
+    for (let i = 0; i < 3; i++) await files.addMissing("job-a");
+    await files.add("job-a", picture(RED), 1_000);
+    const next = new PictureFiles(dir, LIMITS);
+    expect([await next.missing("job-a"), (await next.list("job-a")).length]).toEqual([3, 1]);
+    await next.addMissing("job-a");
+    expect(await next.missing("job-a")).toBe(4);
+    await next.remove("job-a");
+    expect(await next.missing("job-a")).toBe(0);
+    expect(existsSync(join(dir, "pictures", "job-a"))).toBe(false);
+    // Of a job without any picture, too.
+    await next.addMissing("job-b");
+    await new PictureFiles(dir, LIMITS).sweep(() => false);
+    expect(existsSync(join(dir, "pictures", "job-b"))).toBe(false);
+  });
+
   it("go with the job, and those of the oldest plots when there is no more room", async () => {
     const dir = folderOfTest();
     const files = new PictureFiles(dir, { ...LIMITS, maxTotalBytes: 3 * RED.length });
