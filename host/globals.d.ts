@@ -11,11 +11,14 @@ declare class AbortController {
 declare const crypto: { randomUUID(): string };
 declare function setTimeout(callback: () => void, delayMs: number): number;
 declare function clearTimeout(timer: number): void;
+declare function setInterval(callback: () => void, periodMs: number): number;
+declare function clearInterval(timer: number): void;
 declare function queueMicrotask(callback: () => void): void;
 declare class URL {
   constructor(path: string, base?: string);
   static canParse(text: string): boolean;
   readonly hostname: string;
+  readonly href: string;
 }
 declare class TextDecoder {
   decode(bytes: Uint8Array | undefined, options: { stream: boolean }): string;

@@ -75,7 +75,18 @@ export interface PlotterStore {
   savePlotterSettings(id: string, settings: unknown): void;
 }
 
+/** The drawing of a live job. */
+export interface GrowingDrawing {
+  readonly id: string;
+  /** Replaces everything from a position on, in bytes. Not flushed to the disk: it survives a kill, not a power cut. */
+  write(from: number, text: string): Promise<void>;
+  /** Resolves when all of it is on the disk. */
+  close(): Promise<void>;
+}
+
 /** Drawings are added before their job; the queue removes those that no job uses any more. */
 export interface DrawingStore {
+  /** Adds a drawing that will grow; `text` is ASCII. */
+  grow(text: string): Promise<GrowingDrawing>;
   remove(id: string): Promise<void>;
 }

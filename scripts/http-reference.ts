@@ -22,6 +22,7 @@ const TITLES: Readonly<Record<OperationGroup, string>> = {
   drawings: "Drawings",
   jobs: "Jobs",
   plotters: "Plotters",
+  liveDrawings: "Live drawings",
   moves: "Moves by hand",
   console: "Moves by hand",
   machines: "Machines",
@@ -46,7 +47,9 @@ interface Schema {
   readonly $defs?: Readonly<Record<string, Schema>>;
   readonly properties?: Readonly<Record<string, Schema>>;
   readonly required?: readonly string[];
-  readonly items?: Schema;
+  readonly items?: Schema | false;
+  /** Of a tuple. */
+  readonly prefixItems?: readonly Schema[];
   readonly anyOf?: readonly Schema[];
   readonly oneOf?: readonly Schema[];
   readonly allOf?: readonly Schema[];
@@ -81,8 +84,10 @@ export const routeHeading = ({ method, path: at }: Pick<Operation, "method" | "p
 function operationText(one: Operation, writer: TypeWriter): string {
   const { about, body, answer, status } = one;
   const parts = [routeHeading(one), `${about}.`];
-  if (body === "file") parts.push("Body: the file itself.");
-  else if (one.fileFields !== undefined && body !== undefined) {
+  if (body === "file") {
+    parts.push("Body: the file itself.");
+    if (one.fileFields !== undefined) parts.push(writer.inWords("In the query", one.fileFields));
+  } else if (one.fileFields !== undefined && body !== undefined) {
     const fields = writer.inWords(
       "In the query or as fields of the form, with the file itself",
       one.fileFields,
@@ -92,7 +97,11 @@ function operationText(one: Operation, writer: TypeWriter): string {
   if (answer === "text" || answer === "file") parts.push(`Response ${status}: plain text.`);
   else if (answer === "picture") parts.push(`Response ${status}: a picture (JPEG, PNG or WebP).`);
   else if (answer === "events") parts.push(`Response ${status}: a stream of ${writer.link("ServerEvent")}.`);
-  else parts.push(writer.inWords(`Response ${status}`, answer));
+  else if (answer === "socket") {
+    parts.push(
+      `A WebSocket: each message is JSON, ${writer.link("LiveMessage")} to the server and ${writer.link("LiveReport")} from it.`,
+    );
+  } else parts.push(writer.inWords(`Response ${status}`, answer));
   return parts.join("\n\n");
 }
 
@@ -104,6 +113,8 @@ class TypeWriter {
   constructor() {
     this.use(schemaEntry.apiErrorSchema);
     this.use(schemaEntry.serverEventSchema);
+    this.use(schemaEntry.liveMessageSchema);
+    this.use(schemaEntry.liveReportSchema);
   }
 
   /** Also notes the named types in it, for the list at the end. */
@@ -156,7 +167,10 @@ function typeText(schema: Schema, indent = "", at = ""): string {
   if (typeof schema.type === "object") return schema.type.join(" | ");
   switch (schema.type) {
     case "array":
-      return `${bracketed(typeText(schema.items ?? {}, indent, at))}[]`;
+      if (schema.prefixItems !== undefined) {
+        return `[${schema.prefixItems.map((one) => typeText(one, indent, at)).join(", ")}]`;
+      }
+      return `${bracketed(typeText(schema.items || {}, indent, at))}[]`;
     case "object":
       return objectText(schema, indent, at);
     case "integer":

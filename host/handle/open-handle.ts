@@ -1,5 +1,6 @@
 /** Opens the plotter that a program asks for: one of its own, or one of a running server. */
 import { PlotwrightError, type Transport } from "../../src/index.js";
+import type { OpenSocket } from "./live-socket.js";
 import { openOwnPlotter, type ClockAndPorts } from "./own-plotter.js";
 import type { PlotterChoice, PlotterHandle } from "./plotter-handle.js";
 import { openServedPlotter } from "./served-plotter.js";
@@ -11,11 +12,12 @@ const WAYS = ["device", "webSerial", "virtual", "url"] as const;
 const MAX_VIRTUAL_SPEED = 200;
 const OTHERS = ["key", "plotter", "settings"];
 
-/** `openWebSerial` opens a port of `navigator.serial`; true: one that the user chooses. Null: this is no page. */
+/** `openSocket` opens a WebSocket. `openWebSerial` opens a port of `navigator.serial`; true: one that the user chooses. Null: this is no page. */
 export async function openHandle(
   choice: PlotterChoice,
   parts: ClockAndPorts,
   openWebSerial: ((port: unknown) => Promise<Transport>) | null,
+  openSocket: OpenSocket,
 ): Promise<PlotterHandle> {
   const way = wayOf(choice);
   const { device, webSerial, virtual, url, key, plotter, settings = {} } = choice;
@@ -26,7 +28,8 @@ export async function openHandle(
         "openPlotter: a server has the settings of its plotters. Give those of a plot to plot.",
       );
     }
-    return openServedPlotter({ url: addressOf(String(url)), ...(key === undefined ? {} : { key }) }, plotter);
+    const access = { url: addressOf(String(url)), ...(key === undefined ? {} : { key }) };
+    return openServedPlotter(access, plotter, openSocket);
   }
   if (way === "virtual") {
     const virtualSpeed = typeof virtual === "object" ? virtual.speed : undefined;

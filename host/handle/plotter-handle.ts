@@ -6,7 +6,9 @@ import { PAPER_SIZES, PlotwrightError, type Line } from "../../src/index.js";
 import { orientedPaper, withGiven, type PaperName, type PaperSize } from "../../src/internal.js";
 import {
   givenSettingsSchema,
+  MAX_LIFT_AFTER_MS,
   type GivenSettings,
+  type LiveUndone,
   type Plotter,
   type PlotSettings,
   type PlotWait,
@@ -78,6 +80,8 @@ export interface LiveDrawing {
   lineTo(x: number, y: number): Promise<void>;
   /** The stroke that grows is complete. */
   penUp(): void;
+  /** Takes back the last stroke, as far as it is not yet sent to the motors. What is left of it is complete. */
+  undo(): Promise<LiveUndone>;
   /** Resolves when everything so far is drawn. */
   idle(): Promise<void>;
   /** The drawing is complete: draws the rest and goes home. Resolves when the carriage is there. */
@@ -163,8 +167,6 @@ export function liftAfterMsOf({ liftAfterMs = LIFT_AFTER_MS }: Pick<LiveOptions,
     `liftAfterMs is ${liftAfterMs}: give the time that the pen rests on the line, 0 to ${MAX_LIFT_AFTER_MS} ms.`,
   );
 }
-
-const MAX_LIFT_AFTER_MS = 60_000;
 
 function sizeOf(paper: PaperName | PaperSize): PaperSize {
   if (typeof paper !== "string") return paper;

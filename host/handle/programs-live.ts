@@ -1,12 +1,14 @@
 /** A live drawing, as a program uses it. Its points go to the plotter of this program, or to a server. */
+import type { LiveUndone } from "../../src/schema/index.js";
 import type { LivePoints } from "../plotter/live-strokes.js";
 import type { LiveDrawing, PlotResult } from "./plotter-handle.js";
 
-/** Takes the strokes of a live drawing: `LiveStrokes`, or the connection to a server. */
+/** Takes the strokes of a live drawing: `LiveStrokes`, or what sends them to a server (live-sender.ts). */
 export interface TakesStrokes {
   stroke(points: LivePoints): void;
   lineTo(x: number, y: number): void;
   penUp(): void;
+  undo(): LiveUndone | Promise<LiveUndone>;
   end(): void;
   /** Resolves when there is room for more points. */
   room(): Promise<void>;
@@ -36,6 +38,10 @@ export class ProgramsLive implements LiveDrawing {
 
   penUp(): void {
     this.strokes.penUp();
+  }
+
+  async undo(): Promise<LiveUndone> {
+    return this.strokes.undo();
   }
 
   idle(): Promise<void> {

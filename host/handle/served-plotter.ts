@@ -9,15 +9,19 @@ import {
   type PlotSettings,
   type ServerEvent,
 } from "../../src/schema/index.js";
+import { endedOtherwise, LiveSender } from "./live-sender.js";
+import { liveSocket, type OpenSocket } from "./live-socket.js";
 import { BaseHandle } from "./base-handle.js";
 import type { BegunLive } from "./programs-live.js";
 import { closed, type CurrentPlot, stopped } from "./current-plot.js";
 import {
   fileOf,
   givenOf,
+  liftAfterMsOf,
   penTarget,
   positionOf,
   type HandleState,
+  type LiveOptions,
   type PlotOptions,
   type PlotResult,
   type PlotterHandle,
@@ -28,6 +32,7 @@ import { followEvents, serverClient, type ServerAccess, type ServerClient } from
 export async function openServedPlotter(
   access: ServerAccess,
   wanted: string | undefined,
+  openSocket: OpenSocket,
 ): Promise<PlotterHandle> {
   const client = serverClient(access);
   const { plotters } = await client.state.get();
@@ -42,7 +47,7 @@ export async function openServedPlotter(
       `The server at ${access.url} has no plotter ${wanted ?? ""}. It has: ${known === "" ? "none" : known}.`,
     );
   }
-  return new ServerHandle(access, client, plotter);
+  return new ServerHandle(access, client, plotter, openSocket);
 }
 
 /** A plot whose server does not answer for this time ends for the program. A server that is restarted is back before. */
@@ -64,9 +69,10 @@ class ServerHandle extends BaseHandle {
   private trouble: { readonly message: string; readonly sinceMs: number } | null = null;
 
   constructor(
-    access: ServerAccess,
+    private readonly access: ServerAccess,
     private readonly requests: ServerClient,
     private plotter: Plotter,
+    private readonly openSocket: OpenSocket,
   ) {
     super();
     void followEvents(
@@ -107,25 +113,46 @@ class ServerHandle extends BaseHandle {
     const { id: drawingId } = await this.client.drawings.upload(file);
     plot.throwIfStopped();
     const { id, warnings } = await this.client.jobs.add({ name, drawingId, plotterId, settings: given });
+    const ended = this.followJob(id, plot);
+    await this.start(id, plot);
+    this.control(id, plot);
+    const { plottedS, elapsedS } = await ended;
+    return { plottedS: plottedS ?? elapsedS, warnings };
+  }
+
+  protected async beginLive(options: LiveOptions, plot: CurrentPlot): Promise<BegunLive> {
+    const { name } = options;
+    const settings = givenOf(options);
+    const liftAfterMs = liftAfterMsOf(options);
+    plot.throwIfStopped();
+    const { url, key } = this.access;
+    const socket = liveSocket(this.openSocket, url, this.plotter.id, key);
+    const strokes = await LiveSender.begin(socket, { name, settings, liftAfterMs });
+    const { id, warnings } = strokes.job;
+    const followed = this.followJob(id, plot);
+    this.control(id, plot);
+    const ended = Promise.race([strokes.ended, followed]).then(({ state, message, plottedS, elapsedS }) => {
+      if (state !== "done") throw endedOtherwise(state, message);
+      return { plottedS: plottedS ?? elapsedS, warnings };
+    });
+    return { strokes, ended };
+  }
+
+  /** Resolves with the job when it is done. */
+  private followJob(id: string, plot: CurrentPlot): Promise<Job> {
     const ended = new Promise<Job>((resolve, reject) => {
       this.followed = { id, plot, resolve, reject };
     });
     ended.catch(() => undefined);
-    await this.start(id, plot);
+    return ended;
+  }
+
+  private control(id: string, plot: CurrentPlot): void {
     plot.begin({
       pause: () => this.ask(id, "pause", "paused"),
       resume: () => this.ask(id, "resume", "plotting"),
       cancel: () => this.ask(id, "cancel", "cancelled"),
     });
-    const { plottedS, elapsedS } = await ended;
-    return { plottedS: plottedS ?? elapsedS, warnings };
-  }
-
-  protected beginLive(): Promise<BegunLive> {
-    throw new PlotwrightError(
-      "bad-setting",
-      "A plotter of a server can't draw live yet: open its port with device while no server runs.",
-    );
   }
 
   protected plotEnded(): void {

@@ -62,7 +62,16 @@ interface LivePlan {
   readonly isCut: boolean;
 }
 
+/** The strokes that a plan may draw: all, or those that an undo leaves. */
+interface Known {
+  readonly points: number;
+  readonly strokes: number;
+  /** More points of the last one may come. */
+  readonly isOpen: boolean;
+}
+
 export class LiveFeed {
+  private isPlaying = false;
   /** The plan that is played, or was played last. */
   private plan: LivePlan | null = null;
   private readonly plans = new WeakMap<Trajectory, LivePlan>();
@@ -75,7 +84,10 @@ export class LiveFeed {
     private readonly machine: Machine,
     private readonly stream: Playback,
     private readonly settings: LiveSettings,
+    /** Where the plot rests, while nothing is played. */
+    private readonly restPlace: () => StrokePosition | null,
   ) {
+    source.onUndo(() => this.stopForUndo());
     source.onChange(() => {
       this.wake();
       this.look();
@@ -99,6 +111,7 @@ export class LiveFeed {
   async untilMore(place: StrokePosition | null, isInterrupted: () => boolean): Promise<void> {
     const { source, machine } = this;
     const { clock, speed } = machine;
+    source.restsAt(this.pointsDone(place));
     const liftAtS = clock.nowS() + (source.liftAfterMs / 1_000) * speed;
     for (;;) {
       const hasMore = this.pointsDone(place) < source.pointCount;
@@ -120,7 +133,7 @@ export class LiveFeed {
   /** A plan of what is known, from a place where the carriage can begin. `take` tells that it is played. */
   planFrom(place: StrokePosition | null, x: number, y: number, board: MachineState): PlannedPlot {
     const { source, machine } = this;
-    const { stroke, alongMm } = place ?? FIRST;
+    const { stroke, alongMm } = this.nextPlace(place);
     const penDown = machine.penUp === false;
     if (stroke >= source.strokeCount) {
       return this.planned({ stroke, point: source.pointCount, afterMm: 0, x, y, penDown: false }, board);
@@ -133,6 +146,7 @@ export class LiveFeed {
   /** A plan of `planFrom` begins to be played, or takes over in motion. */
   take({ trajectory }: PlannedPlot): void {
     this.plan = this.plans.get(trajectory)!;
+    this.isPlaying = true;
     this.stopLooking();
     const { clock, speed } = this.machine;
     let cancel = (): void => undefined;
@@ -149,9 +163,39 @@ export class LiveFeed {
   /** The current plan is not played any more. Returns the place where it ends, if it was played to its end. */
   ended(isStopped: boolean): StrokePosition {
     this.stopLooking();
+    this.isPlaying = false;
     const { end, endPoint } = this.plan!;
     if (!isStopped) this.source.restsAt(endPoint);
     return end;
+  }
+
+  /**
+   * The last stroke is taken back: goes on without it if the pen is before it. If it is on it, or on its way to it, the pen
+   * stops and lifts. Returns the place up to which the strokes are drawn, at the last stroke or after it.
+   */
+  private stopForUndo(): StrokePosition {
+    const { source, stream, plan, isPlaying } = this;
+    const stroke = source.strokeCount - 1;
+    const start = { stroke, alongMm: 0 };
+    const nothing = { stroke: stroke + 1, alongMm: 0 };
+    const stopped = (): StrokePosition | null => (stream.stopped ? (stream.stopped.place ?? nothing) : null);
+    if (!isPlaying || plan === null) return this.restPlace() ?? FIRST;
+    if (stream.stopped) return stopped() ?? plan.end;
+    const first = source.firstPointOf(stroke);
+    if (plan.endPoint <= first) return start;
+    const ahead = stream.placeAhead(0);
+    if (ahead !== null && ahead.from.stroke < stroke) {
+      const { growth } = stream;
+      const known = { points: first, strokes: stroke, isOpen: false };
+      for (const origin of this.originsOf(plan)) {
+        const { trajectory } = this.planned(origin, undefined, known);
+        if (growth?.extend(trajectory) !== true) continue;
+        this.plan = this.plans.get(trajectory)!;
+        return start;
+      }
+    }
+    stream.slowToRest();
+    return stopped() ?? plan.end;
   }
 
   /** Plans again if the current plan does not draw everything that is known. */
@@ -164,7 +208,7 @@ export class LiveFeed {
     const later = this.laterOrigin(plan);
     if (plan.isCut ? later === null : plan.version === source.version) return this.goOn(plan, growth);
     this.lookedS = clock.nowS();
-    for (const origin of later ? [later, plan.origin] : [plan.origin]) {
+    for (const origin of this.originsOf(plan)) {
       const { trajectory } = this.planned(origin);
       if (!growth.extend(trajectory)) continue;
       this.plan = this.plans.get(trajectory)!;
@@ -198,17 +242,23 @@ export class LiveFeed {
     return point - origin.point < ORIGIN_POINTS ? null : this.originAt(stroke, point);
   }
 
+  /** Where another plan can begin that takes over from a plan. */
+  private originsOf(plan: LivePlan): readonly Origin[] {
+    const later = this.laterOrigin(plan);
+    return later ? [later, plan.origin] : [plan.origin];
+  }
+
   private originAt(stroke: number, point: number): Origin {
     const { xy } = this.source.strokes;
     return { stroke, point, afterMm: 0, x: xy[2 * point], y: xy[2 * point + 1], penDown: true };
   }
 
-  private planned(origin: Origin, board?: MachineState): PlannedPlot {
+  private planned(origin: Origin, board?: MachineState, known = this.allKnown()): PlannedPlot {
     const { source, settings, machine } = this;
-    const endPoint = this.endOfPlan(origin);
-    const isCut = endPoint < source.pointCount;
-    const last = isCut ? source.strokeOf(endPoint) : source.strokeCount - 1;
-    const isOpen = isCut ? endPoint > source.firstPointOf(last) : source.isOpen;
+    const endPoint = this.endOfPlan(origin, known.points);
+    const isCut = endPoint < known.points;
+    const last = isCut ? source.strokeOf(endPoint) : known.strokes - 1;
+    const isOpen = isCut ? endPoint > source.firstPointOf(last) : known.isOpen;
     const endsWith = isOpen ? "down" : source.isEnded && !isCut ? "home" : "up";
     const strokeEnd = isCut && !isOpen ? last : last + 1;
     const { planned } = settings;
@@ -239,11 +289,16 @@ export class LiveFeed {
     return { trajectory, commands: board ? job.commands() : NO_COMMANDS };
   }
 
+  private allKnown(): Known {
+    const { pointCount: points, strokeCount: strokes, isOpen } = this.source;
+    return { points, strokes, isOpen };
+  }
+
   /** The points that a plan can have. Only strokes that may grow are cut. */
-  private endOfPlan({ point }: Origin): number {
+  private endOfPlan({ point }: Origin, pointCount: number): number {
     const { source } = this;
     const end = point + PLAN_POINTS;
-    if (end >= source.pointCount) return source.pointCount;
+    if (end >= pointCount) return pointCount;
     const stroke = source.strokeOf(end);
     return source.mayGrow(stroke) ? end : source.firstPointOf(stroke);
   }
@@ -254,6 +309,12 @@ export class LiveFeed {
     if (!place || place.stroke >= source.strokeCount) return false;
     const isLast = place.stroke === source.strokeCount - 1;
     return (isLast && source.isOpen) || this.pointsDone(place) < source.firstPointOf(place.stroke + 1);
+  }
+
+  /** Where the plot goes on: after a stroke that is complete, at the next one. */
+  private nextPlace(place: StrokePosition | null): StrokePosition {
+    if (!place || place.alongMm === 0 || this.isOnLine(place)) return place ?? FIRST;
+    return { stroke: place.stroke + 1, alongMm: 0 };
   }
 
   /** Number of points drawn when the pen rests at a place. */

@@ -12,7 +12,8 @@ import {
   type StrokePosition,
   type StrokeSet,
 } from "../../src/index.js";
-import { ColumnBuffer, firstWhere, isReached, mmInWords, PointBuffer } from "../../src/internal.js";
+import { ColumnBuffer, firstWhere, isReached, mmInWords, pointAt, PointBuffer } from "../../src/internal.js";
+import type { JobPlace, LiveUndone } from "../../src/schema/index.js";
 import type { PlotPlanner } from "../planning/planning.js";
 import { Waiters } from "./waiters.js";
 
@@ -31,6 +32,18 @@ const LAYER = { id: "live", name: "Live", color: null } as const;
 
 /** Points in drawing order: [x, y] pairs, or x, y, x, y … in a typed array. mm from home. */
 export type LivePoints = Line | Float64Array | Float32Array;
+
+/** Is told of each change of the strokes, to store them. */
+export interface StrokeRecord {
+  /** A stroke begins. */
+  begin(x: number, y: number): void;
+  add(x: number, y: number): void;
+  /** The last points were taken back; the first of them begins a stroke: `withBegin`. */
+  takeBack(xy: Float64Array, withBegin: boolean): void;
+}
+
+/** How far it reaches. */
+type DrawnMachine = Pick<MachineProfile, "name" | "widthMm" | "heightMm">;
 
 /** Plans are made by the running plot (live-feed.ts). */
 export const livePlanner = (source: LiveStrokes): PlotPlanner => ({
@@ -62,10 +75,18 @@ export class LiveStrokes {
   private failure: Error | null = null;
   private readonly waiters = new Waiters();
   private readonly listeners: (() => void)[] = [];
+  /** The first place of the whole that is not drawn. */
+  private drawnUntil: StrokePosition = { stroke: 0, alongMm: 0 };
+  /** How many points were forgotten. */
+  private forgottenPoints = 0;
+  /** Where the pen can stop: asks the running plot, which then stops there. Null: nothing is being drawn yet. */
+  private stopForUndo: (() => StrokePosition) | null = null;
+  /** Where the strokes are stored. */
+  record: StrokeRecord | null = null;
 
   /** `liftAfterMs`: how long the pen rests on the line when points are late. */
   constructor(
-    private readonly machine: Pick<MachineProfile, "name" | "widthMm" | "heightMm">,
+    private readonly machine: DrawnMachine,
     readonly liftAfterMs = LIFT_AFTER_MS,
     private readonly keptMax = KEPT_MAX,
   ) {
@@ -94,6 +115,36 @@ export class LiveStrokes {
 
   get pointCount(): number {
     return this.points.pointCount;
+  }
+
+  /** Points of the whole drawing so far. */
+  get allPoints(): number {
+    return this.forgottenPoints + this.pointCount;
+  }
+
+  /** Points of the whole drawing that are drawn. */
+  get allDrawn(): number {
+    return this.forgottenPoints + this.drawnPoints;
+  }
+
+  /** How many more points there is room for. */
+  get roomLeft(): number {
+    return Math.max(0, WAITING_MAX - (this.pointCount - this.drawnPoints));
+  }
+
+  get isAllDrawn(): boolean {
+    return this.isIdle;
+  }
+
+  /** The first place of the whole drawing that is not drawn. */
+  get drawnPlace(): JobPlace {
+    const { stroke, alongMm } = this.drawnUntil;
+    return { strokeIndex: stroke, alongMm };
+  }
+
+  /** `stop`: makes the plot end with the strokes before the last one, or stop on that one; returns the place. */
+  onUndo(stop: () => StrokePosition): void {
+    this.stopForUndo = stop;
   }
 
   /** Calls `listener` after each change of the strokes. */
@@ -127,6 +178,40 @@ export class LiveStrokes {
     this.changed();
   }
 
+  /** Takes back the last stroke, as far as the plot can still leave it out. What is left of it is complete. */
+  undo(): LiveUndone {
+    this.mustTakeMore();
+    this.close();
+    const before = this.pointCount;
+    const stroke = this.strokeCount - 1;
+    const first = this.firstPointOf(Math.max(0, stroke));
+    if (stroke >= 0) {
+      const place = this.stopForUndo?.() ?? { stroke: 0, alongMm: 0 };
+      if (place.stroke <= stroke) this.cutAt(place.stroke < stroke ? { stroke, alongMm: 0 } : place);
+    }
+    this.changed();
+    return { takenBack: Math.max(0, before - this.pointCount), left: this.pointCount - first };
+  }
+
+  /** Removes what follows a place of the last stroke, which then ends there. */
+  private cutAt(place: StrokePosition): void {
+    const { points, along, offsets, grown } = this;
+    const kept = this.pointsBefore(place);
+    const isGone = place.alongMm === 0;
+    const end = isGone || kept === this.pointCount ? null : pointAt(this.strokes, place);
+    this.record?.takeBack(points.data.slice(2 * kept, points.length), isGone);
+    points.length = 2 * kept;
+    along.length = kept;
+    this.view = null;
+    if (isGone) {
+      offsets.length--;
+      grown.length--;
+      return;
+    }
+    this.setEnd();
+    if (end !== null) this.push(end.x, end.y);
+  }
+
   /** The drawing is complete. */
   end(): void {
     this.close();
@@ -153,6 +238,7 @@ export class LiveStrokes {
   /** Call while the pen draws: everything before this place is drawn. */
   drawnTo(place: StrokePosition): void {
     this.drawnPoints = Math.max(this.drawnPoints, this.pointsBefore(place));
+    this.drawnUntil = this.wholePlace(place);
     this.waiters.check();
   }
 
@@ -160,6 +246,7 @@ export class LiveStrokes {
   restsAt(point: number): void {
     this.drawnPoints = point;
     this.isIdle = point === this.pointCount;
+    this.drawnUntil = this.wholePlace(this.placeAfter(point));
     this.waiters.check();
   }
 
@@ -189,6 +276,7 @@ export class LiveStrokes {
     offsets.length -= place.stroke;
     grown.length -= place.stroke;
     this.drawnPoints -= first;
+    this.forgottenPoints += first;
     this.view = null;
     return { stroke: 0, alongMm: place.alongMm - fromMm };
   }
@@ -227,7 +315,17 @@ export class LiveStrokes {
     return this.grown.data[stroke] === 1;
   }
 
+  /** The place when so many points are drawn. */
+  private placeAfter(points: number): StrokePosition {
+    const stroke = this.strokeOf(points);
+    if (points === 0 || stroke === this.strokeCount || this.firstPointOf(stroke) === points) {
+      return { stroke, alongMm: 0 };
+    }
+    return { stroke, alongMm: this.alongAt(points - 1) };
+  }
+
   private begin(x: number, y: number, grows: boolean): void {
+    this.record?.begin(x, y);
     this.grown.push(grows ? 1 : 0);
     this.offsets.push(0);
     this.points.push(x, y);
@@ -241,6 +339,7 @@ export class LiveStrokes {
     const mm = Math.hypot(x - points.data[last], y - points.data[last + 1]);
     if (mm < SAME_POINT_MM) return;
     const before = along.data[along.length - 1];
+    this.record?.add(x, y);
     points.push(x, y);
     along.push(before + mm);
     this.setEnd();
@@ -262,27 +361,39 @@ export class LiveStrokes {
   }
 
   private check(xy: ArrayLike<number>): void {
+    this.mustTakeMore();
+    mustReach(xy, this.machine);
+  }
+
+  private mustTakeMore(): void {
     if (this.failure) throw this.failure;
-    if (this.isEnded)
-      throw new PlotwrightError("conflict", "This live drawing has ended: begin another one.");
-    for (let i = 0; i < xy.length; i += 2) {
-      const [x, y] = [xy[i], xy[i + 1]];
-      if (!Number.isFinite(x) || !Number.isFinite(y)) {
-        throw new RangeError(
-          `a point of the stroke is (${x}, ${y}): both must be finite numbers, in mm from home`,
-        );
-      }
-      if (isReached({ x0: x, y0: y, x1: x, y1: y }, this.machine)) continue;
-      const { name, widthMm, heightMm } = this.machine;
-      throw new PlotwrightError(
-        "out-of-bounds",
-        `The point ${mmInWords(x)}, ${mmInWords(y)} can't be drawn: ${name} reaches from 0, 0 to ${mmInWords(widthMm)}, ${mmInWords(heightMm)} mm.`,
-      );
-    }
+    if (this.isEnded) throw liveEnded();
   }
 }
 
-function flat(points: LivePoints): ArrayLike<number> {
+export const liveEnded = (): PlotwrightError =>
+  new PlotwrightError("conflict", "This live drawing has ended: begin another one.");
+
+/** Throws `out-of-bounds` unless a machine reaches all points. */
+export function mustReach(xy: ArrayLike<number>, machine: DrawnMachine): void {
+  for (let i = 0; i < xy.length; i += 2) {
+    const [x, y] = [xy[i], xy[i + 1]];
+    if (!Number.isFinite(x) || !Number.isFinite(y)) {
+      throw new RangeError(
+        `a point of the stroke is (${x}, ${y}): both must be finite numbers, in mm from home`,
+      );
+    }
+    if (isReached({ x0: x, y0: y, x1: x, y1: y }, machine)) continue;
+    const { name, widthMm, heightMm } = machine;
+    throw new PlotwrightError(
+      "out-of-bounds",
+      `The point ${mmInWords(x)}, ${mmInWords(y)} can't be drawn: ${name} reaches from 0, 0 to ${mmInWords(widthMm)}, ${mmInWords(heightMm)} mm.`,
+    );
+  }
+}
+
+/** Points as x, y, x, y … */
+export function flat(points: LivePoints): ArrayLike<number> {
   const xy = ArrayBuffer.isView(points) ? points : Array.isArray(points) ? points.flat() : null;
   if (xy !== null && xy.length > 0 && xy.length % 2 === 0) return xy as ArrayLike<number>;
   throw new TypeError(

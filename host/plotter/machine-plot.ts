@@ -95,7 +95,7 @@ export class MachinePlot implements RunningPlot {
       },
     });
     if (live && !this.stream.growth) throw notLive(machineOf(settings).name);
-    this.feed = live ? new LiveFeed(live, machine, this.stream, this.settings) : null;
+    this.feed = live ? new LiveFeed(live, machine, this.stream, this.settings, () => this.holdPlace) : null;
     this.reports = new PlotReports(machine, this.stream, this.settings, live ? inWhole(live, start) : start);
     const { from = null, received } = start;
     this.holdPlace =

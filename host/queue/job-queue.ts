@@ -26,17 +26,12 @@ import { expectedS, timeRatio } from "./expected-time.js";
 import type { SettingsOfPlotter } from "../plotter/settings-of-plotter.js";
 import { findPlotter } from "./find-plotter.js";
 import { JobList } from "./job-list.js";
-import { SettingsOfJobs } from "./job-settings.js";
+import { mustFit, SettingsOfJobs } from "./job-settings.js";
+import { LiveJobs } from "./live-jobs.js";
 import { applyJobEvent, isOnPlotter, queuedJob } from "./job-states.js";
 import { NEW_PAPER, sheetsOf } from "./job-words.js";
 import { RunningPlots } from "./running-plots.js";
 import type { NewQueueJob, QueueParts } from "./queue-parts.js";
-
-/**
- * Each job stores its settings, and every client gets those of all waiting jobs. Only settings of single layers can
- * become that large: at 100 bytes each, those of a thousand layers.
- */
-const MAX_SETTINGS_BYTES = 100_000;
 
 /** On its plotter, with its settings. */
 type PlacedJob = Pick<Job, "plotterId" | "settings">;
@@ -47,6 +42,7 @@ const MAX_SUBMITTED = 20;
 export class JobQueue {
   /** The jobs that are on a plotter: pause, resume, cancel and the like. */
   readonly plots: RunningPlots;
+  readonly live: LiveJobs;
   private readonly jobs: JobList;
   private readonly jobSettings: SettingsOfJobs;
   /** Starts in progress, by job id. */
@@ -57,6 +53,7 @@ export class JobQueue {
     this.jobs = new JobList(parts);
     this.jobSettings = new SettingsOfJobs(parts, this.jobs);
     this.plots = new RunningPlots(parts, this.jobs, this.jobSettings, (job) => this.done(job));
+    this.live = new LiveJobs(parts, this.jobs, this.jobSettings, this.plots);
   }
 
   /** Queue order first, then history, newest first. */
@@ -330,8 +327,10 @@ export class JobQueue {
   }
 
   /** Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. */
-  close(): Promise<void> {
-    return this.plots.close();
+  async close(): Promise<void> {
+    await this.plots.stop();
+    await this.live.close();
+    this.jobs.close();
   }
 
   /** Returns the job, or why it must not start here. Two calls at the same time share one start. */
@@ -435,16 +434,6 @@ const noted = (note: string | null, warnings: readonly string[]): string[] =>
   note === null ? [...warnings] : [note, ...warnings];
 
 const settingOf = (plotterId: string): string => `queue:${plotterId}`;
-
-/** Throws `too-large`. */
-function mustFit(settings: PlotSettings | JobChange): void {
-  const bytes = JSON.stringify(settings).length;
-  if (bytes <= MAX_SETTINGS_BYTES) return;
-  throw new PlotwrightError(
-    "too-large",
-    `The settings of this job take ${Math.ceil(bytes / 1000)} kB, more than the ${MAX_SETTINGS_BYTES / 1000} kB that a job may have. Set fewer layers one by one.`,
-  );
-}
 
 /** A job stores its first stroke by number. With other preparation settings the number would mean another stroke. */
 function mustKeepStrokes(job: Job, settings: PlotSettings): void {

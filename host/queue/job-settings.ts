@@ -7,9 +7,16 @@ import {
   type OnPlotter,
   type SettingsOfPlotter,
 } from "../plotter/settings-of-plotter.js";
-import type { GivenSettings, Job, JobPatch, PlotSettings } from "../../src/schema/index.js";
+import { PlotwrightError } from "../../src/index.js";
+import type { GivenSettings, Job, JobChange, JobPatch, PlotSettings } from "../../src/schema/index.js";
 import type { JobList } from "./job-list.js";
 import type { QueueParts } from "./queue-parts.js";
+
+/**
+ * Each job stores its settings, and every client gets those of all waiting jobs. Only settings of single layers can
+ * become that large: at 100 bytes each, those of a thousand layers.
+ */
+const MAX_SETTINGS_BYTES = 100_000;
 
 type Parts = Pick<QueueParts, "settingsOf" | "withMachine">;
 
@@ -64,4 +71,14 @@ export class SettingsOfJobs {
       .sort((a, b) => (b.startedAt ?? "").localeCompare(a.startedAt ?? ""));
     return begun[0]?.settings;
   }
+}
+
+/** Throws `too-large`. */
+export function mustFit(settings: PlotSettings | JobChange): void {
+  const bytes = JSON.stringify(settings).length;
+  if (bytes <= MAX_SETTINGS_BYTES) return;
+  throw new PlotwrightError(
+    "too-large",
+    `The settings of this job take ${Math.ceil(bytes / 1000)} kB, more than the ${MAX_SETTINGS_BYTES / 1000} kB that a job may have. Set fewer layers one by one.`,
+  );
 }

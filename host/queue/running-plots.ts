@@ -2,7 +2,6 @@
  * The plots that are running, at most one per plotter. Opens the job's planner, passes it to the plotter, applies the
  * reports of the run to the job, and passes requests for the job to the run.
  */
-import type { z } from "zod";
 import { PlotwrightError, type StrokePosition } from "../../src/index.js";
 import {
   ENDED_STATES,
@@ -14,9 +13,8 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard } from "../plotter/board-id.js";
-import { journalProgressSchema, journalSchema } from "../plotter/resume-position.js";
+import { liveEnded, livePlanner, type LiveStrokes } from "../plotter/live-strokes.js";
 import type {
-  JournalEntry,
   RunningPlot,
   PlotOutcome,
   ReportedProgress,
@@ -28,6 +26,7 @@ import type { JobList } from "./job-list.js";
 import type { SettingsOfJobs } from "./job-settings.js";
 import { applyJobEvent, canContinue, isOnPlotter, jobPlace } from "./job-states.js";
 import { findPlotter, mustBeIdle } from "./find-plotter.js";
+import { PlotJournals } from "./plot-journals.js";
 import type { QueueParts } from "./queue-parts.js";
 import { MotionTimer } from "./expected-time.js";
 import { penWords, recoveredWords, SERVER_STOPPED, stoppedJob } from "./job-words.js";
@@ -36,10 +35,14 @@ interface Running {
   readonly job: Job;
   readonly plotter: PlotterPort;
   readonly timer: MotionTimer;
+  /** Null: the drawing is complete. */
+  readonly live: LiveStrokes | null;
   /** What may be seen on the paper; the job's message has it also at the end. The last ones only. */
   readonly notes: string[];
   /** Aborted when the plot is cancelled or left. */
   readonly abort: AbortController;
+  /** Why it is being paused, if the user has not asked for it. */
+  pauseWords: string | null;
   /** Ended because the program stops. */
   isLeft: boolean;
   isStopped: boolean;
@@ -52,6 +55,8 @@ interface Running {
 }
 const MAX_NOTES = 5;
 
+const stoppedLive = (): PlotwrightError => new PlotwrightError("cancelled", "The live drawing was stopped.");
+
 type PlotEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
 
 export class RunningPlots {
@@ -60,6 +65,7 @@ export class RunningPlots {
   /** No plot begins any more. */
   isClosing = false;
   private lastFault: string | null = null;
+  private readonly journals: PlotJournals;
 
   /** A job that was plotting when the server ended becomes interrupted. `done`: called for each completed plot. */
   constructor(
@@ -68,6 +74,7 @@ export class RunningPlots {
     private readonly settings: SettingsOfJobs,
     private readonly done: (job: Job) => void,
   ) {
+    this.journals = new PlotJournals(parts.store, jobs);
     for (const job of jobs.list()) if (isOnPlotter(job)) this.interrupt(job.id, this.stopped);
   }
 
@@ -81,13 +88,13 @@ export class RunningPlots {
 
   /** Throws the errors that `start` would throw. */
   mustBeStartable(id: string): void {
-    this.freePlotter(id);
+    this.freePlotter(this.jobs.get(id));
     applyJobEvent(this.jobs.get(id), { type: "start" }, this.parts.nowIso());
   }
 
   /** Throws `busy` while the job's plotter is plotting another job. */
   start(id: string): Job {
-    const plotter = this.freePlotter(id);
+    const plotter = this.freePlotter(this.jobs.get(id));
     // The journal of an earlier plot of this job, which was interrupted and queued again.
     this.parts.store.clearJournal(id);
     const started = this.jobs.apply(id, { type: "start" }, this.settings.onPlotter(this.jobs.get(id)));
@@ -95,18 +102,26 @@ export class RunningPlots {
     return started;
   }
 
+  /** Starts a job whose strokes are still being received. `ended` resolves with the job at its end. */
+  startLive(id: string, live: LiveStrokes): { readonly job: Job; readonly ended: Promise<Job> } {
+    const plotter = this.freePlotter(this.jobs.get(id));
+    const job = this.jobs.apply(id, { type: "start" });
+    const { finished } = this.begin(plotter, job, live);
+    return { job, ended: finished.then(() => this.jobs.get(id)) };
+  }
+
   /** Starts an interrupted or cancelled job at its place, held: nothing moves until it is resumed. */
   recover(id: string): Job {
-    const plotter = this.freePlotter(id);
-    const { place: from } = this.jobs.get(id);
-    const { board } = this.journal(id) ?? {};
+    const { place: from, ...recovered } = this.jobs.get(id);
+    const plotter = this.freePlotter(recovered);
+    const { board } = this.journals.of(id) ?? {};
     const found = plotter.snapshot();
     const job = this.jobs.apply(
       id,
       { type: "recover" },
       { ...this.settings.onPlotter(this.jobs.get(id)), place: from ?? { strokeIndex: 0, alongMm: 0 } },
     );
-    this.keepPlace({ id, place: from });
+    this.journals.keepPlace({ id, place: from });
     this.begin(plotter, job).timer.hold(this.parts.nowIso());
     const isOther = board !== undefined && isOtherBoard(board, found);
     const position = isOther ? "other" : found.xMm === null ? "lost" : "known";
@@ -166,8 +181,10 @@ export class RunningPlots {
     return this.jobs.get(id);
   }
 
-  pause(id: string): Job {
+  /** `why`: what the job says while it is paused, if the user has not asked for it. */
+  pause(id: string, why: string | null = null): Job {
     const running = this.runningOf(id, ["plotting"], "paused");
+    running.pauseWords = why;
     if (running.run === null) running.beginsHeld = true;
     else this.ask(running, running.run.pause());
     return this.jobs.note(id, "Pausing: the pen finishes what it is drawing, then lifts.");
@@ -192,21 +209,22 @@ export class RunningPlots {
    * Stops all plots (the pen lifts and goes home) and waits for them; their jobs become interrupted. A held plot stays
    * where it is: it must not move until the user resumes it.
    */
-  async close(): Promise<void> {
+  async stop(): Promise<void> {
     this.isClosing = true;
     const running = [...this.running.values()];
     for (const one of running) this.leave(one);
     await Promise.all(running.map(({ finished }) => finished));
-    this.jobs.close();
   }
 
-  private begin(plotter: PlotterPort, job: Job): Running {
+  private begin(plotter: PlotterPort, job: Job, live: LiveStrokes | null = null): Running {
     const running: Running = {
       job,
       plotter,
       timer: new MotionTimer(this.parts.nowIso(), job.plottedS ?? 0),
+      live,
       notes: [],
       abort: new AbortController(),
+      pauseWords: null,
       isLeft: false,
       isStopped: false,
       run: null,
@@ -228,17 +246,19 @@ export class RunningPlots {
         : { kind: "failed", error: error instanceof Error ? error : new Error(String(error)) };
     });
     running.run = null;
+    running.live?.fail(end.kind === "failed" ? end.error : end.kind === "done" ? liveEnded() : stoppedLive());
     this.safely(running.job.id, () => this.ended(running, end));
   }
 
   private async plot(running: Running): Promise<PlotOutcome> {
-    const { job, plotter, abort } = running;
+    const { job, plotter, abort, live } = running;
     const { id, settings, place } = job;
     const from = place === null ? null : { stroke: place.strokeIndex, alongMm: place.alongMm };
     // An interrupted plot may have left the pen on the paper. So its planner is opened even after a cancel: cancelling
     // the run then lifts the pen.
     const signal = from === null ? abort.signal : new AbortController().signal;
-    const planner = await this.parts.planning.open(this.parts.store.drawingOf(id), settings, signal);
+    const { planning, store } = this.parts;
+    const planner = live ? livePlanner(live) : await planning.open(store.drawingOf(id), settings, signal);
     try {
       const held = running.beginsHeld;
       const run = await plotter.plot(planner, settings, { from, held, ...this.startOf(running, from) });
@@ -259,14 +279,15 @@ export class RunningPlots {
   }
 
   /** What the plotter gets besides the place where the run starts. */
-  private startOf({ job: { id }, notes }: Running, from: StrokePosition | null): PlotStart {
-    const entry = this.journal(id);
+  private startOf({ job: { id }, live, notes }: Running, from: StrokePosition | null): PlotStart {
+    const entry = this.journals.of(id);
     // `received` belongs to the journal's place. Nothing was drawn after another place, which the user has chosen.
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     return {
+      live: live ?? undefined,
       received: isJournalPlace ? entry?.received : undefined,
       board: entry?.board,
-      journal: { record: (written) => this.safely(id, () => this.saveJournal(id, written)) },
+      journal: { record: (written) => this.safely(id, () => this.journals.save(id, written)) },
       noted: (message) => {
         notes.push(message);
         if (notes.length > MAX_NOTES) notes.shift();
@@ -296,12 +317,6 @@ export class RunningPlots {
       const message = error instanceof Error ? error.message : String(error);
       this.safely(running.job.id, () => void this.jobs.note(running.job.id, message));
     });
-  }
-
-  /** Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed. */
-  private saveJournal(id: string, entry: Pick<JournalEntry, "place" | "received">): void {
-    const { progress, elapsedS, remainingS } = this.jobs.get(id);
-    this.parts.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }
 
   /** A full disk must neither stop the pen in mid-stroke nor end the server: it may soon have room again. */
@@ -336,7 +351,7 @@ export class RunningPlots {
     if (held && job.state === "plotting") {
       running?.timer.hold(this.parts.nowIso());
       const waitsFor = wait ?? job.wait;
-      const message = waitsFor === null ? null : penWords(waitsFor);
+      const message = waitsFor === null ? (running?.pauseWords ?? null) : penWords(waitsFor);
       const why = running?.isStopped === true ? stoppedJob(running.plotter.snapshot()) : { message };
       this.jobs.apply(id, { type: "hold" }, { place: this.holdPlace(running), wait: waitsFor, ...why });
     } else if (held && job.state === "paused") {
@@ -346,19 +361,10 @@ export class RunningPlots {
       this.jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.parts.nowIso());
-      if (running) running.isStopped = false;
-      this.keepPlace(job);
+      if (running) Object.assign(running, { isStopped: false, pauseWords: null });
+      this.journals.keepPlace(job);
       this.jobs.apply(id, { type: "release" }, { place: null });
     }
-  }
-
-  /**
-   * A job that was cancelled, or that starts in the middle, has no journal until it draws. Its place is stored here:
-   * otherwise it would start at the beginning after a crash, a cancel or a failure while the rest is being planned.
-   */
-  private keepPlace({ id, place }: Pick<Job, "id" | "place">): void {
-    if (place === null || this.journal(id) !== null) return;
-    this.saveJournal(id, { place: { stroke: place.strokeIndex, alongMm: place.alongMm } });
   }
 
   private ended(running: Running, end: PlotEnd): void {
@@ -389,8 +395,8 @@ export class RunningPlots {
 
   /** `plottedS`: how long it has plotted. After a crash nobody knows, and the planned time of what is drawn counts. */
   private interrupt(id: string, message: string, plottedS?: number): void {
-    const progress = journalProgressSchema.safeParse(this.parts.store.journal(id)).data;
-    const place = this.reachedPlace(id);
+    const progress = this.journals.progressOf(id);
+    const place = this.journals.reachedPlace(id);
     const took = plottedS ?? progress?.elapsedS ?? this.jobs.get(id).plottedS;
     const drawn = place === null ? progress : { ...progress, plottedS: took };
     this.jobs.apply(id, { type: "interrupt", message, place }, drawn);
@@ -398,28 +404,21 @@ export class RunningPlots {
 
   /** The place stays with the job, so that the user can continue it there. */
   private cancelled(id: string, plottedS = this.jobs.get(id).plottedS): Job {
-    const place = this.reachedPlace(id);
+    const place = this.journals.reachedPlace(id);
     return this.jobs.apply(id, { type: "cancel", place }, place === null ? {} : { plottedS });
-  }
-
-  /** The place in the journal. Without a journal nothing has been drawn since the job's own place. */
-  private reachedPlace(id: string): JobPlace | null {
-    const entry = this.journal(id);
-    return entry ? jobPlace(entry.place) : this.jobs.get(id).place;
-  }
-
-  private journal(id: string): z.infer<typeof journalSchema> | null {
-    return journalSchema.safeParse(this.parts.store.journal(id)).data ?? null;
   }
 
   private holdPlace(running: Running | undefined): JobPlace | null {
     const place = running?.run?.holdPlace ?? null;
-    return place === null ? null : jobPlace(place);
+    return place === null ? null : jobPlace(running?.live?.wholePlace(place) ?? place);
   }
 
   /** The run of a held job for requests that need one; throws `conflict` while it is still being planned. */
   private liveRun(id: string, verb: string): RunningPlot {
-    const { run } = this.runningOf(id, ["paused"], verb);
+    const { run, live } = this.runningOf(id, ["paused"], verb);
+    if (live !== null) {
+      throw new PlotwrightError("conflict", `A live drawing can't be ${verb}: resume or cancel it.`);
+    }
     if (run !== null) return run;
     throw new PlotwrightError("conflict", "The plot is still being planned: try again in a moment.");
   }
@@ -434,9 +433,9 @@ export class RunningPlots {
   }
 
   /** The job's plotter; throws unless it is connected and has no other job. */
-  private freePlotter(id: string): PlotterPort {
+  freePlotter({ id, plotterId }: Pick<Job, "plotterId"> & Partial<Pick<Job, "id">>): PlotterPort {
     if (this.isClosing) throw new PlotwrightError("conflict", "plotwright is stopping.");
-    const plotter = findPlotter(this.parts.plotters, this.jobs.get(id).plotterId);
+    const plotter = findPlotter(this.parts.plotters, plotterId);
     const other = this.running.get(plotter.id);
     if (other !== undefined && other.job.id !== id) {
       throw new PlotwrightError(

@@ -8,6 +8,7 @@ import { defaultDataDir, prepareDataDir } from "../storage/data-dir.js";
 import { createApp, type AppParts } from "../http/app.js";
 import { EventHub } from "../http/events.js";
 import { httpServer, listen, urlOf } from "../http/listen.js";
+import { LiveSockets } from "../http/live-routes.js";
 import { Refusals } from "../http/refusals.js";
 import { noteAddress } from "../storage/data-lock.js";
 import { fileFault } from "../storage/file-fault.js";
@@ -107,7 +108,7 @@ export async function createServer(options: ServerOptions = {}): Promise<Plotwri
       options.port ?? DEFAULT_PORT,
       options.host ?? (options.lan === true ? "::" : "127.0.0.1"),
     );
-    closing.addUrgent("the port", () => stopListening(http, parts.hub));
+    closing.addUrgent("the port", () => stopListening(http, parts));
     const { port } = http.address() as AddressInfo;
     for (const plugin of plugins) plugin.listening?.({ port, isTls });
     log(`plotwright ${parts.version} has started, plotters: ${registry.list().length}`);
@@ -203,7 +204,11 @@ async function openParts(
     running.push(started);
   }
   const access = new Access(store, { trustsLoopback: options.pairAlways !== true });
-  access.onRevoke((id) => hub.drop(id));
+  const lives = new LiveSockets();
+  access.onRevoke((id) => {
+    hub.drop(id);
+    lives.drop(id);
+  });
   access.onNewPairing(() => options.onNewPairing?.());
   const operatorLock = new OperatorLock({
     store,
@@ -222,6 +227,7 @@ async function openParts(
     uploads,
     registry,
     hub,
+    lives,
     operatorLock,
     notices,
     plugins: running,
@@ -239,10 +245,11 @@ function allowedHosts({ allowedHosts = [], host, lan }: ServerOptions): string[]
   return [...allowedHosts, ...own, ...(host === undefined ? [] : [host])];
 }
 
-function stopListening(http: Server, hub: EventHub): Promise<void> {
+function stopListening(http: Server, { hub, lives }: Pick<AppParts, "hub" | "lives">): Promise<void> {
   return new Promise((resolve) => {
     http.close(() => resolve());
     hub.close();
+    lives.close();
     http.closeAllConnections();
   });
 }

@@ -241,8 +241,11 @@ const isTrusted = (request: IncomingMessage, access: Access): boolean =>
 export const isTrustedAddress = (address: string | undefined, access: Access): boolean =>
   access.trustsLoopback && LOOPBACK.test(address ?? "");
 
-export function bearerOf(request: IncomingMessage): string | null {
-  return /^Bearer ([\w-]{20,200})$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
+/** The access key. For a WebSocket, browsers can send it only as one of the protocols that they offer. */
+export function bearerOf({ headers }: IncomingMessage): string | null {
+  const bearer = /^Bearer ([\w-]{20,200})$/.exec(headers.authorization ?? "")?.[1];
+  const offered = headers.upgrade === undefined ? "" : (headers["sec-websocket-protocol"] ?? "");
+  return bearer ?? /(?:^|,\s*)plotwright-key\.([\w-]{20,200})(?:$|,)/.exec(offered)?.[1] ?? null;
 }
 
 export function cookieOf(request: IncomingMessage, name: string): string | null {

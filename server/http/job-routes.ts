@@ -78,7 +78,7 @@ function nameIn(given: unknown): string {
   return parseWith(z.object({ name: nameSchema(200) }), { name: basename(given.trim()).slice(0, 200) }).name;
 }
 
-function settingsIn(given: unknown): GivenSettings {
+export function settingsIn(given: unknown): GivenSettings {
   if (given === undefined) return {};
   try {
     return parseWith(givenSettingsSchema, JSON.parse(String(given)));

@@ -4,7 +4,7 @@ import {
   type IncomingMessage,
   type RequestListener,
   type Server,
-  type ServerResponse,
+  ServerResponse,
 } from "node:http";
 import { createServer as createHttpsServer } from "node:https";
 import type { AddressInfo, Socket } from "node:net";
@@ -13,6 +13,7 @@ import { PlotwrightError } from "../../src/index.js";
 import type { Access } from "../security/access.js";
 import { callerOf, isTrustedAddress } from "./auth.js";
 import { ConnectionLimits, MAX_CONNECTIONS } from "./connection-limits.js";
+import { isEndless, offerUpgrade } from "./live-routes.js";
 import type { Refusals } from "./refusals.js";
 
 /** PEM texts. */
@@ -75,22 +76,36 @@ export function httpServer(
     // Nothing was sent or received for some time. That is as it should be only while an answer is being prepared.
     if (!turns.isBusy(socket) || socket.writableLength > 0) socket.destroy();
   });
-  // The server supports no other protocol: refuse all upgrades (such as WebSockets, perhaps from another
-  // site).
-  server.on("upgrade", (request, socket) => {
+  server.on("upgrade", (request, socket, head) => {
     // Node has removed its own listener. Without one, a client that resets the connection would end the process.
     socket.on("error", () => socket.destroy());
-    refusals.note(request, "no upgrade to another protocol");
-    hangUp(socket, "403 Forbidden");
+    const caller = callerOf(request, access);
+    if (caller === null || !offerUpgrade(request, head)) {
+      refusals.note(request, caller === null ? "not paired" : "no upgrade to another protocol");
+      hangUp(socket, "403 Forbidden");
+      return;
+    }
+    limits.identified(socket as Socket, caller);
+    guardUpgrade(app, request, socket as Socket);
   });
   server.on("clientError", (error: NodeJS.ErrnoException, socket) => {
     const isSlow = error.code === "ERR_HTTP_REQUEST_TIMEOUT";
+    if (isSlow && isEndless(socket)) return;
     if (isSlow) refusals.note({ socket: socket as Socket }, "it arrived too slowly");
     if (socket.writable && error.code !== "ECONNRESET") {
       hangUp(socket, isSlow ? "408 Request Timeout" : "400 Bad Request");
     } else socket.destroy();
   });
   return server;
+}
+
+/** Lets the app check an upgrade as any other request. Its route accepts it; otherwise the answer is the refusal. */
+function guardUpgrade(app: RequestListener, request: IncomingMessage, socket: Socket): void {
+  const response = new ServerResponse(request);
+  response.assignSocket(socket);
+  response.setHeader("Connection", "close");
+  response.on("finish", () => socket.end(() => socket.destroy()));
+  app(request, response);
 }
 
 /**

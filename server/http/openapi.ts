@@ -4,6 +4,7 @@ import * as schemaEntry from "../../src/schema/index.js";
 import {
   API_PATH,
   apiErrorSchema,
+  liveReportSchema,
   PICTURE_TYPES,
   maySubmitterPerform,
   serverEventSchema,
@@ -136,6 +137,7 @@ function answerContent(answer: Operation["answer"], components: Components): obj
   if (answer === "text" || answer === "file") return { "text/plain": { schema: { type: "string" } } };
   if (answer === "picture") return Object.fromEntries(Object.values(PICTURE_TYPES).map((type) => [type, {}]));
   if (answer === "events") return { "text/event-stream": { schema: components.schemaOf(serverEventSchema) } };
+  if (answer === "socket") return components.json(liveReportSchema);
   return components.json(answer);
 }
 

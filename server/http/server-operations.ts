@@ -15,6 +15,7 @@ import type { Access } from "../security/access.js";
 import type { Browsers } from "./browser.js";
 import { jobResponders } from "./job-routes.js";
 import { libraryOperations, libraryResponders } from "./library-routes.js";
+import { liveResponders, type LiveSockets } from "./live-routes.js";
 import { bytesOf, submitterOf, type Responders, type ServerHandlers } from "./operation-routes.js";
 import type { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
@@ -29,6 +30,7 @@ export interface ServerParts {
   readonly queue: JobQueue;
   readonly registry: PlotterRegistry;
   readonly hub: EventHub;
+  readonly lives: LiveSockets;
   readonly operatorLock: OperatorLock;
   readonly notices: Notices;
   /** Sessions and keys; normally required only of clients on other computers. */
@@ -91,6 +93,7 @@ export const serverResponders = (
   drawings: { upload: receiveDrawing(parts) },
   jobs: jobResponders(parts),
   library: libraryResponders(parts),
+  liveDrawings: liveResponders(parts, browsers),
   operator: {
     take: (request, response) => {
       const browser = browsers.of(request);

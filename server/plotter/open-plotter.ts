@@ -11,4 +11,7 @@ export type * from "../../host/handle/plotter-handle.js";
  * @throws PlotwrightError "no-board", "busy", "not-allowed", "bad-setting"; with `url` "disconnected", "not-found"
  */
 export const openPlotter = (choice: PlotterChoice): Promise<PlotterHandle> =>
-  openHandle(choice, NODE_PARTS, null);
+  openHandle(choice, NODE_PARTS, null, async (address, protocols) => {
+    const { WebSocket } = await import("ws");
+    return new WebSocket(address, protocols);
+  });

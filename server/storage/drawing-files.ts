@@ -7,7 +7,7 @@ import { existsSync } from "node:fs";
 import { mkdir, open, readdir, rename, rm, stat } from "node:fs/promises";
 import { join } from "node:path";
 import { PlotwrightError } from "../../src/index.js";
-import type { DrawingStore, StoredDrawing } from "../../host/storage.js";
+import type { DrawingStore, GrowingDrawing, StoredDrawing } from "../../host/storage.js";
 
 export type { StoredDrawing } from "../../host/storage.js";
 
@@ -58,6 +58,25 @@ export class DrawingFiles implements DrawingStore {
       await rm(draft, { force: true });
       throw error;
     }
+  }
+
+  /** A file that is written while its job is drawn. Throws `too-large` past the limit. */
+  async grow(text: string): Promise<GrowingDrawing> {
+    const { id } = await this.add([Buffer.from(text, "ascii")]);
+    const file = await open(this.path(id), "r+");
+    return {
+      id,
+      write: async (from, more) => {
+        const bytes = Buffer.from(more, "ascii");
+        this.mustFit(from + bytes.length);
+        await file.write(bytes, 0, bytes.length, from);
+        await file.truncate(from + bytes.length);
+      },
+      close: async () => {
+        await file.sync();
+        await file.close();
+      },
+    };
   }
 
   /** Throws `too-large` if a drawing of that size is larger than the limit. */

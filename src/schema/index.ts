@@ -12,5 +12,6 @@ export * from "./machine.js";
 export * from "./hand-moves.js";
 export * from "./shared.js";
 export * from "./library.js";
+export * from "./live.js";
 export * from "./operation.js";
 export * from "./operations.js";

@@ -107,7 +107,7 @@ export const jobSchema = z.object({
   name: z.string(),
   state: jobStateSchema,
   settings: settingsSchema,
-  /** Null until the server has planned it. */
+  /** Null until it is planned: that of a live drawing, when it has ended. */
   stats: jobStatsSchema.nullable(),
   /** Parts of the drawing that are left out, and changes by the planner. Plain text. */
   warnings: z.array(z.string()),
@@ -139,3 +139,7 @@ export const jobSchema = z.object({
   endedAt: z.string().nullable(),
 });
 export type Job = z.infer<typeof jobSchema>;
+
+/** Its strokes are still being received, while they are drawn. */
+export const isLiveJob = ({ state, stats }: Pick<Job, "state" | "stats">): boolean =>
+  stats === null && (state === "plotting" || state === "paused");

@@ -31,8 +31,8 @@ export interface Operation {
   readonly path: string;
   /** For the OpenAPI document and docs/http-reference.md. */
   readonly about: string;
-  /** "file": the content of a drawing; "picture": that of a picture; "text": plain text. */
-  readonly answer: ZodType | "text" | "file" | "picture" | "events";
+  /** "file": the content of a drawing; "picture": that of a picture; "text": plain text; "socket": a WebSocket. */
+  readonly answer: ZodType | "text" | "file" | "picture" | "events" | "socket";
   readonly status: 200 | 201;
   readonly role: OperationRole;
   readonly body?: ZodType | "file";

@@ -48,6 +48,7 @@ import {
 import { cameraSchema, cameraStateSchema, keptPicturesSchema, pictureRequestSchema } from "./camera.js";
 import { jobSchema } from "./job.js";
 import { LIBRARY_OPERATIONS } from "./library.js";
+import { liveFieldsSchema, liveSentSchema } from "./live.js";
 import { machineListSchema, machineProfileSchema } from "./machine.js";
 import { okSchema, operation, type ClientOf, type HandlersOf } from "./operation.js";
 import { plotterDefaultsSchema, plotterSettingsSchema } from "./plotter-settings.js";
@@ -254,6 +255,23 @@ export const OPERATIONS = {
       {
         role: "stop",
       },
+    ),
+  },
+
+  liveDrawings: {
+    draw: operation(
+      "get",
+      "/plotters/:id/live",
+      "Opens a WebSocket for a live drawing: strokes are drawn while they are made",
+      "socket",
+      { role: "operate" },
+    ),
+    send: operation(
+      "post",
+      "/plotters/:id/live",
+      "Draws the lines of the body while they come: a point x y on each, up to lift the pen, or a whole stroke; answers when all is drawn",
+      liveSentSchema,
+      { body: "file", fileFields: liveFieldsSchema },
     ),
   },
 

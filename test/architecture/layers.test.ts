@@ -227,11 +227,9 @@ describe("the folders of web", () => {
     expect(cycleOfFiles("web", SOURCES)).toEqual([]);
   });
 
-  it("use host only in the backend without a server, and in the entry for programs", () => {
-    const wrong = importsIn("web").filter(
-      ({ from, to }) =>
-        to.startsWith("host/") && !/^web\/(backend\/browser\/|serial\/open-plotter\.ts$)/.test(from),
-    );
+  it("use host only in the backend without a server, for live drawings, and in the entry for programs", () => {
+    const users = /^web\/(backend\/(browser\/|live\.ts$|backend\.ts$)|serial\/open-plotter\.ts$)/;
+    const wrong = importsIn("web").filter(({ from, to }) => to.startsWith("host/") && !users.test(from));
     expect(wrong.map(write)).toEqual([]);
   });
 
@@ -246,7 +244,10 @@ describe("the folders of web", () => {
     // The service worker and its helpers fetch the page's own files; the build configuration is not part of
     // the page.
     const others = sourceFiles("web").filter(
-      (file) => !/^web\/(backend\/(server|browser)|pwa)\//.test(file) && file !== "web/vite.config.ts",
+      (file) =>
+        !/^web\/(backend\/(server|browser)|pwa)\//.test(file) &&
+        // The entry for programs, which is no part of the page.
+        !["web/vite.config.ts", "web/serial/open-plotter.ts"].includes(file),
     );
     const wrong = others.filter((file) => {
       const text = read(file);

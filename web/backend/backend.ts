@@ -4,7 +4,15 @@
  * request rejects with a BackendFault.
  */
 import { inPageWords } from "../../src/internal.js";
-import type { Job, NewJob, OperationClient, Plotter, ServerEvent } from "../../src/schema/index.js";
+import type {
+  Job,
+  LiveBegin,
+  NewJob,
+  OperationClient,
+  Plotter,
+  ServerEvent,
+} from "../../src/schema/index.js";
+import type { LiveSender } from "../../host/handle/live-sender.js";
 import type { DrawingText } from "./drawing-text.js";
 
 /** An error whose message is written for the user. */
@@ -56,6 +64,11 @@ export interface Backend extends OperationClient {
   listen(listener: BackendListener): void;
   /** Lets the user choose a port, and connects to it. Needs `features.asksForPort` and a click. */
   connect(id: string): Promise<Plotter>;
+  /**
+   * Begins a live drawing, as a job of a plotter: `jobs.pause`, `jobs.cancel` and the like apply to it. Rejects with a
+   * BackendFault: the plotter is busy or not connected, or another browser operates.
+   */
+  live(plotterId: string, wanted: LiveBegin): Promise<LiveSender>;
   /** The file of a drawing, for a thumbnail; null if it is larger than `maxBytes`. */
   fileOf(source: DrawingSource, maxBytes: number): Promise<DrawingText | null>;
 }

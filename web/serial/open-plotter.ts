@@ -12,6 +12,9 @@ const noPorts = (): Promise<never> =>
 
 /** As on Node (server/plotter/open-plotter.ts). */
 export const openPlotter = (choice: PlotterChoice): Promise<PlotterHandle> =>
-  openHandle(choice, { clock: browserClock(), devices: { find: noPorts, open: noPorts } }, (port) =>
-    port === true ? requestBoard() : openWebSerial(port as WebSerialPort),
+  openHandle(
+    choice,
+    { clock: browserClock(), devices: { find: noPorts, open: noPorts } },
+    (port) => (port === true ? requestBoard() : openWebSerial(port as WebSerialPort)),
+    (address, protocols) => Promise.resolve(new WebSocket(address, protocols)),
   );

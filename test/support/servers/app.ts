@@ -10,6 +10,7 @@ import { apiRoutes, createApp, type AppParts } from "../../../server/http/app.js
 import { EventHub } from "../../../server/http/events.js";
 import { MachineFiles } from "../../../server/storage/machine-files.js";
 import { httpServer, type TlsFiles } from "../../../server/http/listen.js";
+import { LiveSockets } from "../../../server/http/live-routes.js";
 import { Refusals } from "../../../server/http/refusals.js";
 import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { Notices } from "../../../host/queue/notices.js";
@@ -140,7 +141,11 @@ export async function startApp(
     lapseMs: options.lapseMs ?? 30_000,
   });
   const access = new Access(store, { trustsLoopback: options.trustsLoopback });
-  access.onRevoke((id) => hub.drop(id));
+  const lives = new LiveSockets();
+  access.onRevoke((id) => {
+    hub.drop(id);
+    lives.drop(id);
+  });
   const refusals = new Refusals(log);
   const parts: AppParts = {
     version: "0.0.0",
@@ -150,6 +155,7 @@ export async function startApp(
     uploads,
     registry,
     hub,
+    lives,
     operatorLock,
     notices,
     plugins: [{ webhooks: webhookOperations(webhooks, log) }, cameras.operations ?? {}],
@@ -203,6 +209,7 @@ export async function startApp(
       ),
     close: async ({ keepsData } = { keepsData: false }) => {
       hub.close();
+      lives.close();
       refusals.close();
       http.closeAllConnections();
       await new Promise((resolve) => http.close(resolve));

@@ -37,6 +37,10 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
     },
     features: { sharing: false, library: false, asksForPort: true, whyNoPort: whyNoPort() },
     listen: (listener) => client.listen(listener),
+    live: async (id, wanted) => {
+      const { beginLive } = await import("../live.js");
+      return beginLive((report, lost) => client.openLive(id, report, lost), wanted);
+    },
     connect: async (id) => {
       await askForPort(client);
       return client.callOwn("reconnect", id);

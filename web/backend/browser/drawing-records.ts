@@ -1,5 +1,6 @@
 /** The drawings of a browser's host, by id. */
 import { PlotwrightError } from "../../../src/index.js";
+import type { GrowingDrawing } from "../../../host/storage.js";
 import type { DrawingText } from "../drawing-text.js";
 import type { Records, StoreName } from "./database.js";
 import { browserText } from "./text.js";
@@ -24,6 +25,30 @@ export const drawingRecords = (db: Pick<Records, "put" | "remove" | "readDrawing
     });
     if (typeof drawing === "string" || drawing instanceof ArrayBuffer) return drawing;
     throw new PlotwrightError("bad-file", "The browser no longer has this drawing. Add it again.");
+  },
+  /** The database has no part of a record: all of it is written again, at intervals that grow with it. */
+  grow: async (text: string): Promise<GrowingDrawing> => {
+    const id = crypto.randomUUID();
+    let whole = text;
+    let writtenLength = 0;
+    const put = (): void => {
+      writtenLength = whole.length;
+      db.put("drawings", id, whole);
+    };
+    put();
+    await db.written();
+    return {
+      id,
+      write: (from, more) => {
+        whole = whole.slice(0, from) + more;
+        if (whole.length < writtenLength || whole.length > 1.1 * writtenLength) put();
+        return Promise.resolve();
+      },
+      close: () => {
+        put();
+        return db.written();
+      },
+    };
   },
   /** Does not wait until this is stored: the answer to the page does (`Host.written`). */
   remove: (id: string): Promise<void> => {

@@ -1,4 +1,7 @@
 /** A page's side of the channel: starts the worker, calls the host, and receives its events. */
+import { PlotwrightError } from "../../../src/index.js";
+import type { LiveMessage, LiveReport } from "../../../src/schema/index.js";
+import type { LiveLink } from "../../../host/handle/live-sender.js";
 import { BackendFault, type BackendListener } from "../backend.js";
 import type { OwnMethods } from "./host-api.js";
 import { hasLocks, provideRandomIds } from "./capabilities.js";
@@ -22,11 +25,18 @@ interface Waiting {
   readonly reject: (error: Error) => void;
 }
 
+/** The sender's ends of a live drawing. */
+interface LiveEnds {
+  readonly report: (report: LiveReport) => void;
+  readonly lost: (error: PlotwrightError) => void;
+}
+
 export class HostClient {
   readonly tab: string;
   private readonly channel: BroadcastChannel;
   private readonly listeners = new Set<BackendListener>();
   private readonly calls = new Map<number, Waiting>();
+  private readonly lives = new Map<number, LiveEnds>();
   private readonly hostWaiters = new Set<() => void>();
   /** The page whose worker is the host; null while none is known. */
   private host: string | null = null;
@@ -86,6 +96,26 @@ export class HostClient {
     return new Promise((resolve, reject) => this.calls.set(id, { resolve, reject }));
   }
 
+  /** Opens a live drawing on a plotter of the host. */
+  async openLive(
+    plotterId: string,
+    report: (report: LiveReport) => void,
+    lost: (error: PlotwrightError) => void,
+  ): Promise<LiveLink> {
+    await this.untilHost(() => this.host !== null);
+    const id = this.nextId++;
+    const { tab } = this;
+    const send = (message: LiveMessage | null): void =>
+      this.send({ to: "host", type: "live", tab, id, plotterId, message });
+    this.lives.set(id, { report, lost });
+    return {
+      send,
+      close: () => {
+        if (this.lives.delete(id)) send(null);
+      },
+    };
+  }
+
   private receive(message: FromHost): void {
     switch (message.type) {
       case "event":
@@ -107,6 +137,9 @@ export class HostClient {
         else call?.reject(new BackendFault(answer.code, answer.message));
         return;
       }
+      case "live":
+        if (message.tab === this.tab) this.lives.get(message.id)?.report(message.report);
+        return;
       case "handed-over":
         this.setHost(null);
         return;
@@ -121,6 +154,8 @@ export class HostClient {
     this.host = host;
     for (const { reject } of this.calls.values()) reject(new BackendFault("unreachable", browserText.closed));
     this.calls.clear();
+    for (const { lost } of this.lives.values()) lost(new PlotwrightError("disconnected", browserText.closed));
+    this.lives.clear();
     for (const check of this.hostWaiters) check();
   }
 

@@ -2,6 +2,7 @@
 import { PlotwrightError } from "../../../src/index.js";
 import {
   machineProfileSchema,
+  type LiveBegin,
   type OperationHandlers,
   type PlotSettings,
   type ServerEvent,
@@ -13,6 +14,7 @@ import { FIRST_PLOTTER, openNamedPlotter } from "../../../host/plotter/named-plo
 import type { Requester } from "../../../host/planning/lane.js";
 import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
+import type { LiveJob } from "../../../host/queue/live-jobs.js";
 import { Notices } from "../../../host/queue/notices.js";
 import { UploadedDrawings } from "../../../host/queue/uploaded-drawings.js";
 import { browserClock } from "../../serial/web-serial.js";
@@ -35,6 +37,7 @@ const HIDDEN_LATENESS_S = 0.7;
 export interface Host {
   readonly operations: OperationHandlers<Requester>;
   readonly own: OwnMethods;
+  beginLive(plotterId: string, wanted: LiveBegin): Promise<LiveJob>;
   /** Whether the job is on a plotter now. */
   isRunning(jobId: string): boolean;
   snapshot(): Snapshot;
@@ -129,6 +132,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
   return {
     operations: browserOperations({ queue, registry, notices, machines, uploads, drawings }),
     own: ownMethods({ queue, registry }),
+    beginLive: (id, wanted) => queue.live.begin(id, wanted),
     isRunning: (id) => queue.isRunning(id),
     snapshot: () => ({
       version,

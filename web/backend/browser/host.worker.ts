@@ -5,7 +5,13 @@
 import { faultOf } from "../../../host/planning/messages.js";
 import { performOperation } from "../../../host/operations/host-operations.js";
 import { PlotwrightError } from "../../../src/index.js";
-import { OPERATIONS, type Operation, type OperationTable } from "../../../src/schema/index.js";
+import { LiveSession } from "../../../host/operations/live-session.js";
+import {
+  OPERATIONS,
+  type LiveReport,
+  type Operation,
+  type OperationTable,
+} from "../../../src/schema/index.js";
 import { hasLocks, provideRandomIds } from "./capabilities.js";
 import { openHost, type Host } from "./host.js";
 import {
@@ -41,6 +47,7 @@ channel.onmessage = ({ data }: MessageEvent<Message>) => {
     if (data.type === "handed-over") next = data.next;
   } else if (host !== null && data.type === "hello") sendSnapshot(host, data.tab);
   else if (host !== null && data.type === "call") void answer(host, data);
+  else if (host !== null && data.type === "live") takeLive(host, data);
 };
 
 self.onmessage = ({ data }: MessageEvent<PageVisibility>) => {
@@ -76,10 +83,7 @@ async function answer(from: Host, call: Call): Promise<void> {
 async function resultOf(from: Host, { tab, call }: Call): Promise<Answer> {
   try {
     if (tab !== start.tab && !isOpenToAll(from, call)) {
-      throw new PlotwrightError(
-        "not-operator",
-        "Another tab is operating. Take over to change something; you can stop a plot without taking over.",
-      );
+      throw anotherTab();
     }
     const value = await perform(from, call);
     // Reading works while changes can't be stored. Handing over does not: they would be lost.
@@ -89,6 +93,28 @@ async function resultOf(from: Host, { tab, call }: Call): Promise<Answer> {
     return { ok: false, ...faultOf(error) };
   }
 }
+
+/** The live drawings of this page, by the number that the page gave them. */
+const lives = new Map<number, LiveSession>();
+
+function takeLive(from: Host, { tab, id, plotterId, message }: Extract<ToHost, { type: "live" }>): void {
+  const report = (one: LiveReport): void => {
+    post({ type: "live", tab, id, report: one });
+    if (one.type === "ended" || one.type === "error") lives.delete(id);
+  };
+  if (tab !== start.tab) return report({ type: "error", ...faultOf(anotherTab()) });
+  if (message !== null && "begin" in message) {
+    lives.set(id, new LiveSession((wanted) => from.beginLive(plotterId, wanted), report));
+  }
+  if (message === null) lives.get(id)?.close();
+  else lives.get(id)?.take(message);
+}
+
+const anotherTab = (): PlotwrightError =>
+  new PlotwrightError(
+    "not-operator",
+    "Another tab is operating. Take over to change something; you can stop a plot without taking over.",
+  );
 
 function perform({ operations, own }: Host, { group, name, input }: HostCall): unknown {
   if (group === "host") return own[name](String(input.id));

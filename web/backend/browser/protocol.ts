@@ -3,14 +3,20 @@
  * pages. Every page, including the host's own, receives all events and calls the host in the same way.
  */
 import type { ErrorCode } from "../../../src/index.js";
-import type { OperationGroup, OperationInput, ServerEvent } from "../../../src/schema/index.js";
+import type {
+  LiveMessage,
+  LiveReport,
+  OperationGroup,
+  OperationInput,
+  ServerEvent,
+} from "../../../src/schema/index.js";
 import type { OwnMethods } from "./host-api.js";
 
 /**
  * The channel that all tabs share. Change its number when the messages change, so that pages of different versions do
  * not misunderstand each other.
  */
-export const CHANNEL = "plotwright-2";
+export const CHANNEL = "plotwright-3";
 /** The worker that holds this Web Lock is the host. The browser releases it when that worker ends. */
 export const HOST_LOCK = "plotwright-host";
 export const DATABASE = "plotwright-host";
@@ -43,6 +49,15 @@ export type ToHost =
       readonly tab: string;
       readonly id: number;
       readonly call: HostCall;
+    }
+  /** From the sender of a live drawing; null: it gives up. */
+  | {
+      readonly to: "host";
+      readonly type: "live";
+      readonly tab: string;
+      readonly id: number;
+      readonly plotterId: string;
+      readonly message: LiveMessage | null;
     };
 
 export type FromHost =
@@ -61,6 +76,15 @@ export type FromHost =
       readonly tab: string;
       readonly id: number;
       readonly answer: Answer;
+    }
+  /** To the sender of a live drawing. */
+  | {
+      readonly to: "pages";
+      readonly type: "live";
+      readonly host: string;
+      readonly tab: string;
+      readonly id: number;
+      readonly report: LiveReport;
     }
   /** The host has ended, so that the worker of page `next` can become the host. */
   | { readonly to: "pages"; readonly type: "handed-over"; readonly host: string; readonly next: string }

@@ -22,6 +22,10 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
   features: { sharing: true, library: true, asksForPort: false, whyNoPort: null },
   listen: (listener) => openEvents(`${API_PATH}${OPERATIONS.state.events.path}`, listener),
   connect: () => Promise.reject(new BackendFault("internal", "The server finds its plotters itself.")),
+  live: async (id, wanted) => {
+    const { beginLive, liveSocket } = await import("../live.js");
+    return beginLive(liveSocket(pageSocket, location.origin, id), wanted);
+  },
   fileOf: async ({ of, id }, maxBytes) => {
     const stop = new AbortController();
     const one = SOURCES[of];
@@ -33,6 +37,9 @@ export const createServerBackend = (fetchPath: Fetch = (path, init) => fetch(pat
     return response.arrayBuffer();
   },
 });
+
+const pageSocket = (address: string, protocols: string[]): Promise<WebSocket> =>
+  Promise.resolve(new WebSocket(address, protocols));
 
 /** The operations that return drawings. */
 const SOURCES: Readonly<Record<DrawingSource["of"], Operation>> = {
@@ -62,7 +69,7 @@ const sendOperation = async (fetchPath: Fetch, one: Operation, input: OperationI
     return contentOf(await response.arrayBuffer());
   }
   if (one.answer === "picture") return response.arrayBuffer();
-  if (one.answer === "text" || one.answer === "events") return response.text();
+  if (one.answer === "text" || one.answer === "events" || one.answer === "socket") return response.text();
   return one.answer.parse(await response.json());
 };
 
