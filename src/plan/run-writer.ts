@@ -101,7 +101,9 @@ export class RunWriter implements RunPlanner {
     const first = out.count;
     const plannedFirst = planned.count;
     const startS = out.clockS;
-    for (let calm = limits; ; calm = { ...calm, accel: Math.max(CALM_ACCEL, CALMER * calm.accel) }) {
+    /** Writes the run with this acceleration and returns how far it sways: 1 is the limit. */
+    const swayAt = (accel: number): number => {
+      const calm = { ...limits, accel };
       out.count = first;
       planned.count = plannedFirst;
       planned.clockS = out.clockS = startS;
@@ -110,8 +112,17 @@ export class RunWriter implements RunPlanner {
       if (beginS > 0) planned.shift(plannedFirst, -beginS);
       if (this.rules !== null) mergeBlocks(out, first, path.end(), calm, SHAPED_RULES);
       // A straight has no corners, so no rhythm. A path that grows keeps its rhythm.
-      if (path.segmentCount === 1 || path.mayGrow || calm.accel <= CALM_ACCEL) return;
-      if (!this.wrongSprings?.sway(out, first, limits)) return;
+      if (path.segmentCount === 1 || path.mayGrow || limits.accel <= CALM_ACCEL) return 0;
+      return this.wrongSprings?.sway(out, first, limits) ?? 0;
+    };
+    let { accel } = limits;
+    let sway = swayAt(accel);
+    while (sway > 1 && accel > CALM_ACCEL) {
+      const [before, swayBefore] = [accel, sway];
+      accel = Math.max(CALM_ACCEL, CALMER * before);
+      sway = swayAt(accel);
+      // Between two steps, so that a point moved by 1 µm does not change the time by a step.
+      if (sway < 1) swayAt(before + ((accel - before) * (swayBefore - 1)) / (swayBefore - sway));
     }
   }
 

@@ -9,8 +9,11 @@ import type { RunLimits } from "../limits.js";
 import { SpringAxis } from "./spring-axis.js";
 
 const FACTORS = [0.9, 1.1];
-/** The limit, as a multiple of how far the default's acceleration bends the softer axis. */
-const BENDS = 1.4;
+/**
+ * The limit, as a multiple of how far the default's acceleration bends the softer axis: the least with which smooth curves
+ * keep their speed, see docs/motion.md.
+ */
+const BENDS = 1.6;
 /** A rhythm needs some periods: shorter runs are not looked at. */
 const PERIODS = 4;
 /** At rest the pen has no direction, mm/s. */
@@ -30,13 +33,14 @@ export class WrongSprings {
   }
 
   /**
-   * Whether wrong springs move the pen too far across the line of a shaped run: the blocks from `first` on, in the
-   * stretched frame of these limits.
+   * How far wrong springs move the pen across the line of a shaped run, as a share of the limit: the blocks from `first`
+   * on, in the stretched frame of these limits.
    */
-  sway(blocks: BlockColumns, first: number, { stretchX, stretchY }: RunLimits): boolean {
+  sway(blocks: BlockColumns, first: number, { stretchX, stretchY }: RunLimits): number {
     const { count, clockS, startS, durationS, vx, vy, ax, ay } = blocks;
-    if (first === count || clockS - startS[first] < this.shortestS) return false;
+    if (first === count || clockS - startS[first] < this.shortestS) return 0;
     const right = this.axes(1);
+    let maxMm = 0;
     const wrong = FACTORS.map((factor) => this.axes(factor));
     for (let k = first; k < count; k++) {
       const dt = durationS[k];
@@ -51,10 +55,10 @@ export class WrongSprings {
         y.advance(dt, accelY);
         if (speed < SLOWEST) continue;
         const across = ((x.d - right.x.d) * endVy - (y.d - right.y.d) * endVx) / speed;
-        if (Math.abs(across) > this.limitMm) return true;
+        maxMm = Math.max(maxMm, Math.abs(across));
       }
     }
-    return false;
+    return maxMm / this.limitMm;
   }
 
   private axes(factor: number): { readonly x: SpringAxis; readonly y: SpringAxis } {
