@@ -2,9 +2,11 @@
 import { z } from "zod";
 import type { StrokePosition, StrokeSet } from "../../src/index.js";
 import {
-  lowerAheadMm,
+  lowerAheadMm as maxLowerAheadMm,
   maxOffDrawingMm,
+  maxOffLineMm,
   machineOf,
+  pointAt,
   reportedPosition,
   timedPen,
   type Machine,
@@ -55,11 +57,19 @@ export function resumePosition(
   const { motion, pen, sendAheadMs } = settings;
   const { draw, travel } = motion;
   const aheadS = (SENT_SINCE_S + sendAheadMs / 1_000) * speed;
+  const nearMm = maxOffDrawingMm(motion, profile);
+  const lowerAheadMm = maxLowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2);
+  // A resumed plot came from anywhere. Just before `from`, its pen comes down.
+  const start = pointAt(strokes, from);
+  const isResumed = from.stroke > 0 || from.alongMm > 0;
+  if (!received && isResumed && Math.hypot(at.x - start.x, at.y - start.y) <= lowerAheadMm + nearMm)
+    return from;
   const since = {
     aheadMm: aheadS * Math.max(draw.speedMmPerS, travel.speedMmPerS),
-    nearMm: maxOffDrawingMm(motion, profile),
+    nearMm,
+    offLineMm: maxOffLineMm(motion, profile),
     stops: penStops,
-    lowerAheadMm: lowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2),
+    lowerAheadMm,
   };
   return reportedPosition(strokes, received ?? from, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

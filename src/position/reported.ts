@@ -7,11 +7,11 @@
  *                            (x, y)                or going home, after the last stroke or before a change of pens
  *
  * A board draws everything that it has received, so it did not stop before `received`. From there on, the line may pass
- * its position several times. The first pass counts: a part drawn twice does less harm than a missing one, and no more
- * is drawn twice than what may have been sent after `received`.
+ * its position several times. The first pass where the carriage can be counts: a part drawn twice does less harm than a
+ * missing one, and no more is drawn twice than what may have been sent after `received`.
  */
 import type { StrokeSet } from "../drawing/stroke-set.js";
-import { passesOf } from "../geometry/passes.js";
+import { passesOf, type Pass } from "../geometry/passes.js";
 import type { MachineProfile } from "../machines/profile.js";
 import { maxShapingErrorMm } from "../plan/shaping/shapers.js";
 import type { StrokePosition } from "../plan/trajectory.js";
@@ -23,13 +23,13 @@ import { pointAt, pointsOf, strokeLengthMm } from "./on-drawing.js";
  * because the pen came down during the travel (pen-flight.ts); mm.
  */
 const LOWERING_MM = 0.15;
-/** Error of a position that is rounded to whole steps, mm. */
-const STEP_MM = 0.01;
-/** A position nearer than this to the end of a stroke counts as its end, mm. */
-const END_MM = 0.05;
+/** So short a piece is not seen if it is drawn twice, or left out at the end of a stroke; mm. */
+const UNSEEN_MM = 0.05;
 
 /** Rounding of a position to whole steps of both motors. */
 const ROUNDED_STEPS = 2;
+/** The same at the end of a command: half a step of each, √½ together. */
+const ROUNDED_AT_END_STEPS = 0.71;
 /** Allowance for arithmetic, and for the difference between mm along the plan and along the drawing, mm. */
 const SLACK_MM = 0.02;
 
@@ -43,12 +43,23 @@ export function maxOffDrawingMm(
   return roundedMm + (motion.fit?.toleranceMm ?? 0) + maxShapingErrorMm(motion, springs ?? null) + SLACK_MM;
 }
 
+/** Max distance from a straight line of the drawing, away from its corners, at the end of a command; mm. */
+export const maxOffLineMm = (
+  motion: MotionSettings,
+  { springs, stepsPerMm }: Pick<MachineProfile, "springs" | "stepsPerMm">,
+): number => ROUNDED_AT_END_STEPS / stepsPerMm + maxShapingErrorMm(motion, springs ?? null);
+
 interface Point {
   readonly x: number;
   readonly y: number;
 }
 
 const HOME: Point = { x: 0, y: 0 };
+
+interface Travel {
+  readonly from: Point;
+  readonly to: Point;
+}
 
 /** The carriage and the pen, as the board reports them. */
 export interface ReportedPen extends Point {
@@ -61,6 +72,8 @@ export interface MotionSince {
   readonly aheadMm: number;
   /** Max distance of the carriage from the drawing (`maxOffDrawingMm`). */
   readonly nearMm: number;
+  /** Max distance of the carriage from a straight line of the drawing, away from its corners (`maxOffLineMm`). */
+  readonly offLineMm: number;
   /** Strokes before which it goes home. */
   readonly stops?: readonly number[];
   /** How far before a stroke the pen may begin to come down (`lowerAheadMm`). */
@@ -72,75 +85,97 @@ export function reportedPosition(
   strokes: StrokeSet,
   received: StrokePosition,
   pen: ReportedPen,
-  { aheadMm, nearMm, stops = [], lowerAheadMm = 0 }: MotionSince,
+  since: MotionSince,
 ): StrokePosition | null {
+  const { aheadMm, nearMm, offLineMm, stops = [] } = since;
   const count = strokes.offsets.length - 1;
   const startOf = (stroke: number): Point => pointAt(strokes, { stroke, alongMm: 0 });
   const endOf = (stroke: number): Point => pointAt(strokes, { stroke, alongMm: Infinity });
-  const goesHomeBefore = (stroke: number): boolean => stroke === count || stops.includes(stroke);
-  const isBetween = (from: Point, to: Point): boolean => awayFromLine(from, to, pen) <= nearMm;
+  const goesHomeBefore = (stroke: number): boolean =>
+    stroke === 0 || stroke === count || stops.includes(stroke);
+  const travelTo = (stroke: number): Travel => ({
+    from: goesHomeBefore(stroke) ? HOME : endOf(stroke - 1),
+    to: startOf(stroke),
+  });
+
+  // On its way to the stroke. At the end of the stroke before, the pen may still be down.
+  if (received.alongMm === 0) {
+    const travel = travelTo(received.stroke);
+    const isBefore = pen.up ? awayFromLine(travel, pen) <= nearMm : distance(travel.from, pen) <= offLineMm;
+    if (isBefore) return received;
+  }
 
   // mm and positions along the plan differ slightly from those along the drawing.
   let fromMm = received.alongMm - 2 * nearMm;
-  // On its way to the stroke. At the end of the stroke before, the pen may still be down.
-  const start = { stroke: received.stroke, alongMm: 0 };
-  const cameFromHome = received.stroke === 0 || goesHomeBefore(received.stroke);
-  const cameFrom = cameFromHome ? HOME : endOf(received.stroke - 1);
-  if (fromMm < 0 && isBetween(cameFrom, pointAt(strokes, start))) return start;
-
   let leftMm = received.alongMm + aheadMm;
   for (let stroke = received.stroke; stroke < count && leftMm > 0; stroke++) {
     const lengthMm = strokeLengthMm(strokes, stroke);
-    const isPossible = (mm: number): boolean => mm >= fromMm && mm <= leftMm;
-    const pass = passesOf(pointsOf(strokes, stroke), pen.x, pen.y).find(
-      ({ alongMm, awayMm }) => awayMm <= nearMm && isPossible(alongMm),
+    const passes = passesOf(pointsOf(strokes, stroke), pen.x, pen.y).filter(
+      ({ alongMm, awayMm }) => awayMm <= nearMm && alongMm >= fromMm && alongMm <= leftMm,
     );
-    const onStroke = pass ? { stroke, alongMm: pass.alongMm } : null;
-    const mayBeLowering = !pen.up && fromMm < 0;
-    if (mayBeLowering && isLoweringBefore(strokes, stroke, pen, { lowerAheadMm, nearMm, onStroke })) {
-      return { stroke, alongMm: 0 };
-    }
-    // A pen that is up at the end of a stroke was lifted to travel on.
-    if (onStroke && !(pen.up && onStroke.alongMm >= lengthMm - END_MM)) return onStroke;
+    const pass = firstPass(passes, since);
+    const mayTravel = stroke > received.stroke || received.alongMm === 0;
+    if (mayTravel && !pen.up && isLowering(travelTo(stroke), pen, pass, since)) return { stroke, alongMm: 0 };
     leftMm -= lengthMm;
-    const [end, next] = [endOf(stroke), stroke + 1];
-    const goal = goesHomeBefore(next) ? HOME : startOf(next);
-    if (pen.up && distance(end, pen) <= leftMm && isBetween(end, goal)) {
+    const next = stroke + 1;
+    const travel = { from: endOf(stroke), to: goesHomeBefore(next) ? HOME : startOf(next) };
+    const besideMm = awayFromLine(travel, pen);
+    // A pen that is up at the end of a stroke, or on the line to the next one, was lifted to travel on.
+    const isLeaving =
+      pass !== null &&
+      pen.up &&
+      (pass.alongMm >= lengthMm - UNSEEN_MM || (besideMm <= offLineMm && pass.awayMm > offLineMm));
+    if (pass && !isLeaving) return { stroke, alongMm: pass.alongMm };
+    if (pen.up && distance(travel.from, pen) <= leftMm && besideMm <= nearMm) {
       return next === count ? { stroke, alongMm: lengthMm } : { stroke: next, alongMm: 0 };
     }
-    leftMm -= distance(end, goal);
+    leftMm -= distance(travel.from, travel.to);
     fromMm = -2 * nearMm;
   }
   return null;
 }
 
 /**
+ * The first of these passes of a stroke; beside a corner, the side where the carriage is, and the first one in doubt. It
+ * leaves a straight side only to round the corner. There, the side that it comes from or goes to is clearly nearer.
+ *
+ *   ━━━━━━━━━━━━━━━━━━━╮  a pass
+ *              ━━━━━o━━╯  the next one: here is the carriage
+ */
+function firstPass(passes: readonly Pass[], { nearMm, offLineMm }: MotionSince): Pass | null {
+  let found: Pass | null = null;
+  for (const pass of passes) {
+    if (found !== null) {
+      const isNextSide = Math.ceil(pass.at) === Math.floor(found.until) + 2;
+      const apartMm = pass.alongMm - found.alongMm;
+      const isOnSide = pass.awayMm <= offLineMm && found.awayMm > offLineMm;
+      const isRounding = apartMm <= 2 * nearMm && found.awayMm > pass.awayMm + 2 * offLineMm;
+      if (!isNextSide || apartMm <= UNSEEN_MM || !(isOnSide || isRounding)) return found;
+    }
+    found = pass;
+  }
+  return found;
+}
+
+/**
  * Whether the pen is down while the carriage is still travelling to the stroke. A stroke may lead back along the travel:
  * then a position near its start may be on either, and the nearer of the two counts.
  *
- * @param onStroke where on the stroke the carriage may be instead, if anywhere
+ * @param pass where on the stroke the carriage may be instead, if anywhere
  */
-function isLoweringBefore(
-  strokes: StrokeSet,
-  stroke: number,
+function isLowering(
+  travel: Travel,
   pen: ReportedPen,
-  {
-    lowerAheadMm,
-    nearMm,
-    onStroke,
-  }: { lowerAheadMm: number; nearMm: number; onStroke: StrokePosition | null },
+  pass: Pass | null,
+  { lowerAheadMm = 0, nearMm, offLineMm }: MotionSince,
 ): boolean {
-  const start = pointAt(strokes, { stroke, alongMm: 0 });
-  const awayMm = distance(start, pen);
-  const before = stroke === 0 ? null : pointAt(strokes, { stroke: stroke - 1, alongMm: Infinity });
-  const travelMm = before ? awayFromLine(before, start, pen) : Infinity;
-  if (awayMm > LOWERING_MM) return awayMm <= lowerAheadMm && travelMm <= nearMm;
-  if (!onStroke) return true;
-  return travelMm <= distance(pointAt(strokes, onStroke), pen) + STEP_MM;
+  const [aheadMm, besideMm] = [distance(travel.to, pen), awayFromLine(travel, pen)];
+  const mayBe = aheadMm <= LOWERING_MM || (aheadMm <= lowerAheadMm + nearMm && besideMm <= nearMm);
+  return mayBe && (pass === null || besideMm <= pass.awayMm + offLineMm);
 }
 
 const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
 
 /** A straight line passes each point once. */
-const awayFromLine = (from: Point, to: Point, { x, y }: Point): number =>
+const awayFromLine = ({ from, to }: Travel, { x, y }: Point): number =>
   passesOf([from.x, from.y, to.x, to.y], x, y)[0].awayMm;

@@ -2,14 +2,17 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { machineById, type StrokePosition, type StrokeSet } from "../../../src/index.js";
 import { pointAt, strokeLengthMm } from "../../../src/position/on-drawing.js";
-import { maxOffDrawingMm, reportedPosition } from "../../../src/position/reported.js";
+import { maxOffDrawingMm, maxOffLineMm, reportedPosition } from "../../../src/position/reported.js";
 import { DEFAULT_MOTION } from "../../../src/settings/motion.js";
 import { cases } from "../../support/runs/full-run.js";
 import { strokesOf } from "../../support/plots/local-planner.js";
 import { mmOf } from "../../support/drawings/stop-truth.js";
 
 const NEAR_MM = 0.09;
-const FAR = { aheadMm: 1e6, nearMm: NEAR_MM };
+const FAR = { aheadMm: 1e6, nearMm: NEAR_MM, offLineMm: 0.009 };
+/** How far a position may be off, along x and y. */
+const JITTER_MM = 0.012;
+const INEXACT = { ...FAR, offLineMm: 1.42 * JITTER_MM };
 
 type Points = readonly (readonly [x: number, y: number])[];
 
@@ -38,7 +41,7 @@ const strokeSets = fc.array(fc.tuple(manyPasses, fc.boolean()), { minLength: 1, 
   return strokesOf(...lines.map((line) => line.flat()));
 });
 const share = fc.double({ min: 0, max: 1, noNaN: true });
-const jitter = fc.double({ min: -0.012, max: 0.012, noNaN: true });
+const jitter = fc.double({ min: -JITTER_MM, max: JITTER_MM, noNaN: true });
 
 /** The place that many mm from the drawing's beginning. */
 function placeAtMm(strokes: StrokeSet, mm: number): StrokePosition {
@@ -67,7 +70,7 @@ describe("the place where a plot was interrupted", () => {
           const receivedMm = mmOf(strokes, received);
           const pen = placeAtMm(strokes, receivedMm + to * (wholeMm - receivedMm));
           const { x, y } = pointAt(strokes, pen);
-          const found = reportedPosition(strokes, received, { x: x + dx, y: y + dy, up }, FAR);
+          const found = reportedPosition(strokes, received, { x: x + dx, y: y + dy, up }, INEXACT);
           expect(found).not.toBeNull();
           const foundMm = mmOf(strokes, found!);
           expect(foundMm).toBeLessThan(mmOf(strokes, pen) + 0.1);
@@ -105,7 +108,7 @@ describe("the place where a plot was interrupted", () => {
 
   const two = strokesOf([0, 0, 100, 0], [100, 50, 0, 50], [0, 80, 10, 80]);
   const received = { stroke: 0, alongMm: 20 };
-  const since = { aheadMm: 500, nearMm: NEAR_MM };
+  const since = { ...FAR, aheadMm: 500 };
 
   it("is the point of the stroke if the pen is down", () => {
     expect(reportedPosition(two, received, { x: 60, y: 0.03, up: false }, since)).toEqual({
@@ -116,6 +119,40 @@ describe("the place where a plot was interrupted", () => {
       stroke: 1,
       alongMm: 70,
     });
+  });
+
+  it("is on the side of a sharp corner where the carriage is, also within the rounding of a corner", () => {
+    // The sides enclose 47 degrees.
+    const corner = strokesOf([20, 28, 24, 20, 27, 28]);
+    const sideMm = Math.hypot(4, 8);
+    const at = (alongMm: number, dx = 0): StrokePosition | null => {
+      const { x, y } = pointAt(corner, { stroke: 0, alongMm });
+      return reportedPosition(corner, { stroke: 0, alongMm: 1 }, { x: x + dx, y, up: false }, since);
+    };
+    expect(at(sideMm + 0.058)?.alongMm).toBeCloseTo(sideMm + 0.058, 6);
+    expect(at(sideMm - 0.058)?.alongMm).toBeCloseTo(sideMm - 0.058, 6);
+    expect(at(sideMm + 0.058, 0.006)?.alongMm).toBeGreaterThan(sideMm);
+    // On both sides, within the rounding to steps: on the first one.
+    expect(at(sideMm + 0.01)?.alongMm).toBeLessThanOrEqual(sideMm);
+  });
+
+  it("is on the travel to a stroke, or on the stroke, where only one of them leads", () => {
+    const strokes = strokesOf([0, 20, 20, 20], [20, 40, 20, 30, 30, 30]);
+    const begun = { stroke: 1, alongMm: 0 };
+    // The travel to the stroke passes here with the pen up, and the stroke ends its first side here.
+    expect(reportedPosition(strokes, begun, { x: 20, y: 30, up: true }, since)).toEqual(begun);
+    expect(reportedPosition(strokes, begun, { x: 20, y: 30, up: false }, since)?.alongMm).toBeCloseTo(10, 6);
+  });
+
+  it("is on the travel that leaves a stroke in nearly its direction", () => {
+    const strokes = strokesOf([10, 20, 20, 20], [10, 22, 20, 22]);
+    const leaving = { x: 19.6, y: 20.08, up: true };
+    expect(reportedPosition(strokes, { stroke: 0, alongMm: 5 }, leaving, since)).toEqual({
+      stroke: 1,
+      alongMm: 0,
+    });
+    const lifted = { x: 19.6, y: 20, up: true };
+    expect(reportedPosition(strokes, { stroke: 0, alongMm: 5 }, lifted, since)?.alongMm).toBeCloseTo(9.6, 6);
   });
 
   it("is on the way out of a line there and back, unless the board had received the way back", () => {
@@ -204,6 +241,11 @@ describe("the place where a plot was interrupted", () => {
     const landing = { x: 100, y: 47, up: false };
     const fast = { ...since, lowerAheadMm: 3.5 };
     expect(reportedPosition(two, received, landing, fast)).toEqual({ stroke: 1, alongMm: 0 });
+    // The point where the drop begins is rounded to steps.
+    expect(reportedPosition(two, received, { ...landing, y: 46.49 }, fast)).toEqual({
+      stroke: 1,
+      alongMm: 0,
+    });
     expect(reportedPosition(two, received, { ...landing, y: 46 }, fast)).toBeNull();
     expect(reportedPosition(two, received, { ...landing, x: 99 }, fast)).toBeNull();
     expect(reportedPosition(two, received, landing, since)).toBeNull();
@@ -268,5 +310,8 @@ describe("the place where a plot was interrupted", () => {
     const springs = { xHz: 15, yHz: 25, damping: 0.05 };
     const shaped = { ...DEFAULT_MOTION, shaper: "zv" } as const;
     expect(maxOffDrawingMm(shaped, { ...machine, springs })).toBeGreaterThan(nearMm + 0.05);
+    const offLineMm = maxOffLineMm(rounded, machine);
+    expect(offLineMm).toBeCloseTo(0.71 / machine.stepsPerMm, 9);
+    expect(maxOffLineMm(shaped, { ...machine, springs })).toBeGreaterThan(offLineMm + 0.05);
   });
 });
