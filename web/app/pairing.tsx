@@ -2,6 +2,7 @@ import { useActions } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { appName } from "../ui/text.js";
 import { pairingText as words } from "./text.js";
+import { Mark } from "./top-bar.js";
 import "./pairing.css";
 
 /** Shown instead of the page on a device that the server does not know. */
@@ -9,7 +10,10 @@ export const Pairing = () => {
   const { loadServerState } = useActions();
   return (
     <main className="pairing">
-      <p className="pairing-brand">{appName}</p>
+      <p className="pairing-brand">
+        <Mark />
+        {appName}
+      </p>
       <h1>{words.title}</h1>
       <p>{words.why}</p>
       <ol>

@@ -53,7 +53,8 @@ const ViewSwitch = () => {
   );
 };
 
-const Mark = () => (
+/** The sign of plotwright. */
+export const Mark = () => (
   <svg className="mark" viewBox="0 0 32 32" aria-hidden="true">
     <path d="M5 24c4.5-16 8-16 10-6.5S21 22.500 25.500 8.500" />
     <circle cx="26" cy="7" r="3" />

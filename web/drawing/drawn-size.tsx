@@ -21,8 +21,9 @@ export const DrawnSize = () => {
   return (
     <div className="drawn-size">
       <strong title={name}>{name}</strong>
-      {planned && !isEmptyBox(planned.drawnBox) && <Size planned={planned} />}
+      {/* First, because a phone shows only the beginning of the row. */}
       {planned && <Warnings planned={planned} />}
+      {planned && !isEmptyBox(planned.drawnBox) && <Size planned={planned} />}
     </div>
   );
 };

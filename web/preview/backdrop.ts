@@ -3,8 +3,8 @@ import type { Box, FourMargins } from "../../src/internal.js";
 import { previewText } from "./text.js";
 import { rulerStep, screenBox, screenPoint, turnOf, type Size, type View } from "../scene/view.js";
 
-/** The smallest size of the page's text. */
-export const DESK_FONT = "11px Helvetica, Arial, sans-serif";
+/** The smallest size of the page's text, in its font. */
+export const DESK_FONT = "11px Inter Variable, Helvetica, Arial, sans-serif";
 
 /** The style sheet has each as `--desk-NAME`. */
 const COLOR_NAMES = [

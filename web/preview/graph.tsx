@@ -1,4 +1,4 @@
-import { useEffect, useRef, type RefObject } from "react";
+import { useEffect, useRef, useState, type RefObject } from "react";
 import UPlot from "uplot";
 import { type Trajectory, stateAt } from "../../src/index.js";
 import { DESK_FONT } from "./backdrop.js";
@@ -21,6 +21,7 @@ export const Graph = ({ slider, onSeek }: GraphProps) => {
   const store = usePageStore();
   const trajectory = usePageState((state) => state.planned?.trajectory ?? null);
   const theme = usePageState((state) => state.view.theme);
+  const isDark = useIsDark();
   useEffect(() => {
     if (!box.current || !trajectory) return;
     const element = box.current;
@@ -38,7 +39,7 @@ export const Graph = ({ slider, onSeek }: GraphProps) => {
       stop();
       plot.destroy();
     };
-  }, [store, trajectory, theme, slider, onSeek]);
+  }, [store, trajectory, theme, isDark, slider, onSeek]);
   return (
     <div className="graph">
       <p className="graph-units" aria-hidden="true">
@@ -48,6 +49,19 @@ export const Graph = ({ slider, onSeek }: GraphProps) => {
       <div ref={box} role="img" aria-label={words.graph} />
     </div>
   );
+};
+
+/** Whether the system's theme is dark; it may change while the graph is open. */
+const useIsDark = (): boolean => {
+  const [isDark, setDark] = useState(false);
+  useEffect(() => {
+    const scheme = matchMedia("(prefers-color-scheme: dark)");
+    const read = (): void => setDark(scheme.matches);
+    read();
+    scheme.addEventListener("change", read);
+    return () => scheme.removeEventListener("change", read);
+  }, []);
+  return isDark;
 };
 
 /** For the numbers of the two axes, px. */

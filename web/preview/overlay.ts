@@ -90,6 +90,8 @@ const drawTicks = (
     const px = offset + mm * scale;
     if (px < RULER_PX + 2) continue;
     const label = String(Number(mm.toFixed(6)));
+    // Not cut off at the end of the ruler.
+    if (px + 3 + context.measureText(label).width > lengthPx) continue;
     if (isMirrored) {
       context.save();
       context.translate(px, 0);
@@ -118,7 +120,7 @@ const TILE_COLOR = "#2f62d8";
 export const paintTiles = (context: CanvasRenderingContext2D, view: View, windows: readonly Box[]): void => {
   context.save();
   context.strokeStyle = context.fillStyle = TILE_COLOR;
-  context.font = "600 12px Helvetica, Arial, sans-serif";
+  context.font = `600 ${DESK_FONT}`;
   context.setLineDash([6, 4]);
   windows.forEach((window, k) => {
     const { x0: x, y0: y, x1, y1 } = screenBox(view, window);

@@ -99,6 +99,8 @@ export class Stage {
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(canvases.box);
     this.resize();
+    // The numbers of the rulers are in the page's font.
+    void document.fonts.ready.then(() => this.refresh(false));
   }
 
   get view(): View {

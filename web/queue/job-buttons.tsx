@@ -18,16 +18,16 @@ export const JobButtons = ({ job }: { job: Job }) => {
   const isOff = !useIsConnected();
   const isAsked = isAsking && !isOff;
   const buttons = (
-    <div className="button-row job-buttons" inert={isAsked}>
-      <MainButton job={job} />
-      <Button disabled={isOff} onClick={() => setAsking(true)}>
+    <div className="button-row job-buttons">
+      <MainButton job={job} isAsked={isAsked} />
+      <Button disabled={isOff || isAsked} onClick={() => setAsking(true)}>
         {queueText.cancel}
       </Button>
       {job.state === "plotting" && <StopButton job={job} isOff={isOff} />}
     </div>
   );
   if (!isAsked) return buttons;
-  // The question lies over the buttons, so that nothing below them moves.
+  // The question lies beside the buttons, over the sheet, so that nothing moves and the plot can still be stopped at once.
   return (
     <div className="job-asking">
       {buttons}
@@ -36,7 +36,7 @@ export const JobButtons = ({ job }: { job: Job }) => {
   );
 };
 
-const MainButton = ({ job }: { job: Job }) => {
+const MainButton = ({ job, isAsked }: { job: Job; isAsked: boolean }) => {
   const { actOnJob } = useActions();
   const action = usePageState((state) => mainActionOf(state, job));
   const isOff = usePageState((state) => action !== null && isMainActionOff(state, job, action));
@@ -46,7 +46,7 @@ const MainButton = ({ job }: { job: Job }) => {
     <Button
       title={isWaitingForTick ? words.cornerFirst : undefined}
       kind={job.state === "plotting" ? "plain" : "primary"}
-      disabled={isOff}
+      disabled={isOff || isAsked}
       onClick={() => void actOnJob(job.id, action)}
     >
       <Icon name={action === "pause" ? "pause" : "play"} />

@@ -70,7 +70,7 @@ const ShownCamera = () => {
         onChange={(s) => changeView({ cameraEveryS: Number(s) })}
       />
       <Button type="submit" disabled={!isGood || wanted === cameraUrl}>
-        {wanted === "" ? words.cameraOff : words.cameraShow}
+        {wanted === "" && cameraUrl !== "" ? words.cameraOff : words.cameraShow}
       </Button>
     </form>
   );
@@ -110,7 +110,7 @@ const KeptPictures = () => {
         onChange={(s) => setEveryS(Number(s))}
       />
       <Button type="submit" disabled={isTrying || isSame || !isAddress(url)}>
-        {isTrying ? words.picturesTrying : url === "" ? words.picturesOff : words.picturesKeep}
+        {isTrying ? words.picturesTrying : url === "" && camera ? words.picturesOff : words.picturesKeep}
       </Button>
       {camera !== null && last !== null && (
         <p className={last.fault === null ? "note" : "note note-error"} role="status">

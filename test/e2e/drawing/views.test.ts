@@ -113,3 +113,34 @@ describe("a drawing that is opened", () => {
     expect(test.complaints).toEqual([]);
   });
 });
+
+describe("the graph of speed and acceleration", () => {
+  it("has the width of the window and the colours of the theme, also after a change", async () => {
+    const { page } = test;
+    const picture = page.getByRole("img", { name: "Speed and acceleration over time" }).locator("canvas");
+    const accents = (): Promise<number> =>
+      picture.evaluate((canvas: HTMLCanvasElement) => {
+        const hex = getComputedStyle(canvas).getPropertyValue("--accent").trim();
+        const [r, g, b] = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+        const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
+        return data.filter((red, i) => i % 4 === 0 && red === r && data[i + 1] === g && data[i + 2] === b)
+          .length;
+      });
+    await page.getByRole("button", { name: "Speed and acceleration over time" }).click();
+    await picture.waitFor();
+    for (const width of [1440, 1024]) {
+      await page.setViewportSize({ width, height: 900 });
+      await expect
+        .poll(async () => {
+          const { x, width: ofPicture } = (await picture.boundingBox())!;
+          return x + ofPicture;
+        })
+        .toBeLessThanOrEqual(width);
+    }
+    for (const colorScheme of ["dark", "light"] as const) {
+      await page.emulateMedia({ colorScheme });
+      await expect.poll(accents).toBeGreaterThan(50);
+    }
+    await page.setViewportSize({ width: 1440, height: 900 });
+  });
+});

@@ -4,7 +4,7 @@
  */
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { seriousFindings } from "../../support/browser/axe.js";
+import { overlaps, seriousFindings } from "../../support/browser/axe.js";
 import { launchBrowser, PLAIN } from "../../support/browser/browser.js";
 import {
   chooseSample,
@@ -200,7 +200,7 @@ const LOOKS_IN_FONTS = LOOKED_AT.flatMap((look) =>
 );
 
 describe.each(LOOKS_IN_FONTS)(
-  "axe finds nothing serious at $size in $fontName, and nothing overflows",
+  "axe finds nothing serious at $size in $fontName, and nothing overflows or lies over something else",
   ({ look, font }) => {
     it.each(GROUPS)("%s", { timeout: 240_000 }, async (_name, group) => {
       const found: string[] = [];
@@ -215,6 +215,7 @@ describe.each(LOOKS_IN_FONTS)(
             .map(({ className }) => className),
         );
         if (wide.length > 0) found.push(`${name}: content is cut off in ${wide.join(", ")}`);
+        found.push(...(await overlaps(page)).map((pair) => `${name}: ${pair}`));
         const { scrollWidth, scrollHeight } = await page.evaluate(() => ({
           scrollWidth: document.documentElement.scrollWidth,
           scrollHeight: document.documentElement.scrollHeight,

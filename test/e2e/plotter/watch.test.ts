@@ -111,6 +111,22 @@ describe("a plot that starts", () => {
     await page.getByRole("banner").waitFor();
   });
 
+  it("asks before it cancels, with Emergency stop at hand", async () => {
+    const { page } = test;
+    for (const size of [
+      { width: 390, height: 844 },
+      { width: 1440, height: 900 },
+    ]) {
+      await page.setViewportSize(size);
+      await button("Cancel").click();
+      await statusCard(page).getByRole("alertdialog").waitFor();
+      // Enabled, in sight, and not covered.
+      await button("Emergency stop").click({ trial: true });
+      expect(await button("Pause").isDisabled()).toBe(true);
+      await button("Keep plotting").click();
+    }
+  });
+
   it("has Pause within reach of the thumb on a phone, and nothing wider than the screen", async () => {
     const { page } = test;
     await page.setViewportSize({ width: 390, height: 844 });
